@@ -1,0 +1,415 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * carom.h - real-time impact dynamics of polygon meshes, in integers.
+ *
+ * The whole public interface. Rules that hold everywhere:
+ *
+ *   - Right-handed axes. A face's corners run counter-clockwise seen from outside. N, the normal of a
+ *     contact between bodies a and b, points from b into a.
+ *   - Lengths are in world units; a unit is about the size of a body. Time is counted in frames: one
+ *     carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
+ *     macros that convert from SI.
+ *   - Functions return a value >= 0 (CAROM_OK, a status or a count) or a negative enum carom_error.
+ *     After an error nothing has changed: not the world, not the output.
+ *   - Pointers must not be NULL unless a comment says so; NULL gives CAROM_ERR_NULL.
+ *   - Nothing is allocated. The caller's blocks must stay where they are while they are in use, and
+ *     a world refers to the meshes that its bodies were made from.
+ *   - The same calls give the same bits on every processor and compiler.
+ */
+#ifndef CAROM_H
+#define CAROM_H
+
+#include "carom_fix.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------ results */
+
+enum carom_status {
+    CAROM_OK = 0,
+    CAROM_OVER_BUDGET = 1, /* bit: the step took more ticks than config.budget_ticks */
+    CAROM_SUBSTEP_CAP = 2  /* bit: the step ran out of sub-steps; the rest of the frame was dropped */
+};
+
+enum carom_error {
+    CAROM_ERR_NULL = -1,            /* a pointer that must not be NULL is */
+    CAROM_ERR_ARGUMENT = -2,        /* a value outside its stated range, e.g. e or mu */
+    CAROM_ERR_RANGE = -3,           /* a number outside what the formats hold */
+    CAROM_ERR_MEMORY = -4,          /* the caller's block is too small, or not aligned to 8 bytes */
+    CAROM_ERR_BODY = -5,            /* no body of this number */
+    CAROM_ERR_BODIES_FULL = -6,     /* output pools that are short */
+    CAROM_ERR_PAIRS_FULL = -7,
+    CAROM_ERR_CONTACTS_FULL = -8,
+    CAROM_ERR_FACES_FULL = -9,
+    CAROM_ERR_MESH_EMPTY = -10,     /* no faces, or no volume */
+    CAROM_ERR_MESH_SIZE = -11,      /* more than 65535 vertices or 65535 faces */
+    CAROM_ERR_MESH_INDEX = -12,     /* a face names a vertex that is not there, or one twice */
+    CAROM_ERR_MESH_DEGENERATE = -13, /* a face without area */
+    CAROM_ERR_MESH_OPEN = -14,      /* a SOLID with an edge that has one face */
+    CAROM_ERR_MESH_EDGE = -15,      /* an edge with three faces, or two of the same direction */
+    CAROM_ERR_MESH_INSIDE_OUT = -16, /* a SOLID of negative volume, a SURFACE that looks down */
+    CAROM_ERR_MESH_SURFACE = -17,   /* a SURFACE face that is not single-valued in z */
+    CAROM_ERR_FORMAT = -18,         /* a blob or snapshot that is not whole */
+    CAROM_ERR_UNSUPPORTED = -19     /* a second moving body: this version moves one */
+};
+
+/* A short English text for any result. Never NULL. */
+const char *carom_result_text(int result);
+
+/* ------------------------------------------------------------------- meshes */
+
+enum carom_mesh_kind {
+    CAROM_SOLID = 0,  /* closed, oriented outwards */
+    CAROM_SURFACE = 1 /* open, single-valued in its own z, solid below: a height field; stationary */
+};
+
+/*
+ * A mesh as it comes from a converter: triangles over int16 vertices. One quantum, the step of a
+ * vertex coordinate, is 2^-quantum_bits world units.
+ */
+struct carom_mesh_raw {
+    const int16_t (*vertices)[3]; /* quanta */
+    const uint16_t (*faces)[3];   /* vertex numbers, counter-clockwise from outside */
+    uint32_t vertex_count;        /* 3 .. 65535 */
+    uint32_t face_count;          /* 1 .. 65535 */
+    uint8_t quantum_bits;         /* 7 .. 20: a mesh spans +-256 units at most */
+    uint8_t kind;                 /* enum carom_mesh_kind */
+};
+
+/* A symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx, each times 2^-e. */
+struct carom_sym3 {
+    int32_t m[6];
+    int32_t e;
+};
+
+/* Mass properties of a SOLID at density 1. */
+struct carom_mass {
+    int64_t volume_q32;   /* cubic units */
+    carom_v3_q22 centre;  /* of mass, in the mesh's coordinates */
+    struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
+};
+
+/* Fields below this line of a struct are Carom's own: visible so that you can reserve them. */
+struct carom_edge {
+    uint16_t vertex[2];
+    uint16_t face[2]; /* face[0] runs from vertex[0] to vertex[1]; face[1] is CAROM_NO_FACE at a border */
+    carom_v3_q30 direction; /* from vertex[0] to vertex[1] */
+    int32_t length_q22;
+};
+#define CAROM_NO_FACE 0xffffu
+
+struct carom_face {
+    carom_v3_q30 normal;
+    uint32_t edge[3]; /* edge k joins corners k and k+1 */
+    uint8_t own;      /* bits 0-2: corner k is tested for this face; bits 3-5: edge k is */
+};
+
+/* A cluster of neighbouring faces: what interference detection culls first. */
+#define CAROM_LEAF_FACES 16
+#define CAROM_LEAF_VERTICES 32
+struct carom_leaf {
+    carom_v3_q22 centre; /* of a sphere around the leaf, in the mesh's coordinates */
+    int32_t radius_q22;
+    uint32_t first_face;   /* into leaf_faces */
+    uint32_t first_vertex; /* into leaf_vertices */
+    uint8_t face_count, vertex_count;
+};
+
+/* An entry of a mesh's own z-lists. */
+struct carom_zref {
+    int16_t z0, z1; /* quanta */
+    uint16_t face;
+};
+
+/* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
+struct carom_mesh {
+    struct carom_mesh_raw raw;
+    struct carom_mass mass;      /* SOLID; zero for a SURFACE */
+    uint32_t edge_count, leaf_count, zref_count;
+    int32_t radius_q22;          /* of the sphere around the centre of mass (SURFACE: the origin) */
+    int16_t box[2][3];           /* quanta: lowest and highest corner */
+    int32_t grid_x0, grid_y0;    /* quanta: corner of the cell grid over x, y */
+    uint8_t grid_shift, grid_nx, grid_ny; /* cells of 2^shift quanta */
+    const struct carom_face *faces;
+    const struct carom_edge *edges;
+    const uint32_t *ring_start;  /* vertex v's edges are ring[ring_start[v] .. ring_start[v+1]) */
+    const uint32_t *ring;        /* edge number * 2 + 1 when the edge ends at v, + 0 when it starts */
+    const struct carom_leaf *leaves;
+    const uint16_t *leaf_faces;
+    const uint16_t *leaf_vertices;
+    const uint8_t (*leaf_corners)[3]; /* a leaf face's corners as places in its leaf's vertices */
+    const uint32_t *cell_start;  /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
+    const struct carom_zref *zrefs; /* sorted by z1, highest first */
+};
+
+/* Upper bound of the memory that carom_mesh_build needs; a constant expression. Derived in SPEC.md. */
+#define CAROM_MESH_BYTES(vertices, faces)                                                          \
+    ((size_t)4096 + (size_t)24 * (size_t)(vertices) + (size_t)232 * (size_t)(faces))
+
+/*
+ * Whether a raw mesh can be built: CAROM_OK or the first CAROM_ERR_MESH_... that holds.
+ *   scratch  at least CAROM_MESH_BYTES of memory, aligned to 8; overwritten
+ */
+int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes);
+
+/*
+ * Check and index a mesh: edges, planes, bounds, clusters, mass and its own z-lists.
+ *
+ *   mesh   out  ready to use; refers to raw's arrays and to mem
+ *   raw    in   its arrays must outlive the mesh
+ *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8
+ *
+ * Returns  CAROM_OK, CAROM_ERR_MEMORY or a CAROM_ERR_MESH_...; mesh is written only for CAROM_OK.
+ */
+int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                     size_t bytes);
+
+/*
+ * Read a mesh from the binary blob that the mesh converter writes (layout: SPEC.md).
+ *   mem  receives vertices and faces: CAROM_BLOB_BYTES(vertices, faces) bytes, aligned to 8
+ * Returns CAROM_OK; CAROM_ERR_FORMAT for a blob that is truncated or altered; CAROM_ERR_MEMORY.
+ */
+#define CAROM_BLOB_BYTES(vertices, faces)                                                          \
+    ((size_t)6 * (size_t)(vertices) + (size_t)6 * (size_t)(faces) + 16)
+int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_bytes, void *mem,
+                    size_t bytes);
+
+/* ------------------------------------------------------- a world's memory */
+
+/*
+ * Capacities of a world, in this order. One list gives the block's size, the initialiser, the names
+ * and the usage report.
+ *
+ *   bodies      moving and stationary
+ *   pairs       of bodies near each other in one frame
+ *   contacts    points within the margin, before neighbouring ones are merged
+ *   faces       interfering faces of one frame
+ *   entries     z-list entries; working: fewer cost time, not results
+ *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
+ *
+ *   X(name, bytes for each, smallest allowed, largest allowed)
+ */
+#define CAROM_POOLS(X)                                                                             \
+    X(bodies, 848, 1, 4095)                                                                        \
+    X(pairs, 112, 1, 65535)                                                                        \
+    X(contacts, 512, 1, 4096)                                                                      \
+    X(faces, 8, 1, 65535)                                                                          \
+    X(entries, 8, 1, 65535)                                                                        \
+    X(candidates, 16, 1, 65535)
+
+enum carom_pool {
+#define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
+    CAROM_POOLS(CAROM_POOL_NAME)
+#undef CAROM_POOL_NAME
+    CAROM_POOL_COUNT
+};
+
+struct carom_caps {
+    uint32_t bodies, pairs, contacts, faces, entries, candidates;
+};
+
+/*
+ * Bytes of the block of a world. The arguments are the six capacities in the order above, so
+ *
+ *   #define CAPS 2, 1, 64, 512, 256, 1024
+ *   static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
+ *   struct carom_config config = {.caps = {CAPS}};
+ */
+#define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__)
+#define CAROM_WORLD_BYTES_(b, p, c, f, e, n)                                                       \
+    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*848 + (size_t)(p)*112 + (size_t)(c)*512 +       \
+     (size_t)(f)*8 + (size_t)(e)*8 + (size_t)(n)*16)
+#define CAROM_WORLD_FIXED_BYTES 12288
+
+/* ------------------------------------------------------------------- worlds */
+
+struct carom_world; /* lives at the start of the caller's block */
+
+struct carom_config {
+    struct carom_caps caps;
+    carom_v3_q40 gravity;      /* units / frame^2; each component within +-1 */
+    bool sleep;                /* bodies at rest sleep until something wakes them */
+    uint8_t substep_cap;       /* sub-steps a frame, 1 .. 64; 0 means 32 */
+    uint32_t (*ticks)(void);   /* a free-running counter for carom_stats; NULL: no timing */
+    uint32_t budget_ticks;     /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
+};
+
+/*
+ * Make an empty world in the caller's block.
+ *   mem    aligned to 8; bytes >= CAROM_WORLD_BYTES(caps): one byte less is CAROM_ERR_MEMORY
+ *   world  out
+ */
+int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
+                     struct carom_world **world);
+
+#define CAROM_MU_MAX_Q16 (4 << 16)
+
+struct carom_body_def {
+    const struct carom_mesh *mesh;
+    bool stationary;
+    carom_v3_q32 position;   /* of the centre of mass; of a SURFACE's origin. Within +-4096 */
+    carom_quat_q30 rotation; /* of length 1 within 2^-10; all zero means none */
+    carom_v3_q40 velocity;   /* units / frame, length below 64 */
+    carom_v3_q40 spin;       /* radians / frame in world axes, length below 64 */
+    uint32_t mass_q20;       /* 2^-10 .. 2^10; 0: the mesh's volume, density 1 */
+    int32_t restitution_q30; /* e, 0 .. 1; a pair takes the smaller of its two */
+    uint32_t friction_q16;   /* mu, 0 .. 4; a pair takes the smaller of its two */
+};
+
+/*
+ * Add a body. Returns its number (>= 0) or an error: CAROM_ERR_ARGUMENT for e, mu, mass or rotation
+ * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL,
+ * CAROM_ERR_UNSUPPORTED for a second moving body. A SURFACE must be stationary.
+ */
+int carom_body_add(struct carom_world *world, const struct carom_body_def *def);
+int carom_body_remove(struct carom_world *world, int body);
+
+struct carom_body_state {
+    carom_v3_q32 position;
+    carom_quat_q30 rotation;
+    carom_v3_q40 velocity; /* derived from the momenta that are the state */
+    carom_v3_q40 spin;
+    bool asleep;
+    bool out; /* left the world's range: frozen in its last pose */
+};
+int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
+/* Place a body and wake it. asleep and out are ignored. */
+int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
+
+/*
+ * Move the world by one frame. All or nothing.
+ * Returns CAROM_OK, a sum of carom_status bits, or an error.
+ * Source  paper figures 4 and 5
+ */
+int carom_world_step(struct carom_world *world);
+
+/* -------------------------------------------------- what the last step found */
+
+enum carom_event_kind {
+    CAROM_EVENT_BEGIN, /* a and b began to touch */
+    CAROM_EVENT_HIT,   /* the pair's hardest impact of the frame */
+    CAROM_EVENT_END,   /* a and b no longer touch */
+    CAROM_EVENT_REST,  /* a fell asleep */
+    CAROM_EVENT_OUT    /* a left the world's range and is frozen */
+};
+
+struct carom_event {
+    uint8_t kind;
+    uint16_t a, b;         /* body numbers; b is unused (0) for REST and OUT */
+    int64_t speed_q40;     /* HIT: approach speed along the normal, units / frame */
+    int64_t impulse_q40;   /* HIT: normal impulse, mass x units / frame */
+};
+
+/* Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. */
+int carom_events(const struct carom_world *world, const struct carom_event **events);
+
+struct carom_face_ref {
+    uint16_t body, face;
+};
+/* Faces of the pairs handed to the collision test, sorted by body and face (paper figure 6). */
+int carom_interfering_faces(const struct carom_world *world, const struct carom_face_ref **faces);
+
+struct carom_contact {
+    carom_v3_q32 point;
+    carom_v3_q30 normal; /* from b into a */
+    int32_t gap_q22;     /* distance of the surfaces, negative when they overlap */
+    int64_t impulse_q40; /* along the normal, in the last solve */
+    uint16_t a, b;
+};
+/* Copy up to `max` contacts of the last solve of the step; returns how many there are. */
+int carom_contacts(const struct carom_world *world, struct carom_contact *contacts, int max);
+
+enum carom_stage {
+    CAROM_STAGE_PREDICT,
+    CAROM_STAGE_BROAD,
+    CAROM_STAGE_INTERFERE,
+    CAROM_STAGE_BOYSE,
+    CAROM_STAGE_CONTACT,
+    CAROM_STAGE_IMPACT,
+    CAROM_STAGE_REST,
+    CAROM_STAGE_ADVANCE,
+    CAROM_STAGE_COMMIT,
+    CAROM_STAGE_COUNT
+};
+const char *carom_stage_name(int stage);
+
+struct carom_stats {
+    uint32_t ticks[CAROM_STAGE_COUNT]; /* config.ticks by stage; 0 without it */
+    uint32_t total_ticks;
+    uint32_t over_stage; /* the dearest stage of a step over its budget */
+    uint32_t substeps, hits, gathers, refinements;
+    uint32_t candidates; /* handed to the collision test, all gathers of the step */
+    uint32_t roots;      /* candidates that came to the exact test */
+    uint32_t contacts;   /* points of the last solve */
+    uint32_t sweeps;     /* of all solves of several contacts */
+    uint32_t impacts;    /* contacts solved as impacts */
+    uint32_t energy_rule; /* impacts that the energy rule changed */
+};
+int carom_stats(const struct carom_world *world, struct carom_stats *stats);
+
+struct carom_usage {
+    const char *name;
+    uint32_t size, used, peak, refused; /* used: in the last step; peak, refused: since init */
+};
+int carom_usage(const struct carom_world *world, struct carom_usage usage[CAROM_POOL_COUNT]);
+
+/* ----------------------------------------------------------- hash, snapshot */
+
+/* 64-bit FNV-1a of the bytes that carom_snapshot_save writes; 0 for NULL. */
+uint64_t carom_world_hash(const struct carom_world *world);
+
+/* Bytes of a snapshot of this world now, or an error. */
+int carom_snapshot_size(const struct carom_world *world);
+/* Write the dynamic state, the same bytes on every machine. Returns the bytes written or an error. */
+int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);
+/*
+ * Take a snapshot back into a world that holds the same bodies. CAROM_ERR_FORMAT for bytes that are
+ * not whole or belong to other bodies; the world is then as it was.
+ */
+int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
+
+/* ------------------------------------------------------------------ drawing */
+
+enum carom_pixel_format {
+    CAROM_PALETTE8, /* indices into carom_draw_palette */
+    CAROM_RGB565,
+    CAROM_XRGB8888
+};
+
+enum carom_draw_style { CAROM_DRAW_FLAT, CAROM_DRAW_WIRE };
+
+struct carom_camera {
+    carom_v3_q32 eye;
+    carom_v3_q32 target; /* the middle of the picture looks here; z is up */
+    int32_t focal_q16;   /* focal length in picture heights: 1 << 16 sees 53 degrees */
+};
+
+struct carom_picture {
+    void *pixels;
+    int32_t width, height; /* pixels, 1 .. 2048 */
+    int32_t stride;        /* bytes from one row to the next */
+    uint8_t format;        /* enum carom_pixel_format */
+    void *workspace;       /* depth rows, aligned to 8 */
+    size_t workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); fewer rows cost time, not results */
+};
+
+/* Workspace to draw `rows` rows of the picture at once. */
+#define CAROM_DRAW_BYTES(width, rows) ((size_t)4 * (size_t)(width) * (size_t)(rows))
+
+/* 256 colours as 0x00RRGGBB. */
+extern const uint32_t carom_draw_palette[256];
+
+/*
+ * Draw the bodies of a world, with the interfering faces of its last step coloured.
+ * Clears the picture to the background first.
+ */
+int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
+               const struct carom_picture *picture, enum carom_draw_style style);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * port.h - what a board gives a program: a display, a timer, a character, a way out.
+ *
+ * Plain functions, one definition each, found at link time: a missing one is a link error that names
+ * it. The engine calls none of them; programs do. To bring up a board, copy port/null.
+ */
+#ifndef CAROM_PORT_H
+#define CAROM_PORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888 };
+
+struct port_fb {
+    void *pixels;   /* NULL: no display */
+    int32_t width, height;
+    int32_t stride; /* bytes a row */
+    uint8_t format; /* enum port_pixels, the same numbers as enum carom_pixel_format */
+};
+
+/* Bring up clock, timer and display. Called once, first. */
+void port_init(void);
+
+/* The framebuffer to draw into. */
+struct port_fb port_fb(void);
+
+/* Show what is in the framebuffer and return when it may be drawn into again. */
+void port_present(void);
+
+/* A free-running counter that wraps at 2^32, and its rate. */
+uint32_t port_ticks(void);
+extern const uint32_t port_ticks_hz;
+
+/*
+ * Instructions that passed in `ticks` ticks: exact where an emulator counts instructions and its
+ * timer is fast enough, 0 where that is not known. On the host ticks are nanoseconds and this is 0.
+ */
+uint32_t port_instructions(uint32_t ticks);
+
+/* One character to the console. */
+void port_putc(char c);
+
+/* Pad bits; 0 where there is none. */
+uint32_t port_input(void);
+
+/* The n-th argument of the program, n = 0 being its name; NULL past the last. */
+const char *port_arg(int n);
+
+/*
+ * A whole file that the board can read (semihosting, host): up to `max` bytes into `buffer`.
+ * Returns the bytes read, or -1 where there is no such file or there are no files.
+ */
+long port_read_file(const char *name, void *buffer, size_t max);
+
+/* Leave with an exit status. */
+_Noreturn void port_exit(int status);
+
+#endif

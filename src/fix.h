@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * fix - division, square root, normalisation and products wider than 64 bits.
+ *
+ * What is short enough to inline everywhere is in carom_fix.h; this is the rest.
+ */
+#ifndef CAROM_SRC_FIX_H
+#define CAROM_SRC_FIX_H
+
+#include "carom_fix.h"
+
+/* Debug builds (-DCAROM_DEBUG) carry the bounds arguments of the comments as assertions. */
+#ifdef CAROM_DEBUG
+_Noreturn void carom_assert_failed(const char *text, const char *file, int line);
+#define CAROM_ASSERT(condition)                                                                    \
+    ((condition) ? (void)0 : carom_assert_failed(#condition, __FILE__, __LINE__))
+#else
+#define CAROM_ASSERT(condition) ((void)0)
+#endif
+
+/* A number m * 2^-e whose mantissa is kept in 30 bits: 2^29 <= |m| < 2^30, or m = 0. */
+struct fix_scaled {
+    int32_t m;
+    int32_t e;
+};
+
+/* A 128-bit two's complement integer, for sums of 64 x 64 bit products. Arithmetic wraps. */
+struct fix_wide {
+    int64_t hi;
+    uint64_t lo;
+};
+
+/* Number of bits of v: 0 for 0, 64 for 2^63. */
+int fix_bits(uint64_t v);
+
+/* floor(sqrt(v)), exact for every v. */
+uint32_t fix_sqrt(uint64_t v);
+
+/* a * b / 2^s to nearest; 1 <= s <= 62; the result must fit. The product may take 95 bits. */
+int64_t fix_mul(int64_t a, int32_t b, int s);
+
+/* a * b as a 128-bit number, exact. */
+struct fix_wide fix_wide_mul(int64_t a, int64_t b);
+struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);
+struct fix_wide fix_wide_neg(struct fix_wide a);
+/* -1, 0 or 1. */
+int fix_wide_sign(struct fix_wide a);
+/* Bits of |a|. */
+int fix_wide_bits(struct fix_wide a);
+/* floor(a / 2^s) truncated to 64 bits; 0 <= s <= 127. */
+int64_t fix_wide_shift(struct fix_wide a, int s);
+
+/*
+ * a / b as mantissa and exponent, accurate to 2^-29 of the quotient. b != 0 (0 gives 0).
+ * Used once a mesh or an impact, never in an inner loop.
+ */
+struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b);
+
+/* v as mantissa and exponent: value = v * 2^-q. Truncates below 30 bits, to nearest. */
+struct fix_scaled fix_scale(int64_t v, int q);
+
+/* 1 / s, s > 0; accurate to one unit of the mantissa. */
+struct fix_scaled fix_scaled_inverse(struct fix_scaled s);
+
+/* v * s in the format of v, to nearest; the result must fit. */
+int64_t fix_mul_scaled(int64_t v, struct fix_scaled s);
+
+/* Length of a vector of int64 components, rounded up by at most one part in 2^28; exact for 0. */
+int64_t fix_length(const int64_t v[3]);
+
+/*
+ * Unit vector along v; returns false, and leaves out alone, when v is 0.
+ * Error: each component within 2 units of the last place of q30.
+ */
+bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
+
+/* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
+void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
+void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
+
+#endif

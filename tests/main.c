@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/* The runner: every suite of tests/suites.h, in order; argument 1 is a part of a name to select. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "port.h"
+#include "test.h"
+
+#define SUITE(name) extern const struct test tests_##name[];
+#include "suites.h"
+#undef SUITE
+
+static const struct test *const suites[] = {
+#define SUITE(name) tests_##name,
+#include "suites.h"
+#undef SUITE
+};
+
+static struct {
+    uint32_t checks, failed;
+} current;
+
+void test_print(const char *format, ...)
+{
+    char line[256];
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    for (const char *c = line; *c; c++) {
+        port_putc(*c);
+    }
+}
+
+void test_check(bool ok, const char *file, int line, const char *text)
+{
+    current.checks++;
+    if (!ok && current.failed++ == 0) {
+        test_print("# %s:%d: not true: %s\n", file, line, text);
+    }
+}
+
+void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
+                     const char *text)
+{
+    bool ok = (a < b ? (uint64_t)b - (uint64_t)a : (uint64_t)a - (uint64_t)b) <= (uint64_t)tolerance;
+
+    current.checks++;
+    if (!ok && current.failed++ == 0) {
+        /* in two halves: the small printf of newlib has no 64-bit formats */
+        test_print("# %s:%d: %s: 0x%08lx%08lx against 0x%08lx%08lx\n", file, line, text,
+                   (unsigned long)((uint64_t)a >> 32), (unsigned long)(a & 0xffffffff),
+                   (unsigned long)((uint64_t)b >> 32), (unsigned long)(b & 0xffffffff));
+    }
+}
+
+uint64_t test_random_next(struct test_random *r)
+{
+    /* splitmix64 */
+    uint64_t z = (r->state += 0x9e3779b97f4a7c15u);
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+int64_t test_random_range(struct test_random *r, int64_t low, int64_t high)
+{
+    return low + (int64_t)(test_random_next(r) % ((uint64_t)(high - low) + 1));
+}
+
+int main(void)
+{
+    unsigned passed = 0, failed = 0;
+    const char *select;
+
+    port_init();
+    select = port_arg(1);
+    for (unsigned i = 0; i < sizeof suites / sizeof suites[0]; i++) {
+        for (const struct test *t = suites[i]; t->name; t++) {
+            if (select && !strstr(t->name, select)) {
+                continue;
+            }
+            current.checks = current.failed = 0;
+            t->run();
+            if (current.checks == 0) {
+                current.failed = 1;
+                test_print("# no checks ran\n");
+            }
+            *(current.failed ? &failed : &passed) += 1;
+            test_print("%s %u - %s (%lu checks)\n", current.failed ? "not ok" : "ok",
+                       passed + failed, t->name, (unsigned long)current.checks);
+            if (current.failed) {
+                test_print("# again: make test TEST=%s\n", t->name);
+            }
+        }
+    }
+    test_print("1..%u\n# %u passed, %u failed\n", passed + failed, passed, failed);
+    port_exit(failed != 0 || passed == 0);
+}

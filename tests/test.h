@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * test.h - a small test runner that prints TAP, the same on the host and on every board.
+ *
+ * A test file test_x.c defines `const struct test tests_x[]`, ended by {0}. Every check counts; the
+ * first one that fails in a test prints its place and both values, and the test goes on.
+ */
+#ifndef CAROM_TEST_H
+#define CAROM_TEST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct test {
+    const char *name; /* file/what, lower case: "gauss/singular_pivot" */
+    void (*run)(void);
+};
+
+/* printf to the console of the port; at most 255 characters. */
+void test_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+void test_check(bool ok, const char *file, int line, const char *text);
+void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
+                     const char *text);
+
+#define CHECK(condition) test_check((condition), __FILE__, __LINE__, #condition)
+#define CHECK_EQ(a, b)                                                                             \
+    test_check_near((int64_t)(a), (int64_t)(b), 0, __FILE__, __LINE__, #a " == " #b)
+#define CHECK_NEAR(a, b, tolerance)                                                                \
+    test_check_near((int64_t)(a), (int64_t)(b), (int64_t)(tolerance), __FILE__, __LINE__,          \
+                    #a " ~ " #b)
+
+/* A stream of numbers that is the same everywhere. */
+struct test_random {
+    uint64_t state;
+};
+uint64_t test_random_next(struct test_random *r);
+/* Uniform in [low, high]. */
+int64_t test_random_range(struct test_random *r, int64_t low, int64_t high);
+
+#endif
