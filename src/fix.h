@@ -9,6 +9,12 @@
 
 #include "carom_fix.h"
 
+/* The four library functions that the engine may call; <string.h> is not freestanding. */
+void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
+void *memmove(void *to, const void *from, size_t bytes);
+void *memset(void *to, int value, size_t bytes);
+int memcmp(const void *a, const void *b, size_t bytes);
+
 /* Debug builds (-DCAROM_DEBUG) carry the bounds arguments of the comments as assertions. */
 #ifdef CAROM_DEBUG
 _Noreturn void carom_assert_failed(const char *text, const char *file, int line);
