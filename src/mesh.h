@@ -31,4 +31,51 @@ static inline struct scan_grid mesh_grid(const struct carom_mesh *mesh)
     return grid;
 }
 
+/* Corner k of a face, about the centre of mass. */
+static inline carom_v3_q22 mesh_corner(const struct carom_mesh *mesh, uint32_t face, int k)
+{
+    return mesh_vertex(mesh, mesh->raw.faces[face][k]);
+}
+
+/*
+ * The unit vector in the plane of one of an edge's two faces that is square to the edge and points
+ * into the face. Zero for the missing face of a border.
+ */
+static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
+                                            const struct carom_edge *edge, int side)
+{
+    carom_v3_q30 in = {{0, 0, 0}};
+
+    if (edge->face[side] != CAROM_NO_FACE) {
+        const int32_t *n = mesh->faces[edge->face[side]].normal.c;
+
+        /* face 0 runs along the edge, face 1 against it */
+        if (side == 0) {
+            carom_cross(in.c, n, edge->direction.c, 30);
+        } else {
+            carom_cross(in.c, edge->direction.c, n, 30);
+        }
+    }
+    return in;
+}
+
+/*
+ * Whether n lies in the normal cone of a vertex: no edge that leaves it goes down along n by more
+ * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above it.)
+ */
+static inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
+                                    int32_t tolerance_q30)
+{
+    int64_t low_q60 = -((int64_t)tolerance_q30 << 30);
+
+    for (uint32_t i = mesh->ring_start[v]; i < mesh->ring_start[v + 1]; i++) {
+        int64_t rise_q60 = carom_dot(mesh->edges[mesh->ring[i] >> 1].direction.c, n_q30);
+
+        if ((mesh->ring[i] & 1 ? -rise_q60 : rise_q60) < low_q60) {
+            return false;
+        }
+    }
+    return true;
+}
+
 #endif

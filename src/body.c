@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: MIT */
+#include "body.h"
+
+void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
+{
+    /* rows as places in xx, yy, zz, xy, yz, zx */
+    static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    int64_t r[3];
+
+    for (int i = 0; i < 3; i++) {
+        r[i] = 0;
+        for (int k = 0; k < 3; k++) {
+            struct fix_scaled entry = {m->m[place[i][k]], m->e};
+
+            r[i] += fix_mul_scaled(v[k], entry);
+        }
+    }
+    memcpy(out, r, sizeof r);
+}
+
+void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
+{
+    for (int k = 0; k < 3; k++) {
+        v->c[k] = b->moving ? fix_mul_scaled(s->momentum.c[k], b->inverse_mass) : 0;
+    }
+}
+
+/* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
+static void angular_in_body(const struct body *b, const struct body_state *s,
+                            const carom_m3_q30 *r, int64_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    }
+    fix_rotate_back(out, r, out);
+}
+
+void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+               carom_v3_q40 *w)
+{
+    memset(w, 0, sizeof *w);
+    if (b->moving) {
+        angular_in_body(b, s, r, w->c);
+        body_sym3_mul(w->c, &b->inverse_inertia, w->c);
+        fix_rotate(w->c, r, w->c);
+    }
+}
+
+void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
+                     const carom_v3_q40 *w)
+{
+    carom_m3_q30 r;
+    int64_t l[3];
+
+    body_matrix(&r, &s->rotation);
+    fix_rotate_back(l, &r, w->c);
+    body_sym3_mul(l, &b->inertia, l);
+    fix_rotate(l, &r, l);
+    for (int k = 0; k < 3; k++) {
+        s->momentum.c[k] = fix_mul_scaled(v->c[k], b->mass);
+        s->angular.c[k] = fix_mul_scaled(l[k], b->mass);
+    }
+}
+
+struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
+                              const carom_m3_q30 *r)
+{
+    carom_v3_q40 v, w;
+    struct fix_wide sum = {0, 0};
+
+    body_velocity(b, s, &v);
+    body_spin(b, s, r, &w);
+    for (int k = 0; k < 3; k++) {
+        sum = fix_wide_add(sum, fix_wide_mul(s->momentum.c[k], v.c[k]));
+        sum = fix_wide_add(sum, fix_wide_mul(s->angular.c[k], w.c[k]));
+    }
+    return sum;
+}
+
+void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
+{
+    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
+
+    /* twice each product: a shift of 29 in place of 30 */
+    m->c[0][0] = CAROM_ONE_Q30 - (int32_t)carom_round(y * y + z * z, 29);
+    m->c[1][1] = CAROM_ONE_Q30 - (int32_t)carom_round(x * x + z * z, 29);
+    m->c[2][2] = CAROM_ONE_Q30 - (int32_t)carom_round(x * x + y * y, 29);
+    m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
+    m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
+    m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
+    m->c[2][0] = (int32_t)carom_round(x * z - w * y, 29);
+    m->c[1][2] = (int32_t)carom_round(y * z - w * x, 29);
+    m->c[2][1] = (int32_t)carom_round(y * z + w * x, 29);
+}
+
+void body_normalise(carom_quat_q30 *q)
+{
+    for (int step = 0; step < 3; step++) {
+        int64_t n_q60 = 0;
+        int32_t half_q30;
+
+        for (int k = 0; k < 4; k++) {
+            n_q60 += (int64_t)q->c[k] * q->c[k];
+        }
+        /* q (3 - |q|^2) / 2 as q + q (1 - |q|^2) / 2: the correction is small and rounds well */
+        half_q30 = (int32_t)carom_round(((int64_t)1 << 60) - n_q60, 31);
+        for (int k = 0; k < 4; k++) {
+            q->c[k] += carom_mul_q30(q->c[k], half_q30);
+        }
+    }
+}
+
+/* out = q (1, u), normalised: q turned by Cayley(u) in the body's axes. */
+static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3])
+{
+    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
+
+    /* |q| = 1 and |u| < 0.26, so components stay below 1.04 and sums below 2^61 */
+    out->c[0] = q->c[0] + (int32_t)carom_round(-x * u[0] - y * u[1] - z * u[2], 30);
+    out->c[1] = q->c[1] + (int32_t)carom_round(w * u[0] + y * u[2] - z * u[1], 30);
+    out->c[2] = q->c[2] + (int32_t)carom_round(w * u[1] + z * u[0] - x * u[2], 30);
+    out->c[3] = q->c[3] + (int32_t)carom_round(w * u[2] + x * u[1] - y * u[0], 30);
+    body_normalise(out);
+}
+
+/*
+ * The Cayley vector of a torque-free turn over tau: the implicit midpoint rule
+ * u = tau/2 J^-1 m with m = b + m x u, b the angular momentum in the body's axes. It keeps kinetic
+ * energy for any step. A fixed point is reached when u repeats, after 4 to 6 rounds.
+ */
+static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30, carom_v3_q30 *u)
+{
+    int64_t m[3];
+
+    memcpy(m, l_q40, sizeof m);
+    memset(u, 0, sizeof *u);
+    for (int round = 0; round < 20; round++) {
+        carom_v3_q30 last = *u;
+        int64_t w[3], next[3];
+
+        body_sym3_mul(w, &b->inverse_inertia, m);
+        for (int k = 0; k < 3; k++) {
+            u->c[k] = (int32_t)fix_mul(w[k], tau_q30, 41); /* q40 x q30, halved, to q30 */
+        }
+        if (round > 0 && memcmp(&last, u, sizeof last) == 0) {
+            return;
+        }
+        for (int k = 0; k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+
+            next[k] = l_q40[k] + fix_mul(m[i], u->c[j], 30) - fix_mul(m[j], u->c[i], 30);
+        }
+        memcpy(m, next, sizeof m);
+    }
+}
+
+void body_place(struct body *b, const struct body_state *s)
+{
+    struct body_path *path = &b->path;
+
+    memset(path, 0, sizeof *path);
+    for (int k = 0; k < 3; k++) {
+        path->origin_q22[k] = carom_round(s->position.c[k], 10);
+        path->start.x.c[k] = s->position.c[k] - carom_shl(path->origin_q22[k], 10);
+    }
+    path->start.q = s->rotation;
+    body_matrix(&path->start.r, &s->rotation);
+    path->now = path->start;
+}
+
+void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
+                  const carom_v3_q40 *gravity)
+{
+    struct body_path *path = &b->path;
+    carom_v3_q40 v;
+    int64_t l[3];
+
+    body_place(b, s);
+    if (!b->moving || s->asleep || s->out) {
+        return;
+    }
+    body_velocity(b, s, &v);
+    for (int k = 0; k < 3; k++) {
+        path->v.c[k] = fix_mul(v.c[k], tau_q30, 30);
+        if (gravity) {
+            path->g.c[k] = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), tau_q30, 31);
+        }
+        path->v_q24.c[k] = (int32_t)carom_round(path->v.c[k], 16);
+        path->g_q24.c[k] = (int32_t)carom_round(path->g.c[k], 16);
+    }
+    angular_in_body(b, s, &path->start.r, l);
+    cayley(b, l, tau_q30, &path->u);
+    carom_rotate(path->u_world.c, &path->start.r, path->u.c);
+    path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+    path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+}
+
+int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30)
+{
+    carom_m3_q30 r;
+    carom_v3_q40 w;
+    int64_t rate_q40, turn_q40;
+
+    body_matrix(&r, &s->rotation);
+    body_spin(b, s, &r, &w);
+    rate_q40 = fix_length(w.c);
+    turn_q40 = fix_mul(rate_q40, tau_q30, 30);
+    if (turn_q40 <= (int64_t)BODY_TURN_MAX_Q30 << 10) {
+        return tau_q30;
+    }
+    /* rate > 1/2 rad a frame here, so the quotient is below 2^30 */
+    return (int32_t)((((int64_t)BODY_TURN_MAX_Q30 << 30)) / (rate_q40 >> 10));
+}
+
+const struct body_pose *body_pose_at(struct body *b, int32_t t_q30)
+{
+    struct body_path *path = &b->path;
+    int32_t u[3];
+
+    if (path->now.t_q30 == t_q30) {
+        return &path->now;
+    }
+    if (t_q30 == 0) {
+        path->now = path->start;
+        return &path->now;
+    }
+    path->now.t_q30 = t_q30;
+    for (int k = 0; k < 3; k++) {
+        int64_t d_q40 = fix_mul(path->v.c[k] + fix_mul(path->g.c[k], t_q30, 30), t_q30, 30);
+
+        path->now.x.c[k] = path->start.x.c[k] + carom_round(d_q40, 8);
+    }
+    if (path->turns) {
+        for (int k = 0; k < 3; k++) {
+            u[k] = carom_mul_q30(path->u.c[k], t_q30);
+        }
+        turn(&path->now.q, &path->start.q, u);
+        body_matrix(&path->now.r, &path->now.q);
+    }
+    return &path->now;
+}
+
+void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+                  const carom_v3_q40 *gravity)
+{
+    const struct body_pose *pose = body_pose_at(b, t_q30);
+
+    for (int k = 0; k < 3; k++) {
+        s->position.c[k] = carom_shl(b->path.origin_q22[k], 10) + pose->x.c[k];
+        if (gravity) {
+            int64_t dv_q40 = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), t_q30, 30);
+
+            s->momentum.c[k] += fix_mul_scaled(dv_q40, b->mass);
+        }
+    }
+    s->rotation = pose->q;
+}
+
+carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p)
+{
+    carom_v3_q22 out;
+
+    for (int k = 0; k < 3; k++) {
+        /* q30 x q22 = q52: |r.p| <= 2^9 2^52 and |x| <= 2^7 2^52 */
+        int64_t sum_q52 = carom_dot(pose->r.c[k], p->c) + carom_shl(pose->x.c[k], 20);
+
+        out.c[k] = (int32_t)carom_round(sum_q52, 30);
+    }
+    return out;
+}
+
+int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_t tau_q30,
+                        const carom_v3_q40 *gravity, int32_t *turn_q30)
+{
+    carom_v3_q40 v, w;
+    carom_m3_q30 r;
+    int64_t way_q40, turn_q40;
+
+    *turn_q30 = 0;
+    if (!b->moving || s->asleep || s->out) {
+        return 0;
+    }
+    body_matrix(&r, &s->rotation);
+    body_velocity(b, s, &v);
+    body_spin(b, s, &r, &w);
+    turn_q40 = fix_mul(fix_length(w.c), tau_q30, 30);
+    way_q40 = fix_mul(fix_length(v.c), tau_q30, 30) + fix_mul(turn_q40, b->radius_q22, 22);
+    if (gravity) {
+        way_q40 += fix_length(gravity->c) >> 1;
+    }
+    *turn_q30 = turn_q40 >> 10 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)(turn_q40 >> 10) + 1;
+    way_q40 = (way_q40 >> 18) + 1;
+    return way_q40 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)way_q40;
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * body - poses, momenta and the motion of one body over a slice of a frame: an exact parabola of the
+ * centre of mass together with a Cayley rotation about it.
+ *
+ * A slice runs over a common t in [0, 1]. With u the Cayley vector of the whole slice,
+ *
+ *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u) normalised
+ *
+ * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
+ * relative to the body's origin: its position at the start of the slice rounded to q22.
+ */
+#ifndef CAROM_SRC_BODY_H
+#define CAROM_SRC_BODY_H
+
+#include "mesh.h"
+
+#define BODY_WORLD_LIMIT 4096     /* units: a body whose centre leaves +-this is frozen */
+#define BODY_SPEED_LIMIT 64       /* units or radians a frame */
+#define BODY_RADIUS_LIMIT 64      /* units, of a moving body */
+#define BODY_TURN_MAX_Q30 (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
+
+/* What a step changes: all of it is hashed and saved. */
+struct body_state {
+    carom_v3_q32 position;
+    carom_v3_q40 momentum; /* m v */
+    carom_v3_q40 angular;  /* I w, world axes, about the centre of mass */
+    carom_quat_q30 rotation;
+    uint8_t asleep, out;
+    uint8_t quiet; /* frames in a row that the body was slow in contact */
+};
+
+struct body_pose {
+    carom_v3_q32 x; /* relative to the path's origin */
+    carom_quat_q30 q;
+    carom_m3_q30 r;
+    int32_t t_q30; /* -1: not yet computed */
+};
+
+struct body_path {
+    int64_t origin_q22[3];
+    carom_v3_q40 v, g;      /* displacements over the slice: linear and quadratic in t */
+    carom_v3_q24 v_q24, g_q24; /* the same for the collision kernels */
+    carom_v3_q30 u, u_world;
+    int32_t u2_q30; /* |u|^2 */
+    bool turns;
+    struct body_pose start, now; /* now: at the t last asked for */
+};
+
+struct body {
+    const struct carom_mesh *mesh; /* NULL: the place is free */
+    bool moving;
+    struct fix_scaled mass, inverse_mass;
+    struct carom_sym3 inertia, inverse_inertia; /* divided by the mass, in the mesh's axes */
+    int32_t restitution_q30;
+    uint32_t friction_q16;
+    int32_t radius_q22;
+    int32_t skin_q22; /* EPS: the gap that a resting contact keeps */
+
+    /* scratch of a step */
+    bool in_contact;     /* took the frame's gravity at once; moves straight */
+    int32_t reach_q22;   /* how far any point may move before candidates must be gathered again */
+    int32_t turn_q30;    /* and how far the body may turn, radians */
+    int64_t moved_q22, turned_q30; /* how much of that is used up */
+    struct body_path path;
+    carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
+    carom_m3_q30 gathered_r;
+};
+
+/* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
+void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
+void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+               carom_v3_q40 *w);
+/* The momenta that give v and w. */
+void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
+                     const carom_v3_q40 *w);
+/* p.v + L.w, twice the kinetic energy, 80 fractional bits. */
+struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
+                              const carom_m3_q30 *r);
+
+/* out = m v for a symmetric m; out may be v. */
+void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);
+
+void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
+/* Three Newton steps towards length 1: to the last place for any |q| in 0.9 .. 1.06. */
+void body_normalise(carom_quat_q30 *q);
+
+/* A path of no motion at the body's pose. */
+void body_place(struct body *b, const struct body_state *s);
+/*
+ * The path over tau_q30 of a frame, 0 < tau <= 1, at a turn of at most BODY_TURN_MAX_Q30.
+ * gravity: units / frame^2, or NULL for a straight path.
+ */
+void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
+                  const carom_v3_q40 *gravity);
+/* The longest slice, at most tau_q30, that turns no further than BODY_TURN_MAX_Q30. */
+int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
+
+/* The pose at t of the path; remembered, so that asking again is free. */
+const struct body_pose *body_pose_at(struct body *b, int32_t t_q30);
+/* Take the pose at t as the new state, with the momentum that gravity gave over it. */
+void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+                  const carom_v3_q40 *gravity);
+
+/* A point of the body, given about its centre of mass, in the pose; relative to the origin. */
+carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p);
+
+/*
+ * Bounds of the motion over the rest of a frame: how far the centre and the farthest point may go,
+ * and how far the body may turn. Rounded up.
+ */
+int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_t tau_q30,
+                        const carom_v3_q40 *gravity, int32_t *turn_q30);
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+#include "broad.h"
+
+/* The box of a body in world axes, grown by its reach. */
+static void bounds(const struct body *b, const struct body_state *s, int64_t box_q22[2][3])
+{
+    const struct carom_mesh *mesh = b->mesh;
+    int shift = 22 - mesh->raw.quantum_bits;
+    int64_t middle[3], half[3];
+    carom_m3_q30 r;
+
+    body_matrix(&r, &s->rotation);
+    for (int k = 0; k < 3; k++) {
+        int64_t low = mesh->box[0][k], high = mesh->box[1][k];
+
+        middle[k] = carom_shl(low + high, shift) / 2 - mesh->mass.centre.c[k];
+        half[k] = carom_shl(high - low, shift) / 2 + 1;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t m = carom_round(s->position.c[k], 10);
+        int64_t h = b->reach_q22 + 8; /* 8: the roundings of this function */
+
+        for (int j = 0; j < 3; j++) {
+            m += fix_mul(middle[j], r.c[k][j], 30);
+            h += fix_mul(half[j], (int32_t)carom_abs(r.c[k][j]), 30);
+        }
+        box_q22[0][k] = m - h;
+        box_q22[1][k] = m + h;
+    }
+}
+
+static bool overlap(int64_t a[2][3], int64_t b[2][3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+int broad_pairs(struct pair *pairs, struct pool *pool, const struct body *bodies,
+                const struct body_state *states, uint32_t body_count)
+{
+    pool_clear(pool);
+    for (uint32_t a = 0; a < body_count; a++) {
+        int64_t box_a[2][3];
+
+        if (!broad_active(&bodies[a], &states[a])) {
+            continue;
+        }
+        bounds(&bodies[a], &states[a], box_a);
+        for (uint32_t b = 0; b < body_count; b++) {
+            int64_t box_b[2][3];
+            int32_t place;
+
+            /* two active bodies meet once, as (higher, lower) */
+            if (b == a || !bodies[b].mesh || states[b].out ||
+                (b > a && broad_active(&bodies[b], &states[b]))) {
+                continue;
+            }
+            bounds(&bodies[b], &states[b], box_b);
+            if (!overlap(box_a, box_b)) {
+                continue;
+            }
+            place = pool_take(pool);
+            if (place < 0) {
+                return CAROM_ERR_PAIRS_FULL;
+            }
+            memset(&pairs[place], 0, sizeof pairs[place]);
+            pairs[place].a = (uint16_t)a;
+            pairs[place].b = (uint16_t)b;
+        }
+    }
+    return CAROM_OK;
+}

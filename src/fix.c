@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: MIT */
+#include "fix.h"
+
+int fix_bits(uint64_t v)
+{
+    int bits = 0;
+
+    for (int step = 32; step > 0; step >>= 1) {
+        if (v >> step) {
+            v >>= step;
+            bits += step;
+        }
+    }
+    return bits + (v != 0);
+}
+
+uint32_t fix_sqrt(uint64_t v)
+{
+    /* Digit by digit, two bits of v for one of the root: no division, no rounding to argue about. */
+    uint64_t root = 0;
+    uint64_t bit = v ? (uint64_t)1 << ((fix_bits(v) - 1) & ~1) : 0;
+
+    while (bit) {
+        if (v >= root + bit) {
+            v -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+        bit >>= 2;
+    }
+    return (uint32_t)root;
+}
+
+int64_t fix_mul(int64_t a, int32_t b, int s)
+{
+    /*
+     * a = high 2^32 + low with low unsigned, so both partial products fit int64:
+     * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half added below.
+     */
+    int64_t high = (a >> 32) * b;
+    int64_t low = (int64_t)((uint64_t)a & 0xffffffffu) * b;
+
+    CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
+    if (s <= 32) {
+        /* high 2^32 is a whole multiple of 2^s: only the low part is rounded. */
+        return carom_shl(high, 32 - s) + carom_round(low, s);
+    }
+    /* The low 32 bits cannot carry past the half, a multiple of 2^32. */
+    return carom_round(high + (low >> 32), s - 32);
+}
+
+struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)
+{
+    struct fix_wide sum;
+
+    sum.lo = a.lo + b.lo;
+    sum.hi = (int64_t)((uint64_t)a.hi + (uint64_t)b.hi + (sum.lo < a.lo));
+    return sum;
+}
+
+struct fix_wide fix_wide_neg(struct fix_wide a)
+{
+    struct fix_wide n;
+
+    n.lo = ~a.lo + 1;
+    n.hi = (int64_t)(~(uint64_t)a.hi + (n.lo == 0));
+    return n;
+}
+
+struct fix_wide fix_wide_mul(int64_t a, int64_t b)
+{
+    uint64_t ua = a < 0 ? 0 - (uint64_t)a : (uint64_t)a;
+    uint64_t ub = b < 0 ? 0 - (uint64_t)b : (uint64_t)b;
+    uint64_t a1 = ua >> 32, a0 = ua & 0xffffffffu;
+    uint64_t b1 = ub >> 32, b0 = ub & 0xffffffffu;
+    uint64_t low = a0 * b0;
+    uint64_t mid = a1 * b0 + (low >> 32); /* <= (2^32 - 1)^2 + 2^32 - 1: no carry out */
+    uint64_t mid2 = a0 * b1 + (mid & 0xffffffffu);
+    struct fix_wide p;
+
+    p.lo = (mid2 << 32) | (low & 0xffffffffu);
+    p.hi = (int64_t)(a1 * b1 + (mid >> 32) + (mid2 >> 32));
+    return (a < 0) != (b < 0) ? fix_wide_neg(p) : p;
+}
+
+int fix_wide_sign(struct fix_wide a)
+{
+    return a.hi < 0 ? -1 : (a.hi != 0 || a.lo != 0);
+}
+
+int fix_wide_bits(struct fix_wide a)
+{
+    if (a.hi < 0) {
+        a = fix_wide_neg(a);
+    }
+    return a.hi ? 64 + fix_bits((uint64_t)a.hi) : fix_bits(a.lo);
+}
+
+int64_t fix_wide_shift(struct fix_wide a, int s)
+{
+    CAROM_ASSERT(s >= 0 && s <= 127);
+    if (s == 0) {
+        return (int64_t)a.lo;
+    }
+    if (s >= 64) {
+        return a.hi >> (s - 64);
+    }
+    return (int64_t)(((uint64_t)a.hi << (64 - s)) | (a.lo >> s));
+}
+
+/* |a| as a number of exactly `bits` bits (63 at most) and the exponent that was taken out. */
+static uint64_t wide_magnitude(struct fix_wide a, int bits, int *e)
+{
+    if (a.hi < 0) {
+        a = fix_wide_neg(a);
+    }
+    *e = fix_wide_bits(a) - bits;
+    return *e >= 0 ? (uint64_t)fix_wide_shift(a, *e) : a.lo << -*e;
+}
+
+struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b)
+{
+    struct fix_scaled q = {0, 0};
+    int ea, eb;
+
+    CAROM_ASSERT(fix_wide_sign(b) != 0);
+    if (fix_wide_sign(a) != 0) {
+        /* 2^61 / 2^32 < quotient < 2^62 / 2^31: never fewer than 30 bits. */
+        uint64_t n = wide_magnitude(a, 62, &ea);
+        uint64_t d = wide_magnitude(b, 32, &eb);
+
+        q = fix_scale((int64_t)(n / d), eb - ea);
+        if (fix_wide_sign(a) != fix_wide_sign(b)) {
+            q.m = -q.m;
+        }
+    }
+    return q;
+}
+
+struct fix_scaled fix_scale(int64_t v, int q)
+{
+    struct fix_scaled s = {0, 0};
+    uint64_t magnitude = v < 0 ? 0 - (uint64_t)v : (uint64_t)v;
+    int shift = fix_bits(magnitude) - 30;
+
+    if (v == 0) {
+        return s;
+    }
+    if (shift > 0) {
+        magnitude = (magnitude + ((uint64_t)1 << (shift - 1))) >> shift;
+        if (magnitude >> 30) { /* rounded up to the next power of two */
+            magnitude >>= 1;
+            shift++;
+        }
+    } else {
+        magnitude <<= -shift;
+    }
+    s.m = v < 0 ? -(int32_t)magnitude : (int32_t)magnitude;
+    s.e = q - shift;
+    return s;
+}
+
+struct fix_scaled fix_scaled_inverse(struct fix_scaled s)
+{
+    /* 2^59 / m with 2^29 <= m < 2^30 has 30 or 31 bits. */
+    CAROM_ASSERT(s.m > 0);
+    return fix_scale((((int64_t)1 << 60) / s.m + 1) >> 1, 59 - s.e);
+}
+
+int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
+{
+    if (s.e > 62) {
+        int64_t p = fix_mul(v, s.m, 62);
+        int more = s.e - 62;
+
+        return more > 62 ? 0 : carom_round(p, more);
+    }
+    if (s.e < 1) {
+        return carom_shl(v * s.m, -s.e);
+    }
+    return fix_mul(v, s.m, s.e);
+}
+
+/* How far to shift the largest of three components so that it has `bits` bits. */
+static int common_shift(const int64_t v[3], int bits)
+{
+    uint64_t all = 0;
+
+    for (int k = 0; k < 3; k++) {
+        all |= (uint64_t)carom_abs(v[k]);
+    }
+    return fix_bits(all) - bits;
+}
+
+int64_t fix_length(const int64_t v[3])
+{
+    int shift = common_shift(v, 30);
+    uint64_t sum = 0;
+    int64_t root;
+
+    if (shift < 0) {
+        shift = 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t c = v[k] >> shift;
+
+        sum += (uint64_t)(c * c); /* |c| <= 2^30: the sum is at most 3 * 2^60 */
+    }
+    root = fix_sqrt(sum);
+    if (shift == 0) {
+        return root + ((uint64_t)(root * root) < sum);
+    }
+    return (root + 3) << shift; /* 1 for the root, sqrt(3) for the bits shifted out */
+}
+
+bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
+{
+    int shift = common_shift(v, 31);
+    int64_t c[3];
+    uint64_t sum = 0;
+    int64_t length;
+
+    for (int k = 0; k < 3; k++) {
+        c[k] = shift > 0 ? v[k] >> shift : carom_shl(v[k], -shift);
+        sum += (uint64_t)(c[k] * c[k]); /* |c| <= 2^31: the sum is at most 3 * 2^62 < 2^64 */
+    }
+    if (sum == 0) {
+        return false;
+    }
+    length = fix_sqrt(sum);
+    for (int k = 0; k < 3; k++) {
+        int64_t half = c[k] < 0 ? -(length / 2) : length / 2;
+
+        /* |c| <= length, so the quotient is at most 2^30. */
+        out->c[k] = (int32_t)((c[k] * ((int64_t)1 << 30) + half) / length);
+    }
+    return true;
+}
+
+void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
+{
+    int64_t r[3];
+
+    for (int k = 0; k < 3; k++) {
+        r[k] = fix_mul(v[0], m->c[k][0], 30) + fix_mul(v[1], m->c[k][1], 30) +
+               fix_mul(v[2], m->c[k][2], 30);
+    }
+    memcpy(out, r, sizeof r);
+}
+
+void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
+{
+    int64_t r[3];
+
+    for (int k = 0; k < 3; k++) {
+        r[k] = fix_mul(v[0], m->c[0][k], 30) + fix_mul(v[1], m->c[1][k], 30) +
+               fix_mul(v[2], m->c[2][k], 30);
+    }
+    memcpy(out, r, sizeof r);
+}
