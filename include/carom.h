@@ -10,7 +10,8 @@
  *     carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
  *     macros that convert from SI.
  *   - Functions return a value >= 0 (CAROM_OK, a status or a count) or a negative enum carom_error.
- *     After an error nothing has changed: not the world, not the output.
+ *     After an error no state has changed and no output is written; after a step that failed, what
+ *     "the last step found" is empty.
  *   - Pointers must not be NULL unless a comment says so; NULL gives CAROM_ERR_NULL.
  *   - Nothing is allocated. The caller's blocks must stay where they are while they are in use, and
  *     a world refers to the meshes that its bodies were made from.
@@ -110,7 +111,7 @@ struct carom_face {
 #define CAROM_LEAF_FACES 16
 #define CAROM_LEAF_VERTICES 32
 struct carom_leaf {
-    carom_v3_q22 centre; /* of a sphere around the leaf, in the mesh's coordinates */
+    carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */
     int32_t radius_q22;
     uint32_t first_face;   /* into leaf_faces */
     uint32_t first_vertex; /* into leaf_vertices */
@@ -144,13 +145,16 @@ struct carom_mesh {
     const struct carom_zref *zrefs; /* sorted by z1, highest first */
 };
 
-/* Upper bound of the memory that carom_mesh_build needs; a constant expression. Derived in SPEC.md. */
+/*
+ * Memory that carom_mesh_build needs for any mesh of so many vertices and faces; a constant
+ * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
+ */
 #define CAROM_MESH_BYTES(vertices, faces)                                                          \
-    ((size_t)4096 + (size_t)24 * (size_t)(vertices) + (size_t)232 * (size_t)(faces))
+    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)139 * (size_t)(faces) + 7) / 8 * 8)
 
 /*
- * Whether a raw mesh can be built: CAROM_OK or the first CAROM_ERR_MESH_... that holds.
- *   scratch  at least CAROM_MESH_BYTES of memory, aligned to 8; overwritten
+ * Whether a raw mesh can be built: what carom_mesh_build would return.
+ *   scratch  CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
  */
 int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes);
 
@@ -159,9 +163,12 @@ int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t byt
  *
  *   mesh   out  ready to use; refers to raw's arrays and to mem
  *   raw    in   its arrays must outlive the mesh
- *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8
+ *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
  *
- * Returns  CAROM_OK, CAROM_ERR_MEMORY or a CAROM_ERR_MESH_...; mesh is written only for CAROM_OK.
+ * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for kind or quantum_bits; CAROM_ERR_MEMORY;
+ *          CAROM_ERR_RANGE for a mesh whose box has a diagonal of 512 units or more, or one that
+ *          winds around itself so often that its volume does not fit;
+ *          or the first CAROM_ERR_MESH_... that holds. mesh is written only for CAROM_OK.
  */
 int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
                      size_t bytes);
@@ -192,12 +199,21 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *   X(name, bytes for each, smallest allowed, largest allowed)
  */
 #define CAROM_POOLS(X)                                                                             \
-    X(bodies, 848, 1, 4095)                                                                        \
-    X(pairs, 112, 1, 65535)                                                                        \
-    X(contacts, 512, 1, 4096)                                                                      \
-    X(faces, 8, 1, 65535)                                                                          \
-    X(entries, 8, 1, 65535)                                                                        \
-    X(candidates, 16, 1, 65535)
+    X(bodies, CAROM_BODY_BYTES, 1, 4095)                                                           \
+    X(pairs, CAROM_PAIR_BYTES, 1, 65535)                                                           \
+    X(contacts, CAROM_CONTACT_BYTES, 1, 4096)                                                      \
+    X(faces, CAROM_FACE_BYTES, 1, 65535)                                                           \
+    X(entries, CAROM_ENTRY_BYTES, 1, 65535)                                                        \
+    X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
+
+/* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
+#define CAROM_BODY_BYTES        936
+#define CAROM_PAIR_BYTES        88
+#define CAROM_CONTACT_BYTES     560
+#define CAROM_FACE_BYTES        4
+#define CAROM_ENTRY_BYTES       8
+#define CAROM_CANDIDATE_BYTES   12
+#define CAROM_WORLD_FIXED_BYTES 7424
 
 enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
@@ -219,9 +235,10 @@ struct carom_caps {
  */
 #define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__)
 #define CAROM_WORLD_BYTES_(b, p, c, f, e, n)                                                       \
-    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*848 + (size_t)(p)*112 + (size_t)(c)*512 +       \
-     (size_t)(f)*8 + (size_t)(e)*8 + (size_t)(n)*16)
-#define CAROM_WORLD_FIXED_BYTES 12288
+    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b) * CAROM_BODY_BYTES +                            \
+     (size_t)(p) * CAROM_PAIR_BYTES + (size_t)(c) * CAROM_CONTACT_BYTES +                          \
+     (size_t)(f) * CAROM_FACE_BYTES + (size_t)(e) * CAROM_ENTRY_BYTES +                            \
+     (size_t)(n) * CAROM_CANDIDATE_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 

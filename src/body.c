@@ -77,6 +77,28 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
     return sum;
 }
 
+void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)
+{
+    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
+    struct carom_sym3 whole = b->inertia;
+
+    whole.e = 1; /* as plain integers, doubled below */
+    for (int n = 0; n < 6; n++) {
+        int64_t axis[3];
+
+        /* entry (i, k) is row i of R times J times row k of R */
+        for (int k = 0; k < 3; k++) {
+            axis[k] = r->c[col[n]][k];
+        }
+        body_sym3_mul(axis, &whole, axis);
+        out->m[n] = 0;
+        for (int k = 0; k < 3; k++) {
+            out->m[n] += (int32_t)fix_mul(axis[k], r->c[row[n]][k], 59);
+        }
+    }
+    out->e = b->inertia.e;
+}
+
 void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
 {
     int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
@@ -291,4 +313,15 @@ int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_
     *turn_q30 = turn_q40 >> 10 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)(turn_q40 >> 10) + 1;
     way_q40 = (way_q40 >> 18) + 1;
     return way_q40 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)way_q40;
+}
+
+void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
+{
+    const struct body_path *path = &b->path;
+    int64_t way_q40 = fix_length(path->v.c) + fix_length(path->g.c);
+    int64_t u_q30 = path->turns ? (int64_t)fix_sqrt((uint64_t)path->u2_q30 << 30) + 1 : 0;
+
+    /* turned: 2 atan |u| <= 2 |u| */
+    *turn_q30 = fix_mul(2 * u_q30, t_q30, 30) + 1;
+    *way_q22 = (fix_mul(way_q40, t_q30, 30) >> 18) + fix_mul(*turn_q30, b->radius_q22, 30) + 2;
 }

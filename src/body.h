@@ -17,7 +17,7 @@
 
 #define BODY_WORLD_LIMIT 4096     /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT 64       /* units or radians a frame */
-#define BODY_RADIUS_LIMIT 64      /* units, of a moving body */
+#define BODY_RADIUS_LIMIT 32      /* units, of a moving body */
 #define BODY_TURN_MAX_Q30 (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 
 /* What a step changes: all of it is hashed and saved. */
@@ -56,6 +56,7 @@ struct body {
     uint32_t friction_q16;
     int32_t radius_q22;
     int32_t skin_q22; /* EPS: the gap that a resting contact keeps */
+    int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
 
     /* scratch of a step */
     bool in_contact;     /* took the frame's gravity at once; moves straight */
@@ -65,6 +66,9 @@ struct body {
     struct body_path path;
     carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
     carom_m3_q30 gathered_r;
+    carom_v3_q40 velocity, spin;  /* before a solve */
+    int64_t dv[3], dw[3];         /* what a solve changes them by, in its units */
+    carom_v3_q40 saved[2][2];     /* momentum and angular momentum set aside by the energy rule */
 };
 
 /* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
@@ -80,6 +84,9 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
 
 /* out = m v for a symmetric m; out may be v. */
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);
+
+/* R J R^T: inertia by mass in world axes. */
+void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out);
 
 void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 /* Three Newton steps towards length 1: to the last place for any |q| in 0.9 .. 1.06. */
@@ -104,6 +111,9 @@ void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t t
 
 /* A point of the body, given about its centre of mass, in the pose; relative to the origin. */
 carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p);
+
+/* How far any point goes from 0 to t of the path, and how far the body turns. Rounded up. */
+void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
 
 /*
  * Bounds of the motion over the rest of a frame: how far the centre and the farthest point may go,

@@ -67,7 +67,6 @@ int broad_pairs(struct pair *pairs, struct pool *pool, const struct body *bodies
             if (place < 0) {
                 return CAROM_ERR_PAIRS_FULL;
             }
-            memset(&pairs[place], 0, sizeof pairs[place]);
             pairs[place].a = (uint16_t)a;
             pairs[place].b = (uint16_t)b;
         }

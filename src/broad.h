@@ -12,9 +12,6 @@
 /* Bodies a and b; b's z-lists are asked. N of their contacts points from b into a. */
 struct pair {
     uint16_t a, b;
-    bool touching;           /* had a contact in this step */
-    bool hit;                /* had an impact; the hardest one follows */
-    int64_t hit_speed_q40, hit_impulse_q40;
 };
 
 /* A moving body that is neither asleep nor frozen. */

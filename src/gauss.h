@@ -2,9 +2,13 @@
 /*
  * gauss - Gauss-Jordan elimination on block-floating integer rows, one routine for n = 3, 9, 15.
  *
- * A row may be multiplied by any number without changing the solution, because its right-hand side
- * is in the row. So elimination needs no division (row_i = a_kk row_i - a_ik row_k) and each row
- * keeps its own exponent: after each step it is shifted so that its largest entry fills 29 bits.
+ * A row may be multiplied by any number without changing the solution. So elimination needs no
+ * division (row_i = a_kk row_i - a_ik row_k) and each row keeps its own exponent: when a step
+ * leaves a row small, the row is shifted up until its largest entry fills 30 bits again.
+ *
+ * The multipliers are kept, so that further right-hand sides cost little: what the first solution
+ * leaves over is solved for again and added (iterative refinement), which gives the solution more
+ * digits than the rows have.
  */
 #ifndef CAROM_SRC_GAUSS_H
 #define CAROM_SRC_GAUSS_H
@@ -15,25 +19,32 @@
 
 /* Workspace from the caller. a[i][n] is the right-hand side of row i. */
 struct gauss {
-    int32_t a[GAUSS_MAX][GAUSS_MAX + 1];  /* in: the system, |entry| <= 2^29; destroyed */
-    int32_t original[GAUSS_MAX][GAUSS_MAX + 1]; /* the normalised rows, kept for the refinement */
-    int32_t multiplier[GAUSS_MAX][GAUSS_MAX];
-    int32_t pivot[GAUSS_MAX];
-    int8_t shift[GAUSS_MAX][GAUSS_MAX];
-    uint8_t row[GAUSS_MAX]; /* the row chosen at each step */
-    int64_t b[GAUSS_MAX];   /* right-hand side of the refinement */
-    int64_t x_q40[GAUSS_MAX]; /* out: the solution */
+    int32_t a[GAUSS_MAX][GAUSS_MAX + 1]; /* in: the system, |entry| <= 2^30; destroyed */
+    int64_t x_q40[GAUSS_MAX];            /* out: the solution */
+
+    /* Gauss's own. A step eliminates one column. */
+    int32_t original[GAUSS_MAX][GAUSS_MAX]; /* the normalised rows */
+    int64_t residual[GAUSS_MAX];            /* what the solution so far leaves over, by row */
+    int64_t y[GAUSS_MAX];                   /* a right-hand side on its way through the steps */
+    int32_t digits[GAUSS_MAX];              /* one correction of the solution */
+    int32_t pivot[GAUSS_MAX];               /* pivot of each step, as it was then */
+    int32_t inverse_q59[GAUSS_MAX];         /* of the last pivots, normalised */
+    uint8_t inverse_shift[GAUSS_MAX];       /* by how much they were */
+    uint8_t row[GAUSS_MAX];                 /* the row chosen at each step */
+    int8_t step[GAUSS_MAX];                 /* the step at which each row was chosen; -1: not yet */
+    uint8_t shift[GAUSS_MAX][GAUSS_MAX];    /* by row and step: how far the products were shifted */
 };
 
 /*
  * Solve the n x n system in w->a; the solution goes to w->x_q40.
  *
  *   n  3, 9 or 15 (any 1 .. GAUSS_MAX works)
- *   w  in/out  rows in any scale, a row's entries sharing one; |entry| <= 2^29
+ *   w  in/out  rows in any scale, a row's entries sharing one; |entry| <= 2^30
  *
  * Range    |x| < 2^20
- * Error    partial pivoting and one step of iterative refinement; see SPEC.md
- * Returns  0; -1 when the system is singular to working precision or x is out of range.
+ * Error    2^-41 plus 1e-9 of the largest component; see SPEC.md
+ * Returns  0; -1 when the system is singular to working precision or x is out of range. Unless 0,
+ *          x_q40 means nothing.
  * Source   paper section 3 (Gauss-Jordan elimination)
  */
 int gauss_solve(struct gauss *w, int n);

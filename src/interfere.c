@@ -62,6 +62,9 @@ void interfere_finish(struct interfere *w)
         }
     }
     w->face_pool->used = kept;
+    if (kept > w->face_pool->peak) {
+        w->face_pool->peak = kept;
+    }
 }
 
 static void add_face(struct interfere *w, uint16_t body, uint16_t face)
@@ -431,7 +434,7 @@ static void scan_leaf(struct interfere *w)
             xy[k][0] = f.p[k][0];
             xy[k][1] = f.p[k][1];
         }
-        scan_cells_begin(&cells, &grid, xy, 3, f.grow);
+        scan_cells_begin(&cells, &grid, (const int32_t(*)[2])xy, 3, f.grow);
         while (scan_cells_next(&cells, &run)) {
             for (int32_t col = run.x0; col < run.x1; col++) {
                 enter_cell(w, &f, &grid, col, run.y, i);

@@ -30,15 +30,21 @@ struct scan_run {
 
 /*
  * Walk over a convex polygon in pixels.
- *   xy_q4   corners in pixels with 4 fractional bits, |x|, |y| < 2^20, either orientation
+ *   xy_q4   corners in pixels with 4 fractional bits, below 2^20 in size, either orientation
  *   clip    only pixels inside are given
  * scan_next returns false after the last run; empty runs are not given.
  */
+struct scan_edge {
+    int32_t y, y_end;           /* rows whose centres it crosses */
+    int32_t x_q4, rest;         /* the crossing at the next row: x + rest / dy */
+    int32_t step_q4, step_rest; /* what a row adds */
+    int32_t dy;
+};
 struct scan {
     struct scan_rect clip;
-    int32_t n;
-    int32_t y, y_end;
-    int32_t xy_q4[SCAN_MAX][2];
+    int32_t n;        /* edges kept: those that cross a row's centre */
+    int32_t y, y_end; /* the next row, the row after the last */
+    struct scan_edge edge[SCAN_MAX];
 };
 void scan_begin(struct scan *s, const int32_t xy_q4[][2], int n, struct scan_rect clip);
 bool scan_next(struct scan *s, struct scan_run *run);
@@ -52,6 +58,7 @@ struct scan_grid {
 
 /*
  * Walk over the cells that a convex polygon touches.
+ *   grid  shift <= 24; the corner below 2^25 in size
  *   xy    corners in quanta of the grid, |x|, |y| < 2^24
  *   grow  quanta, 0 <= grow < 2^24
  * Runs are clipped to the grid; a polygon outside the grid gives none.

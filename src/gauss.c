@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT */
+#include "gauss.h"
+
+/*
+ * Bounds. Entries of rows stay within FULL = 2^30. One elimination forms pivot r + f s from two
+ * such entries, with |pivot|, |f| < 2^31: at most 2^62, and its upper word, the new entry, is at
+ * most 2^30 again. So a step cannot overflow; it can only leave a row small, which normalising
+ * repairs.
+ */
+#define FULL           ((int32_t)1 << 30)
+#define NORMAL         ((int32_t)1 << 29) /* a normalised row's largest entry is at least this */
+#define SMALLEST_PIVOT ((int32_t)1 << 6)  /* of a normalised row; below, it is rounding noise */
+#define DIGITS_BITS    29
+#define ROUNDS_MAX     5
+
+/* |v|, or |v| - 1 for negative v: good enough to see how many bits are used, and no branch. */
+static uint32_t magnitude(int32_t v)
+{
+    return (uint32_t)(v ^ (v >> 31));
+}
+
+/* How far v > 0 can be shifted up until it reaches `full`, a power of two. */
+static int headroom(uint32_t v, uint32_t full)
+{
+    int z = 0;
+
+    /* Mostly 0 to 3 turns: faster than a general count of bits. */
+    while (v < full) {
+        v <<= 1;
+        z++;
+    }
+    return z;
+}
+
+/* Shift every row up until it is normal; its right-hand side follows in 64 bits. */
+static int normalise_rows(struct gauss *w, int n)
+{
+    for (int i = 0; i < n; i++) {
+        uint32_t largest = 0;
+        int z;
+
+        for (int j = 0; j < n; j++) {
+            largest |= (uint32_t)carom_abs(w->a[i][j]);
+        }
+        if (largest == 0) {
+            return -1;
+        }
+        z = headroom(largest, NORMAL);
+        CAROM_ASSERT(largest < 2 * (uint32_t)FULL && z <= 29);
+        for (int j = 0; j < n; j++) {
+            w->a[i][j] = (int32_t)carom_shl(w->a[i][j], z);
+            w->original[i][j] = w->a[i][j];
+        }
+        w->residual[i] = carom_shl(w->a[i][n], z); /* <= 2^59 */
+    }
+    return 0;
+}
+
+/* The unused row with the largest entry in column k, or -1 when all are noise. */
+static int choose_pivot(const struct gauss *w, int n, int k)
+{
+    uint32_t largest = SMALLEST_PIVOT - 1;
+    int best = -1;
+
+    for (int i = 0; i < n; i++) {
+        uint32_t entry = magnitude(w->a[i][k]);
+
+        if (w->step[i] < 0 && entry > largest) {
+            largest = entry;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* row = (scale row + factor other) / 2^32 in columns from..n-1; returns the bits in use. */
+static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32_t factor, int from,
+                        int n)
+{
+    uint32_t used = 0;
+
+    for (int j = from; j < n; j++) {
+        int64_t t = ((int64_t)1 << 31) + (int64_t)scale * row[j] + (int64_t)factor * other[j];
+
+        row[j] = (int32_t)(t >> 32);
+        used |= magnitude(row[j]);
+    }
+    return used;
+}
+
+/*
+ * Take column k out of row i. The entry a_ik is not cleared: nothing reads it as a coefficient any
+ * more, and it is the multiplier that later right-hand sides need.
+ */
+static void eliminate(struct gauss *w, int n, int k, int i)
+{
+    int32_t *row = w->a[i];
+    int32_t pivot = w->pivot[k], f = -row[k];
+    int own = w->step[i]; /* the column of a row that has been pivot: its diagonal scales along */
+    int z = headroom(magnitude(pivot) | magnitude(f), (uint32_t)FULL);
+    int up = 0;
+    uint32_t used;
+
+    pivot = (int32_t)carom_shl(pivot, z);
+    f = (int32_t)carom_shl(f, z);
+    used = combine(row, w->a[w->row[k]], pivot, f, k + 1, n);
+    if (own >= 0) {
+        row[own] = (int32_t)carom_round((int64_t)pivot * row[own], 32);
+        used |= magnitude(row[own]);
+    }
+    if (used > 0 && used < (uint32_t)NORMAL) {
+        up = headroom(used, NORMAL);
+        if (up > 31 - z) {
+            up = 31 - z; /* keeps the shift below positive; only a hopeless system comes here */
+        }
+        for (int j = k + 1; j < n; j++) {
+            row[j] = (int32_t)carom_shl(row[j], up);
+        }
+        if (own >= 0) {
+            row[own] = (int32_t)carom_shl(row[own], up);
+        }
+    }
+    w->shift[i][k] = (uint8_t)(32 - z - up);
+}
+
+/* Reduce the rows to a diagonal, column by column, keeping the multipliers. */
+static int factor(struct gauss *w, int n)
+{
+    for (int i = 0; i < n; i++) {
+        w->step[i] = -1;
+    }
+    for (int k = 0; k < n; k++) {
+        int p = choose_pivot(w, n, k);
+
+        if (p < 0) {
+            return -1;
+        }
+        w->row[k] = (uint8_t)p;
+        w->pivot[k] = w->a[p][k];
+        for (int i = 0; i < n; i++) {
+            if (i != p && w->a[i][k] != 0) {
+                eliminate(w, n, k, i);
+            }
+        }
+        w->step[p] = (int8_t)k;
+    }
+    return 0;
+}
+
+/* Invert the diagonal: one division a row, however many right-hand sides follow. */
+static int invert_diagonal(struct gauss *w, int n)
+{
+    for (int k = 0; k < n; k++) {
+        int32_t d = w->a[w->row[k]][k];
+        int z;
+
+        if (d == 0) {
+            return -1;
+        }
+        z = headroom((uint32_t)carom_abs(d), NORMAL);
+        /* 2^59 over at least 2^29: at most 2^30. */
+        w->inverse_q59[k] = (int32_t)(((int64_t)1 << 59) / carom_shl(d, z));
+        w->inverse_shift[k] = (uint8_t)z;
+    }
+    return 0;
+}
+
+/* Largest number of bits among the magnitudes of v[0..n-1]. */
+static int block_bits(const int64_t *v, int n)
+{
+    uint64_t used = 0;
+
+    for (int i = 0; i < n; i++) {
+        used |= (uint64_t)(v[i] ^ (v[i] >> 63)); /* |v|, less 1 for negative v */
+    }
+    return fix_bits(used);
+}
+
+/* v / 2^s to nearest, or v 2^-s for negative s. */
+static int64_t scale_down(int64_t v, int s)
+{
+    return s > 0 ? carom_round(v, s) : carom_shl(v, -s);
+}
+
+/*
+ * Carry w->y through all steps. Before each step |y| <= 2^30, so the products are within 2^62;
+ * where a step lets y grow past that, all of it is scaled down. Returns by how many bits in all.
+ */
+static int replay(struct gauss *w, int n)
+{
+    int down = 0;
+
+    for (int k = 0; k < n; k++) {
+        int p = w->row[k];
+        int32_t pivot = w->pivot[k], yp = (int32_t)w->y[p];
+        uint64_t used = 0;
+
+        for (int i = 0; i < n; i++) {
+            int32_t f = w->a[i][k];
+
+            if (i != p && f != 0) {
+                int64_t t = (int64_t)pivot * (int32_t)w->y[i] - (int64_t)f * yp;
+
+                w->y[i] = carom_round(t, w->shift[i][k]);
+                used |= (uint64_t)carom_abs(w->y[i]);
+            }
+        }
+        if (used >= (uint64_t)FULL) {
+            int s = fix_bits(used) - 30;
+
+            for (int i = 0; i < n; i++) {
+                w->y[i] = scale_down(w->y[i], s);
+            }
+            down += s;
+        }
+    }
+    return down;
+}
+
+/* Solve for the residual, of so many bits, times 2^-q. The answer is digits 2^-h; returns h. */
+static int correction(struct gauss *w, int n, int bits, int q)
+{
+    int s = bits - 30;
+    int top = 0;
+
+    for (int i = 0; i < n; i++) {
+        w->y[i] = scale_down(w->residual[i], s);
+    }
+    q -= s;
+    q -= replay(w, n);
+    /* x_k = y / d = (y 2^z inverse) 2^-59, a product of at most 60 bits before the shift by z. */
+    for (int k = 0; k < n; k++) {
+        int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
+
+        bits = fix_bits((uint64_t)carom_abs(x)) + w->inverse_shift[k];
+        top = bits > top ? bits : top;
+    }
+    top -= DIGITS_BITS;
+    for (int k = 0; k < n; k++) {
+        int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
+
+        w->digits[k] = (int32_t)scale_down(x, top - w->inverse_shift[k]);
+    }
+    return q + 59 - top;
+}
+
+/*
+ * residual = (residual 2^(h - q)) - original digits, in the scale 2^-h. The terms nearly cancel;
+ * only the difference needs to fit, so the sum is formed modulo 2^64.
+ */
+static void take_out(struct gauss *w, int n, int up)
+{
+    for (int i = 0; i < n; i++) {
+        uint64_t r = up < 64 ? (uint64_t)w->residual[i] << up : 0;
+
+        for (int j = 0; j < n; j++) {
+            r -= (uint64_t)((int64_t)w->original[i][j] * w->digits[j]);
+        }
+        w->residual[i] = (int64_t)r;
+    }
+}
+
+int gauss_solve(struct gauss *w, int n)
+{
+    int first = 0, last = 0;
+
+    CAROM_ASSERT(n >= 1 && n <= GAUSS_MAX);
+    if (normalise_rows(w, n) || factor(w, n) || invert_diagonal(w, n)) {
+        return -1;
+    }
+    for (int i = 0; i < n; i++) {
+        w->x_q40[i] = 0;
+    }
+    for (int round = 0; round < ROUNDS_MAX; round++) {
+        int bits = block_bits(w->residual, n);
+        int h;
+
+        if (bits == 0) {
+            return 0;
+        }
+        if (bits > 61) {
+            return -1;
+        }
+        h = correction(w, n, bits, last);
+        if (h < DIGITS_BITS - 20 || h < last + 4) {
+            return -1; /* out of range, or corrections that hardly shrink */
+        }
+        for (int i = 0; i < n; i++) {
+            w->x_q40[i] += h - 40 > 62 ? 0 : scale_down(w->digits[i], h - 40);
+        }
+        first = round == 0 ? h : first;
+        /* Each correction is as good, relative to itself, as the first solution was. */
+        if (round > 0 && (h - first) + (h - last) >= 34) {
+            return 0;
+        }
+        take_out(w, n, h - last);
+        last = h;
+    }
+    return -1;
+}

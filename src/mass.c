@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: MIT */
+#include "mass.h"
+#include "gauss.h"
+
+/*
+ * Every face spans a tetrahedron with the origin. Its signed volume is det / 6 with
+ * det = a . (b x c), its first moment det / 24 (a + b + c) and its second moments
+ * det / 120 (s_i s_j + a_i a_j + b_i b_j + c_i c_j) with s = a + b + c. Over a closed mesh the parts
+ * outside cancel, whatever the origin. So the sums are taken twice: about the origin of the
+ * vertices for the volume and the centre, then about the centre for the second moments, which
+ * leaves nothing large to subtract.
+ */
+
+/* Corners about a chosen origin. */
+struct tetrahedron {
+    int64_t a[3], b[3], c[3];
+};
+
+/* Vertices times 2^bits, about an origin of the same format. */
+struct frame {
+    const struct carom_mesh_raw *raw;
+    int64_t origin[3];
+    int bits;
+};
+
+static void load_corner(int64_t out[3], const struct frame *f, uint32_t v)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = carom_shl(f->raw->vertices[v][k], f->bits) - f->origin[k];
+    }
+}
+
+static void load(struct tetrahedron *t, const struct frame *f, uint32_t face)
+{
+    const uint16_t *corner = f->raw->faces[face];
+
+    load_corner(t->a, f, corner[0]);
+    load_corner(t->b, f, corner[1]);
+    load_corner(t->c, f, corner[2]);
+}
+
+/* a . (b x c). Range: coordinates up to 2^20, so each product of b and c is <= 2^40, each component
+ * of the cross product <= 2^41 and the result <= 3 * 2^61. */
+static int64_t determinant(const struct tetrahedron *t)
+{
+    int64_t sum = 0;
+
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        CAROM_ASSERT(carom_abs(t->a[i]) <= 1 << 20 && carom_abs(t->b[i]) <= 1 << 20);
+        CAROM_ASSERT(carom_abs(t->c[i]) <= 1 << 20);
+        sum += t->a[i] * (t->b[j] * t->c[k] - t->b[k] * t->c[j]);
+    }
+    return sum;
+}
+
+/* v / 2^s to nearest, s = 0 included. */
+static int64_t round_off(int64_t v, int s)
+{
+    return s > 0 ? carom_round(v, s) : v;
+}
+
+/*
+ * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the first
+ * ratio leaves is divided again.
+ */
+static int64_t wide_quotient(struct fix_wide n, int64_t d)
+{
+    struct fix_wide divisor = fix_wide_mul(d, 1);
+    int64_t q = fix_mul_scaled(1, fix_wide_ratio(n, divisor));
+    struct fix_wide rest = fix_wide_add(n, fix_wide_mul(-q, d));
+
+    return q + fix_mul_scaled(1, fix_wide_ratio(rest, divisor));
+}
+
+/*
+ * Six times the volume in cubic quanta, and the centre of mass with `bits` fractional bits.
+ *
+ * Bounds: coordinates are <= 2^15, so det < 3 * 2^46; a sum of three corners times 2^bits is
+ * < 2^17 * 2^19; the sum over 65535 faces < 2^100. A mesh that does not overlap itself has
+ * 6 volume <= 6 * 2^48 < 2^51: anything above winds around its inside more than once.
+ */
+static int volume_and_centre(const struct carom_mesh_raw *raw, int bits, int64_t *volume6,
+                             int64_t centre[3])
+{
+    struct frame quanta = {raw, {0, 0, 0}, 0};
+    struct fix_wide volume = {0, 0}, moment[3] = {{0, 0}, {0, 0}, {0, 0}};
+
+    for (uint32_t f = 0; f < raw->face_count; f++) {
+        struct tetrahedron t;
+        int64_t det;
+
+        load(&t, &quanta, f);
+        det = determinant(&t);
+        volume = fix_wide_add(volume, fix_wide_mul(det, 1));
+        for (int k = 0; k < 3; k++) {
+            int64_t sum = carom_shl(t.a[k] + t.b[k] + t.c[k], bits);
+
+            moment[k] = fix_wide_add(moment[k], fix_wide_mul(det, sum));
+        }
+    }
+    if (fix_wide_sign(volume) <= 0) {
+        return fix_wide_sign(volume) < 0 ? CAROM_ERR_MESH_INSIDE_OUT : CAROM_ERR_MESH_EMPTY;
+    }
+    if (fix_wide_bits(volume) > 51) {
+        return CAROM_ERR_RANGE;
+    }
+    *volume6 = fix_wide_shift(volume, 0);
+    for (int k = 0; k < 3; k++) {
+        centre[k] = wide_quotient(moment[k], 4 * *volume6);
+    }
+    return CAROM_OK;
+}
+
+static void find_box(const struct carom_mesh_raw *raw, int32_t low[3], int32_t high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = INT16_MAX;
+        high[k] = INT16_MIN;
+    }
+    for (uint32_t f = 0; f < raw->face_count; f++) {
+        for (int i = 0; i < 3; i++) {
+            const int16_t *v = raw->vertices[raw->faces[f][i]];
+
+            for (int k = 0; k < 3; k++) {
+                low[k] = v[k] < low[k] ? v[k] : low[k];
+                high[k] = v[k] > high[k] ? v[k] : high[k];
+            }
+        }
+    }
+}
+
+/*
+ * Twenty times the volume's det, and the entries xx, yy, zz, xy, yz, zx of the inertia in the same
+ * scale: inertia / mass = inertia20 / det20.
+ *
+ * Bounds: coordinates about the centre are < 2^20, so det < 3 * 2^61, the sum of products < 12 * 2^40
+ * and the sum over 65535 faces, two entries together, < 2^124.
+ */
+static void second_moments(const struct frame *about, struct fix_wide *det20,
+                           struct fix_wide inertia20[6])
+{
+    struct fix_wide p[6] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+
+    *det20 = p[0];
+    for (uint32_t f = 0; f < about->raw->face_count; f++) {
+        struct tetrahedron t;
+        int64_t det;
+
+        load(&t, about, f);
+        det = determinant(&t);
+        *det20 = fix_wide_add(*det20, fix_wide_mul(det, 20));
+        for (int n = 0; n < 6; n++) {
+            int i = n % 3, j = n < 3 ? i : (i + 1) % 3;
+            int64_t s_i = t.a[i] + t.b[i] + t.c[i], s_j = t.a[j] + t.b[j] + t.c[j];
+            int64_t sum = s_i * s_j + t.a[i] * t.a[j] + t.b[i] * t.b[j] + t.c[i] * t.c[j];
+
+            p[n] = fix_wide_add(p[n], fix_wide_mul(det, sum));
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        inertia20[i] = fix_wide_add(p[(i + 1) % 3], p[(i + 2) % 3]);
+        inertia20[3 + i] = fix_wide_neg(p[3 + i]);
+    }
+}
+
+/* Bring six ratios to the exponent of the largest. */
+static void share_exponent(struct carom_sym3 *out, const struct fix_scaled ratio[6])
+{
+    out->e = ratio[0].e; /* the diagonal is positive */
+    for (int n = 1; n < 6; n++) {
+        if (ratio[n].m != 0 && ratio[n].e < out->e) {
+            out->e = ratio[n].e;
+        }
+    }
+    for (int n = 0; n < 6; n++) {
+        int shift = ratio[n].e - out->e;
+
+        out->m[n] = ratio[n].m == 0 || shift > 31 ? 0 : (int32_t)round_off(ratio[n].m, shift);
+    }
+}
+
+/* volume6 / 6 cubic quanta in q32 cubic units. Bounds: volume6 < 2^51, shifted by 11 at most. */
+static int64_t volume_q32(int64_t volume6, int quantum_bits)
+{
+    int up = 32 - 3 * quantum_bits;
+    int64_t n = up > 0 ? carom_shl(volume6, up) : volume6;
+    int64_t d = up > 0 ? 6 : carom_shl(6, -up);
+
+    return (n + d / 2) / d;
+}
+
+int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
+{
+    struct frame about = {raw, {0, 0, 0}, 0};
+    struct carom_mass mass;
+    struct fix_wide det20, inertia20[6];
+    struct fix_scaled ratio[6];
+    int32_t low[3], high[3], extent = 1;
+    int64_t volume6, centre[3];
+    int to_q22 = 22 - raw->quantum_bits; /* fractional bits of a quantum in q22 */
+    int bits, error;
+
+    find_box(raw, low, high);
+    for (int k = 0; k < 3; k++) {
+        extent = high[k] - low[k] > extent ? high[k] - low[k] : extent;
+    }
+    /* The finest format that keeps a coordinate about the centre below 2^20. */
+    about.bits = 20 - fix_bits((uint64_t)extent);
+    bits = about.bits > to_q22 ? about.bits : to_q22;
+    error = volume_and_centre(raw, bits, &volume6, centre);
+    if (error) {
+        return error;
+    }
+    for (int k = 0; k < 3; k++) {
+        if (centre[k] < carom_shl(low[k], bits) || centre[k] > carom_shl(high[k], bits)) {
+            return CAROM_ERR_MESH_INSIDE_OUT; /* some part of it is */
+        }
+        mass.centre.c[k] = (int32_t)round_off(centre[k], bits - to_q22);
+        about.origin[k] = round_off(centre[k], bits - about.bits);
+    }
+    second_moments(&about, &det20, inertia20);
+    for (int n = 0; n < 6; n++) {
+        if (n < 3 && fix_wide_sign(inertia20[n]) <= 0) {
+            return CAROM_ERR_MESH_INSIDE_OUT;
+        }
+        ratio[n] = fix_wide_ratio(inertia20[n], det20);
+    }
+    share_exponent(&mass.inertia, ratio);
+    mass.inertia.e += 2 * (raw->quantum_bits + about.bits);
+    mass.volume_q32 = volume_q32(volume6, raw->quantum_bits);
+    *out = mass;
+    return CAROM_OK;
+}
+
+/* v * 2^-s to nearest, s of either sign. */
+static int64_t rescale(int64_t v, int s)
+{
+    return s < 0 ? carom_shl(v, -s) : round_off(v, s);
+}
+
+/* How many bits the largest of the numbers has, less `bits`. */
+static int excess_bits(const int64_t *v, int n, int bits)
+{
+    uint64_t all = 0;
+
+    for (int i = 0; i < n; i++) {
+        all |= (uint64_t)carom_abs(v[i]);
+    }
+    return fix_bits(all) - bits;
+}
+
+int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out)
+{
+    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    int64_t m[6], x_q40[6];
+    struct gauss w;
+    int down, up;
+
+    for (int n = 0; n < 6; n++) {
+        m[n] = in->m[n];
+    }
+    down = excess_bits(m, 6, 29);
+    /* A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column. */
+    for (int col = 0; col < 3; col++) {
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                w.a[i][j] = (int32_t)rescale(m[entry[i][j]], down);
+            }
+            w.a[i][3] = i == col ? (int32_t)1 << 29 : 0;
+        }
+        if (gauss_solve(&w, 3)) {
+            return -1;
+        }
+        for (int i = 0; i <= col; i++) {
+            x_q40[entry[i][col]] = w.x_q40[i];
+        }
+    }
+    up = excess_bits(x_q40, 6, 30);
+    for (int n = 0; n < 6; n++) {
+        /* Rounding up to 2^30 would still fit. */
+        out->m[n] = (int32_t)rescale(x_q40[n], up);
+    }
+    out->e = 40 - up + 29 + down - in->e;
+    return 0;
+}

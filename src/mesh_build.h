@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * mesh_build - what the files that build a mesh share. Not for other stages.
+ *
+ * The block is filled from its start with what stays. The work table of the moment lies at its end,
+ * where the z-lists' entries, carved last, will be.
+ */
+#ifndef CAROM_SRC_MESH_BUILD_H
+#define CAROM_SRC_MESH_BUILD_H
+
+#include "mesh.h"
+
+/* The z-lists of a mesh hold at most this many entries a face; CAROM_MESH_BYTES counts on it. */
+#define MESH_ENTRIES_PER_FACE 8
+#define MESH_GRID_SIDE_MAX    32
+
+struct mesh_builder {
+    struct carom_mesh *mesh;
+    struct arena arena;
+    uint64_t *keys; /* the work table: 3 for each face */
+    struct carom_face *faces;
+    struct carom_edge *edges;
+};
+
+/* Sort keys in rising order, in place. */
+void mesh_sort(uint64_t *keys, uint32_t n);
+
+/* Edges, their rings and what faces own. CAROM_OK or CAROM_ERR_MESH_OPEN, _EDGE, _SURFACE. */
+int mesh_build_edges(struct mesh_builder *b);
+
+/* Cut the faces into leaves. */
+void mesh_build_leaves(struct mesh_builder *b);
+
+/* The mesh's own z-lists. CAROM_OK or CAROM_ERR_MESH_SURFACE. */
+int mesh_build_zlists(struct mesh_builder *b);
+
+#endif

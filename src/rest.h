@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * rest - several contacts at once: continuous contact, and impacts at more than one place. Symmetric
+ * sweeps of the impact equations over accumulated, clamped impulses, warm-started; and sleep.
+ *
+ * Solver units. A solve picks a power of two V* above every wanted change of normal velocity and
+ * counts velocities in units of V* / 2^REST_BITS. An impulse is counted in that unit of velocity
+ * times the lighter body's mass, spin in that unit over the body's unit of length. So every number
+ * has about the same size whatever the masses, sizes and speeds.
+ */
+#ifndef CAROM_SRC_REST_H
+#define CAROM_SRC_REST_H
+
+#include "contact.h"
+#include "impact.h"
+
+#define REST_BITS 29
+#define REST_SWEEPS_MAX 60
+
+/* An impulse kept for the next frame; part of the state. */
+struct rest_warm {
+    uint16_t a, b;
+    carom_v3_q22 arm;         /* on a, in its mesh's axes */
+    carom_v3_q30 normal;
+    int64_t normal_q40;       /* impulse along the normal */
+    carom_v3_q40 tangent_q40; /* and across it */
+};
+
+struct rest {
+    struct gauss gauss;
+    struct contact_list list;
+    const struct pair *pairs;
+    struct body *bodies;
+    struct body_state *states;
+    const carom_v3_q40 *gravity;
+    int64_t slow_q40; /* 4 g h: an approach slower than this is no impact */
+
+    struct rest_warm *warm; /* read and written; NULL: no warm start */
+    uint32_t warm_count;
+
+    uint32_t sweeps, impacts, energy_rules; /* for the statistics */
+};
+
+/*
+ * Find momenta after the contacts of the list.
+ *
+ *   tau_q30   what is left of the frame: resting contacts may close their gap in that time
+ *   warm      start from the impulses of the last frame and keep these for the next
+ *
+ * A single impact is solved by the paper's 9x9 or 15x15, everything else by sweeps.
+ * Returns  CAROM_OK or CAROM_ERR_RANGE
+ * Source   paper eq. (1)-(10), and "continuous contact"
+ */
+int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
+
+/*
+ * Bodies with a contact slower than 4 g h take the rest of the frame's gravity at once and move
+ * straight. Returns whether any body newly did.
+ */
+bool rest_enter_contact(struct rest *r, int32_t tau_q30);
+
+/* e and mu of a pair of bodies: the smaller of the two. */
+int32_t rest_restitution(const struct body *a, const struct body *b);
+uint32_t rest_friction(const struct body *a, const struct body *b);
+
+/* Count quiet frames and put whole islands, bodies that touch, to sleep. */
+void rest_sleep(const struct body *bodies, struct body_state *states, uint32_t body_count,
+                const struct pair *touching, uint32_t touching_count, const carom_v3_q40 *gravity);
+
+#endif

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+#include "scan.h"
+
+/* floor(n / d) and what remains of n, 0 <= rest < d. */
+struct quotient {
+    int32_t floor, rest;
+};
+
+/* Range: d > 0, the quotient fits. A 64-bit division is avoided where n is short. */
+static struct quotient divide(int64_t n, int32_t d)
+{
+    struct quotient q;
+
+    CAROM_ASSERT(d > 0);
+    if (n >= INT32_MIN && n <= INT32_MAX) {
+        q.floor = (int32_t)n / d;
+        q.rest = (int32_t)n % d;
+    } else {
+        q.floor = (int32_t)(n / d);
+        q.rest = (int32_t)(n % d);
+    }
+    if (q.rest < 0) {
+        q.rest += d;
+        q.floor--;
+    }
+    return q;
+}
+
+static int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static int32_t larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* ------------------------------------------------------------------- pixels */
+
+/* The first pixel whose centre, at 16 i + 8, is not below v_q4: ceil((v - 8) / 16). */
+static int32_t first_pixel(int32_t v_q4)
+{
+    return (v_q4 + 7) >> 4;
+}
+
+/*
+ * Prepare the edge from a to b, a being the lower end, and keep it if it crosses a row's centre at or
+ * above row `low`. An edge owns its lower end and not its upper one, so that a row through a corner
+ * meets the polygon exactly twice.
+ *
+ * Bounds: coordinates are below 2^20, so dx, dy < 2^21 in size, the product below is < 2^42, and the
+ * step over one row, 16 dx / dy, is < 2^25.
+ */
+static void add_edge(struct scan *s, const int32_t a[2], const int32_t b[2], int32_t low)
+{
+    struct scan_edge *e = &s->edge[s->n];
+    int32_t dx = b[0] - a[0];
+    struct quotient start, step;
+
+    e->y = larger(first_pixel(a[1]), low);
+    e->y_end = first_pixel(b[1]);
+    if (e->y >= e->y_end) {
+        return;
+    }
+    e->dy = b[1] - a[1];
+    start = divide((int64_t)(16 * e->y + 8 - a[1]) * dx, e->dy);
+    step = divide((int64_t)16 * dx, e->dy);
+    e->x_q4 = a[0] + start.floor;
+    e->rest = start.rest;
+    e->step_q4 = step.floor;
+    e->step_rest = step.rest;
+    s->y = smaller(s->y, e->y);
+    s->y_end = larger(s->y_end, e->y_end);
+    s->n++;
+}
+
+void scan_begin(struct scan *s, const int32_t xy_q4[][2], int n, struct scan_rect clip)
+{
+    CAROM_ASSERT(n >= 1 && n <= SCAN_MAX);
+    s->clip = clip;
+    s->n = 0;
+    s->y = clip.y1;
+    s->y_end = clip.y0;
+    for (int i = 0; i < n; i++) {
+        const int32_t *a = xy_q4[i], *b = xy_q4[i + 1 < n ? i + 1 : 0];
+
+        CAROM_ASSERT(carom_abs(a[0]) < 1 << 20 && carom_abs(a[1]) < 1 << 20);
+        if (a[1] < b[1]) {
+            add_edge(s, a, b, clip.y0);
+        } else if (a[1] > b[1]) {
+            add_edge(s, b, a, clip.y0);
+        }
+    }
+    s->y_end = smaller(s->y_end, clip.y1);
+}
+
+/* The first pixel right of the edge's crossing with the current row; then go one row up. */
+static int32_t step_edge(struct scan_edge *e)
+{
+    int32_t x = first_pixel(e->x_q4 + (e->rest > 0));
+
+    e->x_q4 += e->step_q4;
+    e->rest += e->step_rest;
+    if (e->rest >= e->dy) {
+        e->rest -= e->dy;
+        e->x_q4++;
+    }
+    return x;
+}
+
+bool scan_next(struct scan *s, struct scan_run *run)
+{
+    while (s->y < s->y_end) {
+        int32_t x0 = INT32_MAX, x1 = INT32_MIN;
+
+        run->y = s->y++;
+        for (int i = 0; i < s->n; i++) {
+            struct scan_edge *e = &s->edge[i];
+
+            if (run->y >= e->y && run->y < e->y_end) {
+                int32_t x = step_edge(e);
+
+                x0 = smaller(x0, x);
+                x1 = larger(x1, x);
+            }
+        }
+        run->x0 = larger(x0, s->clip.x0);
+        run->x1 = smaller(x1, s->clip.x1);
+        if (run->x0 < run->x1) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* -------------------------------------------------------------------- cells */
+
+/*
+ * The closed cells, 2^shift wide from 0 on, that the interval [low, high] touches: [*first, *end).
+ * A cell touches low when its upper side, (i + 1) 2^shift, does not stay below it.
+ */
+static void touched(int32_t low, int32_t high, int shift, int32_t count, int32_t *first,
+                    int32_t *end)
+{
+    int32_t above = ((int32_t)1 << shift) - 1;
+
+    *first = larger(((low + above) >> shift) - 1, 0);
+    *end = smaller((high >> shift) + 1, count);
+}
+
+void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const int32_t xy[][2],
+                      int n, int32_t grow)
+{
+    int32_t low = INT32_MAX, high = INT32_MIN;
+
+    CAROM_ASSERT(n >= 1 && n <= SCAN_MAX && grow >= 0 && grow < 1 << 24 && grid->shift <= 24);
+    CAROM_ASSERT(carom_abs(grid->x0) < 1 << 25 && carom_abs(grid->y0) < 1 << 25);
+    s->grid = *grid;
+    s->n = n;
+    s->grow = grow;
+    for (int i = 0; i < n; i++) {
+        CAROM_ASSERT(carom_abs(xy[i][0]) < 1 << 24 && carom_abs(xy[i][1]) < 1 << 24);
+        s->xy[i][0] = xy[i][0];
+        s->xy[i][1] = xy[i][1];
+        low = smaller(low, xy[i][1]);
+        high = larger(high, xy[i][1]);
+    }
+    touched(low - grow - grid->y0, high + grow - grid->y0, grid->shift, grid->ny, &s->row,
+            &s->row_end);
+}
+
+/*
+ * Widen the whole numbers [*low, *high] by the x where the edge from a up to b crosses height y.
+ * The lower limit takes the crossing rounded up, the upper one rounded down: cells begin and end at
+ * whole numbers, so no cell is lost, and none is won that the exact crossing does not touch.
+ *
+ * Bounds: y - a[1] and b[0] - a[0] are < 2^25 in size, their product < 2^50.
+ */
+static void add_crossing(const int32_t a[2], const int32_t b[2], int32_t y, int32_t *low,
+                         int32_t *high)
+{
+    if (a[1] < y && y < b[1]) {
+        struct quotient q = divide((int64_t)(y - a[1]) * (b[0] - a[0]), b[1] - a[1]);
+
+        *low = smaller(*low, a[0] + q.floor + (q.rest > 0));
+        *high = larger(*high, a[0] + q.floor);
+    }
+}
+
+/*
+ * Growing the polygon by a square is the same as growing the strip of cells by it, in y, and the
+ * interval found, in x. The extent of a convex polygon within a strip is that of its corners inside
+ * and of its edges' crossings with the two sides.
+ */
+bool scan_cells_next(struct scan_cells *s, struct scan_run *run)
+{
+    while (s->row < s->row_end) {
+        int32_t y0 = s->grid.y0 + s->row * ((int32_t)1 << s->grid.shift) - s->grow;
+        int32_t y1 = y0 + ((int32_t)1 << s->grid.shift) + 2 * s->grow;
+        int32_t low = INT32_MAX, high = INT32_MIN;
+
+        run->y = s->row++;
+        for (int i = 0; i < s->n; i++) {
+            const int32_t *a = s->xy[i], *b = s->xy[i + 1 < s->n ? i + 1 : 0];
+            bool up = a[1] < b[1];
+
+            if (a[1] >= y0 && a[1] <= y1) {
+                low = smaller(low, a[0]);
+                high = larger(high, a[0]);
+            }
+            add_crossing(up ? a : b, up ? b : a, y0, &low, &high);
+            add_crossing(up ? a : b, up ? b : a, y1, &low, &high);
+        }
+        touched(low - s->grow - s->grid.x0, high + s->grow - s->grid.x0, s->grid.shift,
+                s->grid.nx, &run->x0, &run->x1);
+        if (run->x0 < run->x1) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: MIT */
+#include "world.h"
+
+/* Smallest capacities, and the sizes that CAROM_WORLD_BYTES promises. */
+#define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
+
+_Static_assert(sizeof(struct body) + 2 * sizeof(struct body_state) +
+                       2 * sizeof(struct carom_event) <= CAROM_BODY_BYTES,
+               "CAROM_BODY_BYTES");
+_Static_assert(sizeof(struct pair) + 2 * sizeof(struct pair) +
+                       3 * sizeof(struct carom_event) <= CAROM_PAIR_BYTES,
+               "CAROM_PAIR_BYTES");
+_Static_assert(sizeof(struct contact) + 2 * sizeof(struct rest_warm) <= CAROM_CONTACT_BYTES,
+               "CAROM_CONTACT_BYTES");
+_Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BYTES");
+_Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
+_Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
+/* each carved array may be rounded up to 8 bytes; there are at most 12 of them */
+_Static_assert(sizeof(struct carom_world) + ZLIST_CELLS_MAX * sizeof(uint16_t) + 12 * 8 <=
+                   CAROM_WORLD_FIXED_BYTES,
+               "CAROM_WORLD_FIXED_BYTES");
+
+/* -------------------------------------------------------------------- init */
+
+static bool capacities_in_range(const struct carom_caps *caps)
+{
+#define IN_RANGE(name, bytes, low, high) (caps->name >= (low) && caps->name <= (high)) &&
+    return CAROM_POOLS(IN_RANGE) true;
+#undef IN_RANGE
+}
+
+static size_t bytes_for(const struct carom_caps *caps)
+{
+    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
+                             caps->candidates);
+}
+
+/* Carve every array. The caller has made sure that the block is large enough. */
+static void carve(struct carom_world *w, struct arena *arena)
+{
+    const struct carom_caps *caps = &w->config.caps;
+
+    w->bodies = arena_carve(arena, caps->bodies * sizeof *w->bodies);
+    w->pairs = arena_carve(arena, caps->pairs * sizeof *w->pairs);
+    for (int i = 0; i < 2; i++) {
+        struct world_state *s = &w->states[i];
+
+        s->bodies = arena_carve(arena, caps->bodies * sizeof *s->bodies);
+        s->warm = arena_carve(arena, caps->contacts * sizeof *s->warm);
+        s->touching = arena_carve(arena, caps->pairs * sizeof *s->touching);
+    }
+    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
+    w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
+    w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
+    w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
+    w->interfere.lists.head =
+        arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    w->interfere.candidates =
+        arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
+}
+
+int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
+                     struct carom_world **world)
+{
+    struct arena arena;
+    struct carom_world *w;
+
+    if (!mem || !config || !world) {
+        return CAROM_ERR_NULL;
+    }
+    if (!capacities_in_range(&config->caps) || config->substep_cap > 64) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    for (int k = 0; k < 3; k++) {
+        if (config->gravity.c[k] > (int64_t)1 << 40 || config->gravity.c[k] < -((int64_t)1 << 40)) {
+            return CAROM_ERR_RANGE;
+        }
+    }
+    if ((uintptr_t)mem % 8 != 0 || bytes < bytes_for(&config->caps)) {
+        return CAROM_ERR_MEMORY;
+    }
+    arena_init(&arena, mem, bytes);
+    w = arena_carve(&arena, sizeof *w);
+    w->config = *config;
+    w->bytes = bytes;
+    if (w->config.substep_cap == 0) {
+        w->config.substep_cap = 32;
+    }
+#define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
+    CAROM_POOLS(SET_SIZE)
+#undef SET_SIZE
+    carve(w, &arena);
+    w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
+    w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
+    w->interfere.lists.pool = &w->pools[CAROM_POOL_entries];
+    w->interfere.candidate_pool = &w->pools[CAROM_POOL_candidates];
+    *world = w;
+    return CAROM_OK;
+}
+
+/* ------------------------------------------------------------------ bodies */
+
+static bool position_in_range(const carom_v3_q32 *p)
+{
+    for (int k = 0; k < 3; k++) {
+        if (p->c[k] > (int64_t)BODY_WORLD_LIMIT << 32 || p->c[k] < -((int64_t)BODY_WORLD_LIMIT << 32)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool speed_in_range(const carom_v3_q40 *v)
+{
+    for (int k = 0; k < 3; k++) {
+        if (v->c[k] > (int64_t)BODY_SPEED_LIMIT << 40 || v->c[k] < -((int64_t)BODY_SPEED_LIMIT << 40)) {
+            return false;
+        }
+    }
+    return fix_length(v->c) < (int64_t)BODY_SPEED_LIMIT << 40;
+}
+
+/* Length 1 within 2^-10; all zero stands for no rotation. */
+static bool rotation_valid(carom_quat_q30 *q)
+{
+    int64_t square_q60 = 0;
+
+    if ((q->c[0] | q->c[1] | q->c[2] | q->c[3]) == 0) {
+        q->c[0] = CAROM_ONE_Q30;
+        return true;
+    }
+    for (int k = 0; k < 4; k++) {
+        if (carom_abs(q->c[k]) > CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10)) {
+            return false;
+        }
+        square_q60 += (int64_t)q->c[k] * q->c[k];
+    }
+    if (carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 51) {
+        return false;
+    }
+    body_normalise(q);
+    return true;
+}
+
+static int set_mass(struct body *b, const struct carom_body_def *def)
+{
+    int64_t mass_q32 = def->mass_q20 ? (int64_t)def->mass_q20 << 12 : def->mesh->mass.volume_q32;
+
+    if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
+        return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
+    }
+    b->mass = fix_scale(mass_q32, 32);
+    b->inverse_mass = fix_scaled_inverse(b->mass);
+    b->inertia = def->mesh->mass.inertia;
+    return mass_invert(&b->inertia, &b->inverse_inertia) < 0 ? CAROM_ERR_RANGE : CAROM_OK;
+}
+
+/* Everything about a body that its definition settles. */
+static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def)
+{
+    int result = CAROM_OK;
+
+    memset(b, 0, sizeof *b);
+    memset(s, 0, sizeof *s);
+    s->position = def->position;
+    s->rotation = def->rotation;
+    if (def->restitution_q30 < 0 || def->restitution_q30 > CAROM_ONE_Q30 ||
+        def->friction_q16 > CAROM_MU_MAX_Q16 || !rotation_valid(&s->rotation) ||
+        (!def->stationary && def->mesh->raw.kind != CAROM_SOLID)) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (!position_in_range(&def->position) || !speed_in_range(&def->velocity) ||
+        !speed_in_range(&def->spin) ||
+        (!def->stationary && def->mesh->radius_q22 > BODY_RADIUS_LIMIT << 22)) {
+        return CAROM_ERR_RANGE;
+    }
+    b->mesh = def->mesh;
+    b->moving = !def->stationary;
+    b->restitution_q30 = def->restitution_q30;
+    b->friction_q16 = def->friction_q16;
+    b->radius_q22 = def->mesh->radius_q22;
+    if (b->moving) {
+        b->unit_bits = fix_bits((uint64_t)b->radius_q22);
+        b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
+        result = set_mass(b, def);
+        body_set_motion(b, s, &def->velocity, &def->spin);
+    }
+    return result;
+}
+
+int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
+{
+    struct pool *pool;
+    struct body made;
+    struct body_state state;
+    uint32_t place = 0;
+    int result;
+
+    if (!w || !def || !def->mesh) {
+        return CAROM_ERR_NULL;
+    }
+    pool = &w->pools[CAROM_POOL_bodies];
+    result = make_body(&made, &state, def);
+    if (result < 0) {
+        return result;
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (made.moving && w->bodies[i].mesh && w->bodies[i].moving) {
+            return CAROM_ERR_UNSUPPORTED;
+        }
+    }
+    if (pool_take(pool) < 0) {
+        return CAROM_ERR_BODIES_FULL;
+    }
+    while (place < w->body_count && w->bodies[place].mesh) {
+        place++;
+    }
+    if (place == w->body_count) {
+        w->body_count++;
+    }
+    w->bodies[place] = made;
+    world_now(w)->bodies[place] = state;
+    return (int)place;
+}
+
+static bool has_body(const struct carom_world *w, int body)
+{
+    return body >= 0 && (uint32_t)body < w->body_count && w->bodies[body].mesh;
+}
+
+/* What has changed near a sleeping body is not known here: wake them all. */
+static void wake_all(struct carom_world *w)
+{
+    struct world_state *s = world_now(w);
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        s->bodies[i].asleep = 0;
+        s->bodies[i].quiet = 0;
+    }
+}
+
+int carom_body_remove(struct carom_world *w, int body)
+{
+    struct world_state *s;
+    uint32_t kept = 0;
+
+    if (!w) {
+        return CAROM_ERR_NULL;
+    }
+    if (!has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = world_now(w);
+    memset(&w->bodies[body], 0, sizeof w->bodies[body]);
+    memset(&s->bodies[body], 0, sizeof s->bodies[body]);
+    for (uint32_t i = 0; i < s->warm_count; i++) {
+        if (s->warm[i].a != body && s->warm[i].b != body) {
+            s->warm[kept++] = s->warm[i];
+        }
+    }
+    s->warm_count = kept;
+    kept = 0;
+    for (uint32_t i = 0; i < s->touching_count; i++) {
+        if (s->touching[i].a != body && s->touching[i].b != body) {
+            s->touching[kept++] = s->touching[i];
+        }
+    }
+    s->touching_count = kept;
+    w->pools[CAROM_POOL_bodies].used--;
+    wake_all(w);
+    return CAROM_OK;
+}
+
+int carom_body_get(const struct carom_world *w, int body, struct carom_body_state *out)
+{
+    const struct body_state *s;
+    carom_m3_q30 r;
+
+    if (!w || !out) {
+        return CAROM_ERR_NULL;
+    }
+    if (!has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = &world_now(w)->bodies[body];
+    out->position = s->position;
+    out->rotation = s->rotation;
+    body_matrix(&r, &s->rotation);
+    body_velocity(&w->bodies[body], s, &out->velocity);
+    body_spin(&w->bodies[body], s, &r, &out->spin);
+    out->asleep = s->asleep;
+    out->out = s->out;
+    return CAROM_OK;
+}
+
+int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)
+{
+    struct body_state *s;
+    carom_quat_q30 q;
+
+    if (!w || !in) {
+        return CAROM_ERR_NULL;
+    }
+    if (!has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    q = in->rotation;
+    if (!rotation_valid(&q)) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (!position_in_range(&in->position) || !speed_in_range(&in->velocity) ||
+        !speed_in_range(&in->spin)) {
+        return CAROM_ERR_RANGE;
+    }
+    s = &world_now(w)->bodies[body];
+    s->position = in->position;
+    s->rotation = q;
+    s->out = 0;
+    if (w->bodies[body].moving) {
+        body_set_motion(&w->bodies[body], s, &in->velocity, &in->spin);
+    }
+    wake_all(w);
+    return CAROM_OK;
+}
+
+bool world_in_range(const struct body *b, const struct body_state *s)
+{
+    carom_v3_q40 v;
+
+    body_velocity(b, s, &v);
+    return position_in_range(&s->position) && speed_in_range(&v);
+}
+
+struct fix_wide world_energy2(const struct carom_world *w, const struct world_state *state)
+{
+    struct fix_wide sum = {0, 0};
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        const struct body *b = &w->bodies[i];
+        const struct body_state *s = &state->bodies[i];
+        carom_m3_q30 r;
+
+        if (!broad_active(b, s)) {
+            continue;
+        }
+        body_matrix(&r, &s->rotation);
+        sum = fix_wide_add(sum, body_kinetic2(b, s, &r));
+        for (int k = 0; k < 3; k++) {
+            /* -2 m g.c: q40 times q32 brought to q40 */
+            int64_t weight_q40 = fix_mul_scaled(w->config.gravity.c[k], b->mass);
+
+            sum = fix_wide_add(
+                sum, fix_wide_mul(-2 * weight_q40, carom_shl(s->position.c[k], 8)));
+        }
+    }
+    return sum;
+}
+
+const struct carom_mesh *world_mesh(const struct carom_world *w, int body, bool *moving)
+{
+    if (!has_body(w, body)) {
+        return NULL;
+    }
+    *moving = w->bodies[body].moving;
+    return w->bodies[body].mesh;
+}
+
+int world_body_places(const struct carom_world *w)
+{
+    return (int)w->body_count;
+}
