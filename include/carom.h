@@ -389,38 +389,50 @@ int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes)
 
 /* ------------------------------------------------------------------ drawing */
 
+/*
+ * Faces are seen from outside only. FLAT shades them with one light from the left and hides what is
+ * behind. WIRE draws each edge of the faces that look at the eye once, hidden or not.
+ * Interfering faces have colours of their own in both.
+ */
+enum carom_draw_style { CAROM_DRAW_FLAT, CAROM_DRAW_WIRE };
+
+/* z points up the page; x points right when the camera looks straight up or down. */
+struct carom_camera {
+    carom_v3_q32 eye;    /* each component within +-16384; nothing closer than 1/32 is drawn */
+    carom_v3_q32 target; /* the same range; the middle of the picture looks here; not the eye */
+    int32_t focal_q16;   /* focal length in picture heights, 1/16 .. 16: 1 << 16 sees 53 degrees */
+};
+
 enum carom_pixel_format {
     CAROM_PALETTE8, /* indices into carom_draw_palette */
     CAROM_RGB565,
     CAROM_XRGB8888
 };
 
-enum carom_draw_style { CAROM_DRAW_FLAT, CAROM_DRAW_WIRE };
-
-struct carom_camera {
-    carom_v3_q32 eye;
-    carom_v3_q32 target; /* the middle of the picture looks here; z is up */
-    int32_t focal_q16;   /* focal length in picture heights: 1 << 16 sees 53 degrees */
-};
+/* 256 colours as 0x00RRGGBB, in ramps of 32; 160 to 254 are not used, 255 is white. */
+extern const uint32_t carom_draw_palette[256];
 
 struct carom_picture {
-    void *pixels;
-    int32_t width, height; /* pixels, 1 .. 2048 */
-    int32_t stride;        /* bytes from one row to the next */
-    uint8_t format;        /* enum carom_pixel_format */
-    void *workspace;       /* depth rows, aligned to 8 */
-    size_t workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); fewer rows cost time, not results */
+    void *pixels;           /* the top left one; aligned to the size of a pixel */
+    int32_t width, height;  /* pixels, 1 .. 2048 */
+    int32_t stride;         /* bytes from one row to the next, a multiple of the size of a pixel */
+    uint8_t format;         /* enum carom_pixel_format */
+    void *workspace;        /* depth rows, aligned to 8; WIRE needs none, and it may be NULL */
+    size_t workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); fewer rows than the picture has
+                               cost time, not results */
 };
 
 /* Workspace to draw `rows` rows of the picture at once. */
 #define CAROM_DRAW_BYTES(width, rows) ((size_t)4 * (size_t)(width) * (size_t)(rows))
 
-/* 256 colours as 0x00RRGGBB. */
-extern const uint32_t carom_draw_palette[256];
-
 /*
- * Draw the bodies of a world, with the interfering faces of its last step coloured.
- * Clears the picture to the background first.
+ * Draw the bodies of a world over a background, with the interfering faces of its last step coloured.
+ * Every pixel of the picture is written, none outside of it.
+ *
+ * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length out
+ *          of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away;
+ *          CAROM_ERR_MEMORY for a workspace that is too small, or memory that is not aligned.
+ *          Unless CAROM_OK, nothing is drawn.
  */
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);

@@ -58,6 +58,7 @@ struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
     int shift;
+    int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
     carom_m3_q30 to_view;          /* from mesh to view coordinates */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */

@@ -100,6 +100,12 @@ static void fill_run(const struct draw_canvas *canvas, const struct scan_run *ru
     }
 }
 
+/* A 64-bit division is avoided where n is short, as it is for all but large faces. */
+static int64_t divide(int64_t n, int32_t d)
+{
+    return n == (int32_t)n ? (int32_t)n / d : n / d;
+}
+
 /*
  * The plane of depth through the three projected corners; false when they enclose no area or run
  * the wrong way round.
@@ -129,8 +135,8 @@ static bool plane_of(struct depth_plane *plane, const struct draw_corner *a,
         return true;
     }
     /* Per pixel: 16 q4 steps. */
-    dx = (w2 * y1 - w1 * y2) * 16 / area_q8;
-    dy = (w1 * x2 - w2 * x1) * 16 / area_q8;
+    dx = divide((w2 * y1 - w1 * y2) * 16, area_q8);
+    dy = divide((w1 * x2 - w2 * x1) * 16, area_q8);
     plane->dx = (uint32_t)dx;
     plane->dy = (uint32_t)dy;
     /* |dx|, |dy| < 2^44: eight sixteenths of a pixel to the middle of the pixel that holds a. */

@@ -129,6 +129,8 @@ void draw_body_init(struct draw_body *body, const struct draw_view *view,
     body->mesh = mesh;
     body_matrix(&r, &state->rotation);
     place_eye(body, &r, &state->position);
+    /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
+    body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
     for (int k = 0; k < 3; k++) {
         carom_rotate_back(body->to_view.c[k], &r, view->axes.c[k]);
     }
@@ -168,13 +170,13 @@ void draw_corner_place(const struct draw_body *body, uint32_t vertex, struct dra
     }
 }
 
-/* Signed distance, up to a factor, from a plane of DRAW_OUT_CLIP by its bit; |result| <= 2^30. */
+/* How far inside of a plane of DRAW_OUT_CLIP, given by its bit, up to a factor; |result| <= 2^30.
+ */
 static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], uint32_t plane)
 {
     switch (plane) {
     case OUT_NEAR:
-        /* shift <= 9 and z_shift <= 5: at least 2^3 */
-        return at[2] - (1 << (22 - NEAR_BITS - body->shift - body->view->z_shift));
+        return at[2] - body->near;
     case OUT_GUARD_LEFT:
         return at[2] + at[0];
     case OUT_GUARD_RIGHT:
@@ -190,8 +192,8 @@ static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], 
  * To the picture, from inside the guard band and beyond the near plane.
  *
  * 2^3 <= z < 2^29, so 2^33 < 2^62 / z <= 2^59; |x|, |y| <= z, so the products are at most 2^62 and
- * the quotients are DRAW_GUARD = 2^14 sixteenths of a pixel. On the near plane z has NEAR_BITS,
- * shift and z_shift bits less than 22, which makes w_q26 2^31.
+ * the quotients 2^14 sixteenths of a pixel, DRAW_GUARD. On the near plane z is
+ * 2^(22 - NEAR_BITS - shift - z_shift), which makes w_q26 2^31.
  */
 static void project_inside(const struct draw_body *body, struct draw_corner *corner)
 {
@@ -210,13 +212,15 @@ static void project_inside(const struct draw_body *body, struct draw_corner *cor
 
 void draw_corner_project(const struct draw_body *body, struct draw_corner *corner)
 {
+    int32_t x, y, z;
+
     carom_rotate(corner->at, &body->to_view, corner->at);
-    corner->out = 0;
-    for (uint32_t plane = OUT_NEAR; plane <= OUT_GUARD_BOTTOM; plane <<= 1) {
-        if (clip_distance(body, corner->at, plane) < 0) {
-            corner->out |= plane;
-        }
-    }
+    x = corner->at[0];
+    y = corner->at[1];
+    z = corner->at[2];
+    corner->out = (z < body->near ? OUT_NEAR : 0u) | (x < -z ? OUT_GUARD_LEFT : 0u) |
+                  (x > z ? OUT_GUARD_RIGHT : 0u) | (y < -z ? OUT_GUARD_TOP : 0u) |
+                  (y > z ? OUT_GUARD_BOTTOM : 0u);
     if (corner->out == 0) {
         project_inside(body, corner);
     }

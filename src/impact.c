@@ -415,10 +415,18 @@ static void cone_limit(const struct problem *p, const struct answer *stick, stru
     struct answer d = subtract(stick, out);
     int64_t tangential[3] = {dot(d.p_q40, &p->frame.u), dot(d.p_q40, &p->frame.v), 0};
     int32_t mu_q16 = (int32_t)p->in->friction_q16;
-    /* Where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N). */
-    int64_t reach = fix_mul(dot(out->p_q40, &p->frame.n), mu_q16, 16);
-    int64_t growth = fix_length(tangential) - fix_mul(dot(d.p_q40, &p->frame.n), mu_q16, 16);
+    int64_t length = fix_length(tangential), reach, growth;
+    struct fix_wide excess =
+        fix_wide_add(wide_dot(tangential, tangential), fix_wide_neg(fix_wide_mul(length, length)));
 
+    /* One Newton step for the digits that fix_length leaves out: the difference below needs them.
+     */
+    if (length > 0) {
+        length += fix_mul_scaled(1, fix_wide_ratio(excess, fix_wide_mul(length, 2)));
+    }
+    /* Where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N). */
+    reach = fix_mul(dot(out->p_q40, &p->frame.n), mu_q16, 16);
+    growth = length - fix_mul(dot(d.p_q40, &p->frame.n), mu_q16, 16);
     if (reach > 0 && growth > 0) {
         add_scaled(out, &d, fix_wide_ratio(fix_wide_mul(reach, 1), fix_wide_mul(growth, 1)));
     }
@@ -463,66 +471,83 @@ static int64_t quadratic(const int64_t abc[3], int32_t k_q30)
     return fix_mul(fix_mul(abc[0], k_q30, 30) + abc[1], k_q30, 30) + abc[2];
 }
 
+/* The largest k in [0, 1] whose quadratic is not positive, rounded down; c <= 0 <= a. */
+static struct fix_scaled largest_feasible(int64_t abc[3])
+{
+    struct fix_scaled k = {.m = 0, .e = 30};
+
+    /* Halve until 1/2 is feasible, so that a small k has its 30 digits too. */
+    while (k.e < 30 + HALVINGS_MAX && quadratic(abc, CAROM_ONE_Q30 / 2) > 0) {
+        abc[0] = (abc[0] + 3) >> 2; /* upwards: on the safe side */
+        abc[1] = (abc[1] + 1) >> 1;
+        k.e++;
+    }
+    for (int32_t digit = CAROM_ONE_Q30 / 2; digit > 0; digit >>= 1) {
+        if (quadratic(abc, k.m + digit) <= 0) {
+            k.m += digit;
+        }
+    }
+    return k;
+}
+
+/* Twice the energy that an answer adds, in the solver's units: P.(2V + K P). */
+static struct fix_wide gain(const int64_t v_q40[3], const struct answer *x)
+{
+    int64_t sum[3];
+
+    for (int k = 0; k < 3; k++) {
+        sum[k] = 2 * v_q40[k] + x->dv_q40[k];
+    }
+    return wide_dot(x->p_q40, sum);
+}
+
 /*
- * The energy rule. With V the approach and D = P* - P0, twice the energy change of P0 + k D is
+ * The energy rule. With D = P* - P0, twice the energy change of P0 + k D is
  *
- *   P0.(2V + K P0) + k D.(2V + 2 K P0) + k^2 D.K D
+ *   P0.(2V + K P0) + 2k D.V + k^2 D.K D
  *
- * whose first term is not positive (e <= 1) and whose last is not negative: from the largest k with
- * a value <= 0 on, all are positive. k is halved until it is feasible and then found digit by
- * digit, rounded down. Returns whether P* had to be moved.
+ * because N.K D = 0: both impulses give the same V'.N. The first term is (P0.N) (V.N + target),
+ * formed from V itself because at e = 1 it is a difference of nearly equal numbers; it is not
+ * positive while e <= 1. The last is not negative. So from the largest k with a value <= 0 on, all
+ * are positive. Returns 1 when P* had to be moved, 0 when not, -1 when there is no solution.
  */
 static int energy_rule(const struct problem *p, struct answer *x)
 {
     struct answer free, d;
-    struct fix_wide term[3];
-    int64_t v[3], twice[3], abc[3];
-    int bits = 0, halvings = 0;
-    int32_t k_q30 = 0;
+    struct fix_wide square, slope;
+    struct fix_scaled loss;
+    int64_t v[3], abc[3];
+    int down;
 
     for (int k = 0; k < 3; k++) {
         v[k] = shifted(p->in->velocity.c[k], -x->unit);
-        twice[k] = 2 * v[k] + x->dv_q40[k];
     }
-    if (fix_wide_sign(wide_dot(x->p_q40, twice)) <= 0) {
+    if (fix_wide_sign(gain(v, x)) <= 0) {
         return 0;
     }
     if (solve_slide(p, 0, &free)) {
         return -1;
     }
     d = subtract(x, &free);
-    x->unit = d.unit;
     for (int k = 0; k < 3; k++) {
         x->p_q40[k] -= d.p_q40[k];
         x->dv_q40[k] -= d.dv_q40[k];
-        twice[k] = 2 * v[k] + x->dv_q40[k];
     }
-    term[0] = wide_dot(d.p_q40, d.dv_q40);
-    term[2] = wide_dot(x->p_q40, twice);
-    for (int k = 0; k < 3; k++) {
-        twice[k] += x->dv_q40[k];
-    }
-    term[1] = wide_dot(d.p_q40, twice);
-    for (int k = 0; k < 3; k++) {
-        int b = fix_wide_bits(term[k]);
-
-        bits = b > bits ? b : bits;
-    }
-    for (int k = 0; k < 3; k++) {
-        abc[k] = fix_wide_shift(term[k], bits > 59 ? bits - 59 : 0);
-    }
-    abc[2] = abc[2] > 0 ? 0 : abc[2];
-    while (halvings < HALVINGS_MAX && quadratic(abc, CAROM_ONE_Q30 / 2) > 0) {
-        abc[0] = (abc[0] + 3) >> 2; /* upwards: on the safe side */
-        abc[1] = (abc[1] + 1) >> 1;
-        halvings++;
-    }
-    for (int32_t digit = CAROM_ONE_Q30; digit > 0; digit >>= 1) {
-        if (k_q30 + digit <= CAROM_ONE_Q30 && quadratic(abc, k_q30 + digit) <= 0) {
-            k_q30 += digit;
-        }
-    }
-    add_scaled(x, &d, (struct fix_scaled){.m = k_q30, .e = 30 + halvings});
+    square = wide_dot(d.p_q40, d.dv_q40);
+    slope = wide_dot(d.p_q40, v);
+    slope = fix_wide_add(slope, slope);
+    down =
+        fix_wide_bits(square) > fix_wide_bits(slope) ? fix_wide_bits(square) : fix_wide_bits(slope);
+    down = down > 59 ? down - 59 : 0;
+    abc[0] = fix_wide_shift(square, down);
+    abc[1] = fix_wide_shift(slope, down);
+    /* 2 V.N + wanted = V.N + target */
+    loss = fix_wide_ratio(fix_wide_add(fix_wide_add(p->wanted_q70, speed_q70(p->in, &p->frame.n)),
+                                       speed_q70(p->in, &p->frame.n)),
+                          fix_wide_mul(1, 1));
+    loss.e += 30 + x->unit + down;
+    abc[2] = loss.m < 0 ? fix_mul_scaled(dot(x->p_q40, &p->frame.n), loss) : 0;
+    add_scaled(x, &d, largest_feasible(abc));
     return 1;
 }
 

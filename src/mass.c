@@ -5,8 +5,8 @@
 /*
  * Every face spans a tetrahedron with the origin. Its signed volume is det / 6 with
  * det = a . (b x c), its first moment det / 24 (a + b + c) and its second moments
- * det / 120 (s_i s_j + a_i a_j + b_i b_j + c_i c_j) with s = a + b + c. Over a closed mesh the parts
- * outside cancel, whatever the origin. So the sums are taken twice: about the origin of the
+ * det / 120 (s_i s_j + a_i a_j + b_i b_j + c_i c_j) with s = a + b + c. Over a closed mesh the
+ * parts outside cancel, whatever the origin. So the sums are taken twice: about the origin of the
  * vertices for the volume and the centre, then about the centre for the second moments, which
  * leaves nothing large to subtract.
  */
@@ -62,8 +62,8 @@ static int64_t round_off(int64_t v, int s)
 }
 
 /*
- * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the first
- * ratio leaves is divided again.
+ * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the
+ * first ratio leaves is divided again.
  */
 static int64_t wide_quotient(struct fix_wide n, int64_t d)
 {
@@ -135,8 +135,8 @@ static void find_box(const struct carom_mesh_raw *raw, int32_t low[3], int32_t h
  * Twenty times the volume's det, and the entries xx, yy, zz, xy, yz, zx of the inertia in the same
  * scale: inertia / mass = inertia20 / det20.
  *
- * Bounds: coordinates about the centre are < 2^20, so det < 3 * 2^61, the sum of products < 12 * 2^40
- * and the sum over 65535 faces, two entries together, < 2^124.
+ * Bounds: coordinates about the centre are < 2^20, so det < 3 * 2^61, the sum of products < 12 *
+ * 2^40 and the sum over 65535 faces, two entries together, < 2^124.
  */
 static void second_moments(const struct frame *about, struct fix_wide *det20,
                            struct fix_wide inertia20[6])
@@ -262,7 +262,8 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out)
         m[n] = in->m[n];
     }
     down = excess_bits(m, 6, 29);
-    /* A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column. */
+    /* A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column.
+     */
     for (int col = 0; col < 3; col++) {
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++) {

@@ -31,8 +31,8 @@ static int check_corners(const struct carom_mesh_raw *raw)
 }
 
 /*
- * Find the box, and refuse one whose diagonal does not fit q22: then every difference of two vertices,
- * the radius included, fits too. Rounding up adds 8 at most to lengths below 2^31.
+ * Find the box, and refuse one whose diagonal does not fit q22: then every difference of two
+ * vertices, the radius included, fits too. Rounding up adds 8 at most to lengths below 2^31.
  */
 static int find_box(struct carom_mesh *mesh)
 {

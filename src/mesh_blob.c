@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The binary form of a mesh, version 1. Numbers are little-endian, signed ones two's complement, and
- * nothing is padded. V and F are the numbers of vertices and faces.
+ * The binary form of a mesh, version 1. Numbers are little-endian, signed ones two's complement,
+ * and nothing is padded. V and F are the numbers of vertices and faces.
  *
  *   offset        bytes
  *   0             4      the characters CRM1

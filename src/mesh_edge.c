@@ -2,9 +2,9 @@
 #include "mesh_build.h"
 
 /*
- * n0 . m, where m lies in face 1 at right angles to the edge, is minus the sine of the angle by which
- * the surface turns at the edge. Between -1e-5 and 1e-5 it is flat: rounded vertices make coplanar
- * faces turn by about that much.
+ * n0 . m, where m lies in face 1 at right angles to the edge, is minus the sine of the angle by
+ * which the surface turns at the edge. Between -1e-5 and 1e-5 it is flat: rounded vertices make
+ * coplanar faces turn by about that much.
  */
 #define FLAT_Q30 10737
 
@@ -41,8 +41,8 @@ void mesh_sort(uint64_t *keys, uint32_t n)
 }
 
 /*
- * A face's side as a key: its two vertices, lower one first, whether it runs from the higher one, and
- * the side's own number. Sorted, the sides of one edge are neighbours.
+ * A face's side as a key: its two vertices, lower one first, whether it runs from the higher one,
+ * and the side's own number. Sorted, the sides of one edge are neighbours.
  */
 #define KEY_BACKWARD ((uint64_t)1 << 31)
 
@@ -52,8 +52,8 @@ static void make_keys(const struct carom_mesh_raw *raw, uint64_t *keys)
         const uint16_t *corner = raw->faces[side / 3];
         uint64_t from = corner[side % 3], to = corner[(side + 1) % 3];
 
-        keys[side] = from < to ? from << 48 | to << 32 | side
-                               : to << 48 | from << 32 | KEY_BACKWARD | side;
+        keys[side] =
+            from < to ? from << 48 | to << 32 | side : to << 48 | from << 32 | KEY_BACKWARD | side;
     }
 }
 
@@ -91,8 +91,8 @@ static int count_edges(struct mesh_builder *b)
     }
     /*
      * CAROM_MESH_BYTES has room for 3/2 (vertices + faces) edges. A closed mesh has 3/2 faces. Any
-     * mesh has at most 3 faces, so one that does not fit has more than 3 vertices: more than a graph
-     * drawn in the plane without crossings can have.
+     * mesh has at most 3 faces, so one that does not fit has more than 3 vertices: more than a
+     * graph drawn in the plane without crossings can have.
      */
     if (2 * count > 3 * (raw->vertex_count + raw->face_count)) {
         return CAROM_ERR_MESH_SURFACE;
@@ -115,7 +115,7 @@ static void place_edge(struct mesh_builder *b, struct carom_edge *e, uint32_t si
 
         along_q22[k] = carom_shl(quanta, 22 - raw->quantum_bits);
     }
-    (void)fix_normalise(&e->direction, along_q22); /* not 0: the face has an area */
+    (void)fix_normalise(&e->direction, along_q22);  /* not 0: the face has an area */
     e->length_q22 = (int32_t)fix_length(along_q22); /* at most the box's diagonal */
 }
 
@@ -165,8 +165,8 @@ static void make_edges(struct mesh_builder *b)
 }
 
 /*
- * List the edges at every vertex: count them, make of the counts the place where each list ends, and
- * fill the lists from their ends, so that the places end as the lists' starts.
+ * List the edges at every vertex: count them, make of the counts the place where each list ends,
+ * and fill the lists from their ends, so that the places end as the lists' starts.
  */
 static void make_rings(struct mesh_builder *b)
 {

@@ -106,8 +106,8 @@ static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf,
             low = c < low ? c : low;
             high = c > high ? c : high;
         }
-        leaf->centre.c[k] = (int32_t)(carom_shl(low + high, 21 - mesh->raw.quantum_bits) -
-                                      mesh->mass.centre.c[k]);
+        leaf->centre.c[k] =
+            (int32_t)(carom_shl(low + high, 21 - mesh->raw.quantum_bits) - mesh->mass.centre.c[k]);
     }
     for (int i = 0; i < leaf->vertex_count; i++) {
         carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
@@ -131,8 +131,7 @@ static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, ui
 
         leaf->first_face = l->face_count;
         leaf->first_vertex = l->vertex_count;
-        while (i < n &&
-               add_face(l, leaf, mesh->raw.faces[key_face(keys[i])], key_face(keys[i]))) {
+        while (i < n && add_face(l, leaf, mesh->raw.faces[key_face(keys[i])], key_face(keys[i]))) {
             i++;
         }
         bound_leaf(mesh, leaf, &l->vertices[leaf->first_vertex]);
@@ -147,8 +146,8 @@ static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, ui
  * where a range ends; it begins where the one before it ended. A left part is at most half of its
  * range, so 16 places do for 65535 faces.
  */
-static void split_faces(const struct carom_mesh *mesh, struct leaf_builder *l,
-                        uint32_t *leaf_count, uint64_t *keys)
+static void split_faces(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
+                        uint64_t *keys)
 {
     uint32_t end[16], depth = 0, first = 0;
 
@@ -273,8 +272,8 @@ static struct zface face_of(const struct carom_mesh *mesh, uint32_t face)
 }
 
 /*
- * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is left
- * with where it starts, and a cell's faces stand in rising order.
+ * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is
+ * left with where it starts, and a cell's faces stand in rising order.
  */
 static void fill_lists(const struct carom_mesh *mesh, uint32_t *cell, struct carom_zref *zrefs)
 {
@@ -323,9 +322,9 @@ static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_
         for (int i = 0; i < 3; i++) {
             const int16_t *p = raw->vertices[raw->faces[g][i]];
 
-            outside += (int64_t)(b[0] - a[0]) * (p[1] - a[1]) -
-                           (int64_t)(b[1] - a[1]) * (p[0] - a[0]) <=
-                       0;
+            outside +=
+                (int64_t)(b[0] - a[0]) * (p[1] - a[1]) - (int64_t)(b[1] - a[1]) * (p[0] - a[0]) <=
+                0;
         }
         if (outside == 3) {
             return true;

@@ -45,12 +45,12 @@ static int32_t first_pixel(int32_t v_q4)
 }
 
 /*
- * Prepare the edge from a to b, a being the lower end, and keep it if it crosses a row's centre at or
- * above row `low`. An edge owns its lower end and not its upper one, so that a row through a corner
- * meets the polygon exactly twice.
+ * Prepare the edge from a to b, a being the lower end, and keep it if it crosses a row's centre at
+ * or above row `low`. An edge owns its lower end and not its upper one, so that a row through a
+ * corner meets the polygon exactly twice.
  *
- * Bounds: coordinates are below 2^20, so dx, dy < 2^21 in size, the product below is < 2^42, and the
- * step over one row, 16 dx / dy, is < 2^25.
+ * Bounds: coordinates are below 2^20, so dx, dy < 2^21 in size, the product below is < 2^42, and
+ * the step over one row, 16 dx / dy, is < 2^25.
  */
 static void add_edge(struct scan *s, const int32_t a[2], const int32_t b[2], int32_t low)
 {
@@ -212,8 +212,8 @@ bool scan_cells_next(struct scan_cells *s, struct scan_run *run)
             add_crossing(up ? a : b, up ? b : a, y0, &low, &high);
             add_crossing(up ? a : b, up ? b : a, y1, &low, &high);
         }
-        touched(low - s->grow - s->grid.x0, high + s->grow - s->grid.x0, s->grid.shift,
-                s->grid.nx, &run->x0, &run->x1);
+        touched(low - s->grow - s->grid.x0, high + s->grow - s->grid.x0, s->grid.shift, s->grid.nx,
+                &run->x0, &run->x1);
         if (run->x0 < run->x1) {
             return true;
         }

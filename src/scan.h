@@ -8,9 +8,9 @@
  * left or lower edge is inside, on a right or upper edge outside, so that polygons that share an
  * edge draw no pixel twice and leave none out.
  *
- * The cell walk is conservative: it gives every cell that the closed polygon, grown by `grow` on all
- * four sides, touches. It may give a few more, never fewer. Degenerate polygons (edge-on, a point)
- * give the cells of their edges.
+ * The cell walk is conservative: it gives every cell that the closed polygon, grown by `grow` on
+ * all four sides, touches. It may give a few more, never fewer. Degenerate polygons (edge-on, a
+ * point) give the cells of their edges.
  */
 #ifndef CAROM_SRC_SCAN_H
 #define CAROM_SRC_SCAN_H

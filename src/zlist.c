@@ -77,9 +77,9 @@ static int64_t floor_div(int64_t n, int64_t d)
 }
 
 /*
- * Narrow [*z0, *z1] to the z of the face's plane over an area. With n = u x v and s = sign(n.z), the
- * height over corner 0 is -(n.x dx + n.y dy) / n.z, lowest where s n.x dx and s n.y dy are largest.
- * Nothing is narrowed for a plane that stands on edge or for a face beyond the bounds.
+ * Narrow [*z0, *z1] to the z of the face's plane over an area. With n = u x v and s = sign(n.z),
+ * the height over corner 0 is -(n.x dx + n.y dy) / n.z, lowest where s n.x dx and s n.y dy are
+ * largest. Nothing is narrowed for a plane that stands on edge or for a face beyond the bounds.
  *
  * Bounds: |u|, |v| < 2^18, so |n| < 2^37; |dx|, |dy| < 2^18, being within the face's own rectangle;
  * so each product is < 2^55 and their sum < 2^56.

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The state hash and snapshots. Both go through one description of the state, so that the hash is of
+ * exactly the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
+ *
+ *   u32 magic, u32 body places
+ *   a place: u8 0 free, 1 stationary, 2 moving; then, if not free: position 3 x i64,
+ *       momentum 3 x i64, angular momentum 3 x i64, rotation 4 x i32, u8 asleep, out, quiet
+ *   u32 count of kept impulses; each: u16 a, b, arm 3 x i32, normal 3 x i32, i64, tangent 3 x i64
+ *   u32 count of touching pairs; each: u16 a, b
+ *   u64 FNV-1a of all bytes before
+ */
+#include "world.h"
+
+#define MAGIC 0x31534d43u /* "CMS1" */
+#define FNV_START 0xcbf29ce484222325u
+#define FNV_PRIME 0x100000001b3u
+
+/* Bytes going out or coming in; `bytes` may be NULL when only their number or hash is wanted. */
+struct stream {
+    uint8_t *out;
+    const uint8_t *in;
+    size_t size, at;
+    uint64_t fnv;
+    bool loading, failed;
+};
+
+/* One number of `bytes` bytes; returns what the stream holds there. */
+static uint64_t word(struct stream *s, uint64_t v, int bytes)
+{
+    uint64_t read = 0;
+
+    for (int i = 0; i < bytes; i++) {
+        uint8_t b = (uint8_t)(v >> (8 * i));
+
+        if (s->loading) {
+            if (s->at >= s->size) {
+                s->failed = true;
+                return 0;
+            }
+            b = s->in[s->at];
+        } else if (s->out) {
+            s->out[s->at] = b;
+        }
+        read |= (uint64_t)b << (8 * i);
+        s->fnv = (s->fnv ^ b) * FNV_PRIME;
+        s->at++;
+    }
+    return read;
+}
+
+static void number64(struct stream *s, int64_t *v)
+{
+    *v = (int64_t)word(s, (uint64_t)*v, 8);
+}
+
+static void number32(struct stream *s, int32_t *v)
+{
+    *v = (int32_t)(uint32_t)word(s, (uint32_t)*v, 4);
+}
+
+static void number16(struct stream *s, uint16_t *v)
+{
+    *v = (uint16_t)word(s, *v, 2);
+}
+
+static void number8(struct stream *s, uint8_t *v)
+{
+    *v = (uint8_t)word(s, *v, 1);
+}
+
+/* A count or a constant that must be what it is here. */
+static void expect(struct stream *s, uint32_t v, int bytes)
+{
+    if (word(s, v, bytes) != v) {
+        s->failed = true;
+    }
+}
+
+static void vector64(struct stream *s, int64_t v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        number64(s, &v[k]);
+    }
+}
+
+static void vector32(struct stream *s, int32_t *v, int n)
+{
+    for (int k = 0; k < n; k++) {
+        number32(s, &v[k]);
+    }
+}
+
+static void stream_body(struct stream *s, const struct body *b, struct body_state *state)
+{
+    expect(s, b->mesh ? (b->moving ? 2 : 1) : 0, 1);
+    if (b->mesh) {
+        vector64(s, state->position.c);
+        vector64(s, state->momentum.c);
+        vector64(s, state->angular.c);
+        vector32(s, state->rotation.c, 4);
+        number8(s, &state->asleep);
+        number8(s, &state->out);
+        number8(s, &state->quiet);
+    }
+}
+
+static void stream_warm(struct stream *s, struct rest_warm *w)
+{
+    number16(s, &w->a);
+    number16(s, &w->b);
+    vector32(s, w->arm.c, 3);
+    vector32(s, w->normal.c, 3);
+    number64(s, &w->normal_q40);
+    vector64(s, w->tangent_q40.c);
+}
+
+static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
+{
+    count = (uint32_t)word(s, count, 4);
+    if (count > most) {
+        s->failed = true;
+        count = 0;
+    }
+    return count;
+}
+
+/* The whole state, out of or into `state`. */
+static void stream_state(struct stream *s, const struct carom_world *w, struct world_state *state)
+{
+    uint64_t check;
+
+    s->fnv = FNV_START;
+    expect(s, MAGIC, 4);
+    expect(s, w->body_count, 4);
+    for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
+        stream_body(s, &w->bodies[i], &state->bodies[i]);
+    }
+    state->warm_count = stream_count(s, state->warm_count, w->config.caps.contacts);
+    for (uint32_t i = 0; i < state->warm_count && !s->failed; i++) {
+        stream_warm(s, &state->warm[i]);
+    }
+    state->touching_count = stream_count(s, state->touching_count, w->config.caps.pairs);
+    for (uint32_t i = 0; i < state->touching_count && !s->failed; i++) {
+        number16(s, &state->touching[i].a);
+        number16(s, &state->touching[i].b);
+    }
+    check = s->fnv;
+    if (word(s, check, 8) != check) {
+        s->failed = true;
+    }
+}
+
+uint64_t carom_world_hash(const struct carom_world *w)
+{
+    struct stream s;
+
+    if (!w) {
+        return 0;
+    }
+    memset(&s, 0, sizeof s);
+    stream_state(&s, w, world_now(w));
+    return s.fnv;
+}
+
+int carom_snapshot_size(const struct carom_world *w)
+{
+    struct stream s;
+
+    if (!w) {
+        return CAROM_ERR_NULL;
+    }
+    memset(&s, 0, sizeof s);
+    stream_state(&s, w, world_now(w));
+    return (int)s.at;
+}
+
+int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
+{
+    struct stream s;
+    int size = carom_snapshot_size(w);
+
+    if (size < 0 || !out) {
+        return CAROM_ERR_NULL;
+    }
+    if (bytes < (size_t)size) {
+        return CAROM_ERR_MEMORY;
+    }
+    memset(&s, 0, sizeof s);
+    s.out = out;
+    stream_state(&s, w, world_now(w));
+    return size;
+}
+
+/* A snapshot may be whole and still hold what no step could have left. */
+static bool plausible(const struct carom_world *w, const struct world_state *state)
+{
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        const struct body_state *s = &state->bodies[i];
+        int64_t square_q60 = 0;
+
+        if (!w->bodies[i].mesh) {
+            continue;
+        }
+        for (int k = 0; k < 4; k++) {
+            square_q60 += (int64_t)(s->rotation.c[k] >> 1) * (s->rotation.c[k] >> 1) * 4;
+        }
+        if (s->asleep > 1 || s->out > 1 || carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 40 ||
+            !world_in_range(&w->bodies[i], s)) {
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < state->warm_count; i++) {
+        if (state->warm[i].a >= w->body_count || state->warm[i].b >= w->body_count) {
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < state->touching_count; i++) {
+        if (state->touching[i].a >= w->body_count || state->touching[i].b >= w->body_count) {
+            return false;
+        }
+    }
+    return true;
+}
+
+int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
+{
+    struct world_state *next;
+    struct stream s;
+
+    if (!w || !in) {
+        return CAROM_ERR_NULL;
+    }
+    /* built beside the current state, like a step */
+    next = &w->states[1 - w->now];
+    memset(&s, 0, sizeof s);
+    s.in = in;
+    s.size = bytes;
+    s.loading = true;
+    memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
+    stream_state(&s, w, next);
+    if (s.failed || s.at != bytes || !plausible(w, next)) {
+        return CAROM_ERR_FORMAT;
+    }
+    w->now = 1 - w->now;
+    return CAROM_OK;
+}

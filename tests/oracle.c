@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "oracle.h"
+
+/* ------------------------------------------------------------------- vectors */
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        out[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+static void subtract(double out[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[k] - b[k];
+    }
+}
+
+static bool normalise(double v[3])
+{
+    double length = sqrt(dot(v, v));
+
+    for (int k = 0; k < 3; k++) {
+        v[k] /= length;
+    }
+    return length > 0;
+}
+
+static void rotate(double out[3], const struct oracle_matrix *m, const double v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = dot(m->row[k], v);
+    }
+}
+
+/* fmin and fmax are calls, these are not. */
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static void *need(size_t count, size_t bytes)
+{
+    void *memory = calloc(count ? count : 1, bytes);
+
+    if (!memory) {
+        fputs("oracle: no memory\n", stderr);
+        exit(1);
+    }
+    return memory;
+}
+
+/* -------------------------------------------------------------- meshes, poses */
+
+struct oracle_mesh oracle_mesh_make(const int16_t (*vertices)[3], size_t vertex_count,
+                                    const uint16_t (*faces)[3], size_t face_count, int quantum_bits)
+{
+    struct oracle_mesh mesh = {vertex_count, face_count, NULL, NULL};
+
+    mesh.vertices = need(vertex_count, sizeof *mesh.vertices);
+    mesh.faces = need(face_count, sizeof *mesh.faces);
+    for (size_t v = 0; v < vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            mesh.vertices[v][k] = ldexp(vertices[v][k], -quantum_bits);
+        }
+    }
+    for (size_t f = 0; f < face_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            mesh.faces[f][k] = faces[f][k];
+        }
+    }
+    return mesh;
+}
+
+void oracle_mesh_free(struct oracle_mesh *mesh)
+{
+    free(mesh->vertices);
+    free(mesh->faces);
+    *mesh = (struct oracle_mesh){0};
+}
+
+/* Column k of the matrix is q e_k q*, by Rodrigues: e + 2 w (u x e) + 2 u x (u x e). */
+static struct oracle_matrix matrix_of(const double quaternion[4])
+{
+    struct oracle_matrix m;
+    double length = 0, w, u[3];
+
+    for (int k = 0; k < 4; k++) {
+        length += quaternion[k] * quaternion[k];
+    }
+    length = sqrt(length);
+    w = quaternion[0] / length;
+    for (int k = 0; k < 3; k++) {
+        u[k] = quaternion[k + 1] / length;
+    }
+    for (int k = 0; k < 3; k++) {
+        double axis[3] = {k == 0, k == 1, k == 2}, once[3], twice[3];
+
+        cross(once, u, axis);
+        cross(twice, u, once);
+        for (int i = 0; i < 3; i++) {
+            m.row[i][k] = axis[i] + 2 * w * once[i] + 2 * twice[i];
+        }
+    }
+    return m;
+}
+
+struct oracle_pose oracle_pose_make(const double position[3], const double quaternion[4],
+                                    const double centre[3])
+{
+    struct oracle_pose pose;
+    double turned[3];
+
+    pose.rotation = matrix_of(quaternion);
+    rotate(turned, &pose.rotation, centre);
+    subtract(pose.position, position, turned);
+    return pose;
+}
+
+/* ------------------------------------------------------------------ piercing */
+
+double oracle_piercing(const double p[3], const double q[3], const double a[3], const double b[3],
+                       const double c[3])
+{
+    const double *corner[3] = {a, b, c};
+    double side[3][3], normal[3], to_p[3], to_q[3], point[3], above_p, above_q, depth;
+
+    for (int k = 0; k < 3; k++) {
+        subtract(side[k], corner[(k + 1) % 3], corner[k]);
+    }
+    cross(normal, side[0], side[1]);
+    if (!normalise(normal)) {
+        return 0;
+    }
+    subtract(to_p, p, a);
+    subtract(to_q, q, a);
+    above_p = dot(normal, to_p);
+    above_q = dot(normal, to_q);
+    if ((above_p > 0) == (above_q > 0)) {
+        return 0;
+    }
+    depth = smaller(fabs(above_p), fabs(above_q));
+    for (int k = 0; k < 3; k++) {
+        point[k] = p[k] + (q[k] - p[k]) * (above_p / (above_p - above_q));
+    }
+    for (int k = 0; k < 3; k++) {
+        double inwards[3], from[3];
+
+        cross(inwards, normal, side[k]);
+        if (!normalise(inwards)) {
+            return 0;
+        }
+        subtract(from, point, corner[k]);
+        depth = smaller(depth, dot(inwards, from));
+    }
+    return depth;
+}
+
+/* ------------------------------------------------------------------ crossings */
+
+/* A face in the world, with its box. */
+struct placed {
+    double corner[3][3];
+    double low[3], high[3];
+    uint32_t face;
+};
+
+struct set {
+    struct placed *items;
+    size_t count;
+    double low[3], high[3]; /* box of all */
+};
+
+static void place(struct placed *out, const struct oracle_mesh *mesh, uint32_t face,
+                  double (*world)[3])
+{
+    out->face = face;
+    for (int i = 0; i < 3; i++) {
+        memcpy(out->corner[i], world[mesh->faces[face][i]], sizeof out->corner[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        out->low[k] = smaller(out->corner[0][k], smaller(out->corner[1][k], out->corner[2][k]));
+        out->high[k] = larger(out->corner[0][k], larger(out->corner[1][k], out->corner[2][k]));
+    }
+}
+
+/* All faces of a mesh in the world. */
+static struct set place_all(const struct oracle_mesh *mesh, const struct oracle_pose *pose)
+{
+    struct set set = {need(mesh->face_count, sizeof *set.items), mesh->face_count, {0}, {0}};
+    double(*world)[3] = need(mesh->vertex_count, sizeof *world);
+
+    for (int k = 0; k < 3; k++) {
+        set.low[k] = HUGE_VAL;
+        set.high[k] = -HUGE_VAL;
+    }
+    for (size_t v = 0; v < mesh->vertex_count; v++) {
+        rotate(world[v], &pose->rotation, mesh->vertices[v]);
+        for (int k = 0; k < 3; k++) {
+            world[v][k] += pose->position[k];
+            set.low[k] = smaller(set.low[k], world[v][k]);
+            set.high[k] = larger(set.high[k], world[v][k]);
+        }
+    }
+    for (uint32_t f = 0; f < mesh->face_count; f++) {
+        place(&set.items[f], mesh, f, world);
+    }
+    free(world);
+    return set;
+}
+
+static bool boxes_meet(const double low_a[3], const double high_a[3], const double low_b[3],
+                       const double high_b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (low_a[k] > high_b[k] || low_b[k] > high_a[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keep only the faces that meet a box. */
+static void keep_in(struct set *set, const double low[3], const double high[3])
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < set->count; i++) {
+        if (boxes_meet(set->items[i].low, set->items[i].high, low, high)) {
+            set->items[kept++] = set->items[i];
+        }
+    }
+    set->count = kept;
+}
+
+static int by_low_x(const void *a, const void *b)
+{
+    double x = ((const struct placed *)a)->low[0], y = ((const struct placed *)b)->low[0];
+
+    return (x > y) - (x < y);
+}
+
+/* The deepest of the three edges of one face through the other. */
+static double deepest_edge(const struct placed *edges, const struct placed *face)
+{
+    double depth = 0;
+
+    for (int k = 0; k < 3; k++) {
+        depth = larger(depth, oracle_piercing(edges->corner[k], edges->corner[(k + 1) % 3],
+                                              face->corner[0], face->corner[1], face->corner[2]));
+    }
+    return depth;
+}
+
+static void test_pair(struct oracle_crossings *out, const struct placed *a, const struct placed *b,
+                      double tolerance)
+{
+    double depth_a = deepest_edge(a, b), depth_b = deepest_edge(b, a);
+    double depth = larger(depth_a, depth_b);
+
+    if (depth <= tolerance) {
+        return;
+    }
+    out->pairs++;
+    out->by_a += depth_a > tolerance;
+    out->by_b += depth_b > tolerance;
+    if (depth > out->depth) {
+        out->depth = depth;
+        out->face_a = a->face;
+        out->face_b = b->face;
+    }
+}
+
+/* Sweep along x: each face against those of the other mesh that begin within its extent. */
+static void sweep(struct oracle_crossings *out, const struct set *a, const struct set *b,
+                  double tolerance)
+{
+    size_t i = 0, j = 0;
+
+    while (i < a->count && j < b->count) {
+        bool first_is_a = a->items[i].low[0] <= b->items[j].low[0];
+        const struct placed *first = first_is_a ? &a->items[i] : &b->items[j];
+        const struct set *others = first_is_a ? b : a;
+
+        for (size_t k = first_is_a ? j : i;
+             k < others->count && others->items[k].low[0] <= first->high[0]; k++) {
+            const struct placed *other = &others->items[k];
+
+            if (boxes_meet(first->low, first->high, other->low, other->high)) {
+                test_pair(out, first_is_a ? first : other, first_is_a ? other : first, tolerance);
+            }
+        }
+        *(first_is_a ? &i : &j) += 1;
+    }
+}
+
+struct oracle_crossings oracle_crossings(const struct oracle_mesh *a,
+                                         const struct oracle_pose *pose_a,
+                                         const struct oracle_mesh *b,
+                                         const struct oracle_pose *pose_b, double tolerance)
+{
+    struct oracle_crossings out = {0};
+    struct set set_a = place_all(a, pose_a), set_b = place_all(b, pose_b);
+
+    keep_in(&set_a, set_b.low, set_b.high);
+    keep_in(&set_b, set_a.low, set_a.high);
+    qsort(set_a.items, set_a.count, sizeof *set_a.items, by_low_x);
+    qsort(set_b.items, set_b.count, sizeof *set_b.items, by_low_x);
+    sweep(&out, &set_a, &set_b, tolerance);
+    free(set_a.items);
+    free(set_b.items);
+    return out;
+}
+
+/* --------------------------------------------------------------------- energy */
+
+double oracle_energy(const struct oracle_body *body, const double gravity[3])
+{
+    const double *i = body->inertia;
+    const struct oracle_matrix tensor = {
+        {{i[0], i[3], i[5]}, {i[3], i[1], i[4]}, {i[5], i[4], i[2]}}};
+    const struct oracle_matrix m = matrix_of(body->quaternion);
+    double spin[3] = {0, 0, 0}, momentum[3]; /* in the body's axes */
+
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            spin[k] += m.row[j][k] * body->spin[j];
+        }
+    }
+    rotate(momentum, &tensor, spin);
+    return body->mass * (dot(body->velocity, body->velocity) / 2 + dot(spin, momentum) / 2 -
+                         dot(gravity, body->position));
+}

@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "mass.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define CASES 2000
+#else
+#define CASES 60
+#endif
+
+static double power(double base, int n)
+{
+    double p = 1;
+
+    for (int i = 0; i < (n < 0 ? -n : n); i++) {
+        p *= base;
+    }
+    return n < 0 ? 1 / p : p;
+}
+
+static double magnitude(double v)
+{
+    return v < 0 ? -v : v;
+}
+
+/* A mesh with room for a few boxes. */
+struct shape {
+    int16_t vertices[24][3];
+    uint16_t faces[36][3];
+    struct carom_mesh_raw raw;
+};
+
+static void finish(struct shape *s, uint32_t vertices, uint32_t faces, int quantum_bits)
+{
+    s->raw.vertices = (const int16_t(*)[3])s->vertices;
+    s->raw.faces = (const uint16_t(*)[3])s->faces;
+    s->raw.vertex_count = vertices;
+    s->raw.face_count = faces;
+    s->raw.quantum_bits = (uint8_t)quantum_bits;
+    s->raw.kind = CAROM_SOLID;
+}
+
+/* Add a box; the corner number has a bit for each axis. */
+static void add_box(struct shape *s, const int16_t low[3], const int16_t high[3], int quantum_bits)
+{
+    static const uint8_t sides[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                         {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                         {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    uint32_t v = s->raw.vertex_count, f = s->raw.face_count;
+
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 3; k++) {
+            s->vertices[v + (uint32_t)i][k] = i >> k & 1 ? high[k] : low[k];
+        }
+    }
+    for (int i = 0; i < 12; i++) {
+        for (int k = 0; k < 3; k++) {
+            s->faces[f + (uint32_t)i][k] = (uint16_t)(v + sides[i][k]);
+        }
+    }
+    finish(s, v + 8, f + 12, quantum_bits);
+}
+
+static void make_tetrahedron(struct shape *s, struct test_random *r, int quantum_bits)
+{
+    static const uint16_t sides[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    int64_t det = 0;
+
+    while (det == 0) {
+        int64_t e[3][3];
+
+        for (int i = 0; i < 4; i++) {
+            for (int k = 0; k < 3; k++) {
+                s->vertices[i][k] = (int16_t)test_random_range(r, -32768, 32767);
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 3; k++) {
+                e[i][k] = s->vertices[i + 1][k] - s->vertices[0][k];
+            }
+        }
+        for (int i = 0; i < 3; i++) {
+            det += e[0][i] *
+                   (e[1][(i + 1) % 3] * e[2][(i + 2) % 3] - e[1][(i + 2) % 3] * e[2][(i + 1) % 3]);
+        }
+    }
+    memcpy(s->faces, sides, sizeof sides);
+    for (int i = 0; det < 0 && i < 4; i++) {
+        s->faces[i][0] = sides[i][1];
+        s->faces[i][1] = sides[i][0];
+    }
+    finish(s, 4, 4, quantum_bits);
+}
+
+static double entry(const struct carom_sym3 *s, int n)
+{
+    return (double)s->m[n] * power(0.5, s->e);
+}
+
+/* ------------------------------------------------------------------------ mass */
+
+/* A box: (b^2 + c^2) / 12, wherever it is and whatever the quantum. */
+static void test_box(void)
+{
+    struct test_random r = {1};
+
+    for (int n = 0; n < CASES; n++) {
+        struct shape s = {.raw = {0}};
+        struct carom_mass m;
+        int16_t low[3], high[3];
+        double side[3], quantum, volume, largest = 0;
+        int bits = 7 + n % 14;
+
+        quantum = power(0.5, bits);
+        for (int k = 0; k < 3; k++) {
+            low[k] = (int16_t)test_random_range(&r, -32768, n % 3 ? 32000 : 32766);
+            high[k] = (int16_t)test_random_range(&r, low[k] + 1, n % 3 ? 32767 : low[k] + 1);
+            side[k] = (high[k] - low[k]) * quantum;
+        }
+        add_box(&s, low, high, bits);
+        CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+        volume = side[0] * side[1] * side[2] * 4294967296.0;
+        CHECK(magnitude((double)m.volume_q32 - volume) <= 0.5 + volume * 1e-15);
+        for (int k = 0; k < 3; k++) {
+            double i =
+                (side[(k + 1) % 3] * side[(k + 1) % 3] + side[(k + 2) % 3] * side[(k + 2) % 3]) /
+                12;
+
+            largest = i > largest ? i : largest;
+        }
+        for (int k = 0; k < 3; k++) {
+            double i =
+                (side[(k + 1) % 3] * side[(k + 1) % 3] + side[(k + 2) % 3] * side[(k + 2) % 3]) /
+                12;
+
+            /* a centre has one more bit than a quantum: it is exact in q22 */
+            CHECK_EQ(m.centre.c[k], carom_shl(low[k] + high[k], 21 - bits));
+            CHECK(magnitude(entry(&m.inertia, k) - i) <= 1e-8 * largest);
+            CHECK(magnitude(entry(&m.inertia, 3 + k)) <= 1e-8 * largest);
+        }
+    }
+}
+
+/* A tetrahedron's covariance is 1/20 of the sum of d d^T, d from the centre to each corner. */
+static void test_tetrahedron(void)
+{
+    struct test_random r = {2};
+
+    for (int n = 0; n < CASES; n++) {
+        struct shape s;
+        struct carom_mass m;
+        int bits = 7 + n % 14;
+        double quantum = power(0.5, bits), centre[3], cov[3][3], largest = 0, expected[6];
+
+        make_tetrahedron(&s, &r, bits);
+        CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+        for (int k = 0; k < 3; k++) {
+            int32_t sum = 0;
+
+            for (int i = 0; i < 4; i++) {
+                sum += s.vertices[i][k];
+            }
+            centre[k] = sum / 4.0;
+            CHECK_EQ(m.centre.c[k], carom_shl(sum, 20 - bits));
+        }
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                cov[i][j] = 0;
+                for (int v = 0; v < 4; v++) {
+                    cov[i][j] += (s.vertices[v][i] - centre[i]) * (s.vertices[v][j] - centre[j]) *
+                                 quantum * quantum / 20;
+                }
+            }
+        }
+        for (int k = 0; k < 3; k++) {
+            expected[k] = cov[(k + 1) % 3][(k + 1) % 3] + cov[(k + 2) % 3][(k + 2) % 3];
+            expected[3 + k] = -cov[k][(k + 1) % 3];
+            largest = expected[k] > largest ? expected[k] : largest;
+        }
+        for (int k = 0; k < 6; k++) {
+            CHECK(magnitude(entry(&m.inertia, k) - expected[k]) <= 1e-8 * largest);
+        }
+    }
+}
+
+/* Two boxes that do not touch: volumes add, and the parallel axis theorem gives the rest. */
+static void test_two_boxes(void)
+{
+    struct shape s = {.raw = {0}};
+    struct carom_mass m;
+    const int16_t a0[3] = {-3000, 100, 7}, a1[3] = {-1000, 900, 507};
+    const int16_t b0[3] = {2000, -500, -900}, b1[3] = {2300, 400, -100};
+    double mass[2], centre[2][3], mean[3], own[2][3], expected[6], total;
+
+    add_box(&s, a0, a1, 10);
+    add_box(&s, b0, b1, 10);
+    CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+    mass[0] = mass[1] = 1;
+    for (int k = 0; k < 3; k++) {
+        double side_a = (a1[k] - a0[k]) / 1024.0, side_b = (b1[k] - b0[k]) / 1024.0;
+
+        mass[0] *= side_a;
+        mass[1] *= side_b;
+        centre[0][k] = (a0[k] + a1[k]) / 2048.0;
+        centre[1][k] = (b0[k] + b1[k]) / 2048.0;
+        own[0][k] = side_a * side_a / 12; /* variance along the axis */
+        own[1][k] = side_b * side_b / 12;
+    }
+    total = mass[0] + mass[1];
+    for (int k = 0; k < 3; k++) {
+        mean[k] = (mass[0] * centre[0][k] + mass[1] * centre[1][k]) / total;
+    }
+    for (int k = 0; k < 3; k++) {
+        int j = (k + 1) % 3, l = (k + 2) % 3;
+
+        expected[k] = expected[3 + k] = 0;
+        for (int i = 0; i < 2; i++) {
+            double dj = centre[i][j] - mean[j], dl = centre[i][l] - mean[l];
+            double dk = centre[i][k] - mean[k];
+
+            expected[k] += mass[i] / total * (own[i][j] + own[i][l] + dj * dj + dl * dl);
+            expected[3 + k] -= mass[i] / total * dk * dj;
+        }
+    }
+    CHECK(magnitude((double)m.volume_q32 - total * 4294967296.0) <= 1);
+    for (int k = 0; k < 3; k++) {
+        CHECK(magnitude(m.centre.c[k] - mean[k] * 4194304) <= 0.5 + 1e-6);
+        CHECK(magnitude(entry(&m.inertia, k) - expected[k]) <= 1e-8 * expected[1]);
+        CHECK(magnitude(entry(&m.inertia, 3 + k) - expected[3 + k]) <= 1e-8 * expected[1]);
+    }
+}
+
+/* Moved by whole quanta a mesh keeps its volume, inertia and centre, to the bit. */
+static void test_moved(void)
+{
+    struct shape s = {.raw = {0}};
+    struct carom_mass m, moved;
+    const int16_t low[3] = {-31, 2, 5}, high[3] = {12, 33, 100}, by[3] = {32000, -32001, -300};
+
+    add_box(&s, low, high, 12);
+    s.vertices[7][0] = 29; /* not quite a box */
+    CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
+    for (int v = 0; v < 8; v++) {
+        for (int k = 0; k < 3; k++) {
+            s.vertices[v][k] = (int16_t)(s.vertices[v][k] + by[k]);
+        }
+    }
+    CHECK_EQ(mass_of_mesh(&s.raw, &moved), CAROM_OK);
+    CHECK_EQ(moved.volume_q32, m.volume_q32);
+    CHECK(memcmp(&moved.inertia, &m.inertia, sizeof m.inertia) == 0);
+    for (int k = 0; k < 3; k++) {
+        CHECK_EQ(moved.centre.c[k], m.centre.c[k] + by[k] * 1024);
+    }
+}
+
+static void turn_inside_out(struct shape *s, uint32_t first, uint32_t count)
+{
+    for (uint32_t f = first; f < first + count; f++) {
+        uint16_t v = s->faces[f][0];
+
+        s->faces[f][0] = s->faces[f][1];
+        s->faces[f][1] = v;
+    }
+}
+
+static void test_refused(void)
+{
+    struct carom_mass m, before;
+    const int16_t a0[3] = {0, 0, 0}, a1[3] = {100, 100, 100};
+    const int16_t b0[3] = {200, 0, 0}, b1[3] = {300, 100, 99}, whole0[3] = {-32768, -32768, -32768};
+    const int16_t whole1[3] = {32767, 32767, 32767};
+    struct shape s = {.raw = {0}}, pair = {.raw = {0}}, twice = {.raw = {0}};
+
+    memset(&m, 0x5a, sizeof m);
+    before = m;
+    add_box(&s, a0, a1, 8);
+    turn_inside_out(&s, 0, 12);
+    CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
+
+    for (int v = 0; v < 8; v++) {
+        s.vertices[v][2] = 7;
+    }
+    CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_ERR_MESH_EMPTY);
+
+    /* 1 % more outside than inside: the centre is a hundred boxes away */
+    add_box(&pair, a0, a1, 8);
+    add_box(&pair, b0, b1, 8);
+    turn_inside_out(&pair, 12, 12);
+    CHECK_EQ(mass_of_mesh(&pair.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
+
+    /* twice the largest volume there is */
+    add_box(&twice, whole0, whole1, 8);
+    add_box(&twice, whole0, whole1, 8);
+    CHECK_EQ(mass_of_mesh(&twice.raw, &m), CAROM_ERR_RANGE);
+    CHECK(memcmp(&m, &before, sizeof m) == 0);
+}
+
+/* ---------------------------------------------------------------------- invert */
+
+static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+
+/* The largest entry of a b - 1. */
+static double inverse_error(const struct carom_sym3 *a, const struct carom_sym3 *b)
+{
+    double worst = 0;
+
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            double sum = i == j ? -1 : 0;
+
+            for (int k = 0; k < 3; k++) {
+                sum += entry(a, place[i][k]) * entry(b, place[k][j]);
+            }
+            worst = magnitude(sum) > worst ? magnitude(sum) : worst;
+        }
+    }
+    return worst;
+}
+
+/* Inertias of boxes whose sides differ by up to 1:32, turned; any exponent. */
+static void test_invert(void)
+{
+    struct test_random r = {3};
+
+    for (int n = 0; n < CASES; n++) {
+        struct carom_sym3 a, b;
+        double u[3][3], side[3], m[6], length;
+
+        for (int k = 0; k < 3; k++) {
+            side[k] = power(2, (int)test_random_range(&r, 0, 5));
+            for (int j = 0; j < 3; j++) {
+                u[k][j] = (double)test_random_range(&r, -100, 100) / 100;
+            }
+        }
+        length = u[0][0] * u[0][0] + u[0][1] * u[0][1] + u[0][2] * u[0][2] + 0.01;
+        for (int i = 0; i < 3; i++) {
+            for (int j = i; j < 3; j++) {
+                /* a reflection turns the axes: H = 1 - 2 u u^T / |u|^2, nearly */
+                double sum = 0;
+
+                for (int k = 0; k < 3; k++) {
+                    double hi = (i == k) - 2 * u[0][i] * u[0][k] / length;
+                    double hj = (j == k) - 2 * u[0][j] * u[0][k] / length;
+                    double others = side[(k + 1) % 3] * side[(k + 1) % 3] +
+                                    side[(k + 2) % 3] * side[(k + 2) % 3];
+
+                    sum += hi * hj * others / 2048;
+                }
+                m[place[i][j]] = sum;
+            }
+        }
+        for (int k = 0; k < 6; k++) {
+            a.m[k] = (int32_t)(m[k] * power(2, 28 - n % 8));
+        }
+        a.e = (int32_t)test_random_range(&r, -20, 60);
+        CHECK_EQ(mass_invert(&a, &b), 0);
+        CHECK(inverse_error(&a, &b) < 1e-6);
+    }
+}
+
+static void test_invert_exact(void)
+{
+    /* 2, 4, 8 on the diagonal; 1/2, 1/4, 1/8 */
+    struct carom_sym3 a = {{2, 4, 8, 0, 0, 0}, 0}, b;
+    struct carom_sym3 flat = {{1 << 29, 1 << 29, 1 << 29, 1 << 29, 1 << 29, 1 << 29}, 30};
+    struct carom_sym3 zero = {{0}, 0};
+
+    CHECK_EQ(mass_invert(&a, &b), 0);
+    CHECK_NEAR(b.m[0], (int64_t)1 << (b.e - 1), 2);
+    CHECK_NEAR(b.m[1], (int64_t)1 << (b.e - 2), 2);
+    CHECK_NEAR(b.m[2], (int64_t)1 << (b.e - 3), 2);
+    CHECK(b.m[3] == 0 && b.m[4] == 0 && b.m[5] == 0);
+    CHECK_EQ(mass_invert(&flat, &b), -1);
+    CHECK_EQ(mass_invert(&zero, &b), -1);
+}
+
+const struct test tests_mass[] = {
+    {"mass/box", test_box},
+    {"mass/tetrahedron", test_tetrahedron},
+    {"mass/two_boxes", test_two_boxes},
+    {"mass/moved", test_moved},
+    {"mass/refused", test_refused},
+    {"mass/invert", test_invert},
+    {"mass/invert_exact", test_invert_exact},
+    {0},
+};

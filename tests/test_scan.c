@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "scan.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define CASES 20000
+#else
+#define CASES 300
+#endif
+
+static int64_t cross(const int32_t a[2], const int32_t b[2], const int32_t p[2])
+{
+    return (int64_t)(b[0] - a[0]) * (p[1] - a[1]) - (int64_t)(b[1] - a[1]) * (p[0] - a[0]);
+}
+
+/* ------------------------------------------------------------------ polygons */
+
+struct polygon {
+    int32_t xy[SCAN_MAX][2];
+    int n;
+};
+
+static const int32_t (*corners(const struct polygon *p))[2]
+{
+    return (const int32_t(*)[2])p->xy;
+}
+
+static void random_points(struct test_random *r, struct polygon *p, int n, int32_t size)
+{
+    p->n = n;
+    for (int i = 0; i < n; i++) {
+        p->xy[i][0] = (int32_t)test_random_range(r, -size, size);
+        p->xy[i][1] = (int32_t)test_random_range(r, -size, size);
+    }
+}
+
+/* Gift wrapping: the counter-clockwise hull of up to 8 points, fewer than 3 when they are in line.
+ */
+static void random_hull(struct test_random *r, struct polygon *hull, int32_t size)
+{
+    struct polygon p;
+    int start = 0, at;
+
+    random_points(r, &p, SCAN_MAX, size);
+    for (int i = 1; i < p.n; i++) {
+        if (p.xy[i][0] < p.xy[start][0] ||
+            (p.xy[i][0] == p.xy[start][0] && p.xy[i][1] < p.xy[start][1])) {
+            start = i;
+        }
+    }
+    hull->n = 0;
+    at = start;
+    do {
+        int next = (at + 1) % p.n;
+
+        memcpy(hull->xy[hull->n++], p.xy[at], sizeof p.xy[at]);
+        for (int i = 0; i < p.n; i++) {
+            int64_t c = cross(p.xy[at], p.xy[next], p.xy[i]);
+            int64_t near =
+                carom_abs(p.xy[next][0] - p.xy[at][0]) + carom_abs(p.xy[next][1] - p.xy[at][1]);
+            int64_t far = carom_abs(p.xy[i][0] - p.xy[at][0]) + carom_abs(p.xy[i][1] - p.xy[at][1]);
+
+            if (c < 0 || (c == 0 && far > near)) {
+                next = i;
+            }
+        }
+        at = next;
+    } while (at != start && hull->n < SCAN_MAX);
+}
+
+static void reverse(struct polygon *p)
+{
+    for (int i = 0, j = p->n - 1; i < j; i++, j--) {
+        for (int k = 0; k < 2; k++) {
+            int32_t v = p->xy[i][k];
+
+            p->xy[i][k] = p->xy[j][k];
+            p->xy[j][k] = v;
+        }
+    }
+}
+
+/* -------------------------------------------------------------------- pixels */
+
+/*
+ * The fill rule by half planes, for a counter-clockwise polygon: on or left of every side, and
+ * where on it, the side must run down (a left edge) or to the right (a lower one).
+ */
+static bool covers(const struct polygon *p, int32_t x, int32_t y)
+{
+    int32_t centre[2] = {16 * x + 8, 16 * y + 8};
+
+    for (int i = 0; i < p->n; i++) {
+        const int32_t *a = p->xy[i], *b = p->xy[(i + 1) % p->n];
+        int64_t c = cross(a, b, centre);
+        bool left = b[1] < a[1], lower = b[1] == a[1] && b[0] > a[0];
+
+        if (c < 0 || (c == 0 && !left && !lower)) {
+            return false;
+        }
+    }
+    return p->n >= 3;
+}
+
+#define SIDE 40
+static uint8_t painted[SIDE][SIDE];
+
+/* Paint a polygon into the middle of a picture whose pixel 0, 0 is at (x, y). Returns whether the
+ * runs come in order, are not empty and stay inside the clip rectangle. */
+static bool paint(const struct polygon *p, struct scan_rect clip, int32_t x, int32_t y)
+{
+    struct scan s;
+    struct scan_run run;
+    int32_t last = INT32_MIN;
+    bool good = true;
+
+    scan_begin(&s, corners(p), p->n, clip);
+    while (scan_next(&s, &run)) {
+        good = good && run.y > last && run.x0 < run.x1 && run.x0 >= clip.x0 && run.x1 <= clip.x1 &&
+               run.y >= clip.y0 && run.y < clip.y1;
+        last = run.y;
+        for (int32_t i = run.x0; good && i < run.x1; i++) {
+            painted[run.y - y][i - x]++;
+        }
+    }
+    return good && !scan_next(&s, &run);
+}
+
+/* Whether the picture holds exactly the pixels of the polygon within clip. */
+static bool painted_right(const struct polygon *p, struct scan_rect clip, int32_t x, int32_t y)
+{
+    bool good = true;
+
+    for (int32_t row = 0; row < SIDE; row++) {
+        for (int32_t col = 0; col < SIDE; col++) {
+            bool inside =
+                col + x >= clip.x0 && col + x < clip.x1 && row + y >= clip.y0 && row + y < clip.y1;
+
+            good = good && painted[row][col] == (inside && covers(p, col + x, row + y));
+        }
+    }
+    return good;
+}
+
+static void test_pixels(void)
+{
+    struct test_random r = {1};
+
+    for (int n = 0; n < CASES / 2; n++) {
+        struct polygon p, walked;
+        struct scan_rect clip = {-SIDE / 2, -SIDE / 2, SIDE / 2, SIDE / 2};
+
+        /* on whole and half pixels now and then, where the ties are */
+        random_hull(&r, &p, n % 3 ? 16 * SIDE / 2 : SIDE);
+        for (int i = 0; n % 3 == 0 && i < p.n; i++) {
+            p.xy[i][0] *= 8;
+            p.xy[i][1] *= 8;
+        }
+        if (n % 4 == 0) {
+            clip.x0 = (int32_t)test_random_range(&r, -SIDE / 2, SIDE / 2);
+            clip.y0 = (int32_t)test_random_range(&r, -SIDE / 2, SIDE / 2);
+            clip.x1 = (int32_t)test_random_range(&r, clip.x0, SIDE / 2);
+            clip.y1 = (int32_t)test_random_range(&r, clip.y0, SIDE / 2);
+        }
+        walked = p;
+        if (n % 2) {
+            reverse(&walked);
+        }
+        memset(painted, 0, sizeof painted);
+        CHECK(paint(&walked, clip, -SIDE / 2, -SIDE / 2));
+        CHECK(painted_right(&p, clip, -SIDE / 2, -SIDE / 2));
+    }
+}
+
+/* Triangles as large as may be, seen through a small window anywhere. */
+static void test_pixels_large(void)
+{
+    struct test_random r = {2};
+    int32_t most = (1 << 20) - 1;
+    int hits = 0;
+
+    for (int n = 0; n < CASES / 2; n++) {
+        struct polygon p;
+        struct scan_rect clip;
+
+        do {
+            random_points(&r, &p, 3, most);
+        } while (cross(p.xy[0], p.xy[1], p.xy[2]) == 0);
+        if (cross(p.xy[0], p.xy[1], p.xy[2]) < 0) {
+            reverse(&p);
+        }
+        /* around a point of a side, so that the window sees an edge */
+        clip.x0 =
+            (int32_t)(((int64_t)p.xy[0][0] * 3 + (int64_t)p.xy[1][0] * 5) / 8) / 16 - SIDE / 2;
+        clip.y0 =
+            (int32_t)(((int64_t)p.xy[0][1] * 3 + (int64_t)p.xy[1][1] * 5) / 8) / 16 - SIDE / 2;
+        clip.x1 = clip.x0 + SIDE;
+        clip.y1 = clip.y0 + SIDE;
+        memset(painted, 0, sizeof painted);
+        CHECK(paint(&p, clip, clip.x0, clip.y0));
+        CHECK(painted_right(&p, clip, clip.x0, clip.y0));
+        hits += painted[SIDE / 2 + 9][SIDE / 2 + 9] != painted[SIDE / 2 - 9][SIDE / 2 - 9];
+    }
+    CHECK(hits > CASES / 8);
+}
+
+/* Four triangles around a point of a rectangle give each of its pixels once. */
+static void test_pixels_partition(void)
+{
+    struct test_random r = {3};
+
+    for (int n = 0; n < CASES / 2; n++) {
+        int32_t grain = n % 2 ? 1 : 8;
+        int32_t x0 = (int32_t)test_random_range(&r, 0, 16 * 18 / grain) * grain;
+        int32_t y0 = (int32_t)test_random_range(&r, 0, 16 * 18 / grain) * grain;
+        int32_t x1 = (int32_t)test_random_range(&r, 16 * 20 / grain, 16 * SIDE / grain) * grain;
+        int32_t y1 = (int32_t)test_random_range(&r, 16 * 20 / grain, 16 * SIDE / grain) * grain;
+        int32_t corner[5][2] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}};
+        int32_t middle[2] = {(int32_t)test_random_range(&r, x0, x1),
+                             (int32_t)test_random_range(&r, y0, y1)};
+        struct scan_rect clip = {0, 0, SIDE, SIDE};
+        bool good = true;
+
+        memset(painted, 0, sizeof painted);
+        for (int i = 0; i < 4; i++) {
+            struct polygon p = {{{corner[i][0], corner[i][1]},
+                                 {corner[i + 1][0], corner[i + 1][1]},
+                                 {middle[0], middle[1]}},
+                                3};
+
+            good = good && paint(&p, clip, 0, 0);
+        }
+        for (int32_t y = 0; y < SIDE; y++) {
+            for (int32_t x = 0; x < SIDE; x++) {
+                bool inside =
+                    16 * x + 8 >= x0 && 16 * x + 8 < x1 && 16 * y + 8 >= y0 && 16 * y + 8 < y1;
+
+                good = good && painted[y][x] == inside;
+            }
+        }
+        CHECK(good);
+    }
+}
+
+/* Points and lines have no inside; what lies outside the clip gives nothing. */
+static void test_pixels_none(void)
+{
+    struct scan_rect clip = {0, 0, SIDE, SIDE};
+    struct polygon empty[] = {
+        {{{8, 8}}, 1},
+        {{{8, 8}, {200, 312}}, 2},
+        {{{8, 8}, {108, 108}, {208, 208}}, 3},
+        {{{8, 24}, {100, 24}, {50, 24}}, 3},
+        {{{-100, -100}, {-8, -100}, {-50, 500}}, 3},
+        {{{9, 9}, {15, 9}, {12, 23}}, 3}, /* between the centres */
+    };
+
+    for (unsigned i = 0; i < sizeof empty / sizeof empty[0]; i++) {
+        struct scan s;
+        struct scan_run run;
+
+        scan_begin(&s, corners(&empty[i]), empty[i].n, clip);
+        CHECK(!scan_next(&s, &run));
+    }
+}
+
+/* --------------------------------------------------------------------- cells */
+
+/*
+ * Whether a closed rectangle and a closed convex polygon have a point in common: no axis, of those
+ * of the rectangle and those square to the polygon's sides, keeps their shadows apart.
+ */
+static bool touches(const struct polygon *p, const int64_t low[2], const int64_t high[2])
+{
+    for (int axis = 0; axis < 2 + p->n; axis++) {
+        int64_t n[2] = {axis == 0, axis == 1};
+        int64_t p0 = INT64_MAX, p1 = INT64_MIN, r0, r1;
+
+        if (axis >= 2) {
+            const int32_t *a = p->xy[axis - 2], *b = p->xy[(axis - 1) % p->n];
+
+            n[0] = -(int64_t)(b[1] - a[1]);
+            n[1] = b[0] - a[0];
+        }
+        for (int i = 0; i < p->n; i++) {
+            int64_t d = n[0] * p->xy[i][0] + n[1] * p->xy[i][1];
+
+            p0 = d < p0 ? d : p0;
+            p1 = d > p1 ? d : p1;
+        }
+        r0 = n[0] * (n[0] > 0 ? low : high)[0] + n[1] * (n[1] > 0 ? low : high)[1];
+        r1 = n[0] * (n[0] > 0 ? high : low)[0] + n[1] * (n[1] > 0 ? high : low)[1];
+        if (p1 < r0 || r1 < p0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static uint8_t cell[64][64];
+
+/* Walk, and compare every cell of the grid with `touches`. Returns cells that are wrong. */
+static int wrong_cells(const struct polygon *p, const struct scan_grid *g, int32_t grow)
+{
+    struct scan_cells s;
+    struct scan_run run;
+    int wrong = 0;
+
+    memset(cell, 0, sizeof cell);
+    scan_cells_begin(&s, g, corners(p), p->n, grow);
+    while (scan_cells_next(&s, &run)) {
+        wrong += run.y < 0 || run.y >= g->ny || run.x0 < 0 || run.x1 > g->nx || run.x0 >= run.x1;
+        for (int32_t x = run.x0; wrong == 0 && x < run.x1; x++) {
+            cell[run.y][x]++;
+        }
+    }
+    for (int32_t y = 0; y < g->ny; y++) {
+        for (int32_t x = 0; x < g->nx; x++) {
+            int64_t side = (int64_t)1 << g->shift;
+            int64_t low[2] = {g->x0 + x * side - grow, g->y0 + y * side - grow};
+            int64_t high[2] = {low[0] + side + 2 * grow, low[1] + side + 2 * grow};
+
+            wrong += cell[y][x] != touches(p, low, high);
+        }
+    }
+    return wrong;
+}
+
+/* A polygon of the n-th kind: triangles, needles, lines, points, hulls. */
+static void random_kind(struct test_random *r, struct polygon *p, int n, int32_t size)
+{
+    random_points(r, p, 3, size);
+    switch (n % 5) {
+    case 1: /* a needle: the third corner is beside the second */
+        p->xy[2][0] = p->xy[1][0] + (int32_t)test_random_range(r, -1, 1);
+        p->xy[2][1] = p->xy[1][1] + (int32_t)test_random_range(r, -1, 1);
+        break;
+    case 2: /* on edge: in line, the third corner between the others or on one */
+        for (int k = 0; k < 2; k++) {
+            p->xy[1][k] = p->xy[0][k] + (p->xy[1][k] - p->xy[0][k]) / 4 * 4;
+            p->xy[2][k] = p->xy[0][k] + (p->xy[1][k] - p->xy[0][k]) / 4 * (n / 5 % 5);
+        }
+        break;
+    case 3: /* a point, or a triangle smaller than a cell */
+        for (int i = 1; i < 3; i++) {
+            p->xy[i][0] = p->xy[0][0] + (int32_t)test_random_range(r, 0, n % 2);
+            p->xy[i][1] = p->xy[0][1] + (int32_t)test_random_range(r, 0, n % 2);
+        }
+        break;
+    case 4:
+        random_hull(r, p, size);
+        break;
+    default:
+        break;
+    }
+    if (n % 2) {
+        reverse(p);
+    }
+}
+
+static void test_cells(void)
+{
+    struct test_random r = {4};
+    int touched = 0;
+
+    for (int n = 0; n < CASES; n++) {
+        struct scan_grid g = {
+            (int32_t)test_random_range(&r, -100, 20), (int32_t)test_random_range(&r, -100, 20),
+            (uint8_t)test_random_range(&r, 0, 6), (uint8_t)test_random_range(&r, 1, 16),
+            (uint8_t)test_random_range(&r, 1, 16)};
+        struct polygon p;
+
+        random_kind(&r, &p, n, n % 3 ? 80 : 12);
+        CHECK_EQ(wrong_cells(&p, &g, n % 2 ? 0 : (int32_t)test_random_range(&r, 0, 20)), 0);
+        for (int i = 0; i < 64 * 64; i++) {
+            touched += cell[i / 64][i % 64];
+        }
+    }
+    CHECK(touched > 2 * CASES);
+}
+
+/* The largest coordinates, growth and cells. */
+static void test_cells_large(void)
+{
+    struct test_random r = {5};
+    int32_t most = (1 << 24) - 1;
+
+    for (int n = 0; n < CASES / 4; n++) {
+        struct scan_grid g = {-most - 1, -most - 1, (uint8_t)(20 + n % 5), 32, 32};
+        struct polygon p;
+
+        g.nx = g.ny = (uint8_t)(1 << (25 - g.shift));
+        random_kind(&r, &p, n, most - 4);
+        CHECK_EQ(wrong_cells(&p, &g, n % 2 ? 0 : (int32_t)test_random_range(&r, 0, most)), 0);
+    }
+}
+
+/* Drawn on squared paper: cells of 4 quanta, a triangle from (1, 1) to (11, 1) and (1, 7). */
+static void test_cells_by_hand(void)
+{
+    struct scan_grid g = {0, 0, 2, 4, 4};
+    struct polygon p = {{{1, 1}, {11, 1}, {1, 7}}, 3};
+    struct scan_cells s;
+    struct scan_run run;
+
+    scan_cells_begin(&s, &g, corners(&p), p.n, 0);
+    CHECK(scan_cells_next(&s, &run) && run.y == 0 && run.x0 == 0 && run.x1 == 3);
+    /* the long side passes (6, 4): the second row reaches the second cell */
+    CHECK(scan_cells_next(&s, &run) && run.y == 1 && run.x0 == 0 && run.x1 == 2);
+    CHECK(!scan_cells_next(&s, &run));
+
+    /* grown by 1 it touches the sides at x = 12 and y = 8, and so the cells behind them */
+    scan_cells_begin(&s, &g, corners(&p), p.n, 1);
+    CHECK(scan_cells_next(&s, &run) && run.y == 0 && run.x0 == 0 && run.x1 == 4);
+    CHECK(scan_cells_next(&s, &run) && run.y == 1 && run.x0 == 0 && run.x1 == 3);
+    CHECK(scan_cells_next(&s, &run) && run.y == 2 && run.x0 == 0 && run.x1 == 1);
+    CHECK(!scan_cells_next(&s, &run));
+
+    /* outside */
+    g.x0 = 20;
+    scan_cells_begin(&s, &g, corners(&p), p.n, 8);
+    CHECK(!scan_cells_next(&s, &run));
+}
+
+const struct test tests_scan[] = {
+    {"scan/pixels", test_pixels},
+    {"scan/pixels_large", test_pixels_large},
+    {"scan/pixels_partition", test_pixels_partition},
+    {"scan/pixels_none", test_pixels_none},
+    {"scan/cells", test_cells},
+    {"scan/cells_large", test_cells_large},
+    {"scan/cells_by_hand", test_cells_by_hand},
+    {0},
+};

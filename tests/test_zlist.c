@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+#include <string.h>
+
+#include "test.h"
+#include "zlist.h"
+
+#ifdef TEST_LONG
+#define CASES 20000
+#else
+#define CASES 300
+#endif
+
+/* --------------------------------------------------------------------- lists */
+
+#define POOL 200
+static uint16_t head[ZLIST_CELLS_MAX];
+static struct zentry entry[POOL];
+
+static void test_order(void)
+{
+    struct test_random r = {1};
+    struct pool pool = {.size = POOL};
+    struct zlist z = {head, entry, &pool};
+    uint8_t cell_of[POOL];
+    int listed = 0;
+
+    zlist_clear(&z);
+    for (int i = 0; i < POOL; i++) {
+        int16_t z1 = (int16_t)test_random_range(&r, -5, 5);
+
+        cell_of[i] = (uint8_t)test_random_range(&r, 0, 3);
+        /* faces in an order of their own: 77 and 200 have no common divisor */
+        CHECK(zlist_enter(&z, cell_of[i], (int16_t)(z1 - i), z1, (uint16_t)(i * 77 % POOL)));
+    }
+    for (uint32_t c = 0; c < ZLIST_CELLS_MAX; c++) {
+        for (uint16_t e = head[c]; e != ZLIST_NONE; e = entry[e].next) {
+            uint16_t next = entry[e].next;
+
+            CHECK(c < 4 && e < POOL && listed < POOL);
+            CHECK(next == ZLIST_NONE || entry[next].z1 < entry[e].z1 ||
+                  (entry[next].z1 == entry[e].z1 && entry[next].face > entry[e].face));
+            for (int i = 0; i < POOL; i++) {
+                if (i * 77 % POOL == entry[e].face) {
+                    CHECK(cell_of[i] == c && entry[e].z0 == entry[e].z1 - i);
+                }
+            }
+            listed++;
+        }
+    }
+    CHECK_EQ(listed, POOL);
+}
+
+/* A full pool refuses and changes nothing; the next chunk starts afresh. */
+static void test_full(void)
+{
+    struct pool pool = {.size = 3};
+    struct zlist z = {head, entry, &pool};
+    struct zentry before[3];
+
+    zlist_clear(&z);
+    CHECK(zlist_enter(&z, 1023, 0, 5, 0));
+    CHECK(zlist_enter(&z, 1023, 0, 7, 1));
+    CHECK(zlist_enter(&z, 5, 0, 6, 2));
+    memcpy(before, entry, sizeof before);
+    CHECK(!zlist_enter(&z, 1023, 0, 6, 3));
+    CHECK(!zlist_enter(&z, 0, 0, 6, 3));
+    CHECK(memcmp(before, entry, sizeof before) == 0);
+    CHECK(head[1023] == 1 && head[5] == 2 && head[0] == ZLIST_NONE);
+    CHECK(pool.used == 3 && pool.refused == 2 && pool.peak == 3);
+    zlist_clear(&z);
+    CHECK(head[1023] == ZLIST_NONE && head[5] == ZLIST_NONE && pool.used == 0);
+    CHECK(zlist_enter(&z, 0, -1, 6, 3) && head[0] == 0 && entry[0].next == ZLIST_NONE);
+}
+
+/* ----------------------------------------------------------------- intervals */
+
+/*
+ * Points of the face, by whole weights that sum to 32, grown: the z of each that lies over the cell
+ * must be in the interval. Returns how many are not.
+ */
+static int missed_points(const struct zface *f, const struct scan_grid *g, int32_t col, int32_t row,
+                         int16_t z0, int16_t z1)
+{
+    int64_t side = (int64_t)1 << g->shift, grow = 32 * (int64_t)f->grow;
+    int64_t x = 32 * (g->x0 + col * side), y = 32 * (g->y0 + row * side);
+    int missed = 0;
+
+    for (int a = 0; a <= 32; a++) {
+        for (int b = 0; a + b <= 32; b++) {
+            int64_t p[3];
+
+            for (int k = 0; k < 3; k++) {
+                p[k] = (int64_t)a * f->p[0][k] + (int64_t)b * f->p[1][k] +
+                       (int64_t)(32 - a - b) * f->p[2][k];
+            }
+            if (p[0] >= x - grow && p[0] <= x + 32 * side + grow && p[1] >= y - grow &&
+                p[1] <= y + 32 * side + grow) {
+                missed += p[2] - grow < 32 * (int64_t)z0 || p[2] + grow > 32 * (int64_t)z1;
+            }
+        }
+    }
+    return missed;
+}
+
+/* Every cell of random faces of every kind: nothing missed, nothing beyond the face's own z. */
+static void test_interval_holds(void)
+{
+    struct test_random r = {2};
+
+    for (int n = 0; n < CASES / 3; n++) {
+        struct scan_grid g = {-200, -200, (uint8_t)(4 + n % 4), 16, 16};
+        struct zface f = {.grow = n % 2 ? 0 : (int32_t)test_random_range(&r, 0, 40)};
+        struct scan_cells s;
+        struct scan_run run;
+        int32_t xy[3][2], low = INT32_MAX, high = INT32_MIN;
+        int cells = 0;
+
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 3; k++) {
+                f.p[i][k] = (int32_t)test_random_range(&r, -300, 300);
+            }
+            if (n % 5 == 4 && i == 2) { /* upright */
+                f.p[2][0] = f.p[1][0];
+                f.p[2][1] = f.p[1][1];
+            }
+            memcpy(xy[i], f.p[i], sizeof xy[i]);
+            low = f.p[i][2] < low ? f.p[i][2] : low;
+            high = f.p[i][2] > high ? f.p[i][2] : high;
+        }
+        scan_cells_begin(&s, &g, (const int32_t(*)[2])xy, 3, f.grow);
+        while (scan_cells_next(&s, &run)) {
+            for (int32_t col = run.x0; col < run.x1 && ++cells < 24; col++) {
+                int16_t z0, z1;
+
+                zface_interval(&f, &g, col, run.y, &z0, &z1);
+                CHECK(z0 <= z1 && z0 >= low - f.grow && z1 <= high + f.grow);
+                CHECK_EQ(missed_points(&f, &g, col, run.y, z0, z1), 0);
+            }
+        }
+    }
+}
+
+/* The plane z = (x - 2y) / 4 over large triangles of both orientations: what it spans over a cell.
+ */
+static void test_interval_by_hand(void)
+{
+    struct scan_grid g = {0, 0, 5, 16, 16};
+    struct zface up = {{{0, 0, 0}, {1000, 0, 250}, {0, 1000, -500}}, 0};
+    struct zface down = {{{1000, 0, 250}, {0, 0, 0}, {0, 1000, -500}}, 0};
+    int16_t z0, z1;
+
+    /* x 96 .. 128, y 32 .. 64: from (96 - 128) / 4 to (128 - 64) / 4 */
+    zface_interval(&up, &g, 3, 1, &z0, &z1);
+    CHECK(z0 == -8 && z1 == 16);
+    zface_interval(&down, &g, 3, 1, &z0, &z1);
+    CHECK(z0 == -8 && z1 == 16);
+    /* grown by 3: x 93 .. 131, y 29 .. 67 give -10.25 and 18.25, and 3 more both ways */
+    up.grow = 3;
+    zface_interval(&up, &g, 3, 1, &z0, &z1);
+    CHECK(z0 == -14 && z1 == 22);
+}
+
+/* Faces beyond the exact range and z beyond int16 still give a safe interval. */
+static void test_interval_far(void)
+{
+    struct scan_grid g = {0, 0, 5, 16, 16};
+    struct zface wide = {{{-8000000, 0, -3}, {8000000, 8, 5}, {0, 8000000, 4}}, 2};
+    struct zface high = {{{0, 0, 40000}, {10, 0, 40010}, {0, 10, -40000}}, 0};
+    struct zface above = {{{0, 0, 40000}, {10, 0, 40010}, {0, 10, 50000}}, 0};
+    int16_t z0, z1;
+
+    zface_interval(&wide, &g, 0, 0, &z0, &z1);
+    CHECK(z0 == -5 && z1 == 7);
+    zface_interval(&high, &g, 0, 0, &z0, &z1);
+    CHECK(z0 == INT16_MIN && z1 == INT16_MAX);
+    zface_interval(&above, &g, 0, 0, &z0, &z1);
+    CHECK(z0 == INT16_MAX && z1 == INT16_MAX);
+}
+
+const struct test tests_zlist[] = {
+    {"zlist/order", test_order},
+    {"zlist/full", test_full},
+    {"zlist/interval_holds", test_interval_holds},
+    {"zlist/interval_by_hand", test_interval_by_hand},
+    {"zlist/interval_far", test_interval_far},
+    {0},
+};
