@@ -66,6 +66,7 @@ struct body {
     struct body_path path;
     carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
     carom_m3_q30 gathered_r;
+    bool solving;                 /* has a contact in the solve at hand */
     carom_v3_q40 velocity, spin;  /* before a solve */
     int64_t dv[3], dw[3];         /* what a solve changes them by, in its units */
     carom_v3_q40 saved[2][2];     /* momentum and angular momentum set aside by the energy rule */

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boyse - when does a vertex meet a face, or an edge an edge, while the bodies translate and rotate?
+ * boyse - when does a vertex meet a face, or an edge an edge, while the bodies translate and
+ * rotate?
  *
- * Boyse's two cases, for a motion that does both together. With p(t) the signed distance of a vertex
- * from a face's plane, or w.d for two edges (w their cross product, d from one to the other), and s
- * the length of the Cayley vector,
+ * Boyse's two cases, for a motion that does both together. With p(t) the signed distance of a
+ * vertex from a face's plane, or w.d for two edges (w their cross product, d from one to the
+ * other), and s the length of the Cayley vector,
  *
  *   P(t) = p(t) (1 + s^2 t^2) = a0 + a1 t + a2 t^2 + a3 t^3 + a4 t^4
  *
- * Without rotation this is the paper's figures 2a and 3a; without translation its figures 2b and 3b,
- * a quadratic in t = tan(angle / 2).
+ * Without rotation this is the paper's figures 2a and 3a; without translation its figures 2b and
+ * 3b, a quadratic in t = tan(angle / 2).
  *
  * All points are relative to the origin of body a's path; N points from b into a.
  */
@@ -27,15 +28,15 @@ struct boyse_pair {
 
 /* Where two features meet, or nearly do. */
 struct boyse_touch {
-    int32_t gap_q22;     /* distance along the normal; negative: they overlap */
+    int32_t gap_q22; /* distance along the normal; negative: they overlap */
     carom_v3_q30 normal;
     carom_v3_q22 on_a, on_b;
-    bool valid;          /* inside both features, normal in both cones, edges not parallel */
-    int8_t sign;         /* edges: N = sign w / |w| */
+    bool valid;  /* inside both features, normal in both cones, edges not parallel */
+    int8_t sign; /* edges: N = sign w / |w| */
 };
 
 struct boyse_hit {
-    int32_t t_q30;       /* the bodies can go this far: the gap is still the event gap there */
+    int32_t t_q30; /* the bodies can go this far: the gap is still the event gap there */
     struct candidate candidate;
     struct boyse_touch touch; /* at the root, where the surfaces meet */
 };
@@ -50,7 +51,8 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b);
 void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                  struct boyse_touch *touch);
 
-/* Distance at time t, rounded down; cheaper than the whole test. sign as in boyse_touch (1 for faces). */
+/* Distance at time t, rounded down; cheaper than the whole test. sign as in boyse_touch (1 for
+ * faces). */
 int32_t boyse_gap(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                   int sign);
 

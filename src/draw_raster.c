@@ -167,11 +167,12 @@ void draw_triangle(const struct draw_canvas *canvas, const struct draw_corner *a
 static void put_pixel(const struct draw_canvas *canvas, int32_t x, int32_t y, uint32_t colour)
 {
     const struct scan_rect *rect = &canvas->rect;
-    uint8_t *row = pixel_row(canvas->picture, y);
+    uint8_t *row;
 
     if (x < rect->x0 || x >= rect->x1 || y < rect->y0 || y >= rect->y1) {
         return;
     }
+    row = pixel_row(canvas->picture, y);
     switch (canvas->picture->format) {
     case CAROM_PALETTE8:
         row[x] = (uint8_t)colour;
@@ -196,7 +197,6 @@ void draw_line(const struct draw_canvas *canvas, const struct draw_corner *a,
     int32_t to[2] = {b->xy_q4[0] >> 4, b->xy_q4[1] >> 4};
     int32_t size[2] = {to[0] - from[0], to[1] - from[1]};
     int major = carom_abs(size[1]) > carom_abs(size[0]);
-    int32_t low = canvas->rect.y0, high = canvas->rect.y1;
     int32_t minor_q16, step_q16 = 0, n;
 
     if (size[major] < 0) {
@@ -205,10 +205,6 @@ void draw_line(const struct draw_canvas *canvas, const struct draw_corner *a,
         size[1] = -size[1];
     }
     n = size[major];
-    if (major == 0) {
-        low = canvas->rect.x0;
-        high = canvas->rect.x1;
-    }
     /* |size| <= 2^11 pixels; the error of a step, 2^-16, grows to 2^-5 of a pixel at the far end.
      */
     if (n > 0) {
@@ -220,9 +216,7 @@ void draw_line(const struct draw_canvas *canvas, const struct draw_corner *a,
 
         at[major] = from[major] + i;
         at[!major] = minor_q16 >> 16;
-        if (at[major] >= low && at[major] < high) {
-            put_pixel(canvas, at[0], at[1], colour);
-        }
+        put_pixel(canvas, at[0], at[1], colour);
         minor_q16 += step_q16;
     }
 }

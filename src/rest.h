@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rest - several contacts at once: continuous contact, and impacts at more than one place. Symmetric
- * sweeps of the impact equations over accumulated, clamped impulses, warm-started; and sleep.
+ * rest - several contacts at once: continuous contact, and impacts at more than one place.
+ * Symmetric sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
+ * sleep.
  *
  * Solver units. A solve picks a power of two V* above every wanted change of normal velocity and
  * counts velocities in units of V* / 2^REST_BITS. An impulse is counted in that unit of velocity
@@ -14,13 +15,13 @@
 #include "contact.h"
 #include "impact.h"
 
-#define REST_BITS 29
+#define REST_BITS       29
 #define REST_SWEEPS_MAX 60
 
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {
     uint16_t a, b;
-    carom_v3_q22 arm;         /* on a, in its mesh's axes */
+    carom_v3_q22 arm; /* on a, in its mesh's axes */
     carom_v3_q30 normal;
     int64_t normal_q40;       /* impulse along the normal */
     carom_v3_q40 tangent_q40; /* and across it */
@@ -32,6 +33,7 @@ struct rest {
     const struct pair *pairs;
     struct body *bodies;
     struct body_state *states;
+    uint32_t body_count;
     const carom_v3_q40 *gravity;
     int64_t slow_q40; /* 4 g h: an approach slower than this is no impact */
 

@@ -559,6 +559,7 @@ static void begin(struct step *s, struct carom_world *w)
     w->rest.pairs = w->pairs;
     w->rest.bodies = w->bodies;
     w->rest.states = next->bodies;
+    w->rest.body_count = w->body_count;
     w->rest.gravity = s->gravity;
     w->rest.slow_q40 = 4 * fix_length(s->gravity->c);
     w->rest.warm = next->warm;
