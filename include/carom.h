@@ -4,10 +4,10 @@
  *
  * The whole public interface. Rules that hold everywhere:
  *
- *   - Right-handed axes. A face's corners run counter-clockwise seen from outside. N, the normal of a
- *     contact between bodies a and b, points from b into a.
- *   - Lengths are in world units; a unit is about the size of a body. Time is counted in frames: one
- *     carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
+ *   - Right-handed axes. A face's corners run counter-clockwise seen from outside. N, the normal of
+ * a contact between bodies a and b, points from b into a.
+ *   - Lengths are in world units; a unit is about the size of a body. Time is counted in frames:
+ * one carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
  *     macros that convert from SI.
  *   - Functions return a value >= 0 (CAROM_OK, a status or a count) or a negative enum carom_error.
  *     After an error no state has changed and no output is written; after a step that failed, what
@@ -31,29 +31,30 @@ extern "C" {
 enum carom_status {
     CAROM_OK = 0,
     CAROM_OVER_BUDGET = 1, /* bit: the step took more ticks than config.budget_ticks */
-    CAROM_SUBSTEP_CAP = 2  /* bit: the step ran out of sub-steps; the rest of the frame was dropped */
+    CAROM_SUBSTEP_CAP =
+        2 /* bit: the step ran out of sub-steps; the rest of the frame was dropped */
 };
 
 enum carom_error {
-    CAROM_ERR_NULL = -1,            /* a pointer that must not be NULL is */
-    CAROM_ERR_ARGUMENT = -2,        /* a value outside its stated range, e.g. e or mu */
-    CAROM_ERR_RANGE = -3,           /* a number outside what the formats hold */
-    CAROM_ERR_MEMORY = -4,          /* the caller's block is too small, or not aligned to 8 bytes */
-    CAROM_ERR_BODY = -5,            /* no body of this number */
-    CAROM_ERR_BODIES_FULL = -6,     /* output pools that are short */
+    CAROM_ERR_NULL = -1,        /* a pointer that must not be NULL is */
+    CAROM_ERR_ARGUMENT = -2,    /* a value outside its stated range, e.g. e or mu */
+    CAROM_ERR_RANGE = -3,       /* a number outside what the formats hold */
+    CAROM_ERR_MEMORY = -4,      /* the caller's block is too small, or not aligned to 8 bytes */
+    CAROM_ERR_BODY = -5,        /* no body of this number */
+    CAROM_ERR_BODIES_FULL = -6, /* output pools that are short */
     CAROM_ERR_PAIRS_FULL = -7,
     CAROM_ERR_CONTACTS_FULL = -8,
     CAROM_ERR_FACES_FULL = -9,
-    CAROM_ERR_MESH_EMPTY = -10,     /* no faces, or no volume */
-    CAROM_ERR_MESH_SIZE = -11,      /* more than 65535 vertices or 65535 faces */
-    CAROM_ERR_MESH_INDEX = -12,     /* a face names a vertex that is not there, or one twice */
+    CAROM_ERR_MESH_EMPTY = -10,      /* no faces, or no volume */
+    CAROM_ERR_MESH_SIZE = -11,       /* more than 65535 vertices or 65535 faces */
+    CAROM_ERR_MESH_INDEX = -12,      /* a face names a vertex that is not there, or one twice */
     CAROM_ERR_MESH_DEGENERATE = -13, /* a face without area */
-    CAROM_ERR_MESH_OPEN = -14,      /* a SOLID with an edge that has one face */
-    CAROM_ERR_MESH_EDGE = -15,      /* an edge with three faces, or two of the same direction */
+    CAROM_ERR_MESH_OPEN = -14,       /* a SOLID with an edge that has one face */
+    CAROM_ERR_MESH_EDGE = -15,       /* an edge with three faces, or two of the same direction */
     CAROM_ERR_MESH_INSIDE_OUT = -16, /* a SOLID of negative volume, a SURFACE that looks down */
-    CAROM_ERR_MESH_SURFACE = -17,   /* a SURFACE face that is not single-valued in z */
-    CAROM_ERR_FORMAT = -18,         /* a blob or snapshot that is not whole */
-    CAROM_ERR_UNSUPPORTED = -19     /* a second moving body: this version moves one */
+    CAROM_ERR_MESH_SURFACE = -17,    /* a SURFACE face that is not single-valued in z */
+    CAROM_ERR_FORMAT = -18,          /* a blob or snapshot that is not whole */
+    CAROM_ERR_UNSUPPORTED = -19      /* a second moving body: this version moves one */
 };
 
 /* A short English text for any result. Never NULL. */
@@ -62,8 +63,9 @@ const char *carom_result_text(int result);
 /* ------------------------------------------------------------------- meshes */
 
 enum carom_mesh_kind {
-    CAROM_SOLID = 0,  /* closed, oriented outwards */
-    CAROM_SURFACE = 1 /* open, single-valued in its own z, solid below: a height field; stationary */
+    CAROM_SOLID = 0, /* closed, oriented outwards */
+    CAROM_SURFACE =
+        1 /* open, single-valued in its own z, solid below: a height field; stationary */
 };
 
 /*
@@ -87,15 +89,16 @@ struct carom_sym3 {
 
 /* Mass properties of a SOLID at density 1. */
 struct carom_mass {
-    int64_t volume_q32;   /* cubic units */
-    carom_v3_q22 centre;  /* of mass, in the mesh's coordinates */
+    int64_t volume_q32;        /* cubic units */
+    carom_v3_q22 centre;       /* of mass, in the mesh's coordinates */
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
 };
 
 /* Fields below this line of a struct are Carom's own: visible so that you can reserve them. */
 struct carom_edge {
     uint16_t vertex[2];
-    uint16_t face[2]; /* face[0] runs from vertex[0] to vertex[1]; face[1] is CAROM_NO_FACE at a border */
+    uint16_t face[2]; /* face[0] runs from vertex[0] to vertex[1]; face[1] is CAROM_NO_FACE at a
+                         border */
     carom_v3_q30 direction; /* from vertex[0] to vertex[1] */
     int32_t length_q22;
 };
@@ -108,7 +111,7 @@ struct carom_face {
 };
 
 /* A cluster of neighbouring faces: what interference detection culls first. */
-#define CAROM_LEAF_FACES 16
+#define CAROM_LEAF_FACES    16
 #define CAROM_LEAF_VERTICES 32
 struct carom_leaf {
     carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */
@@ -127,21 +130,21 @@ struct carom_zref {
 /* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
 struct carom_mesh {
     struct carom_mesh_raw raw;
-    struct carom_mass mass;      /* SOLID; zero for a SURFACE */
+    struct carom_mass mass; /* SOLID; zero for a SURFACE */
     uint32_t edge_count, leaf_count, zref_count;
-    int32_t radius_q22;          /* of the sphere around the centre of mass (SURFACE: the origin) */
-    int16_t box[2][3];           /* quanta: lowest and highest corner */
-    int32_t grid_x0, grid_y0;    /* quanta: corner of the cell grid over x, y */
+    int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
+    int16_t box[2][3];        /* quanta: lowest and highest corner */
+    int32_t grid_x0, grid_y0; /* quanta: corner of the cell grid over x, y */
     uint8_t grid_shift, grid_nx, grid_ny; /* cells of 2^shift quanta */
     const struct carom_face *faces;
     const struct carom_edge *edges;
-    const uint32_t *ring_start;  /* vertex v's edges are ring[ring_start[v] .. ring_start[v+1]) */
-    const uint32_t *ring;        /* edge number * 2 + 1 when the edge ends at v, + 0 when it starts */
+    const uint32_t *ring_start; /* vertex v's edges are ring[ring_start[v] .. ring_start[v+1]) */
+    const uint32_t *ring; /* edge number * 2 + 1 when the edge ends at v, + 0 when it starts */
     const struct carom_leaf *leaves;
     const uint16_t *leaf_faces;
     const uint16_t *leaf_vertices;
     const uint8_t (*leaf_corners)[3]; /* a leaf face's corners as places in its leaf's vertices */
-    const uint32_t *cell_start;  /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
+    const uint32_t *cell_start; /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
     const struct carom_zref *zrefs; /* sorted by z1, highest first */
 };
 
@@ -219,7 +222,7 @@ enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
     CAROM_POOLS(CAROM_POOL_NAME)
 #undef CAROM_POOL_NAME
-    CAROM_POOL_COUNT
+        CAROM_POOL_COUNT
 };
 
 struct carom_caps {
@@ -235,10 +238,10 @@ struct carom_caps {
  */
 #define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__)
 #define CAROM_WORLD_BYTES_(b, p, c, f, e, n)                                                       \
-    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b) * CAROM_BODY_BYTES +                            \
-     (size_t)(p) * CAROM_PAIR_BYTES + (size_t)(c) * CAROM_CONTACT_BYTES +                          \
-     (size_t)(f) * CAROM_FACE_BYTES + (size_t)(e) * CAROM_ENTRY_BYTES +                            \
-     (size_t)(n) * CAROM_CANDIDATE_BYTES)
+    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
+     (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
+     (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
+     (size_t)(n)*CAROM_CANDIDATE_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 
@@ -246,11 +249,11 @@ struct carom_world; /* lives at the start of the caller's block */
 
 struct carom_config {
     struct carom_caps caps;
-    carom_v3_q40 gravity;      /* units / frame^2; each component within +-1 */
-    bool sleep;                /* bodies at rest sleep until something wakes them */
-    uint8_t substep_cap;       /* sub-steps a frame, 1 .. 64; 0 means 32 */
-    uint32_t (*ticks)(void);   /* a free-running counter for carom_stats; NULL: no timing */
-    uint32_t budget_ticks;     /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
+    carom_v3_q40 gravity;    /* units / frame^2; each component within +-1 */
+    bool sleep;              /* bodies at rest sleep until something wakes them */
+    uint8_t substep_cap;     /* sub-steps a frame, 1 .. 64; 0 means 32 */
+    uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
+    uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
 };
 
 /*
@@ -314,9 +317,9 @@ enum carom_event_kind {
 
 struct carom_event {
     uint8_t kind;
-    uint16_t a, b;         /* body numbers; b is unused (0) for REST and OUT */
-    int64_t speed_q40;     /* HIT: approach speed along the normal, units / frame */
-    int64_t impulse_q40;   /* HIT: normal impulse, mass x units / frame */
+    uint16_t a, b;       /* body numbers; b is unused (0) for REST and OUT */
+    int64_t speed_q40;   /* HIT: approach speed along the normal, units / frame */
+    int64_t impulse_q40; /* HIT: normal impulse, mass x units / frame */
 };
 
 /* Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. */
@@ -357,11 +360,11 @@ struct carom_stats {
     uint32_t total_ticks;
     uint32_t over_stage; /* the dearest stage of a step over its budget */
     uint32_t substeps, hits, gathers, refinements;
-    uint32_t candidates; /* handed to the collision test, all gathers of the step */
-    uint32_t roots;      /* candidates that came to the exact test */
-    uint32_t contacts;   /* points of the last solve */
-    uint32_t sweeps;     /* of all solves of several contacts */
-    uint32_t impacts;    /* contacts solved as impacts */
+    uint32_t candidates;  /* handed to the collision test, all gathers of the step */
+    uint32_t roots;       /* candidates that came to the exact test */
+    uint32_t contacts;    /* points of the last solve */
+    uint32_t sweeps;      /* of all solves of several contacts */
+    uint32_t impacts;     /* contacts solved as impacts */
     uint32_t energy_rule; /* impacts that the energy rule changed */
 };
 int carom_stats(const struct carom_world *world, struct carom_stats *stats);
@@ -379,7 +382,8 @@ uint64_t carom_world_hash(const struct carom_world *world);
 
 /* Bytes of a snapshot of this world now, or an error. */
 int carom_snapshot_size(const struct carom_world *world);
-/* Write the dynamic state, the same bytes on every machine. Returns the bytes written or an error. */
+/* Write the dynamic state, the same bytes on every machine. Returns the bytes written or an error.
+ */
 int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);
 /*
  * Take a snapshot back into a world that holds the same bodies. CAROM_ERR_FORMAT for bytes that are
@@ -426,13 +430,13 @@ struct carom_picture {
 #define CAROM_DRAW_BYTES(width, rows) ((size_t)4 * (size_t)(width) * (size_t)(rows))
 
 /*
- * Draw the bodies of a world over a background, with the interfering faces of its last step coloured.
- * Every pixel of the picture is written, none outside of it.
+ * Draw the bodies of a world over a background, with the interfering faces of its last step
+ * coloured. Every pixel of the picture is written, none outside of it.
  *
- * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length out
- *          of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away;
- *          CAROM_ERR_MEMORY for a workspace that is too small, or memory that is not aligned.
- *          Unless CAROM_OK, nothing is drawn.
+ * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length
+ * out of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away; CAROM_ERR_MEMORY
+ * for a workspace that is too small, or memory that is not aligned. Unless CAROM_OK, nothing is
+ * drawn.
  */
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);

@@ -68,13 +68,14 @@ typedef struct {
  *   CAROM_GRAVITY_MM_S2(mm, fps)  millimetres a second squared to units a frame squared
  *   CAROM_SPIN_MRAD_S(mrad, fps)  milliradians a second to radians a frame
  */
-#define CAROM_RATIO(n, d, bits) ((int64_t)(n) * ((int64_t)1 << (bits)) / (int64_t)(d))
-#define CAROM_POSITION_MM(mm) CAROM_RATIO(mm, 1000, 32)
-#define CAROM_VELOCITY_MM_S(mm_s, fps) CAROM_RATIO(mm_s, (int64_t)1000 * (fps), 40)
+#define CAROM_RATIO(n, d, bits)         ((int64_t)(n) * ((int64_t)1 << (bits)) / (int64_t)(d))
+#define CAROM_POSITION_MM(mm)           CAROM_RATIO(mm, 1000, 32)
+#define CAROM_VELOCITY_MM_S(mm_s, fps)  CAROM_RATIO(mm_s, (int64_t)1000 * (fps), 40)
 #define CAROM_GRAVITY_MM_S2(mm_s2, fps) CAROM_RATIO(mm_s2, (int64_t)1000 * (fps) * (fps), 40)
-#define CAROM_SPIN_MRAD_S(mrad_s, fps) CAROM_VELOCITY_MM_S(mrad_s, fps)
+#define CAROM_SPIN_MRAD_S(mrad_s, fps)  CAROM_VELOCITY_MM_S(mrad_s, fps)
 
-/* v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest. */
+/* v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest.
+ */
 static inline int64_t carom_round(int64_t v, int s)
 {
     return (v + ((int64_t)1 << (s - 1))) >> s;

@@ -2,7 +2,8 @@
 /*
  * arena - carve one caller-supplied block into named pools.
  *
- * A block is carved once and never given back; what is carved is zeroed. Pools count what they hold.
+ * A block is carved once and never given back; what is carved is zeroed. Pools count what they
+ * hold.
  */
 #ifndef CAROM_SRC_ARENA_H
 #define CAROM_SRC_ARENA_H

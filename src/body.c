@@ -26,8 +26,8 @@ void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q4
 }
 
 /* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
-static void angular_in_body(const struct body *b, const struct body_state *s,
-                            const carom_m3_q30 *r, int64_t out[3])
+static void angular_in_body(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+                            int64_t out[3])
 {
     for (int k = 0; k < 3; k++) {
         out[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);

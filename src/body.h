@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * body - poses, momenta and the motion of one body over a slice of a frame: an exact parabola of the
- * centre of mass together with a Cayley rotation about it.
+ * body - poses, momenta and the motion of one body over a slice of a frame: an exact parabola of
+ * the centre of mass together with a Cayley rotation about it.
  *
  * A slice runs over a common t in [0, 1]. With u the Cayley vector of the whole slice,
  *
- *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u) normalised
+ *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u)
+ * normalised
  *
  * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
  * relative to the body's origin: its position at the start of the slice rounded to q22.
@@ -15,9 +16,9 @@
 
 #include "mesh.h"
 
-#define BODY_WORLD_LIMIT 4096     /* units: a body whose centre leaves +-this is frozen */
-#define BODY_SPEED_LIMIT 64       /* units or radians a frame */
-#define BODY_RADIUS_LIMIT 32      /* units, of a moving body */
+#define BODY_WORLD_LIMIT  4096 /* units: a body whose centre leaves +-this is frozen */
+#define BODY_SPEED_LIMIT  64   /* units or radians a frame */
+#define BODY_RADIUS_LIMIT 32   /* units, of a moving body */
 #define BODY_TURN_MAX_Q30 (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 
 /* What a step changes: all of it is hashed and saved. */
@@ -39,7 +40,7 @@ struct body_pose {
 
 struct body_path {
     int64_t origin_q22[3];
-    carom_v3_q40 v, g;      /* displacements over the slice: linear and quadratic in t */
+    carom_v3_q40 v, g;         /* displacements over the slice: linear and quadratic in t */
     carom_v3_q24 v_q24, g_q24; /* the same for the collision kernels */
     carom_v3_q30 u, u_world;
     int32_t u2_q30; /* |u|^2 */
@@ -55,21 +56,21 @@ struct body {
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22; /* EPS: the gap that a resting contact keeps */
+    int32_t skin_q22;  /* EPS: the gap that a resting contact keeps */
     int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
 
     /* scratch of a step */
-    bool in_contact;     /* took the frame's gravity at once; moves straight */
-    int32_t reach_q22;   /* how far any point may move before candidates must be gathered again */
-    int32_t turn_q30;    /* and how far the body may turn, radians */
+    bool in_contact;   /* took the frame's gravity at once; moves straight */
+    int32_t reach_q22; /* how far any point may move before candidates must be gathered again */
+    int32_t turn_q30;  /* and how far the body may turn, radians */
     int64_t moved_q22, turned_q30; /* how much of that is used up */
     struct body_path path;
     carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
     carom_m3_q30 gathered_r;
-    bool solving;                 /* has a contact in the solve at hand */
-    carom_v3_q40 velocity, spin;  /* before a solve */
-    int64_t dv[3], dw[3];         /* what a solve changes them by, in its units */
-    carom_v3_q40 saved[2][2];     /* momentum and angular momentum set aside by the energy rule */
+    bool solving;                /* has a contact in the solve at hand */
+    carom_v3_q40 velocity, spin; /* before a solve */
+    int64_t dv[3], dw[3];        /* what a solve changes them by, in its units */
+    carom_v3_q40 saved[2][2];    /* momentum and angular momentum set aside by the energy rule */
 };
 
 /* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */

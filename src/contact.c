@@ -90,8 +90,7 @@ static void centres(const struct boyse_pair *pair, carom_v3_q22 *centre_a, carom
 {
     for (int k = 0; k < 3; k++) {
         centre_a->c[k] = (int32_t)carom_round(pair->a->path.start.x.c[k], 10);
-        centre_b->c[k] =
-            pair->offset_q22[k] + (int32_t)carom_round(pair->b->path.start.x.c[k], 10);
+        centre_b->c[k] = pair->offset_q22[k] + (int32_t)carom_round(pair->b->path.start.x.c[k], 10);
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * contact - the paper's static interference check: where bodies touch in a fixed pose, with positions
- * and normals, each place once.
+ * contact - the paper's static interference check: where bodies touch in a fixed pose, with
+ * positions and normals, each place once.
  */
 #ifndef CAROM_SRC_CONTACT_H
 #define CAROM_SRC_CONTACT_H
@@ -10,12 +10,12 @@
 
 /* One of a contact's two bodies, in the solver's units (rest.h). Index 0 is a, 1 is b. */
 struct contact_side {
-    struct body *body;         /* NULL: stationary */
-    carom_v3_q22 arm;          /* from the centre of mass to the contact */
+    struct body *body; /* NULL: stationary */
+    carom_v3_q22 arm;  /* from the centre of mass to the contact */
     /* filled in by the solver; directions 0..2 are N and the two tangents */
-    int32_t share_q30;         /* the contact's mass unit over the body's mass, at most 1 */
-    int32_t lever_q30[3][3];   /* arm x direction, over the body's unit of length */
-    int32_t turn[3][3];        /* change of spin by a unit impulse, times 2^-turn_bits */
+    int32_t share_q30;       /* the contact's mass unit over the body's mass, at most 1 */
+    int32_t lever_q30[3][3]; /* arm x direction, over the body's unit of length */
+    int32_t turn[3][3];      /* change of spin by a unit impulse, times 2^-turn_bits */
     int32_t turn_bits[3];
 };
 
@@ -24,19 +24,19 @@ struct contact {
     struct candidate key;
     carom_v3_q30 direction[3]; /* N from b into a, and two tangents */
     int32_t gap_q22;
-    carom_v3_q32 point;        /* in the world, for carom_contacts */
-    int32_t skin_q22;          /* of the pair */
+    carom_v3_q32 point; /* in the world, for carom_contacts */
+    int32_t skin_q22;   /* of the pair */
     struct contact_side side[2];
 
     /* worked out by the solver */
-    int64_t velocity_q40[3];   /* V along the directions, before */
-    int64_t target_q40;        /* wanted V'.N */
+    int64_t velocity_q40[3]; /* V along the directions, before */
+    int64_t target_q40;      /* wanted V'.N */
     bool impact;
     struct fix_scaled mass_unit;
-    int64_t mass_q30[3];       /* velocity along a direction by a unit impulse along it */
-    int32_t step_q30[2];       /* inverse of the above: normal, and one scalar for both tangents */
-    int32_t impulse[3];        /* accumulated along the directions, in solver units */
-    carom_v3_q40 impulse_q40;  /* the result: P on a, -P on b */
+    int64_t mass_q30[3];      /* velocity along a direction by a unit impulse along it */
+    int32_t step_q30[2];      /* inverse of the above: normal, and one scalar for both tangents */
+    int32_t impulse[3];       /* accumulated along the directions, in solver units */
+    carom_v3_q40 impulse_q40; /* the result: P on a, -P on b */
 };
 
 /* The contacts of a world at the present poses, sorted by key, with their pool. */

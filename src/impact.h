@@ -11,10 +11,10 @@
 
 /* One of the two bodies, as the equations see it. */
 struct impact_side {
-    bool moving;              /* a stationary body has no unknowns */
+    bool moving; /* a stationary body has no unknowns */
     struct fix_scaled mass;
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass, in world axes */
-    carom_v3_q22 arm;         /* from the centre of mass to the contact */
+    carom_v3_q22 arm;          /* from the centre of mass to the contact */
 };
 
 struct impact {
@@ -23,7 +23,7 @@ struct impact {
     carom_v3_q40 velocity; /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) */
     int64_t target_q40;    /* the wanted V'.N: -e V.N for an impact */
     uint32_t friction_q16;
-    bool may_gain;         /* skip the energy rule: a resting contact that pushes bodies apart */
+    bool may_gain; /* skip the energy rule: a resting contact that pushes bodies apart */
 };
 
 struct impact_result {
@@ -40,9 +40,9 @@ struct impact_result {
  *   in   at least one side moves; |V| < 2^7, |arm| <= 2^6, masses 2^-10 .. 2^10, mu <= 4
  *   out  the impulse; zero when V.N >= target already (the contact does not pull)
  *
- * Returns  CAROM_OK or CAROM_ERR_RANGE when the system cannot be solved; out is written only for OK.
- * Source   paper eq. (1)-(8) stick, (9), (10) slip; rows scaled as SPEC.md says. 9 unknowns when one
- *          side moves, 15 when both do.
+ * Returns  CAROM_OK or CAROM_ERR_RANGE when the system cannot be solved; out is written only for
+ * OK. Source   paper eq. (1)-(8) stick, (9), (10) slip; rows scaled as SPEC.md says. 9 unknowns
+ * when one side moves, 15 when both do.
  */
 int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out);
 

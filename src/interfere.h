@@ -2,14 +2,14 @@
 /*
  * interfere - from pairs of bodies to interfering faces and candidates for the collision test.
  *
- * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready: the
- * faces of a that survive a sphere test are carried into that frame, grown by the motion of both
- * bodies, scan-converted onto b's cells, and the two lists of a cell are merged by z. Face pairs
- * whose intervals overlap are narrowed to the vertex/face and edge/edge pairs that can touch.
+ * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready:
+ * the faces of a that survive a sphere test are carried into that frame, grown by the motion of
+ * both bodies, scan-converted onto b's cells, and the two lists of a cell are merged by z. Face
+ * pairs whose intervals overlap are narrowed to the vertex/face and edge/edge pairs that can touch.
  *
- * The result is conservative for every motion that stays within the bodies' reach: it may hold pairs
- * that do not touch and lacks none that do. So how it is cut into chunks, which duplicates survive
- * and what is culled early change the cost of a step, never its outcome.
+ * The result is conservative for every motion that stays within the bodies' reach: it may hold
+ * pairs that do not touch and lacks none that do. So how it is cut into chunks, which duplicates
+ * survive and what is culled early change the cost of a step, never its outcome.
  */
 #ifndef CAROM_SRC_INTERFERE_H
 #define CAROM_SRC_INTERFERE_H
@@ -54,18 +54,18 @@ struct interfere {
     struct pool *face_pool;
     uint32_t gathers, candidate_count; /* for the statistics */
 
-    bool whole;  /* the pool holds every candidate of the pairs: no need to gather again */
+    bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     int error;
     struct candidate_visitor *visitor;
 
     /* the pair and leaf being worked on */
     const struct body *a, *b;
     uint16_t pair, body_a, body_b;
-    carom_m3_q30 to_b;      /* rotation from a's mesh axes to b's */
-    int32_t offset_q22[3];  /* a's centre of mass in b's mesh frame, about b's centre of mass */
+    carom_m3_q30 to_b;     /* rotation from a's mesh axes to b's */
+    int32_t offset_q22[3]; /* a's centre of mass in b's mesh frame, about b's centre of mass */
     int32_t reach_q22, turn_q30;
     const struct carom_leaf *leaf;
-    int32_t cells[2][2];    /* columns and rows that hold entries: first and last */
+    int32_t cells[2][2]; /* columns and rows that hold entries: first and last */
     carom_v3_q22 vertices[CAROM_LEAF_VERTICES];
     struct interfere_face leaf_faces[CAROM_LEAF_FACES];
     uint32_t seen[INTERFERE_SEEN]; /* face pairs that came up lately */

@@ -16,8 +16,8 @@ static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v
     carom_v3_q22 p;
 
     for (int k = 0; k < 3; k++) {
-        p.c[k] = (int32_t)carom_shl(quanta[k], 22 - mesh->raw.quantum_bits) -
-                 mesh->mass.centre.c[k];
+        p.c[k] =
+            (int32_t)carom_shl(quanta[k], 22 - mesh->raw.quantum_bits) - mesh->mass.centre.c[k];
     }
     return p;
 }
@@ -61,10 +61,11 @@ static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
 
 /*
  * Whether n lies in the normal cone of a vertex: no edge that leaves it goes down along n by more
- * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above it.)
+ * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above
+ * it.)
  */
-static inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
-                                    int32_t tolerance_q30)
+static inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
+                                    const int32_t n_q30[3], int32_t tolerance_q30)
 {
     int64_t low_q60 = -((int64_t)tolerance_q30 << 30);
 

@@ -5,10 +5,11 @@
 #define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
 
 _Static_assert(sizeof(struct body) + 2 * sizeof(struct body_state) +
-                       2 * sizeof(struct carom_event) <= CAROM_BODY_BYTES,
+                       2 * sizeof(struct carom_event) <=
+                   CAROM_BODY_BYTES,
                "CAROM_BODY_BYTES");
-_Static_assert(sizeof(struct pair) + 2 * sizeof(struct pair) +
-                       3 * sizeof(struct carom_event) <= CAROM_PAIR_BYTES,
+_Static_assert(sizeof(struct pair) + 2 * sizeof(struct pair) + 3 * sizeof(struct carom_event) <=
+                   CAROM_PAIR_BYTES,
                "CAROM_PAIR_BYTES");
 _Static_assert(sizeof(struct contact) + 2 * sizeof(struct rest_warm) <= CAROM_CONTACT_BYTES,
                "CAROM_CONTACT_BYTES");
@@ -53,8 +54,7 @@ static void carve(struct carom_world *w, struct arena *arena)
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
-    w->interfere.lists.head =
-        arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    w->interfere.lists.head = arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
     w->interfere.candidates =
         arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
 }
@@ -103,7 +103,8 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 static bool position_in_range(const carom_v3_q32 *p)
 {
     for (int k = 0; k < 3; k++) {
-        if (p->c[k] > (int64_t)BODY_WORLD_LIMIT << 32 || p->c[k] < -((int64_t)BODY_WORLD_LIMIT << 32)) {
+        if (p->c[k] > (int64_t)BODY_WORLD_LIMIT << 32 ||
+            p->c[k] < -((int64_t)BODY_WORLD_LIMIT << 32)) {
             return false;
         }
     }
@@ -113,7 +114,8 @@ static bool position_in_range(const carom_v3_q32 *p)
 static bool speed_in_range(const carom_v3_q40 *v)
 {
     for (int k = 0; k < 3; k++) {
-        if (v->c[k] > (int64_t)BODY_SPEED_LIMIT << 40 || v->c[k] < -((int64_t)BODY_SPEED_LIMIT << 40)) {
+        if (v->c[k] > (int64_t)BODY_SPEED_LIMIT << 40 ||
+            v->c[k] < -((int64_t)BODY_SPEED_LIMIT << 40)) {
             return false;
         }
     }
@@ -349,8 +351,7 @@ struct fix_wide world_energy2(const struct carom_world *w, const struct world_st
             /* -2 m g.c: q40 times q32 brought to q40 */
             int64_t weight_q40 = fix_mul_scaled(w->config.gravity.c[k], b->mass);
 
-            sum = fix_wide_add(
-                sum, fix_wide_mul(-2 * weight_q40, carom_shl(s->position.c[k], 8)));
+            sum = fix_wide_add(sum, fix_wide_mul(-2 * weight_q40, carom_shl(s->position.c[k], 8)));
         }
     }
     return sum;

@@ -13,9 +13,9 @@
  */
 struct world_state {
     struct body_state *bodies;
-    struct rest_warm *warm;    /* impulses of the last frame's resting contacts */
+    struct rest_warm *warm; /* impulses of the last frame's resting contacts */
     uint32_t warm_count;
-    struct pair *touching;     /* pairs that touched: for begin and end events */
+    struct pair *touching; /* pairs that touched: for begin and end events */
     uint32_t touching_count;
 };
 

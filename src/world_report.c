@@ -45,9 +45,8 @@ const char *carom_result_text(int result)
 
 const char *carom_stage_name(int stage)
 {
-    static const char *const names[CAROM_STAGE_COUNT] = {"predict", "broad", "interfere",
-                                                         "boyse",   "contact", "impact",
-                                                         "rest",    "advance", "commit"};
+    static const char *const names[CAROM_STAGE_COUNT] = {
+        "predict", "broad", "interfere", "boyse", "contact", "impact", "rest", "advance", "commit"};
 
     return stage >= 0 && stage < CAROM_STAGE_COUNT ? names[stage] : "unknown";
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The state hash and snapshots. Both go through one description of the state, so that the hash is of
- * exactly the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
+ * The state hash and snapshots. Both go through one description of the state, so that the hash is
+ * of exactly the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
  *
  *   u32 magic, u32 body places
  *   a place: u8 0 free, 1 stationary, 2 moving; then, if not free: position 3 x i64,
@@ -12,7 +12,7 @@
  */
 #include "world.h"
 
-#define MAGIC 0x31534d43u /* "CMS1" */
+#define MAGIC     0x31534d43u /* "CMS1" */
 #define FNV_START 0xcbf29ce484222325u
 #define FNV_PRIME 0x100000001b3u
 
@@ -205,7 +205,8 @@ static bool plausible(const struct carom_world *w, const struct world_state *sta
         for (int k = 0; k < 4; k++) {
             square_q60 += (int64_t)(s->rotation.c[k] >> 1) * (s->rotation.c[k] >> 1) * 4;
         }
-        if (s->asleep > 1 || s->out > 1 || carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 40 ||
+        if (s->asleep > 1 || s->out > 1 ||
+            carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 40 ||
             !world_in_range(&w->bodies[i], s)) {
             return false;
         }

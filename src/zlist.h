@@ -3,8 +3,8 @@
  * zlist - pooled z-lists, sorted by z, on a grid of cells.
  *
  * The paper's z-list buffer with conservative cells in place of pixels: a face is entered in every
- * cell that its projection touches, with the interval of z that it spans over that cell. The entries
- * come from one fixed pool; a full pool refuses, and the caller goes on in chunks.
+ * cell that its projection touches, with the interval of z that it spans over that cell. The
+ * entries come from one fixed pool; a full pool refuses, and the caller goes on in chunks.
  */
 #ifndef CAROM_SRC_ZLIST_H
 #define CAROM_SRC_ZLIST_H
@@ -12,7 +12,7 @@
 #include "scan.h"
 #include "arena.h"
 
-#define ZLIST_NONE 0xffffu
+#define ZLIST_NONE      0xffffu
 #define ZLIST_CELLS_MAX 1024 /* nx * ny of any grid */
 
 struct zentry {

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * impact_rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
+ *
+ *   velocities  by V* = 2^(unit - c), masses by the lighter mass m*
+ *   dw          by V* / 2^g of each body, 4^g being about its inertia / mass: then J = I / (m 4^g)
+ *               fills its 30 bits and goes into the rows without rounding
+ *   P           by m* V* / 2^c, with 2^(g + c) at least twice the longest component of an arm
+ *
+ * With s = 1 for a and -1 for b, share = m* / m, arm = r / 2^(g + c) and d = N, u or v:
+ *
+ *   1-3, 7-9      dv - s share 2^-c P = 0                  (1) (2)
+ *   4-6, 10-12    J dw - s share arm x P = 0               (3) (4)
+ *   last three    sum of s (2^-c d.dv + (arm x d).dw) = wanted change of V.d / 2^unit
+ *
+ * or, when sliding, u.P = 0 and (v + mu N).P = 0 for the last two.
+ */
+#ifndef CAROM_SRC_IMPACT_ROWS_H
+#define CAROM_SRC_IMPACT_ROWS_H
+
+#include "impact.h"
+
+/* A moving body in the solver's units. */
+struct impact_mover {
+    int32_t sign;
+    int32_t share_q30, share_rest_q60; /* share, and what 30 bits leave of it */
+    int32_t inertia_q30[6];
+    int inertia_odd; /* rows 4-6 are halved where I / m is an odd power of two */
+    int32_t arm_q30[3];
+};
+
+/* N and two tangents: u across the slip, v along it. */
+struct impact_frame {
+    carom_v3_q30 n, u, v;
+};
+
+struct impact_problem {
+    struct gauss *w;
+    const struct impact *in;
+    struct impact_mover mover[2];
+    int movers, n;
+    int arm_shift;          /* c */
+    struct fix_scaled mass; /* m* */
+    struct impact_frame frame;
+    struct fix_wide wanted_q70; /* change of V.N */
+};
+
+/* A solution: P and the change of V that it makes, K P. */
+struct impact_answer {
+    int unit;
+    int64_t p_q40[3];  /* of m* 2^(unit - 2c); below 2^57 */
+    int64_t dv_q40[3]; /* of 2^unit; below 2^61 */
+};
+
+/* v 2^s to nearest. */
+int64_t impact_shift(int64_t v, int s);
+
+/* v.d for a unit vector d. */
+int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);
+struct fix_wide impact_wide_dot(const int64_t a[3], const int64_t b[3]);
+
+/* V.d, exact. */
+struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d);
+
+/*
+ * Turn the frame so that u lies along t x N and v along the part of t across N. Returns false when
+ * t has no such part, or one that is within its rounding; u and v are then any tangents.
+ */
+bool impact_set_frame(struct impact_frame *f, const int64_t t[3]);
+
+/* Everything of a problem but w, in, frame and wanted_q70. */
+void impact_prepare(struct impact_problem *p);
+
+/* The impulse without slip, and the one that slides along -v. Return 0, or -1: no solution. */
+int impact_stick(const struct impact_problem *p, struct impact_answer *out);
+int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out);
+
+#endif

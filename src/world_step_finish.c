@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/* The end of a step: the energy of a frame cut short, events, statistics. */
+#include "world_step_parts.h"
+
+/* A frame that was cut short must not have gained energy by it: scale the momenta down. */
+void step_limit_energy(struct step *s)
+{
+    struct fix_wide excess = fix_wide_add(world_energy2(s->w, s->next),
+                                          fix_wide_neg(world_energy2(s->w, world_now(s->w))));
+    struct fix_wide kinetic = {0, 0}, kept;
+    int32_t factor_q30 = 0;
+
+    if (fix_wide_sign(excess) <= 0) {
+        return;
+    }
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
+            carom_m3_q30 r;
+
+            body_matrix(&r, &s->next->bodies[i].rotation);
+            kinetic =
+                fix_wide_add(kinetic, body_kinetic2(&s->w->bodies[i], &s->next->bodies[i], &r));
+        }
+    }
+    kept = fix_wide_add(kinetic, fix_wide_neg(excess));
+    if (fix_wide_sign(kept) > 0) {
+        struct fix_scaled ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
+
+        factor_q30 = (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
+    }
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            int64_t *p = &s->next->bodies[i].momentum.c[k], *l = &s->next->bodies[i].angular.c[k];
+
+            *p = fix_mul(*p, factor_q30, 30);
+            *l = fix_mul(*l, factor_q30, 30);
+        }
+    }
+}
+
+static void add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
+{
+    struct carom_event *e = &w->events[w->event_count];
+
+    if (w->event_count < 3 * w->config.caps.pairs + 2 * w->config.caps.bodies) {
+        w->event_count++;
+        memset(e, 0, sizeof *e);
+        e->kind = kind;
+        e->a = a;
+        e->b = b;
+    }
+}
+
+static bool is_touching(const struct world_state *s, const struct pair *p)
+{
+    for (uint32_t i = 0; i < s->touching_count; i++) {
+        if (s->touching[i].a == p->a && s->touching[i].b == p->b) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Begin and end of touching, rest, and bodies that left the world. */
+void step_finish_events(struct step *s)
+{
+    struct carom_world *w = s->w;
+    const struct world_state *before = world_now(w);
+
+    for (uint32_t i = 0; i < before->touching_count; i++) {
+        const struct pair *p = &before->touching[i];
+
+        /* nothing moved: they still touch, though nobody looked */
+        if (!broad_active(&w->bodies[p->a], &before->bodies[p->a]) &&
+            !broad_active(&w->bodies[p->b], &before->bodies[p->b])) {
+            step_note_touching(s, p);
+        } else if (!is_touching(s->next, p)) {
+            add_event(w, CAROM_EVENT_END, p->a, p->b);
+        }
+    }
+    for (uint32_t i = 0; i < s->next->touching_count; i++) {
+        if (!is_touching(before, &s->next->touching[i])) {
+            add_event(w, CAROM_EVENT_BEGIN, s->next->touching[i].a, s->next->touching[i].b);
+        }
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        if (state->asleep && !before->bodies[i].asleep) {
+            add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
+        }
+        if (w->bodies[i].moving && !state->out && !world_in_range(&w->bodies[i], state)) {
+            *state = before->bodies[i];
+            state->out = 1;
+            add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+        }
+    }
+}
+
+void step_finish_stats(struct carom_world *w)
+{
+    struct carom_stats *st = &w->stats;
+
+    st->gathers = w->interfere.gathers;
+    st->candidates = w->interfere.candidate_count;
+    st->sweeps = w->rest.sweeps;
+    st->impacts = w->rest.impacts;
+    st->energy_rule = w->rest.energy_rules;
+    if (w->config.ticks) {
+        st->total_ticks = w->config.ticks() - w->start_tick;
+        for (uint32_t i = 1; i < CAROM_STAGE_COUNT; i++) {
+            if (st->ticks[i] > st->ticks[st->over_stage]) {
+                st->over_stage = i;
+            }
+        }
+    }
+}

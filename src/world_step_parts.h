@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * world_step_parts - what the files of a step share. world_step.c is the pipeline; the others are
+ * its stations: move (predict, first hit, advance), contacts (static check, solve), finish (events,
+ * energy of a frame cut short, statistics).
+ */
+#ifndef CAROM_SRC_WORLD_STEP_PARTS_H
+#define CAROM_SRC_WORLD_STEP_PARTS_H
+
+#include "world.h"
+
+/* What the whole step works on. */
+struct step {
+    struct carom_world *w;
+    struct world_state *next;
+    const carom_v3_q40 *gravity;
+    int32_t left_q30; /* of the frame */
+    struct boyse_hit hit;
+};
+
+/* A visitor of candidates that knows which pair they belong to. */
+struct step_visitor {
+    struct candidate_visitor base;
+    struct step *step;
+    struct boyse_pair pair;
+    int32_t pair_number; /* that `pair` is set up for; -1: none */
+    bool found;
+    int error;
+};
+
+/* Hand every candidate to f. */
+int step_visit(struct step *s, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
+void step_select_pair(struct step_visitor *v, uint16_t number);
+
+/* Book the ticks since the last mark on a stage. */
+void step_mark(struct carom_world *w, enum carom_stage stage);
+
+/* Give every body a path of no motion at its present pose. */
+void step_place_all(struct step *s);
+
+/* Pairs, interfering faces and candidates for the rest of the frame. */
+int step_gather(struct step *s);
+
+/* Set the paths of the longest slice that every body's turn allows. */
+int step_predict(struct step *s, int32_t *slice_q30);
+
+/* The earliest hit on the paths, into s->hit. */
+int step_first_hit(struct step *s, bool *found);
+
+/* Go to t of the paths. */
+void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30);
+
+/* Go to the hit, on paths that end at it. */
+int step_go_to_hit(struct step *s, int32_t slice_q30);
+
+/* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
+int step_start_contacts(struct step *s);
+
+/* Resolve the hit: the impact, then what it left slow goes into continuous contact. */
+int step_respond(struct step *s);
+
+/* Note that a pair touches in this step. */
+void step_note_touching(struct step *s, const struct pair *p);
+
+/* A frame that was cut short must not have gained energy by it. */
+void step_limit_energy(struct step *s);
+
+/* Begin and end of touching, rest, and bodies that left the world. */
+void step_finish_events(struct step *s);
+void step_finish_stats(struct carom_world *w);
+
+#endif
