@@ -12,6 +12,7 @@
 #define SMALLEST_PIVOT ((int32_t)1 << 6)  /* of a normalised row; below, it is rounding noise */
 #define DIGITS_BITS    29
 #define ROUNDS_MAX     5
+#define RESIDUAL_BITS  61
 
 /* |v|, or |v| - 1 for negative v: good enough to see how many bits are used, and no branch. */
 static uint32_t magnitude(int32_t v)
@@ -46,6 +47,7 @@ static int normalise_rows(struct gauss *w, int n)
             return -1;
         }
         z = headroom(largest, NORMAL);
+        w->up[i] = (uint8_t)z;
         CAROM_ASSERT(largest < 2 * (uint32_t)FULL && z <= 29);
         for (int j = 0; j < n; j++) {
             w->a[i][j] = (int32_t)carom_shl(w->a[i][j], z);
@@ -221,21 +223,24 @@ static int replay(struct gauss *w, int n)
 static int correction(struct gauss *w, int n, int bits, int q)
 {
     int s = bits - 30;
-    int top = 0;
+    int most = 0, top;
+    uint64_t used = 0;
 
     for (int i = 0; i < n; i++) {
         w->y[i] = scale_down(w->residual[i], s);
     }
     q -= s;
     q -= replay(w, n);
-    /* x_k = y / d = (y 2^z inverse) 2^-59, a product of at most 60 bits before the shift by z. */
+    for (int k = 0; k < n; k++) {
+        most = w->inverse_shift[k] > most ? w->inverse_shift[k] : most;
+    }
+    /* x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse: 60 bits before it. */
     for (int k = 0; k < n; k++) {
         int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
 
-        bits = fix_bits((uint64_t)carom_abs(x)) + w->inverse_shift[k];
-        top = bits > top ? bits : top;
+        used |= (uint64_t)carom_abs(x) >> (most - w->inverse_shift[k]);
     }
-    top -= DIGITS_BITS;
+    top = fix_bits(used) + most - DIGITS_BITS;
     for (int k = 0; k < n; k++) {
         int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
 
@@ -260,6 +265,14 @@ static void take_out(struct gauss *w, int n, int up)
     }
 }
 
+/* x += digits 2^-h */
+static void add_digits(struct gauss *w, int n, int h)
+{
+    for (int k = 0; k < n; k++) {
+        w->x_q40[k] += h - 40 > 62 ? 0 : scale_down(w->digits[k], h - 40);
+    }
+}
+
 int gauss_solve(struct gauss *w, int n)
 {
     int first = 0, last = 0;
@@ -268,9 +281,7 @@ int gauss_solve(struct gauss *w, int n)
     if (normalise_rows(w, n) || factor(w, n) || invert_diagonal(w, n)) {
         return -1;
     }
-    for (int i = 0; i < n; i++) {
-        w->x_q40[i] = 0;
-    }
+    memset(w->x_q40, 0, sizeof w->x_q40);
     for (int round = 0; round < ROUNDS_MAX; round++) {
         int bits = block_bits(w->residual, n);
         int h;
@@ -278,16 +289,14 @@ int gauss_solve(struct gauss *w, int n)
         if (bits == 0) {
             return 0;
         }
-        if (bits > 61) {
+        if (bits > RESIDUAL_BITS) {
             return -1;
         }
         h = correction(w, n, bits, last);
         if (h < DIGITS_BITS - 20 || h < last + 4) {
             return -1; /* out of range, or corrections that hardly shrink */
         }
-        for (int i = 0; i < n; i++) {
-            w->x_q40[i] += h - 40 > 62 ? 0 : scale_down(w->digits[i], h - 40);
-        }
+        add_digits(w, n, h);
         first = round == 0 ? h : first;
         /* Each correction is as good, relative to itself, as the first solution was. */
         if (round > 0 && (h - first) + (h - last) >= 34) {
@@ -297,4 +306,26 @@ int gauss_solve(struct gauss *w, int n)
         last = h;
     }
     return -1;
+}
+
+int gauss_add(struct gauss *w, int n, const int64_t *b_q10)
+{
+    int bits, h;
+
+    bits = block_bits(b_q10, n);
+    if (bits == 0) {
+        return 0;
+    }
+    if (bits > GAUSS_ADD_BITS) {
+        return -1;
+    }
+    for (int i = 0; i < n; i++) {
+        w->residual[i] = carom_shl(b_q10[i], w->up[i]); /* < 2^(32 + 29) */
+    }
+    h = correction(w, n, block_bits(w->residual, n), 10);
+    if (h < DIGITS_BITS - 20) {
+        return -1;
+    }
+    add_digits(w, n, h);
+    return 0;
 }

@@ -15,7 +15,8 @@
 
 #include "fix.h"
 
-#define GAUSS_MAX 15
+#define GAUSS_MAX      15
+#define GAUSS_ADD_BITS 32
 
 /* Workspace from the caller. a[i][n] is the right-hand side of row i. */
 struct gauss {
@@ -23,6 +24,7 @@ struct gauss {
     int64_t x_q40[GAUSS_MAX];            /* out: the solution */
 
     /* Gauss's own. A step eliminates one column. */
+    uint8_t up[GAUSS_MAX];                  /* how far each row was shifted up at first */
     int32_t original[GAUSS_MAX][GAUSS_MAX]; /* the normalised rows */
     int64_t residual[GAUSS_MAX];            /* what the solution so far leaves over, by row */
     int64_t y[GAUSS_MAX];                   /* a right-hand side on its way through the steps */
@@ -48,5 +50,16 @@ struct gauss {
  * Source   paper section 3 (Gauss-Jordan elimination)
  */
 int gauss_solve(struct gauss *w, int n);
+
+/*
+ * After gauss_solve: solve the same rows for another right-hand side and add the result to x_q40.
+ * For a caller that knows its equations to more digits than the rows hold: what x leaves over of
+ * them is the b to give.
+ *
+ *   b_q10  in the scale of the rows with 10 more bits (rows in q30: in q40); |b| < 2^GAUSS_ADD_BITS
+ *
+ * Returns  0; -1, with x_q40 as it was, when b or the result is out of range.
+ */
+int gauss_add(struct gauss *w, int n, const int64_t *b_q10);
 
 #endif

@@ -4,7 +4,9 @@
 #define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
 #define SPEED_BITS   60 /* bits of V in q40 of the solver's unit, at most */
 
-/* v 2^s to nearest. */
+/* Where J_kl is among xx, yy, zz, xy, yz, zx. */
+static const uint8_t inertia_entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+
 int64_t impact_shift(int64_t v, int s)
 {
     if (s >= 0) {
@@ -23,7 +25,6 @@ int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
     return fix_mul(v[0], d->c[0], 30) + fix_mul(v[1], d->c[1], 30) + fix_mul(v[2], d->c[2], 30);
 }
 
-/* a . b, exact. */
 struct fix_wide impact_wide_dot(const int64_t a[3], const int64_t b[3])
 {
     struct fix_wide sum = fix_wide_mul(a[0], b[0]);
@@ -32,7 +33,6 @@ struct fix_wide impact_wide_dot(const int64_t a[3], const int64_t b[3])
     return fix_wide_add(sum, fix_wide_mul(a[2], b[2]));
 }
 
-/* V.d, exact. */
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
 {
     int64_t d64[3] = {d->c[0], d->c[1], d->c[2]};
@@ -42,10 +42,6 @@ struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
 
 /* ------------------------------------------------------------------- frame */
 
-/*
- * u along t x N and v along the part of t across N. Returns false when t has no such part, or one
- * that is within its rounding; u and v are then any tangents.
- */
 bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
 {
     struct fix_wide cross_q70[3];
@@ -116,12 +112,16 @@ static void set_masses(struct impact_problem *p, const struct impact_side *side[
         }
     }
     for (int b = 0; b < p->movers; b++) {
-        /* m* / m = ratio 2^-(30 + e), at most 1. */
-        int64_t ratio = ((int64_t)p->mass.m * ((int64_t)1 << 30)) / side[b]->mass.m;
-        int e = p->mass.e - side[b]->mass.e;
+        /* m* / m = ratio 2^-(60 + e), at most 1; long division gives the ratio its 60 bits. */
+        int64_t m = side[b]->mass.m;
+        int64_t high = p->mass.m * ((int64_t)1 << 30) / m,
+                rest = p->mass.m * ((int64_t)1 << 30) % m;
+        int64_t ratio = high * ((int64_t)1 << 30) + rest * ((int64_t)1 << 30) / m;
+        int64_t share_q60 = impact_shift(ratio, side[b]->mass.e - p->mass.e);
 
-        p->mover[b].share_shift = e / 2;
-        p->mover[b].share_q30 = (int32_t)impact_shift(ratio, e / 2 - e);
+        p->mover[b].share_q30 = (int32_t)carom_round(share_q60, 30);
+        p->mover[b].share_rest_q60 =
+            (int32_t)(share_q60 - p->mover[b].share_q30 * ((int64_t)1 << 30));
     }
 }
 
@@ -161,7 +161,6 @@ void impact_prepare(struct impact_problem *p)
 /* Equations (1) to (4). */
 static void set_body_rows(const struct impact_problem *p)
 {
-    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     int32_t(*a)[GAUSS_MAX + 1] = p->w->a;
     int impulse = p->n - 3;
 
@@ -179,7 +178,7 @@ static void set_body_rows(const struct impact_problem *p)
             a[first + k][first + k] = CAROM_ONE_Q30;
             a[first + k][impulse + k] = (int32_t)impact_shift(-share, -p->arm_shift);
             for (int l = 0; l < 3; l++) {
-                a[first + 3 + k][first + 3 + l] = m->inertia_q30[entry[k][l]];
+                a[first + 3 + k][first + 3 + l] = m->inertia_q30[inertia_entry[k][l]];
             }
             /* (arm x P)_j has arm_k P_i with a plus sign, (arm x P)_i has arm_k P_j with a minus.
              */
@@ -190,100 +189,59 @@ static void set_body_rows(const struct impact_problem *p)
 }
 
 /* The coefficients that give the change of V.d from dv and dw. */
-static void velocity_row(const struct impact_problem *p, const int32_t d_q30[3], int32_t *row)
+static void velocity_row(const struct impact_problem *p, const carom_v3_q30 *d, int32_t *row)
 {
     for (int b = 0; b < p->movers; b++) {
         const struct impact_mover *m = &p->mover[b];
         int32_t turn[3];
 
-        carom_cross(turn, m->arm_q30, d_q30, 30 + m->share_shift);
+        carom_cross(turn, m->arm_q30, d->c, 30);
         for (int k = 0; k < 3; k++) {
-            row[6 * b + k] =
-                m->sign * (int32_t)impact_shift(d_q30[k], -(p->arm_shift + m->share_shift));
+            row[6 * b + k] = m->sign * (int32_t)impact_shift(d->c[k], -p->arm_shift);
             row[6 * b + 3 + k] = m->sign * turn[k];
         }
     }
 }
 
-/* u.P = 0, and (v + mu N).P = 0 as (9), (10); mu = 0 gives the frictionless impulse. */
+/* v 2^16 + mu N of (10), and the bits that it takes: (v + mu N) 2^(46 - bits) in 30 bits is its
+ * row. */
+static int slide_direction(const struct impact_problem *p, uint32_t friction_q16, int64_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = ((int64_t)p->frame.v.c[k] * ((int64_t)1 << 16)) +
+                 (int64_t)friction_q16 * p->frame.n.c[k];
+    }
+    return bits3(out);
+}
+
+/* Paper (9) and (10); mu = 0 gives the frictionless impulse. */
 static void set_slide_rows(const struct impact_problem *p, uint32_t friction_q16)
 {
     int32_t *across = p->w->a[p->n - 2], *along = p->w->a[p->n - 1];
     int64_t row[3];
-    int bits;
+    int bits = slide_direction(p, friction_q16, row);
 
-    for (int k = 0; k < 3; k++) {
-        row[k] = ((int64_t)p->frame.v.c[k] * ((int64_t)1 << 16)) +
-                 (int64_t)friction_q16 * p->frame.n.c[k];
-    }
-    bits = bits3(row);
     for (int k = 0; k < 3; k++) {
         across[p->n - 3 + k] = p->frame.u.c[k];
         along[p->n - 3 + k] = (int32_t)impact_shift(row[k], 30 - bits);
     }
 }
 
-/* v / 2^(bits - 30) to nearest, for a v of at most `bits` bits: a right-hand side in the solver's
- * unit. */
-static int32_t right_side(struct fix_wide v_q70, int bits)
-{
-    return bits > 30 ? (int32_t)carom_round(fix_wide_shift(v_q70, bits - 31), 1)
-                     : (int32_t)fix_wide_shift(v_q70, 0);
-}
-
-/* Paper (5): the wanted V'.N. */
-static void set_normal_row(const struct impact_problem *p, int bits)
-{
-    int32_t *row = p->w->a[p->n - 3];
-
-    velocity_row(p, p->frame.n.c, row);
-    row[p->n] = right_side(p->wanted_q70, bits);
-}
-
-/* Paper (7) and (8): the slip is to vanish. */
-static void set_stick_rows(const struct impact_problem *p, const struct fix_wide slip_q70[2],
-                           int bits)
-{
-    const carom_v3_q30 *tangent[2] = {&p->frame.u, &p->frame.v};
-
-    for (int k = 0; k < 2; k++) {
-        int32_t *row = p->w->a[p->n - 2 + k];
-
-        velocity_row(p, tangent[k]->c, row);
-        row[p->n] = -right_side(slip_q70[k], bits);
-    }
-}
-
 /* ------------------------------------------------------------------- solve */
 
-/* Solve the rows and take P and K P out of the unknowns. */
-static int solve(const struct impact_problem *p, int bits, struct impact_answer *out)
+/* What one solution asks for. */
+struct goal {
+    bool sticks;
+    uint32_t friction_q16; /* when it does not */
+    int bits;              /* of the unit, with 70 fractional bits */
+    int64_t change_q40[3]; /* of V along N, u, v, in the unit */
+};
+
+/* v in units of 2^bits. */
+static int64_t in_unit_q40(struct fix_wide v_q70, int bits)
 {
-    const int64_t *x = p->w->x_q40;
-    uint64_t used = 0;
-
-    if (gauss_solve(p->w, p->n)) {
-        return -1;
-    }
-    for (int j = 0; j < p->n; j++) {
-        used |= (uint64_t)carom_abs(x[j]);
-    }
-    if (used >> UNKNOWNS_MAX) {
-        return -1;
-    }
-    out->unit = bits - 70;
-    for (int k = 0; k < 3; k++) {
-        int32_t axis[3] = {0, 0, 0}, row[GAUSS_MAX];
-
-        axis[k] = CAROM_ONE_Q30;
-        velocity_row(p, axis, row);
-        out->p_q40[k] = x[p->n - 3 + k];
-        out->dv_q40[k] = 0;
-        for (int j = 0; j < p->n - 3; j++) {
-            out->dv_q40[k] += fix_mul(x[j], row[j], 30);
-        }
-    }
-    return 0;
+    return bits > 40 ? carom_round(fix_wide_shift(v_q70, bits - 41), 1)
+                     : carom_shl(fix_wide_shift(v_q70, 0), 40 - bits);
 }
 
 /* The unit must not be so small that V does not fit, nor finer than the velocities are. */
@@ -294,30 +252,135 @@ static int unit_bits(const struct impact_problem *p, int bits)
     return bits > lowest ? bits : lowest > 30 ? lowest : 30;
 }
 
+static void set_rows(const struct impact_problem *p, const struct goal *goal)
+{
+    const carom_v3_q30 *direction[3] = {&p->frame.n, &p->frame.u, &p->frame.v};
+
+    set_body_rows(p);
+    for (int k = 0; k < (goal->sticks ? 3 : 1); k++) {
+        int32_t *row = p->w->a[p->n - 3 + k];
+
+        velocity_row(p, direction[k], row);
+        row[p->n] = (int32_t)carom_round(goal->change_q40[k], 10);
+    }
+    if (!goal->sticks) {
+        set_slide_rows(p, goal->friction_q16);
+    }
+}
+
+/* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
+static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
+{
+    memset(out_q40, 0, 3 * sizeof out_q40[0]);
+    for (int b = 0; b < p->movers; b++) {
+        const struct impact_mover *m = &p->mover[b];
+        const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
+
+        for (int k = 0; k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+
+            out_q40[k] +=
+                m->sign * (impact_shift(dv[k], -p->arm_shift) + fix_mul(dw[i], m->arm_q30[j], 30) -
+                           fix_mul(dw[j], m->arm_q30[i], 30));
+        }
+    }
+}
+
+/* What the solution leaves over of (1) to (4), with nothing rounded but the last place of q40. */
+static void body_residual(const struct impact_problem *p, int b, int64_t *out_q40)
+{
+    const struct impact_mover *m = &p->mover[b];
+    const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3, *impulse = p->w->x_q40 + p->n - 3;
+    int64_t share[3];
+
+    for (int k = 0; k < 3; k++) {
+        share[k] = m->sign * (fix_mul(impulse[k], m->share_q30, 30) +
+                              fix_mul(impulse[k], m->share_rest_q60, 60));
+        out_q40[k] = impact_shift(share[k], -p->arm_shift) - dv[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        out_q40[3 + k] = fix_mul(share[j], m->arm_q30[i], 30 + m->inertia_odd) -
+                         fix_mul(share[i], m->arm_q30[j], 30 + m->inertia_odd);
+        for (int l = 0; l < 3; l++) {
+            out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[inertia_entry[k][l]], 30);
+        }
+    }
+}
+
+/*
+ * Refine the solution against the equations before their coefficients were rounded to rows. It
+ * matters where P is large beside the approach speed, as in a grazing contact that wedges.
+ */
+static int refine(const struct impact_problem *p, const struct goal *goal)
+{
+    const int64_t *impulse = p->w->x_q40 + p->n - 3;
+    int64_t residual_q40[GAUSS_MAX], *last = residual_q40 + p->n - 3, change[3], row[3];
+
+    for (int b = 0; b < p->movers; b++) {
+        body_residual(p, b, residual_q40 + 6 * b);
+    }
+    velocity_change(p, change);
+    last[0] = goal->change_q40[0] - impact_dot(change, &p->frame.n);
+    if (goal->sticks) {
+        last[1] = goal->change_q40[1] - impact_dot(change, &p->frame.u);
+        last[2] = goal->change_q40[2] - impact_dot(change, &p->frame.v);
+    } else {
+        int64_t excess = impact_dot(impulse, &p->frame.v) +
+                         fix_mul(impact_dot(impulse, &p->frame.n), (int32_t)goal->friction_q16, 16);
+
+        last[1] = -impact_dot(impulse, &p->frame.u);
+        last[2] = -impact_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
+    }
+    return gauss_add(p->w, p->n, residual_q40);
+}
+
+static int solve(const struct impact_problem *p, const struct goal *goal, struct impact_answer *out)
+{
+    const int64_t *x = p->w->x_q40;
+    uint64_t used = 0;
+
+    set_rows(p, goal);
+    if (gauss_solve(p->w, p->n)) {
+        return -1;
+    }
+    for (int j = 0; j < p->n; j++) {
+        used |= (uint64_t)carom_abs(x[j]);
+    }
+    if (used >> UNKNOWNS_MAX || refine(p, goal)) {
+        return -1;
+    }
+    out->unit = goal->bits - 70;
+    memcpy(out->p_q40, x + p->n - 3, sizeof out->p_q40);
+    velocity_change(p, out->dv_q40);
+    return 0;
+}
+
 int impact_stick(const struct impact_problem *p, struct impact_answer *out)
 {
-    struct fix_wide slip_q70[2] = {impact_speed_q70(p->in, &p->frame.u),
-                                   impact_speed_q70(p->in, &p->frame.v)};
-    int bits = fix_wide_bits(p->wanted_q70);
+    struct fix_wide change_q70[3] = {p->wanted_q70,
+                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.u)),
+                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.v))};
+    struct goal goal = {.sticks = true, .bits = 0};
 
-    for (int k = 0; k < 2; k++) {
-        int b = fix_wide_bits(slip_q70[k]);
+    for (int k = 0; k < 3; k++) {
+        int b = fix_wide_bits(change_q70[k]);
 
-        bits = b > bits ? b : bits;
+        goal.bits = b > goal.bits ? b : goal.bits;
     }
-    bits = unit_bits(p, bits);
-    set_body_rows(p);
-    set_normal_row(p, bits);
-    set_stick_rows(p, slip_q70, bits);
-    return solve(p, bits, out);
+    goal.bits = unit_bits(p, goal.bits);
+    for (int k = 0; k < 3; k++) {
+        goal.change_q40[k] = in_unit_q40(change_q70[k], goal.bits);
+    }
+    return solve(p, &goal, out);
 }
 
 int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out)
 {
-    int bits = unit_bits(p, fix_wide_bits(p->wanted_q70));
+    struct goal goal = {.friction_q16 = friction_q16,
+                        .bits = unit_bits(p, fix_wide_bits(p->wanted_q70))};
 
-    set_body_rows(p);
-    set_normal_row(p, bits);
-    set_slide_rows(p, friction_q16);
-    return solve(p, bits, out);
+    goal.change_q40[0] = in_unit_q40(p->wanted_q70, goal.bits);
+    return solve(p, &goal, out);
 }

@@ -41,19 +41,22 @@ static void merge_lists(struct interfere *w)
     w->cells[1][0] = w->cells[1][1] = -1;
 }
 
+/* Enter a face in one cell; `lowest` is the least z of the grown face. */
 static void enter_cell(struct interfere *w, const struct zface *f, const struct scan_grid *grid,
-                       int32_t col, int32_t row, uint16_t face)
+                       int32_t col, int32_t row, int32_t lowest, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
     uint32_t cell = (uint32_t)(row * grid->nx + col);
+    const struct carom_zref *top = &mb->zrefs[mb->cell_start[cell]];
     int16_t z0, z1;
 
-    if (mb->cell_start[cell] == mb->cell_start[cell + 1]) {
+    /* above all of b in this cell: by the whole face first, which costs nothing */
+    if (mb->cell_start[cell] == mb->cell_start[cell + 1] || top->z1 < lowest) {
         return;
     }
     zface_interval(f, grid, col, row, &z0, &z1);
-    if (mb->zrefs[mb->cell_start[cell]].z1 < z0) {
-        return; /* above all of b in this cell */
+    if (top->z1 < z0) {
+        return;
     }
     if (!zlist_enter(&w->lists, cell, z0, z1, face)) {
         merge_lists(w); /* a chunk */
@@ -97,6 +100,7 @@ static void scan_leaf(struct interfere *w)
     for (uint16_t i = 0; i < leaf->face_count; i++) {
         struct interfere_face *lf = &w->leaf_faces[i];
         uint32_t number = ma->leaf_faces[leaf->first_face + i];
+        int32_t lowest = INT32_MAX;
         struct zface f;
         struct scan_cells cells;
         struct scan_run run;
@@ -108,35 +112,70 @@ static void scan_leaf(struct interfere *w)
         for (int k = 0; k < 3; k++) {
             xy[k][0] = f.p[k][0];
             xy[k][1] = f.p[k][1];
+            lowest = f.p[k][2] - f.grow < lowest ? f.p[k][2] - f.grow : lowest;
         }
         scan_cells_begin(&cells, &grid, (const int32_t(*)[2])xy, 3, f.grow);
         while (scan_cells_next(&cells, &run)) {
             for (int32_t col = run.x0; col < run.x1; col++) {
-                enter_cell(w, &f, &grid, col, run.y, i);
+                enter_cell(w, &f, &grid, col, run.y, lowest, i);
             }
         }
     }
     merge_lists(w);
 }
 
-/* Whether the sphere around a leaf, grown by the reach, meets the box of b. */
+/* Cell of a coordinate in quanta along one axis of a grid, clamped to it. */
+static int32_t clamp_cell(int64_t x, int32_t x0, int shift, int32_t n)
+{
+    int64_t cell = (x - x0) >> shift;
+
+    return cell < 0 ? 0 : cell >= n ? n - 1 : (int32_t)cell;
+}
+
+/* The highest z of b in the cells under a square, quanta. */
+static int32_t highest_under(const struct carom_mesh *mb, const int64_t low[3],
+                             const int64_t high[3])
+{
+    struct scan_grid grid = mesh_grid(mb);
+    int32_t col0 = clamp_cell(low[0], grid.x0, grid.shift, grid.nx);
+    int32_t col1 = clamp_cell(high[0], grid.x0, grid.shift, grid.nx);
+    int32_t row0 = clamp_cell(low[1], grid.y0, grid.shift, grid.ny);
+    int32_t row1 = clamp_cell(high[1], grid.y0, grid.shift, grid.ny);
+    int32_t top = INT16_MIN;
+
+    for (int32_t row = row0; row <= row1; row++) {
+        for (int32_t col = col0; col <= col1; col++) {
+            uint32_t first = mb->cell_start[row * grid.nx + col];
+
+            if (first < mb->cell_start[row * grid.nx + col + 1] && mb->zrefs[first].z1 > top) {
+                top = mb->zrefs[first].z1;
+            }
+        }
+    }
+    return top;
+}
+
+/* Whether the sphere around a leaf, grown by the reach, meets the box of b and what lies under it.
+ */
 static bool leaf_near(const struct interfere *w, const struct carom_leaf *leaf)
 {
     const struct carom_mesh *mb = w->b->mesh;
     int shift = 22 - mb->raw.quantum_bits;
     int64_t radius = (int64_t)leaf->radius_q22 + w->reach_q22 + 4;
+    int64_t low[3], high[3];
     carom_v3_q22 c;
 
     carom_rotate(c.c, &w->to_b, leaf->centre.c);
     for (int k = 0; k < 3; k++) {
         int64_t x = (int64_t)c.c[k] + w->offset_q22[k] + mb->mass.centre.c[k];
 
-        if (x + radius < carom_shl(mb->box[0][k], shift) ||
-            x - radius > carom_shl(mb->box[1][k], shift)) {
+        low[k] = (x - radius) >> shift;
+        high[k] = (x + radius) >> shift;
+        if (high[k] < mb->box[0][k] || low[k] > mb->box[1][k]) {
             return false;
         }
     }
-    return true;
+    return low[2] <= highest_under(mb, low, high);
 }
 
 /* -------------------------------------------------------------------- pair */

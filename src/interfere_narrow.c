@@ -286,6 +286,33 @@ static bool edge_edge(struct interfere *w, const struct triangle *a, const struc
     return any;
 }
 
+static int32_t lowest(const struct triangle *t, int k)
+{
+    int32_t m = t->p[0].c[k] < t->p[1].c[k] ? t->p[0].c[k] : t->p[1].c[k];
+
+    return m < t->p[2].c[k] ? m : t->p[2].c[k];
+}
+
+static int32_t highest(const struct triangle *t, int k)
+{
+    int32_t m = t->p[0].c[k] > t->p[1].c[k] ? t->p[0].c[k] : t->p[1].c[k];
+
+    return m > t->p[2].c[k] ? m : t->p[2].c[k];
+}
+
+/* Whether the boxes of two triangles are farther apart than the reach. */
+static bool boxes_apart(const struct interfere *w, const struct triangle *a,
+                        const struct triangle *b)
+{
+    for (int k = 2; k >= 0; k--) {
+        if (lowest(a, k) - highest(b, k) > w->reach_q22 ||
+            lowest(b, k) - highest(a, k) > w->reach_q22) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Whether all corners of t lie on one side of the plane of `plane`, farther than the reach. */
 static bool apart(const struct interfere *w, const struct triangle *t, const struct triangle *plane)
 {
@@ -317,7 +344,7 @@ void interfere_narrow(struct interfere *w, uint16_t leaf_face, uint16_t face_b)
         a.p[k] = w->vertices[lf->corner[k]];
         b.p[k] = mesh_corner(mb, face_b, k);
     }
-    if (apart(w, &a, &b) || apart(w, &b, &a)) {
+    if (boxes_apart(w, &a, &b) || apart(w, &a, &b) || apart(w, &b, &a)) {
         return;
     }
     any = vertex_face(w, &a, &b, CANDIDATE_VERTEX_FACE);
