@@ -2,8 +2,8 @@
 /*
  * port.h - what a board gives a program: a display, a timer, a character, a way out.
  *
- * Plain functions, one definition each, found at link time: a missing one is a link error that names
- * it. The engine calls none of them; programs do. To bring up a board, copy port/null.
+ * Plain functions, one definition each, found at link time: a missing one is a link error that
+ * names it. The engine calls none of them; programs do. To bring up a board, copy port/null.
  */
 #ifndef CAROM_PORT_H
 #define CAROM_PORT_H
@@ -14,7 +14,7 @@
 enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888 };
 
 struct port_fb {
-    void *pixels;   /* NULL: no display */
+    void *pixels; /* NULL: no display */
     int32_t width, height;
     int32_t stride; /* bytes a row */
     uint8_t format; /* enum port_pixels, the same numbers as enum carom_pixel_format */
@@ -47,6 +47,13 @@ uint32_t port_input(void);
 
 /* The n-th argument of the program, n = 0 being its name; NULL past the last. */
 const char *port_arg(int n);
+
+/*
+ * The value of the first argument of the form name=value, or NULL. The same on every board, over
+ * port_arg. A port itself knows one option: `pictures` asks it to let pictures out of port_present,
+ * in a way that the board's folder describes.
+ */
+const char *port_option(const char *name);
 
 /*
  * A whole file that the board can read (semihosting, host): up to `max` bytes into `buffer`.

@@ -186,25 +186,25 @@ static void test_tetrahedron(void)
 }
 
 /* Two boxes that do not touch: volumes add, and the parallel axis theorem gives the rest. */
-static void test_two_boxes(void)
+static void check_two_boxes(const int16_t a0[3], const int16_t a1[3], const int16_t b0[3],
+                            const int16_t b1[3], int bits)
 {
     struct shape s = {.raw = {0}};
     struct carom_mass m;
-    const int16_t a0[3] = {-3000, 100, 7}, a1[3] = {-1000, 900, 507};
-    const int16_t b0[3] = {2000, -500, -900}, b1[3] = {2300, 400, -100};
+    double quantum = power(0.5, bits);
     double mass[2], centre[2][3], mean[3], own[2][3], expected[6], total;
 
-    add_box(&s, a0, a1, 10);
-    add_box(&s, b0, b1, 10);
+    add_box(&s, a0, a1, bits);
+    add_box(&s, b0, b1, bits);
     CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
     mass[0] = mass[1] = 1;
     for (int k = 0; k < 3; k++) {
-        double side_a = (a1[k] - a0[k]) / 1024.0, side_b = (b1[k] - b0[k]) / 1024.0;
+        double side_a = (a1[k] - a0[k]) * quantum, side_b = (b1[k] - b0[k]) * quantum;
 
         mass[0] *= side_a;
         mass[1] *= side_b;
-        centre[0][k] = (a0[k] + a1[k]) / 2048.0;
-        centre[1][k] = (b0[k] + b1[k]) / 2048.0;
+        centre[0][k] = (a0[k] + a1[k]) * quantum / 2;
+        centre[1][k] = (b0[k] + b1[k]) * quantum / 2;
         own[0][k] = side_a * side_a / 12; /* variance along the axis */
         own[1][k] = side_b * side_b / 12;
     }
@@ -224,12 +224,24 @@ static void test_two_boxes(void)
             expected[3 + k] -= mass[i] / total * dk * dj;
         }
     }
-    CHECK(magnitude((double)m.volume_q32 - total * 4294967296.0) <= 1);
+    CHECK(magnitude((double)m.volume_q32 - total * 4294967296.0) <= 1 + total * 1e-5);
     for (int k = 0; k < 3; k++) {
         CHECK(magnitude(m.centre.c[k] - mean[k] * 4194304) <= 0.5 + 1e-6);
         CHECK(magnitude(entry(&m.inertia, k) - expected[k]) <= 1e-8 * expected[1]);
         CHECK(magnitude(entry(&m.inertia, 3 + k) - expected[3 + k]) <= 1e-8 * expected[1]);
     }
+}
+
+static void test_two_boxes(void)
+{
+    const int16_t a0[3] = {-3000, 100, 7}, a1[3] = {-1000, 900, 507};
+    const int16_t b0[3] = {2000, -500, -900}, b1[3] = {2300, 400, -100};
+    const int16_t far0[3] = {32001, -32767, 31000}, far1[3] = {32010, -32757, 31007};
+    const int16_t beside0[3] = {32400, -32767, 31000}, beside1[3] = {32403, -32766, 31001};
+
+    check_two_boxes(a0, a1, b0, b1, 10);
+    /* far out and in large quanta, where a centre has more than 30 bits */
+    check_two_boxes(far0, far1, beside0, beside1, 7);
 }
 
 /* Moved by whole quanta a mesh keeps its volume, inertia and centre, to the bit. */
@@ -288,6 +300,11 @@ static void test_refused(void)
     add_box(&pair, a0, a1, 8);
     add_box(&pair, b0, b1, 8);
     turn_inside_out(&pair, 12, 12);
+    CHECK_EQ(mass_of_mesh(&pair.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
+    for (int v = 0; v < 16; v++) {
+        pair.vertices[v][0] = (int16_t)-pair.vertices[v][0];
+    }
+    turn_inside_out(&pair, 0, 24);
     CHECK_EQ(mass_of_mesh(&pair.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
 
     /* twice the largest volume there is */

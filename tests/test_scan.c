@@ -7,7 +7,7 @@
 #ifdef TEST_LONG
 #define CASES 20000
 #else
-#define CASES 300
+#define CASES 80
 #endif
 
 static int64_t cross(const int32_t a[2], const int32_t b[2], const int32_t p[2])

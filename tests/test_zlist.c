@@ -5,9 +5,11 @@
 #include "zlist.h"
 
 #ifdef TEST_LONG
-#define CASES 20000
+#define CASES 3000
+#define GRAIN 32
 #else
-#define CASES 300
+#define CASES 40
+#define GRAIN 16
 #endif
 
 /* --------------------------------------------------------------------- lists */
@@ -75,27 +77,27 @@ static void test_full(void)
 /* ----------------------------------------------------------------- intervals */
 
 /*
- * Points of the face, by whole weights that sum to 32, grown: the z of each that lies over the cell
- * must be in the interval. Returns how many are not.
+ * Points of the face, by whole weights that sum to GRAIN, grown: the z of each that lies over the
+ * cell must be in the interval. Returns how many are not.
  */
 static int missed_points(const struct zface *f, const struct scan_grid *g, int32_t col, int32_t row,
                          int16_t z0, int16_t z1)
 {
-    int64_t side = (int64_t)1 << g->shift, grow = 32 * (int64_t)f->grow;
-    int64_t x = 32 * (g->x0 + col * side), y = 32 * (g->y0 + row * side);
+    int64_t side = (int64_t)1 << g->shift, grow = GRAIN * (int64_t)f->grow;
+    int64_t x = GRAIN * (g->x0 + col * side), y = GRAIN * (g->y0 + row * side);
     int missed = 0;
 
-    for (int a = 0; a <= 32; a++) {
-        for (int b = 0; a + b <= 32; b++) {
+    for (int a = 0; a <= GRAIN; a++) {
+        for (int b = 0; a + b <= GRAIN; b++) {
             int64_t p[3];
 
             for (int k = 0; k < 3; k++) {
                 p[k] = (int64_t)a * f->p[0][k] + (int64_t)b * f->p[1][k] +
-                       (int64_t)(32 - a - b) * f->p[2][k];
+                       (int64_t)(GRAIN - a - b) * f->p[2][k];
             }
-            if (p[0] >= x - grow && p[0] <= x + 32 * side + grow && p[1] >= y - grow &&
-                p[1] <= y + 32 * side + grow) {
-                missed += p[2] - grow < 32 * (int64_t)z0 || p[2] + grow > 32 * (int64_t)z1;
+            if (p[0] >= x - grow && p[0] <= x + GRAIN * side + grow && p[1] >= y - grow &&
+                p[1] <= y + GRAIN * side + grow) {
+                missed += p[2] - grow < GRAIN * (int64_t)z0 || p[2] + grow > GRAIN * (int64_t)z1;
             }
         }
     }
@@ -107,7 +109,7 @@ static void test_interval_holds(void)
 {
     struct test_random r = {2};
 
-    for (int n = 0; n < CASES / 3; n++) {
+    for (int n = 0; n < CASES; n++) {
         struct scan_grid g = {-200, -200, (uint8_t)(4 + n % 4), 16, 16};
         struct zface f = {.grow = n % 2 ? 0 : (int32_t)test_random_range(&r, 0, 40)};
         struct scan_cells s;
@@ -167,10 +169,16 @@ static void test_interval_far(void)
     struct zface wide = {{{-8000000, 0, -3}, {8000000, 8, 5}, {0, 8000000, 4}}, 2};
     struct zface high = {{{0, 0, 40000}, {10, 0, 40010}, {0, 10, -40000}}, 0};
     struct zface above = {{{0, 0, 40000}, {10, 0, 40010}, {0, 10, 50000}}, 0};
+    struct zface huge = {{{-16000000, -15000000, -16000000},
+                          {16000000, -14000000, 16000000},
+                          {0, 16000000, 15000000}},
+                         2};
     int16_t z0, z1;
 
     zface_interval(&wide, &g, 0, 0, &z0, &z1);
     CHECK(z0 == -5 && z1 == 7);
+    zface_interval(&huge, &g, 7, 0, &z0, &z1);
+    CHECK(z0 == INT16_MIN && z1 == INT16_MAX);
     zface_interval(&high, &g, 0, 0, &z0, &z1);
     CHECK(z0 == INT16_MIN && z1 == INT16_MAX);
     zface_interval(&above, &g, 0, 0, &z0, &z1);

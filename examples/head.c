@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
+ *
+ * Options: scene=head|box|user  frames=600  mesh=file (scene user)  awake=1 (no sleep)
+ */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "carom.h"
+#include "port.h"
+#include "scene.h"
+
+/* The largest mesh that `mesh=` may bring; a board with less memory says less. */
+#ifndef USER_VERTICES
+#define USER_VERTICES 24000
+#endif
+#define USER_FACES (2 * USER_VERTICES)
+
+/* Rows of the picture whose depth is kept at once. */
+#define DEPTH_ROWS 512
+#define WIDTH_MAX  512
+
+static _Alignas(8) uint8_t mesh_block[CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +
+                                      CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
+static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(WIDTH_MAX, DEPTH_ROWS)];
+static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
+static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
+
+__attribute__((format(printf, 1, 2))) static void print(const char *format, ...)
+{
+    char line[320];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    for (const char *c = line; *c; c++) {
+        port_putc(*c);
+    }
+}
+
+/* Go on with a result that is not an error; say what is wrong and leave with any other. */
+static int expect(int result, const char *what)
+{
+    if (result < 0) {
+        print("%s: %s\n", what, carom_result_text(result));
+        port_exit(1);
+    }
+    return result;
+}
+
+/* Instructions where the port knows them, else ticks. */
+static unsigned long cost(uint32_t ticks)
+{
+    return (unsigned long)(port_instructions(port_ticks_hz) ? port_instructions(ticks) : ticks);
+}
+
+static void print_hash(const struct carom_world *world)
+{
+    uint64_t hash = carom_world_hash(world);
+
+    /* in two halves: the small printf of newlib has no 64-bit formats */
+    print("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffff));
+}
+
+static void load(struct scene *scene)
+{
+    const char *name = port_option("scene") ? port_option("scene") : "head";
+    const char *file = port_option("mesh");
+    struct carom_mesh_raw user;
+
+    if (file) {
+        long bytes = port_read_file(file, file_block, sizeof file_block);
+
+        if (bytes < 0) {
+            print("%s: cannot be read\n", file);
+            port_exit(1);
+        }
+        expect(carom_mesh_read(&user, file_block, (size_t)bytes, user_block, sizeof user_block),
+               file);
+    }
+    expect(scene_load(scene, name, file ? &user : NULL, mesh_block, sizeof mesh_block), name);
+    print("scene %s: %lu faces on %lu\n", name, (unsigned long)scene->body_mesh.raw.face_count,
+          (unsigned long)scene->ground_mesh.raw.face_count);
+}
+
+static void print_columns(void)
+{
+    print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    print("columns frame,status,substeps,hits,contacts,candidates,faces");
+    for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
+        print(",%s", carom_stage_name(stage));
+    }
+    print(",total,draw,hash\n");
+}
+
+static void print_frame(const struct carom_world *world, int frame, int status, uint32_t draw_ticks)
+{
+    const struct carom_face_ref *faces;
+    struct carom_stats stats;
+
+    expect(carom_stats(world, &stats), "stats");
+    print("frame %d,%d,%lu,%lu,%lu,%lu,%d", frame, status, (unsigned long)stats.substeps,
+          (unsigned long)stats.hits, (unsigned long)stats.contacts, (unsigned long)stats.candidates,
+          expect(carom_interfering_faces(world, &faces), "faces"));
+    for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
+        print(",%lu", cost(stats.ticks[stage]));
+    }
+    print(",%lu,%lu,", cost(stats.total_ticks), cost(draw_ticks));
+    print_hash(world);
+}
+
+static void print_usage(const struct carom_world *world)
+{
+    struct carom_usage usage[CAROM_POOL_COUNT];
+
+    expect(carom_usage(world, usage), "usage");
+    for (int pool = 0; pool < CAROM_POOL_COUNT; pool++) {
+        print("usage %s,%lu,%lu,%lu,%lu\n", usage[pool].name, (unsigned long)usage[pool].size,
+              (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
+              (unsigned long)usage[pool].refused);
+    }
+}
+
+/* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
+static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera)
+{
+    struct port_fb fb = port_fb();
+    struct carom_picture picture = {.pixels = fb.pixels,
+                                    .width = fb.width,
+                                    .height = fb.height,
+                                    .stride = fb.stride,
+                                    .format = fb.format,
+                                    .workspace = depth_block,
+                                    .workspace_bytes = sizeof depth_block};
+    uint32_t start = port_ticks();
+
+    if (!fb.pixels) {
+        return 0;
+    }
+    expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
+    return port_ticks() - start;
+}
+
+int main(void)
+{
+    static struct scene scene;
+    struct carom_config config = scene_config();
+    struct carom_world *world;
+    int frames;
+
+    port_init();
+    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
+    config.ticks = port_ticks;
+    config.sleep = port_option("awake") == NULL;
+    load(&scene);
+    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
+
+    print_columns();
+    for (int frame = 1; frame <= frames; frame++) {
+        int status = expect(carom_world_step(world), "step");
+        uint32_t draw_ticks = draw(world, &scene.camera);
+
+        port_present();
+        print_frame(world, frame, status, draw_ticks);
+    }
+    print_usage(world);
+    print("hash ");
+    print_hash(world);
+    port_exit(0);
+}

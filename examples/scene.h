@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scene.h - the scenes of the examples and tests: one body that moves over one that does not.
+ *
+ *   head  the paper's: a bumpy head of 1876 faces, dropped with spin on a height field of 3034
+ *   box   a box of three different sides, dropped on a plane
+ *   user  a mesh of the caller's in place of the head
+ *
+ * A frame is 1/60 s and a unit 1 m.
+ *
+ *   static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+ *   struct carom_config config = scene_config();
+ *   struct scene scene;
+ *   struct carom_world *world;
+ *
+ *   scene_load(&scene, "head", NULL, mesh_block, sizeof mesh_block);
+ *   scene_make(&scene, &config, world_block, sizeof world_block, &world);
+ */
+#ifndef CAROM_SCENE_H
+#define CAROM_SCENE_H
+
+#include "carom.h"
+
+/* Numbers of the bodies. */
+enum { SCENE_GROUND, SCENE_BODY };
+
+struct scene {
+    struct carom_mesh ground_mesh, body_mesh;
+    struct carom_body_def ground, body; /* refer to the meshes: a scene stays where it was loaded */
+    struct carom_camera camera;
+};
+
+/* Memory for the meshes of any scene but `user`, and for a world of scene_config's capacities. */
+#define SCENE_MESH_BYTES                                                                           \
+    (CAROM_MESH_BYTES(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                     \
+     CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
+#define SCENE_HEAD_VERTICES  940
+#define SCENE_HEAD_FACES     1876
+#define SCENE_FIELD_VERTICES 1596
+#define SCENE_FIELD_FACES    3034
+
+/* bodies, pairs, contacts, faces, entries, candidates */
+#define SCENE_CAPS        2, 1, 256, 1024, 1024, 1024
+#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_CAPS)
+
+/* The raw meshes of the head scene, generated. */
+extern const struct carom_mesh_raw head_mesh, field_mesh;
+
+/* SCENE_CAPS, gravity, sleep on, no timing. */
+struct carom_config scene_config(void);
+
+/*
+ * Build the meshes of a scene and say where its bodies start.
+ *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else
+ * NULL mem   aligned to 8: SCENE_MESH_BYTES; for `user`, CAROM_MESH_BYTES of its counts and of the
+ * field Returns CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of the three, or what
+ * carom_mesh_build returned.
+ */
+int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
+               size_t bytes);
+
+/* Make a world in a block of its own and put the two bodies in. Returns CAROM_OK or an error. */
+int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
+               size_t bytes, struct carom_world **world);
+
+#endif

@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+/* Console, arguments, files and exit status by ARM semihosting, for every ARM board. */
+#include <string.h>
+
+#include "port.h"
+#include "semihost.h"
+
+/* Operations, by ARM's "Semihosting for AArch32 and AArch64". */
+enum {
+    SYS_OPEN = 0x01,
+    SYS_CLOSE = 0x02,
+    SYS_WRITE0 = 0x04,
+    SYS_WRITE = 0x05,
+    SYS_READ = 0x06,
+    SYS_READC = 0x07,
+    SYS_GET_CMDLINE = 0x15,
+    SYS_EXIT_EXTENDED = 0x20
+};
+enum { OPEN_READ_BINARY = 1, OPEN_WRITE_BINARY = 5 };
+#define APPLICATION_EXIT 0x20026 /* ADP_Stopped_ApplicationExit */
+
+#define ARGUMENTS_MAX 16
+
+static struct {
+    char line[128]; /* one call a line is much faster than one a character */
+    size_t length;
+} console;
+
+static intptr_t call(int operation, const void *block)
+{
+    register intptr_t r0 __asm__("r0") = operation;
+    register const void *r1 __asm__("r1") = block;
+
+#if __ARM_ARCH_PROFILE == 'M'
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+#else
+    __asm__ volatile("svc 0x123456" : "+r"(r0) : "r"(r1) : "memory", "lr");
+#endif
+    return r0;
+}
+
+void semihost_flush(void)
+{
+    console.line[console.length] = '\0';
+    call(SYS_WRITE0, console.line);
+    console.length = 0;
+}
+
+void port_putc(char c)
+{
+    console.line[console.length++] = c;
+    if (c == '\n' || console.length == sizeof console.line - 1) {
+        semihost_flush();
+    }
+}
+
+int semihost_getc(void)
+{
+    semihost_flush();
+    return (int)call(SYS_READC, NULL);
+}
+
+static intptr_t open_file(const char *name, intptr_t mode)
+{
+    intptr_t block[3] = {(intptr_t)name, mode, (intptr_t)strlen(name)};
+
+    return call(SYS_OPEN, block);
+}
+
+intptr_t semihost_create(const char *name)
+{
+    return open_file(name, OPEN_WRITE_BINARY);
+}
+
+void semihost_write(intptr_t file, const void *bytes, size_t count)
+{
+    intptr_t block[3] = {file, (intptr_t)bytes, (intptr_t)count};
+
+    call(SYS_WRITE, block);
+}
+
+void semihost_close(intptr_t file)
+{
+    call(SYS_CLOSE, &file);
+}
+
+long port_read_file(const char *name, void *buffer, size_t max)
+{
+    intptr_t file = open_file(name, OPEN_READ_BINARY);
+    intptr_t block[3] = {file, (intptr_t)buffer, (intptr_t)max};
+    intptr_t left;
+
+    if (file == -1) {
+        return -1;
+    }
+    left = call(SYS_READ, block); /* the bytes that were not read */
+    semihost_close(file);
+    return (long)((intptr_t)max - left);
+}
+
+/* Cut the command line at its spaces; the pointers stay valid. */
+static int split(char *line, const char *argument[ARGUMENTS_MAX])
+{
+    int count = 0;
+
+    while (*line && count < ARGUMENTS_MAX) {
+        while (*line == ' ') {
+            *line++ = '\0';
+        }
+        if (*line) {
+            argument[count++] = line;
+        }
+        while (*line && *line != ' ') {
+            line++;
+        }
+    }
+    return count;
+}
+
+const char *port_arg(int n)
+{
+    static char line[512];
+    static const char *argument[ARGUMENTS_MAX];
+    static int count = -1;
+
+    if (count < 0) {
+        intptr_t block[2] = {(intptr_t)line, (intptr_t)sizeof line};
+
+        count = call(SYS_GET_CMDLINE, block) == 0 ? split(line, argument) : 0;
+    }
+    return n >= 0 && n < count ? argument[n] : NULL;
+}
+
+_Noreturn void port_exit(int status)
+{
+    intptr_t block[2] = {APPLICATION_EXIT, status};
+
+    semihost_flush();
+    for (;;) {
+        call(SYS_EXIT_EXTENDED, block);
+    }
+}

@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: MIT
+# The machine that compiles: Linux, a framebuffer in memory, pictures by libpng.
+PORT := port/host/host.c
+LIBS := -lpng -lm
+PICTURES := 1

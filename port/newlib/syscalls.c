@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The few system calls that newlib asks for, over the port's functions.
+ *
+ * The heap has no bytes: _sbrk always refuses. snprintf of newlib nano works without one. Its
+ * printf does not: it allocates the standard streams and writes through the NULL that it gets. So
+ * there is no _write or _read here, and a program that uses printf fails to link instead of
+ * overwriting memory; programs use snprintf and port_putc.
+ */
+#include <errno.h>
+#include <stdint.h>
+
+#include "port.h"
+
+void *_sbrk(ptrdiff_t bytes);
+int _getpid(void);
+int _kill(int process, int signal);
+_Noreturn void _exit(int status);
+
+void *_sbrk(ptrdiff_t bytes)
+{
+    (void)bytes;
+    errno = ENOMEM;
+    return (void *)(intptr_t)-1;
+}
+
+/* abort() raises a signal; there is one process to end. */
+int _getpid(void)
+{
+    return 1;
+}
+
+int _kill(int process, int signal)
+{
+    (void)process;
+    _exit(128 + signal);
+}
+
+_Noreturn void _exit(int status)
+{
+    port_exit(status);
+}

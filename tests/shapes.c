@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+#include "shapes.h"
+#include "real.h"
+
+static void begin(struct shape *s, int quantum_bits, int kind)
+{
+    s->raw.vertices = (const int16_t(*)[3])s->vertices;
+    s->raw.faces = (const uint16_t(*)[3])s->faces;
+    s->raw.vertex_count = s->raw.face_count = 0;
+    s->raw.quantum_bits = (uint8_t)quantum_bits;
+    s->raw.kind = (uint8_t)kind;
+}
+
+static uint32_t add_vertex(struct shape *s, int x, int y, int z)
+{
+    int16_t *v = s->vertices[s->raw.vertex_count];
+
+    v[0] = (int16_t)x;
+    v[1] = (int16_t)y;
+    v[2] = (int16_t)z;
+    return s->raw.vertex_count++;
+}
+
+static void add_face(struct shape *s, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint16_t *f = s->faces[s->raw.face_count++];
+
+    f[0] = (uint16_t)a;
+    f[1] = (uint16_t)b;
+    f[2] = (uint16_t)c;
+}
+
+static void add_square(struct shape *s, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+{
+    add_face(s, a, b, c);
+    add_face(s, a, c, d);
+}
+
+static void build(struct shape *s)
+{
+    CHECK_EQ(carom_mesh_build(&s->mesh, &s->raw, s->block, sizeof s->block), CAROM_OK);
+}
+
+void shape_box(struct shape *s, int quantum_bits, int x, int y, int z)
+{
+    begin(s, quantum_bits, CAROM_SOLID);
+    for (int i = 0; i < 8; i++) {
+        add_vertex(s, (i & 1 ? x : -x) / 2, (i & 2 ? y : -y) / 2, (i & 4 ? z : -z) / 2);
+    }
+    add_square(s, 0, 2, 3, 1);
+    add_square(s, 4, 5, 7, 6);
+    add_square(s, 0, 1, 5, 4);
+    add_square(s, 2, 6, 7, 3);
+    add_square(s, 0, 4, 6, 2);
+    add_square(s, 1, 3, 7, 5);
+    build(s);
+}
+
+void shape_tetrahedron(struct shape *s, int quantum_bits, int size)
+{
+    begin(s, quantum_bits, CAROM_SOLID);
+    add_vertex(s, size, size, size);
+    add_vertex(s, size, -size, -size);
+    add_vertex(s, -size, size, -size);
+    add_vertex(s, -size, -size, size);
+    add_face(s, 0, 1, 2);
+    add_face(s, 0, 2, 3);
+    add_face(s, 0, 3, 1);
+    add_face(s, 1, 3, 2);
+    build(s);
+}
+
+void shape_l(struct shape *s, int quantum_bits, int side)
+{
+    static const int8_t corner[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+
+    begin(s, quantum_bits, CAROM_SOLID);
+    for (uint32_t i = 0; i < 12; i++) {
+        add_vertex(s, corner[i % 6][0] * side, corner[i % 6][1] * side, i < 6 ? 0 : side);
+    }
+    for (uint32_t i = 0; i < 6; i++) {
+        uint32_t next = (i + 1) % 6;
+
+        if (i >= 1 && i < 5) {
+            add_face(s, 0, next, i);
+            add_face(s, 6, 6 + i, 6 + next);
+        }
+        add_square(s, i, next, 6 + next, 6 + i);
+    }
+    build(s);
+}
+
+/* The vertex half way between two, lifted to the sphere; each once. */
+static uint32_t between(struct shape *s, uint32_t a, uint32_t b, int radius)
+{
+    double p[3], scale;
+    int16_t q[3];
+
+    for (int k = 0; k < 3; k++) {
+        p[k] = s->vertices[a][k] + s->vertices[b][k];
+    }
+    scale = radius / real_length(p);
+    for (int k = 0; k < 3; k++) {
+        q[k] = (int16_t)real_round(scale * p[k]);
+    }
+    for (uint32_t v = 0; v < s->raw.vertex_count; v++) {
+        if (memcmp(s->vertices[v], q, sizeof q) == 0) {
+            return v;
+        }
+    }
+    return add_vertex(s, q[0], q[1], q[2]);
+}
+
+void shape_ball(struct shape *s, int quantum_bits, int radius)
+{
+    static const uint8_t ico[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                       {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                       {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                       {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+    /* corners (0, +-1, +-golden ratio) and its turns, on the sphere */
+    int x = (int)real_round(radius * 0.52573111211913360603);
+    int z = (int)real_round(radius * 0.85065080835203993218);
+
+    begin(s, quantum_bits, CAROM_SOLID);
+    for (int turn = 0; turn < 3; turn++) {
+        for (int i = 0; i < 4; i++) {
+            int p[3] = {0, 0, 0};
+
+            p[turn] = i & 1 ? x : -x;
+            p[(turn + 1) % 3] = i & 2 ? -z : z;
+            add_vertex(s, p[0], p[1], p[2]);
+        }
+    }
+    for (int f = 0; f < 20; f++) {
+        uint32_t a = ico[f][0], b = ico[f][1], c = ico[f][2];
+        uint32_t ab = between(s, a, b, radius), bc = between(s, b, c, radius);
+        uint32_t ca = between(s, c, a, radius);
+
+        add_face(s, a, ab, ca);
+        add_face(s, b, bc, ab);
+        add_face(s, c, ca, bc);
+        add_face(s, ab, bc, ca);
+    }
+    build(s);
+}
+
+void shape_field(struct shape *s, int quantum_bits, int n, int side, int rough, uint64_t seed)
+{
+    struct test_random r = {seed};
+    int corner = -n * side / 2;
+
+    begin(s, quantum_bits, CAROM_SURFACE);
+    for (int y = 0; y <= n; y++) {
+        for (int x = 0; x <= n; x++) {
+            add_vertex(s, corner + x * side, corner + y * side,
+                       (int)test_random_range(&r, 0, rough));
+        }
+    }
+    for (int y = 0; y < n; y++) {
+        for (int x = 0; x < n; x++) {
+            uint32_t v = (uint32_t)(y * (n + 1) + x), above = v + (uint32_t)n + 1;
+
+            add_square(s, v, v + 1, above + 1, above);
+        }
+    }
+    build(s);
+}
+
+void shape_plane(struct shape *s, int quantum_bits, int n, int side)
+{
+    shape_field(s, quantum_bits, n, side, 0, 0);
+}
+
+void shape_body(const struct shape *s, bool moving, struct body *b, struct body_state *state)
+{
+    memset(b, 0, sizeof *b);
+    memset(state, 0, sizeof *state);
+    state->rotation.c[0] = CAROM_ONE_Q30;
+    b->mesh = &s->mesh;
+    b->moving = moving;
+    b->radius_q22 = s->mesh.radius_q22;
+    if (moving) {
+        b->mass = fix_scale(s->mesh.mass.volume_q32, 32);
+        b->inverse_mass = fix_scaled_inverse(b->mass);
+        b->inertia = s->mesh.mass.inertia;
+        CHECK_EQ(mass_invert(&b->inertia, &b->inverse_inertia), 0);
+        b->unit_bits = fix_bits((uint64_t)b->radius_q22);
+        b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
+    }
+    body_matrix(&b->gathered_r, &state->rotation);
+    body_place(b, state);
+}
+
+carom_quat_q30 shape_random_turn(struct test_random *r)
+{
+    carom_quat_q30 q;
+    double p[4], sum = 2;
+
+    /* a point of the ball, brought to the sphere */
+    while (sum > 1 || sum < 0.01) {
+        sum = 0;
+        for (int k = 0; k < 4; k++) {
+            p[k] = real(test_random_range(r, -(1 << 30), 1 << 30), 30);
+            sum += p[k] * p[k];
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        q.c[k] = (int32_t)real_round(p[k] / real_sqrt(sum) * CAROM_ONE_Q30);
+    }
+    return q;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * shapes - small meshes for tests, and bodies of them without a world.
+ *
+ * Each function makes the raw mesh and builds it; sizes are in quanta of 2^-quantum_bits units. A
+ * shape may be made again as another one.
+ */
+#ifndef CAROM_TEST_SHAPES_H
+#define CAROM_TEST_SHAPES_H
+
+#include "body.h"
+#include "test.h"
+
+#define SHAPE_VERTICES 625
+#define SHAPE_FACES    1152
+
+struct shape {
+    int16_t vertices[SHAPE_VERTICES][3];
+    uint16_t faces[SHAPE_FACES][3];
+    struct carom_mesh_raw raw;
+    struct carom_mesh mesh;
+    _Alignas(8) uint8_t block[CAROM_MESH_BYTES(SHAPE_VERTICES, SHAPE_FACES)];
+};
+
+/* A box of sides x, y, z about the origin; its vertex i has the sign of bit k along axis k. */
+void shape_box(struct shape *s, int quantum_bits, int x, int y, int z);
+
+/* A regular tetrahedron with corners at (+-size, +-size, +-size). */
+void shape_tetrahedron(struct shape *s, int quantum_bits, int size);
+
+/* An L of three cubes of the given side, about one of its corners. Has one concave edge. */
+void shape_l(struct shape *s, int quantum_bits, int side);
+
+/* A ball of 80 faces: an icosahedron whose faces are cut in four. */
+void shape_ball(struct shape *s, int quantum_bits, int radius);
+
+/* A SURFACE of n x n squares, each two triangles, at z = 0 about the origin; n <= 24. */
+void shape_plane(struct shape *s, int quantum_bits, int n, int side);
+
+/* The same with heights from 0 to `rough` at random. */
+void shape_field(struct shape *s, int quantum_bits, int n, int side, int rough, uint64_t seed);
+
+/*
+ * A body of the shape at density 1, in the middle of the world, at rest: what carom_body_add makes
+ * of it, with e = mu = 0.
+ */
+void shape_body(const struct shape *s, bool moving, struct body *b, struct body_state *state);
+
+/* Any rotation, uniformly. */
+carom_quat_q30 shape_random_turn(struct test_random *r);
+
+#endif

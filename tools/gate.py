@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""What the gates tools/check_* share: the files, the layer order, the compilers, the verdict."""
+import concurrent.futures
+import glob
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+os.chdir(ROOT)
+
+# The stages of the engine; each may use only what stands before it.
+STAGES = """fix arena gauss scan zlist mass mesh body broad interfere boyse contact impact rest
+            world world_step draw""".split()
+
+WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
+ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]
+JOBS = os.cpu_count() or 1
+
+
+def need(*things):
+    """Install what a gate needs and the machine lacks."""
+    if subprocess.run(["tools/need", *things]).returncode:
+        sys.exit("cannot install what this gate needs")
+
+
+def output(command):
+    """What a command prints; a command that fails ends the gate."""
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, errors="replace")
+    if done.returncode:
+        sys.exit("%s\nfailed: %s" % (done.stdout.strip(), " ".join(command)))
+    return done.stdout
+
+
+def complaints(commands):
+    """Run commands side by side; returns what those that failed printed, in order."""
+    def run(command):
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, errors="replace")
+        return "%s\n%s" % (" ".join(command), done.stdout.strip()) if done.returncode else None
+
+    with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+        return [text for text in pool.map(run, commands) if text]
+
+
+def sources(*suffixes):
+    """Files that git tracks, or would track, whose names end in one of the suffixes."""
+    listed = output(["git", "ls-files", "--cached", "--others", "--exclude-standard"])
+    return [path for path in listed.split("\n") if path.endswith(suffixes) and os.path.isfile(path)]
+
+
+def engine():
+    return sorted(glob.glob("src/*.c"))
+
+
+def objects(folder, compiler, flags):
+    """Compile the engine into build/check/FOLDER; returns the paths of source and object."""
+    folder = os.path.join("build/check", folder)
+    os.makedirs(folder, exist_ok=True)
+    for old in glob.glob(folder + "/*"):
+        os.remove(old)
+    pairs = [(path, "%s/%s.o" % (folder, os.path.basename(path)[:-2])) for path in engine()]
+    failed = complaints([[compiler, *ENGINE_FLAGS, *flags, "-c", path, "-o", made]
+                         for path, made in pairs])
+    if failed:
+        sys.exit("\n".join(failed))
+    return pairs
+
+
+def stage(path):
+    """The stage of a source or header: the longest that its name begins with, or None."""
+    name = os.path.basename(path).rsplit(".", 1)[0]
+    fitting = [s for s in STAGES if name == s or name.startswith(s + "_")]
+    return max(fitting, key=len, default=None)
+
+
+def code(text):
+    """A C text with comments and strings blanked out; lines keep their numbers."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group())
+
+    return re.sub(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def public_functions():
+    """The functions that include/carom.h declares, in its order."""
+    with open("include/carom.h") as file:
+        return re.findall(r"^[a-z][\w \*]*?\b(carom_\w+)\(", code(file.read()), re.M)
+
+
+def finish(failures, verdict):
+    """Say what was found and end the gate: status 1 when there are failures."""
+    for failure in failures:
+        print("FAIL " + failure)
+    print("%d failures" % len(failures) if failures else verdict)
+    sys.exit(bool(failures))

@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * carom-mesh - turns a mesh file of any format that assimp reads into a mesh for Carom.
+ *
+ *   read     every mesh of the file with its node's transform, polygons cut into triangles
+ *   soup     corners snapped to whole quanta of 2^-N units, equal corners made one vertex
+ *   mend     faces without area, double faces, windings
+ *   check    what carom_mesh_check would refuse, told with places and a way out
+ *   write    a C source, a binary blob, or both; nothing unless all went well
+ *
+ * It runs on the host, so it may use floating point.
+ */
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <getopt.h>
+
+#include "mesh_check.hpp"
+#include "mesh_mend.hpp"
+#include "mesh_read.hpp"
+
+namespace
+{
+
+using namespace mend;
+
+struct Options {
+    std::string in, out_c, out_blob, name;
+    bool surface = false, check_only = false;
+    int bits = 0; /* 0: choose */
+    double scale = 1;
+};
+
+/* -------------------------------------------------------------------- making */
+
+Mesh make_mesh(const Soup &soup, bool surface, int asked_bits)
+{
+    Mesh mesh = weld(soup, surface, choose_bits(soup.points, asked_bits));
+
+    drop_collapsed_faces(mesh);
+    drop_double_faces(mesh);
+    mend_slivers(mesh);
+    drop_unused_vertices(mesh);
+    check_faces(mesh);
+
+    const EdgeUses uses = edges_of(mesh);
+
+    check_edges(mesh, uses);
+    orient(mesh, uses);
+    mesh.edges = uses.size();
+    if (surface) {
+        check_looks_up(mesh);
+        check_single_layer(mesh);
+    } else if (mass_of(mesh).volume <= 0) {
+        throw Refusal("the mesh has no volume: for a height field use --surface");
+    }
+    return mesh;
+}
+
+/* ------------------------------------------------------------------- writing */
+
+/* A line of three numbers each. */
+template <typename Triple> void write_triples(std::ostream &out, const std::vector<Triple> &triples)
+{
+    for (const Triple &t : triples) {
+        out << "    {" << t[0] << ", " << t[1] << ", " << t[2] << "},\n";
+    }
+}
+
+std::string c_source(const Mesh &mesh, const std::string &name, const std::string &from)
+{
+    std::ostringstream out;
+
+    out << "/* SPDX-License-Identifier: MIT */\n"
+        << "/* Made by carom-mesh from " << std::filesystem::path(from).filename().string()
+        << ": do not edit. */\n"
+        << "#include \"carom.h\"\n\n"
+        << "extern const struct carom_mesh_raw " << name << ";\n\n"
+        << "static const int16_t vertices[" << mesh.vertices.size() << "][3] = {\n";
+    write_triples(out, mesh.vertices);
+    out << "};\n\nstatic const uint16_t faces[" << mesh.faces.size() << "][3] = {\n";
+    write_triples(out, mesh.faces);
+    out << "};\n\nconst struct carom_mesh_raw " << name << " = {\n"
+        << "    .vertices = vertices,\n"
+        << "    .faces = faces,\n"
+        << "    .vertex_count = " << mesh.vertices.size() << ",\n"
+        << "    .face_count = " << mesh.faces.size() << ",\n"
+        << "    .quantum_bits = " << mesh.bits << ",\n"
+        << "    .kind = " << (mesh.surface ? "CAROM_SURFACE" : "CAROM_SOLID") << ",\n"
+        << "};\n";
+    return out.str();
+}
+
+/* Append the low bytes of a number, lowest first. */
+void put(std::string &blob, uint64_t number, int bytes)
+{
+    for (int i = 0; i < bytes; i++) {
+        blob += static_cast<char>(number >> (8 * i) & 0xff);
+    }
+}
+
+/* The layout that carom_mesh_read takes; see src/mesh_blob.c. */
+std::string binary_blob(const Mesh &mesh)
+{
+    std::string blob = "CRM1";
+    uint64_t hash = 0xcbf29ce484222325u; /* 64-bit FNV-1a */
+
+    put(blob, 1, 1);
+    put(blob, mesh.surface, 1);
+    put(blob, uint64_t(mesh.bits), 1);
+    put(blob, 0, 1);
+    put(blob, mesh.vertices.size(), 4);
+    put(blob, mesh.faces.size(), 4);
+    for (const Vertex &v : mesh.vertices) {
+        for (int32_t c : v) {
+            put(blob, uint64_t(c), 2);
+        }
+    }
+    for (const Face &f : mesh.faces) {
+        for (uint32_t v : f) {
+            put(blob, v, 2);
+        }
+    }
+    for (char c : blob) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    put(blob, hash, 8);
+    return blob;
+}
+
+void write_file(const std::string &path, const std::string &content)
+{
+    std::ofstream file(path, std::ios::binary);
+
+    file << content;
+    file.close();
+    if (!file) {
+        std::remove(path.c_str());
+        throw Refusal("cannot write " + path + ": check the folder and the space on the disk");
+    }
+}
+
+/* Both or none. */
+void write_outputs(const Options &options, const Mesh &mesh)
+{
+    if (options.check_only) {
+        return;
+    }
+    if (!options.out_blob.empty()) {
+        write_file(options.out_blob, binary_blob(mesh));
+    }
+    if (!options.out_c.empty()) {
+        try {
+            write_file(options.out_c, c_source(mesh, options.name, options.in));
+        } catch (const Refusal &) {
+            std::remove(options.out_blob.c_str());
+            throw;
+        }
+    }
+}
+
+void print_report(const Options &options, const Mesh &mesh, const std::string &doubt)
+{
+    std::printf("%s: %s, quantum 2^-%d units\n", options.in.c_str(),
+                mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
+    std::printf("  file      %zu polygons, %zu triangles\n", mesh.polygons, mesh.triangles);
+    std::printf("  mesh      %zu faces, %zu edges, %zu vertices\n", mesh.faces.size(), mesh.edges,
+                mesh.vertices.size());
+    if (!mesh.surface) {
+        const Mass m = mass_of(mesh);
+
+        std::printf("  volume    %.9g\n", m.volume);
+        std::printf("  centre    %.9g %.9g %.9g\n", m.centre[0], m.centre[1], m.centre[2]);
+        std::printf("  inertia   %.9g %.9g %.9g %.9g %.9g %.9g (xx yy zz xy yz zx, by mass)\n",
+                    m.inertia[0], m.inertia[1], m.inertia[2], m.inertia[3], m.inertia[4],
+                    m.inertia[5]);
+    }
+    if (mesh.mended.empty()) {
+        std::printf("  mended    nothing\n");
+    }
+    for (const std::string &what : mesh.mended) {
+        std::printf("  mended    %s\n", what.c_str());
+    }
+    if (!doubt.empty()) {
+        std::printf("  note      %s\n", doubt.c_str());
+    }
+}
+
+/* ------------------------------------------------------------------- command */
+
+const char usage[] =
+    "usage: carom-mesh [options] FILE       (obj, stl, ply, gltf, glb and what else assimp reads)\n"
+    "  -o, --output FILE.c     write a C source\n"
+    "  -b, --blob FILE.crm     write a binary blob\n"
+    "      --check             write nothing\n"
+    "      --surface           a height field, open, z up; otherwise a closed solid\n"
+    "      --name NAME         of the mesh in the C source; otherwise the file's\n"
+    "      --quantum-bits N    coordinates in steps of 2^-N units, N from 7 to 20\n"
+    "      --scale F           multiply coordinates by F first\n";
+
+/* An identifier of C from a file's name. */
+std::string name_from(const std::string &path)
+{
+    std::string name = std::filesystem::path(path).stem().string();
+
+    for (char &c : name) {
+        c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    }
+    return name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ? "mesh_" + name
+                                                                             : name;
+}
+
+bool is_identifier(const std::string &name)
+{
+    return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+           std::all_of(name.begin(), name.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+double number_from(const char *option, const char *text)
+{
+    char *end;
+    const double number = std::strtod(text, &end);
+
+    if (*text == '\0' || *end != '\0' || !std::isfinite(number)) {
+        throw Refusal(std::string(option) + ": not a number: " + text);
+    }
+    return number;
+}
+
+Options parse(int argc, char **argv)
+{
+    static const option long_options[] = {
+        {"output", required_argument, nullptr, 'o'},
+        {"blob", required_argument, nullptr, 'b'},
+        {"check", no_argument, nullptr, 'c'},
+        {"surface", no_argument, nullptr, 's'},
+        {"name", required_argument, nullptr, 'n'},
+        {"quantum-bits", required_argument, nullptr, 'q'},
+        {"scale", required_argument, nullptr, 'f'},
+        {"help", no_argument, nullptr, 'h'},
+        {nullptr, 0, nullptr, 0},
+    };
+    Options options;
+    int letter;
+
+    while ((letter = getopt_long(argc, argv, "o:b:h", long_options, nullptr)) != -1) {
+        switch (letter) {
+        case 'o':
+            options.out_c = optarg;
+            break;
+        case 'b':
+            options.out_blob = optarg;
+            break;
+        case 'c':
+            options.check_only = true;
+            break;
+        case 's':
+            options.surface = true;
+            break;
+        case 'n':
+            options.name = optarg;
+            break;
+        case 'q': {
+            const double bits = number_from("--quantum-bits", optarg);
+
+            if (bits < bits_min || bits > bits_max || bits != std::floor(bits)) {
+                throw Refusal("--quantum-bits: a whole number from 7 to 20, not " +
+                              std::string(optarg));
+            }
+            options.bits = int(bits);
+            break;
+        }
+        case 'f':
+            options.scale = number_from("--scale", optarg);
+            if (options.scale <= 0) {
+                throw Refusal("--scale: must be above 0");
+            }
+            break;
+        case 'h':
+            std::fputs(usage, stdout);
+            std::exit(0);
+        default:
+            std::fputs(usage, stderr);
+            std::exit(2);
+        }
+    }
+    if (optind != argc - 1) {
+        std::fputs(usage, stderr);
+        std::exit(2);
+    }
+    options.in = argv[optind];
+    if (options.name.empty()) {
+        options.name = name_from(options.in);
+    } else if (!is_identifier(options.name)) {
+        throw Refusal("--name: not an identifier of C: " + options.name);
+    }
+    return options;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    Options options;
+    std::string doubt;
+
+    try {
+        options = parse(argc, argv);
+
+        const Soup soup = read_file(options.in, options.scale);
+
+        doubt = soup.doubt;
+
+        const Mesh mesh = make_mesh(soup, options.surface, options.bits);
+
+        write_outputs(options, mesh);
+        print_report(options, mesh, doubt);
+    } catch (const std::exception &refusal) {
+        std::fprintf(stderr, "carom-mesh: %s%s%s\n", options.in.c_str(),
+                     options.in.empty() ? "" : ": ", refusal.what());
+        if (!doubt.empty()) {
+            std::fprintf(stderr, "  note: %s\n", doubt.c_str());
+        }
+        return 1;
+    }
+    return 0;
+}

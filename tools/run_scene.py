@@ -1,0 +1,225 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""Run a scene on a board and say what it took: a table, frames.csv, pictures, an animation.
+
+The program (examples/head.c) prints lines that begin with a word: "columns" and "frame" are the rows
+of frames.csv, "usage" a pool, "hash" the final state, "unit" what the stages are counted in,
+"picture" asks for a photograph of the LCD and waits. Everything else is passed through.
+"""
+import argparse
+import csv
+import glob
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+from PIL import Image
+
+import run_board
+
+GIF_EVERY = 3  # frames
+GIF_SIZE = 256  # pixels
+GIF_SECONDS = 0.05  # a picture
+
+
+class Camera:
+    """QEMU's monitor, asked for what the LCD shows."""
+
+    def __init__(self, path):
+        self.socket = socket.socket(socket.AF_UNIX)
+        for _ in range(200):
+            try:
+                self.socket.connect(path)
+                break
+            except OSError:
+                time.sleep(0.05)
+        else:
+            sys.exit("the emulator's monitor does not answer")
+        self.stream = self.socket.makefile("r")
+        self.stream.readline()  # the greeting
+        self.ask("qmp_capabilities")
+
+    def ask(self, command, **arguments):
+        request = {"execute": command, "arguments": arguments}
+        self.socket.sendall(json.dumps(request).encode())
+        for line in self.stream:
+            reply = json.loads(line)
+            if "error" in reply:
+                sys.exit("monitor: " + reply["error"]["desc"])
+            if "return" in reply:
+                return
+        sys.exit("monitor: the emulator has gone")
+
+    def photograph(self, path):
+        self.ask("screendump", filename=path, format="png")
+
+
+class Run:
+    """What the program has said."""
+
+    def __init__(self):
+        self.columns, self.rows, self.usage = [], [], []
+        self.hash = self.unit = None
+
+
+def png_name(out, frame):
+    return os.path.join(out, "frame-%04d.png" % frame)
+
+
+def take_ppm(out, frame):
+    """A picture that the board wrote by semihosting becomes a PNG."""
+    ppm = os.path.join(out, "frame-%04d.ppm" % frame)
+    if os.path.exists(ppm):
+        Image.open(ppm).save(png_name(out, frame), compress_level=1)
+        os.remove(ppm)
+
+
+def progress(frame, frames):
+    if sys.stdout.isatty():
+        print("\rframe %d of %d" % (frame, frames), end="\n" if frame == frames else "", flush=True)
+    elif frame % 100 == 0 or frame == frames:
+        print("frame %d of %d" % (frame, frames), flush=True)
+
+
+def follow(process, camera, out, frames):
+    """Read what the program prints until it ends."""
+    run = Run()
+    pictures = 0
+    for line in process.stdout:
+        word, _, rest = line.rstrip("\n").partition(" ")
+        if word == "picture":
+            pictures += 1
+            camera.photograph(png_name(os.path.abspath(out), pictures))
+            process.stdin.write("\n")
+            process.stdin.flush()
+        elif word == "columns":
+            run.columns = rest.split(",")
+        elif word == "frame":
+            run.rows.append(rest.split(","))
+            take_ppm(out, len(run.rows))
+            progress(len(run.rows), frames)
+        elif word == "usage":
+            run.usage.append(rest.split(","))
+        elif word == "hash":
+            run.hash = rest
+        elif word == "unit":
+            run.unit = rest
+        else:
+            print(line, end="", flush=True)
+    return run
+
+
+def execute(arguments, out):
+    with tempfile.TemporaryDirectory() as folder:
+        monitor = os.path.join(folder, "qmp")
+        options = arguments.options + ["frames=%d" % arguments.frames]
+        if arguments.pictures:
+            options.append("pictures=" + out)
+        process = subprocess.Popen(
+            run_board.command(arguments.image, options, monitor),
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        try:
+            emulated = "QEMU" in run_board.settings(arguments.board)
+            camera = Camera(monitor) if emulated and arguments.pictures else None
+            run = follow(process, camera, out, arguments.frames)
+            process.stdin.close()
+            return run, process.wait()
+        finally:
+            if process.poll() is None:
+                process.kill()
+
+
+def stages(run):
+    return run.columns[run.columns.index("faces") + 1:run.columns.index("hash")]
+
+
+def write_csv(run, out):
+    columns = list(run.columns)
+    if run.unit == "nanoseconds":
+        columns = [name + "_ns" if name in stages(run) else name for name in columns]
+    with open(os.path.join(out, "frames.csv"), "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(run.rows)
+
+
+def write_gif(out, name):
+    paths = sorted(glob.glob(os.path.join(out, "frame-*.png")))[::GIF_EVERY]
+    if not paths:
+        return
+    palette = Image.open(paths[len(paths) // 2]).convert("RGB").quantize(64)
+    pictures = [
+        Image.open(path).convert("RGB").resize((GIF_SIZE, GIF_SIZE), Image.LANCZOS)
+        .quantize(palette=palette, dither=Image.Dither.NONE)
+        for path in paths
+    ]
+    path = os.path.join(out, name + ".gif")
+    pictures[0].save(path, save_all=True, append_images=pictures[1:], loop=0,
+                     duration=int(1000 * GIF_SECONDS))
+    print("%s: %.1f MB" % (path, os.path.getsize(path) / 1e6))
+
+
+def column(run, name):
+    return [int(row[run.columns.index(name)]) for row in run.rows]
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def print_table(run, budget):
+    print("\n%-24s %12s %12s" % (run.unit, "mean", "worst"))
+    for stage in stages(run):
+        values = column(run, stage)
+        if stage == "draw" and not any(values):
+            continue  # a board without a display
+        print("  %-22s %12.0f %12d" % (stage, mean(values), max(values)))
+    print("\n%-24s %12s %12s" % ("a frame", "mean", "most"))
+    for name, text in (("substeps", "sub-steps"), ("hits", "hits"), ("contacts", "contacts"),
+                       ("candidates", "candidates"), ("faces", "interfering faces")):
+        values = column(run, name)
+        print("  %-22s %12.2f %12d" % (text, mean(values), max(values)))
+    print("\n%-24s %12s %12s %12s" % ("pools", "size", "peak", "refused"))
+    for name, size, _, peak, refused in run.usage:
+        print("  %-22s %12s %12s %12s" % (name, size, peak, refused))
+    frames = len(run.rows)
+    print("\nframes %d, with a contact %d" % (frames, sum(c > 0 for c in column(run, "contacts"))))
+    if budget:
+        held = sum(total <= budget for total in column(run, "total"))
+        print("frame budget %d instructions: held by %d of %d frames, %s"
+              % (budget, held, frames, "pass" if held == frames else "over in %d" % (frames - held)))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--frames", type=int, required=True)
+    parser.add_argument("--pictures", type=int, required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--budget", type=int)
+    parser.add_argument("image")
+    parser.add_argument("options", nargs="*")
+    arguments = parser.parse_args()
+    out = arguments.out
+
+    os.makedirs(out, exist_ok=True)
+    for old in glob.glob(os.path.join(out, "frame-*.p[np][gm]")):
+        os.remove(old)
+    run, status = execute(arguments, out)
+    if not run.rows:
+        return status or 1
+    write_csv(run, out)
+    if arguments.pictures:
+        write_gif(out, os.path.basename(out))
+    if status == 0:
+        print_table(run, arguments.budget)
+        print("hash " + run.hash)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
