@@ -38,7 +38,9 @@ ENGINE := $(call objects,$(wildcard src/*.c))
 SUPPORT := $(call objects,$(PORT) port/option.c port/assert.c) $(LINKER_FILES)
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
-PROGRAMS := $(patsubst examples/%.c,$(B)/%.elf,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
+# examples are for the host, head is for every board
+EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
+PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 SCENES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
@@ -71,9 +73,9 @@ run: ## a scene on a board; BOARD= SCENE=head|box FRAMES=600 MESH=file AWAKE=1 F
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
-	@tools/run_scene.py --board $(BOARD) --frames $(FRAMES) --pictures $(or $(FRAMES_PNG),$(PICTURES)) \
-	    --out out/$(SCENE) $(if $(BUDGET),--budget $(BUDGET)) $(B)/head.elf scene=$(SCENE) \
-	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
+	@tools/run_scene.py --board $(BOARD) --frames $(FRAMES) --out out/$(SCENE) \
+	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(if $(BUDGET),--budget $(BUDGET)) \
+	    $(B)/head.elf scene=$(SCENE) $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
 
 test: ## every test, on the host and on a board; TEST= selects by a part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

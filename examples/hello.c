@@ -19,7 +19,7 @@ static const struct carom_mesh_raw solid = {box_vertices, box_faces, 8, 12, 8, C
 static const struct carom_mesh_raw flat = {plane_vertices, plane_faces, 4, 2, 8, CAROM_SURFACE};
 
 /* All the memory there will ever be. Bodies, pairs, contacts, faces, entries, candidates: */
-#define CAPACITIES 2, 1, 64, 64, 64, 256
+#define CAPACITIES 2, 1, 16, 16, 32, 64
 static _Alignas(8) uint8_t box_block[CAROM_MESH_BYTES(8, 12)];
 static _Alignas(8) uint8_t plane_block[CAROM_MESH_BYTES(4, 2)];
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(CAPACITIES)];

@@ -104,9 +104,9 @@ void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
     int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
 
     /* twice each product: a shift of 29 in place of 30 */
-    m->c[0][0] = CAROM_ONE_Q30 - (int32_t)carom_round(y * y + z * z, 29);
-    m->c[1][1] = CAROM_ONE_Q30 - (int32_t)carom_round(x * x + z * z, 29);
-    m->c[2][2] = CAROM_ONE_Q30 - (int32_t)carom_round(x * x + y * y, 29);
+    m->c[0][0] = (int32_t)(CAROM_ONE_Q30 - carom_round(y * y + z * z, 29));
+    m->c[1][1] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + z * z, 29));
+    m->c[2][2] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
     m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
     m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
     m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
@@ -306,7 +306,9 @@ int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_
     body_velocity(b, s, &v);
     body_spin(b, s, &r, &w);
     turn_q40 = fix_mul(fix_length(w.c), tau_q30, 30);
-    way_q40 = fix_mul(fix_length(v.c), tau_q30, 30) + fix_mul(turn_q40, b->radius_q22, 22);
+    /* however often it turns, a point stays within a diameter of where it was */
+    way_q40 = fix_mul(turn_q40 < (int64_t)2 << 40 ? turn_q40 : (int64_t)2 << 40, b->radius_q22, 22);
+    way_q40 += fix_mul(fix_length(v.c), tau_q30, 30);
     if (gravity) {
         way_q40 += fix_length(gravity->c) >> 1;
     }

@@ -31,13 +31,13 @@ static int check_corners(const struct carom_mesh_raw *raw)
 }
 
 /*
- * Find the box, and refuse one whose diagonal does not fit q22: then every difference of two
- * vertices, the radius included, fits too. Rounding up adds 8 at most to lengths below 2^31.
+ * Find the box, and refuse one with a side longer than 256 units: then differences of two vertices,
+ * and of a vertex and a point that a moving body can reach, fit q22, and so do lengths and radius.
  */
 static int find_box(struct carom_mesh *mesh)
 {
     const struct carom_mesh_raw *raw = &mesh->raw;
-    int64_t diagonal_q22[3];
+    int32_t longest = 0;
 
     for (int k = 0; k < 3; k++) {
         mesh->box[0][k] = INT16_MAX;
@@ -48,9 +48,11 @@ static int find_box(struct carom_mesh *mesh)
             mesh->box[0][k] = c < mesh->box[0][k] ? c : mesh->box[0][k];
             mesh->box[1][k] = c > mesh->box[1][k] ? c : mesh->box[1][k];
         }
-        diagonal_q22[k] = carom_shl(mesh->box[1][k] - mesh->box[0][k], 22 - raw->quantum_bits);
+        if (mesh->box[1][k] - mesh->box[0][k] > longest) {
+            longest = mesh->box[1][k] - mesh->box[0][k];
+        }
     }
-    return fix_length(diagonal_q22) < INT32_MAX - 64 ? CAROM_OK : CAROM_ERR_RANGE;
+    return longest <= 256 << raw->quantum_bits ? CAROM_OK : CAROM_ERR_RANGE;
 }
 
 /*

@@ -63,7 +63,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     int64_t open_q22 = (int64_t)c->gap_q22 - c->skin_q22;
     int64_t slow_q40 = e_q30 == CAROM_ONE_Q30 ? 0 : r->slow_q40;
 
-    c->impact = c->velocity_q40[0] < -slow_q40 && e_q30 > 0;
+    c->impact = c->velocity_q40[0] < -slow_q40;
     if (c->impact) {
         c->target_q40 = -fix_mul(c->velocity_q40[0], e_q30, 30);
     } else if (e_q30 == CAROM_ONE_Q30) {

@@ -101,8 +101,8 @@ int carom_world_step(struct carom_world *w)
         rest_sleep(w->bodies, s.next->bodies, w->body_count, s.next->touching,
                    s.next->touching_count, s.gravity);
     }
+    step_drop_warm(&s);
     step_finish_events(&s);
-    s.next->warm_count = w->rest.warm_count;
     w->now = 1 - w->now;
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);

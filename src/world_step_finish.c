@@ -61,6 +61,23 @@ static bool is_touching(const struct world_state *s, const struct pair *p)
     return false;
 }
 
+/* Impulses of contacts that nobody will look at in the next frame. */
+void step_drop_warm(struct step *s)
+{
+    const struct carom_world *w = s->w;
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < w->rest.warm_count; i++) {
+        const struct rest_warm *warm = &s->next->warm[i];
+
+        if (broad_active(&w->bodies[warm->a], &s->next->bodies[warm->a]) ||
+            broad_active(&w->bodies[warm->b], &s->next->bodies[warm->b])) {
+            s->next->warm[kept++] = *warm;
+        }
+    }
+    s->next->warm_count = kept;
+}
+
 /* Begin and end of touching, rest, and bodies that left the world. */
 void step_finish_events(struct step *s)
 {

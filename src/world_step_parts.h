@@ -66,6 +66,9 @@ void step_note_touching(struct step *s, const struct pair *p);
 /* A frame that was cut short must not have gained energy by it. */
 void step_limit_energy(struct step *s);
 
+/* Keep the impulses of contacts that the next frame may continue. */
+void step_drop_warm(struct step *s);
+
 /* Begin and end of touching, rest, and bodies that left the world. */
 void step_finish_events(struct step *s);
 void step_finish_stats(struct carom_world *w);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Run test programs and scripts that print TAP, and count: tools/run_tests.py [--select PART] FILE...
+"""Run programs and scripts that print TAP, and count: tools/run_tests.py [--select PART] FILE...
 
 A .elf file is run by run_board.py, on the board it was built for. The last line is
 "N passed, M failed"; the exit status is 1 when M > 0 or N = 0. With --select, the runner of the

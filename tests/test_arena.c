@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+#include "arena.h"
+#include "test.h"
+
+static _Alignas(8) uint8_t block[64];
+
+static void fill(uint8_t with)
+{
+    memset(block, with, sizeof block);
+}
+
+/* Carves lie end to end, aligned to 8 and zeroed, and touch nothing else. */
+static void test_carve(void)
+{
+    struct arena a;
+    uint8_t *p;
+
+    fill(0xa5);
+    arena_init(&a, block, sizeof block);
+    CHECK(arena_carve(&a, 1) == block);
+    CHECK(arena_carve(&a, 8) == block + 8);
+    CHECK(arena_carve(&a, 0) == block + 16);
+    p = arena_carve(&a, 9);
+    CHECK(p == block + 16);
+    CHECK_EQ(a.used, 32);
+    for (int i = 0; i < 64; i++) {
+        CHECK_EQ(block[i], i < 32 ? 0 : 0xa5);
+    }
+}
+
+static void test_exact_fit(void)
+{
+    struct arena a;
+
+    fill(0xa5);
+    arena_init(&a, block, 24);
+    CHECK(arena_carve(&a, 16) == block);
+    CHECK(arena_carve(&a, 8) == block + 16);
+    CHECK_EQ(a.used, 24);
+    CHECK(arena_carve(&a, 1) == NULL);
+
+    /* one byte short */
+    fill(0xa5);
+    arena_init(&a, block, 23);
+    CHECK(arena_carve(&a, 16) == block);
+    CHECK(arena_carve(&a, 8) == NULL);
+    CHECK_EQ(block[16], 0xa5);
+    CHECK_EQ(a.used, 24); /* what would have been needed */
+}
+
+/* Once something did not fit nothing fits any more, and the sum goes on. */
+static void test_sticky(void)
+{
+    struct arena a;
+
+    arena_init(&a, block, 16);
+    CHECK(arena_carve(&a, 24) == NULL);
+    CHECK(arena_carve(&a, 8) == NULL);
+    CHECK_EQ(a.used, 32);
+
+    /* sizes whose sum or rounding overflows */
+    for (size_t less = 0; less < 40; less += 13) {
+        arena_init(&a, block, sizeof block);
+        CHECK(arena_carve(&a, 8) == block);
+        CHECK(arena_carve(&a, SIZE_MAX - less) == NULL);
+        CHECK(arena_carve(&a, 8) == NULL);
+        CHECK(arena_carve(&a, 1) == NULL);
+    }
+}
+
+static void test_pool(void)
+{
+    struct pool p = {3, 0, 0, 0};
+
+    for (int round = 0; round < 2; round++) {
+        for (int i = 0; i < 3; i++) {
+            CHECK_EQ(p.used, i);
+            CHECK_EQ(pool_take(&p), i);
+        }
+        CHECK_EQ(pool_take(&p), -1);
+        CHECK_EQ(pool_take(&p), -1);
+        CHECK(p.used == 3 && p.peak == 3 && p.size == 3);
+        CHECK_EQ(p.refused, 2 * (round + 1));
+        pool_clear(&p);
+    }
+    CHECK_EQ(p.used, 0);
+    CHECK_EQ(pool_take(&p), 0);
+    CHECK_EQ(p.peak, 3); /* does not fall */
+
+    p = (struct pool){0, 0, 0, 0};
+    CHECK_EQ(pool_take(&p), -1);
+    CHECK(p.used == 0 && p.peak == 0 && p.refused == 1);
+}
+
+const struct test tests_arena[] = {
+    {"arena/carve", test_carve},
+    {"arena/exact_fit", test_exact_fit},
+    {"arena/sticky", test_sticky},
+    {"arena/pool", test_pool},
+    {0},
+};
