@@ -28,9 +28,9 @@
 
 /* How the body starts, in mm, mm/s and mrad/s, and where the camera is. */
 static const struct carom_body_def head_start = {
-    .position = POSITION(400, -300, 3000),
-    .velocity = VELOCITY(900, 600, 0),
-    .spin = SPIN(1100, -1700, 800),
+    .position = POSITION(-1600, 600, 2800),
+    .velocity = VELOCITY(900, -400, 0),
+    .spin = SPIN(1500, -1800, 900),
     .restitution_q30 = RESTITUTION_Q30,
     .friction_q16 = FRICTION_Q16,
 };
@@ -47,8 +47,8 @@ static const struct carom_body_def ground_start = {
     .friction_q16 = FRICTION_Q16,
 };
 static const struct carom_camera camera = {
-    .eye = POSITION(4300, -8200, 4300),
-    .target = POSITION(-150, -300, 450),
+    .eye = POSITION(1900, -6500, 3600),
+    .target = POSITION(-600, 0, 900),
     .focal_q16 = 1 << 16,
 };
 
