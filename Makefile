@@ -44,9 +44,9 @@ PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 SCENES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
-# programs of their own, and what they share
+# programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
-HOST_SHARED := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_%,$(wildcard tests/*.c)))
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_%,$(wildcard tests/*.c)))
 SHELL_TESTS := $(wildcard tests/*.sh)
 
 # ------------------------------------------------------------------- commands
@@ -87,8 +87,8 @@ test: ## every test, on the host and on a board; TEST= selects by a part of a na
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
-	@for gate in $(sort $(wildcard tools/check_*)); do \
-	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || exit 1; fi; done
+	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
+	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status
 
 size: ## code and data of the engine, by board
 	@tools/need $(NEED_HOST) arm newlib
@@ -126,6 +126,8 @@ $(B)/%.o: %.S $(B)/flags
 	$(TARGET_CC) $(ARCH) -c -o $@ $<
 
 $(B)/libcarom.a: $(ENGINE)
+$(B)/libtests.a: $(TEST_TOOLS)
+$(B)/lib%.a:
 	@echo '  ar    $@'
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
@@ -137,11 +139,11 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-$(B)/%.elf: $(B)/tests/%.o $(HOST_SHARED) $(PROGRAM)
+$(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-$(B)/tests.elf: $(TESTS) $(PROGRAM)
+$(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 

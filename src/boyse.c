@@ -203,8 +203,12 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
             hit->t_q30 = event_time(pair, c, last_root, t, slope_q40, hit->touch.sign);
             return true;
         }
-        /* not a hit: step over it, in growing strides while P stays in the noise */
+        /*
+         * Not a hit: step over it, in growing strides while P stays in the noise. The sign beyond it
+         * is a new one, not a root passed by.
+         */
         last_root = t;
+        side = 0;
         if (step < hop) {
             step = hop;
             hop *= 2;

@@ -44,8 +44,11 @@ int64_t fix_mul(int64_t a, int32_t b, int s)
 
     CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
     if (s <= 32) {
-        /* high 2^32 is a whole multiple of 2^s: only the low part is rounded. */
-        return carom_shl(high, 32 - s) + carom_round(low, s);
+        /*
+         * high 2^32 is a whole multiple of 2^s: only the low part is rounded. The high part alone
+         * may not fit where the sum does, so they are added modulo 2^64.
+         */
+        return (int64_t)((uint64_t)carom_shl(high, 32 - s) + (uint64_t)carom_round(low, s));
     }
     /* The low 32 bits cannot carry past the half, a multiple of 2^32. */
     return carom_round(high + (low >> 32), s - 32);

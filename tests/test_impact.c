@@ -584,6 +584,31 @@ static void impulse_error(void)
     CHECK(slid > CASES / 5 && slid < CASES * 9 / 10);
 }
 
+/*
+ * Contacts that wedge: sliding would take an impulse that pulls, sticking one outside the cone.
+ * They are rare; a search found these seeds.
+ */
+static void wedged(void)
+{
+    static const uint32_t seeds[] = {5964585,   73657984,  104081764, 156112876,
+                                     201051945, 202978589, 227099742, 240460217,
+                                     267676506, 280016016, 292022369, 378785831};
+
+    for (unsigned k = 0; k < sizeof seeds / sizeof seeds[0]; k++) {
+        struct test_random r = {seeds[k]};
+        struct impact in = random_impact(&r);
+        struct impact_result out;
+        static struct oracle o;
+        real error;
+
+        CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);
+        solve_oracle(&in, &o);
+        CHECK(o.wedged && out.slid);
+        error = length(subtracted(from_q40(out.impulse.c), o.impulse)) - 0x1p-40L;
+        CHECK(error <= 1e-6L * length(o.impulse));
+    }
+}
+
 static void restitution_and_cone(void)
 {
     struct test_random r = {12};
@@ -753,6 +778,7 @@ const struct test tests_impact[] = {{"impact/head_on", head_on},
                                     {"impact/no_solution", no_solution},
                                     {"impact/extremes", extremes},
                                     {"impact/impulse_error", impulse_error},
+                                    {"impact/wedged", wedged},
                                     {"impact/restitution_and_cone", restitution_and_cone},
                                     {"impact/energy_by_state", energy_by_state},
                                     {"impact/exchanged", exchanged},

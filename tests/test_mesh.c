@@ -7,7 +7,7 @@
 #ifdef TEST_LONG
 #define POINT_STEP 1 /* of the places on a face that are looked up in the z-lists */
 #else
-#define POINT_STEP 7
+#define POINT_STEP 11
 #endif
 
 /* ---------------------------------------------------------------------- shapes */
@@ -773,7 +773,7 @@ static void test_zlists(void)
 
     /* slivers across the whole surface: the cells grow until the lists fit */
     begin(CAROM_SURFACE);
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < 80; i++) {
         uint32_t v = add_vertex(0, 10 * i, i % 7);
 
         add_vertex(8000, 10 * i + 4000, 5);
