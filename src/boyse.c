@@ -4,9 +4,11 @@
 
 /* A pair that starts clear of contact is followed to a surface this much nearer (see boyse_first).
  */
-#define ROOT_LEVEL_Q22 3
-#define ROOT_BITS      27 /* of the largest coefficient */
-#define ROOT_NOISE     4  /* Horner's rounding, in the units of the coefficients */
+#define ROOT_LEVEL_Q22  3
+#define ROOT_BITS       27 /* of the largest coefficient */
+#define ROOT_NOISE      4  /* Horner's rounding, in the units of the coefficients */
+#define ROOT_STRIDE_Q30 16
+#define ROOT_ROUNDS     300 /* never reached: strides double */
 
 struct quartic {
     int32_t a[5];
@@ -74,6 +76,62 @@ static int64_t safe_step_q30(int64_t p, int64_t slope, int64_t bend)
         step = 2 * size * CAROM_ONE_Q30 / (root - d);
     }
     return step;
+}
+
+/* A walk over the roots of P in order of time. */
+struct walk {
+    int32_t t_q30;
+    int32_t side;   /* sign of P before, 0 when it is not known */
+    int64_t stride; /* least step over a root that is not a hit, q30 */
+    int64_t p_step; /* the safe step from where the walk stands */
+    int64_t slope;  /* of P there */
+    int rounds;
+};
+
+static void advance(struct walk *w, int64_t step_q30)
+{
+    w->t_q30 = step_q30 < CAROM_ONE_Q30 - w->t_q30 ? w->t_q30 + (int32_t)step_q30 : CAROM_ONE_Q30;
+}
+
+/* Go on to the next root, or to within the rounding of one; false when there is none up to 1. */
+static bool next_root(struct walk *w, const struct quartic *q)
+{
+    while (w->t_q30 < CAROM_ONE_Q30 && w->rounds++ < ROOT_ROUNDS) {
+        int32_t side;
+        int64_t p;
+        bool crossed;
+
+        quartic_at(q, w->t_q30, &p, &w->slope);
+        w->p_step = safe_step_q30(p, w->slope, q->bend);
+        side = carom_abs(p) <= ROOT_NOISE ? 0 : p > 0 ? 1 : -1;
+        /* rounding may carry t across a root: a change of sign is one as well */
+        crossed = side != 0 && side == -w->side;
+        if (side != 0) {
+            w->side = side;
+        }
+        if (side == 0 || w->p_step <= 1 || crossed) {
+            return true;
+        }
+        advance(w, w->p_step);
+        w->stride = ROOT_STRIDE_Q30;
+    }
+    return false;
+}
+
+/*
+ * Step over a root that is not a hit, in growing strides while P stays in the noise. The sign
+ * beyond it is a new one, not a root passed by.
+ */
+static void step_over(struct walk *w)
+{
+    w->side = 0;
+    if (w->p_step < w->stride) {
+        advance(w, w->stride);
+        w->stride *= 2;
+    } else {
+        advance(w, w->p_step);
+        w->stride = ROOT_STRIDE_Q30;
+    }
 }
 
 /* ---------------------------------------------------------------- event time */
@@ -158,10 +216,10 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
                  uint32_t *roots)
 {
     const int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18;
-    int64_t a[5];
+    struct walk walk = {0, 0, ROOT_STRIDE_Q30, 0, 0, 0};
     struct quartic q;
-    int64_t hop = 16;
-    int32_t t = 0, last_root = 0, side = 0;
+    int64_t a[5];
+    int32_t last_root = 0;
 
     boyse_polynomial(pair, c, a);
     /*
@@ -180,42 +238,17 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
     if (touches_at_start(pair, c, a[1], hit)) {
         return true;
     }
-    for (int round = 0; round < 300 && t < CAROM_ONE_Q30; round++) {
-        int64_t p, slope, step;
-        bool crossed;
+    while (next_root(&walk, &q)) {
+        boyse_touch(pair, c, walk.t_q30, &hit->touch);
+        if (hit->touch.valid && hit->touch.sign * walk.slope < 0) {
+            int64_t slope_q40 =
+                q.shift > 0 ? carom_shl(walk.slope, q.shift) : walk.slope >> -q.shift;
 
-        quartic_at(&q, t, &p, &slope);
-        step = safe_step_q30(p, slope, q.bend);
-        /* rounding may carry t across a root: a change of sign is one as well */
-        crossed = side != 0 && (p > 0 ? 1 : -1) == -side && carom_abs(p) > ROOT_NOISE;
-        if (carom_abs(p) > ROOT_NOISE) {
-            side = p > 0 ? 1 : -1;
-        }
-        if (carom_abs(p) > ROOT_NOISE && step > 1 && !crossed) {
-            t = step < CAROM_ONE_Q30 - t ? t + (int32_t)step : CAROM_ONE_Q30;
-            hop = 16;
-            continue;
-        }
-        boyse_touch(pair, c, t, &hit->touch);
-        if (hit->touch.valid && hit->touch.sign * slope < 0) {
-            int64_t slope_q40 = q.shift > 0 ? carom_shl(slope, q.shift) : slope >> -q.shift;
-
-            hit->t_q30 = event_time(pair, c, last_root, t, slope_q40, hit->touch.sign);
+            hit->t_q30 = event_time(pair, c, last_root, walk.t_q30, slope_q40, hit->touch.sign);
             return true;
         }
-        /*
-         * Not a hit: step over it, in growing strides while P stays in the noise. The sign beyond it
-         * is a new one, not a root passed by.
-         */
-        last_root = t;
-        side = 0;
-        if (step < hop) {
-            step = hop;
-            hop *= 2;
-        } else {
-            hop = 16;
-        }
-        t = step < CAROM_ONE_Q30 - t ? t + (int32_t)step : CAROM_ONE_Q30;
+        last_root = walk.t_q30;
+        step_over(&walk);
     }
     return false;
 }

@@ -5,7 +5,7 @@
 
 /* ---------------------------------------------------------------- friction */
 
-/* a + s (b - a) in both parts of an answer; the difference was made by subtract(). */
+/* to + s difference, in both parts of an answer. */
 static void add_scaled(struct impact_answer *to, const struct impact_answer *difference,
                        struct fix_scaled s)
 {
@@ -53,8 +53,7 @@ static void cone_limit(const struct impact_problem *p, const struct impact_answe
     struct fix_wide excess = fix_wide_add(impact_wide_dot(tangential, tangential),
                                           fix_wide_neg(fix_wide_mul(length, length)));
 
-    /* One Newton step for the digits that fix_length leaves out: the difference below needs them.
-     */
+    /* One Newton step for the digits that fix_length leaves out: growth is a difference. */
     if (length > 0) {
         length += fix_mul_scaled(1, fix_wide_ratio(excess, fix_wide_mul(length, 2)));
     }
@@ -212,6 +211,10 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
     int changed = 0;
     bool slips;
 
+    CAROM_ASSERT(in->friction_q16 <= CAROM_MU_MAX_Q16);
+    for (int k = 0; k < 3; k++) {
+        CAROM_ASSERT(carom_abs(in->velocity.c[k]) < (int64_t)1 << 47);
+    }
     p.wanted_q70 = fix_wide_add(fix_wide_mul(in->target_q40, CAROM_ONE_Q30),
                                 fix_wide_neg(impact_speed_q70(in, &in->normal)));
     if (fix_wide_sign(p.wanted_q70) <= 0) {

@@ -56,6 +56,7 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
         b = fix_wide_bits(cross_q70[k]);
         bits = b > bits ? b : bits;
     }
+    /* Less than 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much. */
     slips = bits > 34 && bits > bits3(t) + 30 - 28;
     if (slips) {
         for (int k = 0; k < 3; k++) {
@@ -150,7 +151,7 @@ void impact_prepare(struct impact_problem *p)
     }
     for (int b = 0; b < p->movers; b++) {
         for (int k = 0; k < 3; k++) {
-            /* |arm| < 2^(g + c - 1 + 22), so |arm_q30| <= 2^29. */
+            /* |arm| < 2^(g + c - 1 + 22), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
             p->mover[b].arm_q30[k] =
                 (int32_t)impact_shift(side[b]->arm.c[k], 30 - 22 - g[b] - p->arm_shift);
         }
@@ -345,6 +346,7 @@ static int solve(const struct impact_problem *p, const struct goal *goal, struct
     if (gauss_solve(p->w, p->n)) {
         return -1;
     }
+    /* A contact about to wedge: too large for the sums that follow, and of no use. */
     for (int j = 0; j < p->n; j++) {
         used |= (uint64_t)carom_abs(x[j]);
     }

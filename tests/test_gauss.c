@@ -150,12 +150,12 @@ static void whole_solutions(void)
     }
 }
 
-static int64_t det2(const int32_t a[3][3], int i, int j, int k, int l)
+static int64_t det2(int32_t a[3][3], int i, int j, int k, int l)
 {
     return (int64_t)a[i][k] * a[j][l] - (int64_t)a[i][l] * a[j][k];
 }
 
-static int64_t det3(const int32_t a[3][3])
+static int64_t det3(int32_t a[3][3])
 {
     return a[0][0] * det2(a, 1, 2, 1, 2) - a[0][1] * det2(a, 1, 2, 0, 2) +
            a[0][2] * det2(a, 1, 2, 0, 1);

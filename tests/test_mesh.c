@@ -15,7 +15,7 @@
 #define V_MAX 1600
 #define F_MAX 2048
 
-static int16_t vertices[V_MAX][3];
+[V_MAX][3];
 static uint16_t faces[F_MAX][3];
 static struct carom_mesh_raw raw;
 static struct carom_mesh mesh;
@@ -391,22 +391,29 @@ static void test_error_order(void)
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
 }
 
-/* The largest meshes: 512 units of diagonal are too many at 7 bits, not at 8. */
+/* A side of 256 units is the longest, 32768 quanta at 7 bits. */
 static void test_range(void)
 {
     make_box(100, 100, 100);
+    raw.quantum_bits = 7;
     for (uint32_t v = 0; v < 8; v++) {
         for (int k = 0; k < 3; k++) {
-            vertices[v][k] = vertices[v][k] ? INT16_MAX : INT16_MIN;
+            vertices[v][k] = vertices[v][k] ? 16384 : -16384;
         }
     }
-    raw.quantum_bits = 7;
-    CHECK_REFUSED(CAROM_ERR_RANGE);
-    raw.quantum_bits = 8;
     CHECK_EQ(build(), CAROM_OK);
-    /* half the diagonal of 65535 / 256 units */
-    CHECK_NEAR(mesh.radius_q22, 929873508, 8);
-    CHECK_NEAR(mesh.edges[0].length_q22, (int64_t)65535 << 14, 8);
+    /* half the diagonal of 256 units: sqrt(3) 128 */
+    CHECK_NEAR(mesh.radius_q22, 929887697, 8);
+    CHECK_EQ(mesh.edges[0].length_q22, 1 << 30);
+    for (int k = 0; k < 3; k++) {
+        for (uint32_t v = 0; v < 8; v++) {
+            vertices[v][k] += vertices[v][k] > 0;
+        }
+        CHECK_REFUSED(CAROM_ERR_RANGE);
+        for (uint32_t v = 0; v < 8; v++) {
+            vertices[v][k] -= vertices[v][k] > 0;
+        }
+    }
 }
 
 /* ----------------------------------------------------------------------- edges */
