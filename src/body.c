@@ -321,9 +321,9 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
 {
     const struct body_path *path = &b->path;
     int64_t way_q40 = fix_length(path->v.c) + fix_length(path->g.c);
-    int64_t u_q30 = path->turns ? (int64_t)fix_sqrt((uint64_t)path->u2_q30 << 30) + 1 : 0;
+    const int64_t u_q30[3] = {path->u.c[0], path->u.c[1], path->u.c[2]};
 
     /* turned: 2 atan |u| <= 2 |u| */
-    *turn_q30 = fix_mul(2 * u_q30, t_q30, 30) + 1;
+    *turn_q30 = fix_mul(2 * fix_length(u_q30), t_q30, 30) + 1;
     *way_q22 = (fix_mul(way_q40, t_q30, 30) >> 18) + fix_mul(*turn_q30, b->radius_q22, 30) + 2;
 }

@@ -91,7 +91,7 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out);
 
 void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
-/* Three Newton steps towards length 1: to the last place for any |q| in 0.9 .. 1.06. */
+/* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
 void body_normalise(carom_quat_q30 *q);
 
 /* A path of no motion at the body's pose. */

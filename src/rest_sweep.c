@@ -106,7 +106,7 @@ static int64_t sweep_normal(struct contact *c, const struct rest_sweep *sw)
 /* One contact, across: towards no slip, within the disc of radius mu times the normal impulse. */
 static int64_t sweep_tangents(struct contact *c, const struct rest_sweep *sw, uint32_t mu_q16)
 {
-    int64_t limit = ((int64_t)mu_q16 * c->impulse[0]) >> 16;
+    int64_t limit = clamp_impulse(((int64_t)mu_q16 * c->impulse[0]) >> 16);
     int64_t next[2], length, moved = 0;
     int shift;
 
@@ -128,8 +128,9 @@ static int64_t sweep_tangents(struct contact *c, const struct rest_sweep *sw, ui
         if (length > (limit >> shift)) {
             next[d] = (next[d] >> shift) * limit / length;
         }
-        change = clamp_impulse(next[d]) - c->impulse[1 + d];
-        c->impulse[1 + d] += (int32_t)change;
+        next[d] = clamp_impulse(next[d]);
+        change = next[d] - c->impulse[1 + d];
+        c->impulse[1 + d] = (int32_t)next[d];
         push(c, 1 + d, change);
         moved += effect(clamp_impulse(change), c->mass_q30[1 + d]);
     }

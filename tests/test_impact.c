@@ -438,15 +438,21 @@ static real uniform(struct test_random *r, real low, real high)
 /* Evenly over powers of two. */
 static real spread(struct test_random *r, int low, int high)
 {
-    return scaled(uniform(r, 1, 2), (int)test_random_range(r, low, high - 1));
+    real v = uniform(r, 1, 2);
+
+    return scaled(v, (int)test_random_range(r, low, high - 1));
 }
 
 static struct v3 random_unit(struct test_random *r)
 {
     for (;;) {
-        struct v3 v = {{uniform(r, -1, 1), uniform(r, -1, 1), uniform(r, -1, 1)}};
-        real l = length(v);
+        struct v3 v;
+        real l;
 
+        for (int k = 0; k < 3; k++) { /* an initialiser would leave the order open */
+            v.c[k] = uniform(r, -1, 1);
+        }
+        l = length(v);
         if (l > 0.1L && l < 1) {
             return plus((struct v3){{0}}, 1 / l, v);
         }
@@ -509,11 +515,13 @@ static struct impact_side random_box(struct test_random *r)
 
 static struct impact random_impact(struct test_random *r)
 {
-    struct impact in = {.a = random_box(r), .b = random_box(r)};
+    struct impact in = {.may_gain = false};
     struct v3 n = random_unit(r), v = random_unit(r);
     real speed = dot(v, n), e = 0;
     int kind = (int)test_random_range(r, 0, 3);
 
+    in.a = random_box(r);
+    in.b = random_box(r);
     in.a.moving = kind != 0;
     in.b.moving = kind != 1;
     if (speed > 0) {
@@ -590,9 +598,9 @@ static void impulse_error(void)
  */
 static void wedged(void)
 {
-    static const uint32_t seeds[] = {5964585,   73657984,  104081764, 156112876,
-                                     201051945, 202978589, 227099742, 240460217,
-                                     267676506, 280016016, 292022369, 378785831};
+    static const uint32_t seeds[] = {108021028, 122228562, 160287597, 352742919,
+                                     404176107, 458482652, 474442924, 478721207,
+                                     500548364, 632427732, 801030576, 857937895};
 
     for (unsigned k = 0; k < sizeof seeds / sizeof seeds[0]; k++) {
         struct test_random r = {seeds[k]};
