@@ -61,7 +61,7 @@ static void report(const struct lab_tally *t, const char *run)
                "p99 %u, most %u, %ld capped", lab_substeps(t, 0.99), lab_substeps(t, 1), t->capped);
     lab_report(t->hits >= 3 && t->begins >= 3 && t->ends >= 2, NAME("bounces"),
                "%ld hits, %ld begins, %ld ends", t->hits, t->begins, t->ends);
-    lab_report(t->sliding >= 3, NAME("slides"), "%ld of %ld frames in contact", t->sliding,
+    lab_report(t->sliding >= 5, NAME("slides"), "%ld of %ld frames in contact", t->sliding,
                t->touching);
 #undef NAME
 }

@@ -1,0 +1,596 @@
+/* SPDX-License-Identifier: MIT */
+#include "real.h"
+#include "shapes.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define CASES  3000
+#define TUMBLE 1000000
+#else
+#define CASES  40
+#define TUMBLE 3000
+#endif
+
+static struct shape shape;
+static struct body body;
+static struct body_state state;
+
+/* A box of three different sides, about 1 unit: 1 x 0.6 x 0.3. */
+static void make_box(void)
+{
+    shape_box(&shape, 12, 4096, 2458, 1228);
+    shape_body(&shape, true, &body, &state);
+}
+
+/* A cube of side and mass 1, whose inertia is the same about every axis. */
+static void make_cube(void)
+{
+    shape_box(&shape, 12, 4096, 4096, 4096);
+    shape_body(&shape, true, &body, &state);
+}
+
+static void random_vector(struct test_random *r, double size, int64_t v[3], int bits)
+{
+    int64_t most = real_round(size * real_power2(bits) / 1.7320508);
+
+    for (int k = 0; k < 3; k++) {
+        v[k] = test_random_range(r, -most, most);
+    }
+}
+
+/* Any place, turn and motion. */
+static void random_state(struct test_random *r, double speed, double spin)
+{
+    carom_v3_q40 v, w;
+
+    state.rotation = shape_random_turn(r);
+    random_vector(r, 2000, state.position.c, 32);
+    random_vector(r, speed, v.c, 40);
+    random_vector(r, spin, w.c, 40);
+    body_set_motion(&body, &state, &v, &w);
+}
+
+static void real_vector(double out[3], const int64_t v[3], int bits)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = real(v[k], bits);
+    }
+}
+
+static void real_quaternion(double m[3][3], const carom_quat_q30 *q)
+{
+    double p[4];
+
+    for (int k = 0; k < 4; k++) {
+        p[k] = q->c[k];
+    }
+    real_matrix(m, p);
+}
+
+static void real_sym3(double m[3][3], const struct carom_sym3 *s)
+{
+    static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+
+    for (int k = 0; k < 9; k++) {
+        m[k / 3][k % 3] = real(s->m[place[k / 3][k % 3]], s->e);
+    }
+}
+
+/* ---------------------------------------------------------------- rotation */
+
+static void test_matrix(void)
+{
+    struct test_random r = {1};
+
+    for (int n = 0; n < CASES; n++) {
+        carom_quat_q30 q = shape_random_turn(&r);
+        carom_m3_q30 m;
+        double exact[3][3];
+
+        body_normalise(&q);
+        body_matrix(&m, &q);
+        real_quaternion(exact, &q);
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 3; k++) {
+                int64_t dot = carom_round(carom_dot(m.c[i], m.c[k]), 30);
+
+                CHECK_NEAR(dot, i == k ? CAROM_ONE_Q30 : 0, 12);
+                /* |q|^2 is 1 within 4 units, and that doubles */
+                CHECK_NEAR(m.c[i][k], real_round(exact[i][k] * CAROM_ONE_Q30), 6);
+            }
+        }
+    }
+}
+
+static void test_normalise(void)
+{
+    struct test_random r = {2};
+
+    for (int n = 0; n < CASES; n++) {
+        carom_quat_q30 unit = shape_random_turn(&r), q;
+        double size = 0.95 + 0.1 * real(test_random_range(&r, 0, 1024), 10);
+
+        for (int k = 0; k < 4; k++) {
+            q.c[k] = (int32_t)real_round(size * unit.c[k]);
+        }
+        body_normalise(&q);
+        for (int k = 0; k < 4; k++) {
+            CHECK_NEAR(q.c[k], unit.c[k], 3);
+        }
+    }
+}
+
+/* out = v turned about the unit vector of u by 2 atan |u|: Rodrigues' formula. */
+static void turn_by_cayley(double out[3], const double u[3], const double v[3])
+{
+    double s2 = real_dot(u, u), c[3], uv = real_dot(u, v);
+
+    real_cross(c, u, v);
+    for (int k = 0; k < 3; k++) {
+        out[k] = ((1 - s2) * v[k] + 2 * c[k] + 2 * uv * u[k]) / (1 + s2);
+    }
+}
+
+/* A body of equal inertia turns about its spin; the angle at t is 2 atan(t |u|). */
+static void test_turn(void)
+{
+    struct test_random r = {3};
+
+    make_cube();
+    for (int n = 0; n < CASES; n++) {
+        int32_t tau_q30 = (int32_t)test_random_range(&r, 1 << 20, CAROM_ONE_Q30);
+        int32_t t_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30);
+        double start[3][3], w[3], u[3];
+        const struct body_pose *pose;
+        carom_m3_q30 m;
+        carom_v3_q40 spin;
+
+        random_state(&r, 1, 0.4);
+        body_matrix(&m, &state.rotation);
+        body_spin(&body, &state, &m, &spin);
+        body_predict(&body, &state, tau_q30, NULL);
+        pose = body_pose_at(&body, t_q30);
+        real_vector(w, spin.c, 40);
+        real_quaternion(start, &state.rotation);
+        for (int k = 0; k < 3; k++) {
+            u[k] = w[k] * real(tau_q30, 30) / 2;
+            CHECK_NEAR(body.path.u_world.c[k], real_round(u[k] * CAROM_ONE_Q30), 4);
+            u[k] *= real(t_q30, 30);
+        }
+        CHECK_EQ(body.path.turns, real_length(u) > 0);
+        for (int axis = 0; axis < 3; axis++) {
+            double from[3] = {start[0][axis], start[1][axis], start[2][axis]}, to[3];
+
+            turn_by_cayley(to, u, from);
+            for (int k = 0; k < 3; k++) {
+                CHECK_NEAR(pose->r.c[k][axis], real_round(to[k] * CAROM_ONE_Q30), 20);
+            }
+        }
+    }
+}
+
+/* Axes of a torque-free body after `frames`, by small steps of the midpoint rule in double. */
+static void integrate(double axes[3][3], double inverse[3][3], const double l[3], int frames)
+{
+    const int steps = 32; /* a frame */
+
+    for (int n = 0; n < frames * steps; n++) {
+        double start[3][3], w[3];
+
+        memcpy(start, axes, sizeof start);
+        for (int half = 2; half >= 1; half--) {
+            double lb[3], wb[3];
+
+            real_rotate_back(lb, axes, l);
+            real_rotate(wb, inverse, lb);
+            real_rotate(w, axes, wb);
+            for (int axis = 0; axis < 3; axis++) {
+                double from[3] = {start[0][axis], start[1][axis], start[2][axis]}, u[3], to[3];
+
+                for (int k = 0; k < 3; k++) {
+                    u[k] = w[k] / steps / half / 2;
+                }
+                turn_by_cayley(to, u, from);
+                for (int k = 0; k < 3; k++) {
+                    axes[k][axis] = to[k];
+                }
+            }
+        }
+    }
+}
+
+/* A body of three different moments of inertia nutates as the equations of motion say. */
+static void test_nutation(void)
+{
+    enum { FRAMES = 60 };
+    struct test_random r = {4};
+    double axes[3][3], inertia[3][3], inverse[3][3], l[3];
+
+    make_box();
+    random_state(&r, 0, 0.06);
+    real_quaternion(axes, &state.rotation);
+    real_vector(l, state.angular.c, 40);
+    real_sym3(inertia, &shape.mesh.mass.inertia);
+    memset(inverse, 0, sizeof inverse);
+    for (int k = 0; k < 3; k++) {
+        /* the box lies along the axes of its mesh */
+        CHECK(real_abs(inertia[k][(k + 1) % 3]) < 1e-8);
+        inverse[k][k] = 1 / (inertia[k][k] * real(shape.mesh.mass.volume_q32, 32));
+    }
+    integrate(axes, inverse, l, FRAMES);
+    for (int n = 0; n < FRAMES; n++) {
+        body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+        body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            /* turned by 3.6 radians in all; the error of a frame's step is a few 0.06^3 / 12 */
+            CHECK(real_abs(real(body_pose_at(&body, CAROM_ONE_Q30)->r.c[i][k], 30) - axes[i][k]) <
+                  2e-3);
+        }
+    }
+}
+
+/* Kinetic energy of a long torque-free tumble; the angular momentum is the state itself. */
+static void test_tumble(void)
+{
+    struct test_random r = {5};
+    carom_v3_q40 angular;
+    double first = 0, most = 0;
+
+    make_box();
+    random_state(&r, 0, 0);
+    /* close to the middle axis, where it tumbles, at 0.1 radians a frame */
+    {
+        const carom_v3_q40 v = {{0, 0, 0}};
+        const carom_v3_q40 w = {{CAROM_RATIO(1, 100, 40), CAROM_RATIO(1, 10, 40), 0}};
+
+        state.rotation = (carom_quat_q30){{CAROM_ONE_Q30, 0, 0, 0}};
+        body_set_motion(&body, &state, &v, &w);
+    }
+    angular = state.angular;
+    for (int n = 0; n < TUMBLE; n++) {
+        struct fix_wide e;
+        double energy;
+        carom_m3_q30 m;
+
+        body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+        body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
+        body_matrix(&m, &state.rotation);
+        e = body_kinetic2(&body, &state, &m);
+        energy = real(e.hi, -64) + (double)e.lo;
+        first = n == 0 ? energy : first;
+        most = real_abs(energy / first - 1) > most ? real_abs(energy / first - 1) : most;
+    }
+    CHECK(most < 5e-6);
+    CHECK(memcmp(&angular, &state.angular, sizeof angular) == 0);
+    {
+        int64_t square_q60 = 0;
+
+        for (int k = 0; k < 4; k++) {
+            square_q60 += (int64_t)state.rotation.c[k] * state.rotation.c[k];
+        }
+        CHECK_NEAR(square_q60, (int64_t)1 << 60, (int64_t)1 << 33);
+    }
+}
+
+/* ---------------------------------------------------------------- parabola */
+
+/* Mass 1 and numbers with room below: nothing is ever rounded, x = x0 + n v + n^2 g / 2. */
+static void test_free_fall(void)
+{
+    const carom_v3_q40 g = {{3 << 10, -5 * 1024, 7 * -12345678 * (int64_t)1024}};
+    const carom_v3_q40 v = {{(int64_t)1 << 30, -(int64_t)12345 * 4096, (int64_t)99 << 34}};
+    const carom_v3_q40 none = {{0, 0, 0}};
+    carom_v3_q32 start;
+
+    make_cube();
+    state.position = (carom_v3_q32){{-((int64_t)7 << 32), 5, 123456789}};
+    start = state.position;
+    body_set_motion(&body, &state, &v, &none);
+    for (int n = 1; n <= 100; n++) {
+        body_predict(&body, &state, CAROM_ONE_Q30, &g);
+        body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, &g);
+        for (int k = 0; k < 3; k++) {
+            CHECK_EQ(state.position.c[k],
+                     start.c[k] + (2 * n * v.c[k] + (int64_t)n * n * g.c[k]) / 512);
+            CHECK_EQ(state.momentum.c[k], v.c[k] + n * g.c[k]);
+        }
+    }
+}
+
+static void test_parabola(void)
+{
+    struct test_random r = {6};
+
+    make_box();
+    for (int n = 0; n < CASES; n++) {
+        int32_t tau_q30 = (int32_t)test_random_range(&r, 1, CAROM_ONE_Q30);
+        int32_t t_q30 =
+            n % 4 == 0 ? CAROM_ONE_Q30 : (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30);
+        double tau = real(tau_q30, 30), t = real(t_q30, 30);
+        struct body_state next;
+        const struct body_pose *pose;
+        carom_v3_q40 g, v;
+
+        random_state(&r, 60, 0.1);
+        random_vector(&r, 1, g.c, 40);
+        body_velocity(&body, &state, &v);
+        body_predict(&body, &state, tau_q30, &g);
+        pose = body_pose_at(&body, t_q30);
+        next = state;
+        body_advance(&body, &next, t_q30, tau_q30, &g);
+        for (int k = 0; k < 3; k++) {
+            double way = real(v.c[k], 40) * tau * t + real(g.c[k], 40) * tau * tau / 2 * t * t;
+            double dv = real(g.c[k], 40) * tau * t;
+
+            /* the origin is the position to 22 bits */
+            CHECK_NEAR(state.position.c[k], carom_shl(body.path.origin_q22[k], 10), 512);
+            CHECK_NEAR(next.position.c[k] - state.position.c[k], real_round(way * real_power2(32)),
+                       1);
+            CHECK_EQ(next.position.c[k], carom_shl(body.path.origin_q22[k], 10) + pose->x.c[k]);
+            CHECK_NEAR(next.momentum.c[k] - state.momentum.c[k],
+                       real_round(dv * real(shape.mesh.mass.volume_q32, 32) * real_power2(40)),
+                       real_round(real_abs(dv) * 2048) + 3);
+        }
+        CHECK(memcmp(&next.angular, &state.angular, sizeof next.angular) == 0);
+        /* at 0 it is where it was */
+        pose = body_pose_at(&body, 0);
+        next = state;
+        body_advance(&body, &next, 0, tau_q30, &g);
+        CHECK(memcmp(&next.position, &state.position, sizeof next.position) == 0);
+        CHECK(memcmp(&next.rotation, &state.rotation, sizeof next.rotation) == 0);
+    }
+}
+
+/* What does not move: stationary, asleep and frozen bodies. */
+static void test_still(void)
+{
+    struct test_random r = {7};
+    const carom_v3_q40 g = {{0, 0, -((int64_t)1 << 30)}};
+
+    make_box();
+    for (int n = 0; n < 3; n++) {
+        struct body_state before;
+        int64_t way_q22, turn_q30;
+        int32_t turn;
+
+        random_state(&r, 1, 0.3);
+        body.moving = n != 0;
+        state.asleep = n == 1;
+        state.out = n == 2;
+        before = state;
+        CHECK_EQ(body_travel_q22(&body, &state, CAROM_ONE_Q30, &g, &turn), 0);
+        CHECK_EQ(turn, 0);
+        body_predict(&body, &state, CAROM_ONE_Q30, &g);
+        body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
+        CHECK(memcmp(&before, &state, sizeof before) == 0);
+        body_path_length(&body, CAROM_ONE_Q30, &way_q22, &turn_q30);
+        CHECK(way_q22 <= 8 && turn_q30 <= 1);
+    }
+}
+
+/* ------------------------------------------------------------------ bounds */
+
+static void vertex_at(double out[3], uint32_t v, int32_t t_q30)
+{
+    carom_v3_q22 local = mesh_vertex(&shape.mesh, v);
+    carom_v3_q22 p = body_point(body_pose_at(&body, t_q30), &local);
+
+    for (int k = 0; k < 3; k++) {
+        out[k] = real(p.c[k], 22);
+    }
+}
+
+/* The points that kernels see against the pose in double. */
+static void test_point(void)
+{
+    struct test_random r = {8};
+
+    make_box();
+    for (int n = 0; n < CASES; n++) {
+        int32_t t_q30 = (int32_t)test_random_range(&r, 0, CAROM_ONE_Q30);
+        const struct body_pose *pose;
+        double m[3][3], local[3], exact[3], p[3];
+
+        random_state(&r, 60, 0.4);
+        body_predict(&body, &state, CAROM_ONE_Q30, NULL);
+        pose = body_pose_at(&body, t_q30);
+        real_quaternion(m, &pose->q);
+        for (uint32_t v = 0; v < 8; v += 3) {
+            for (int k = 0; k < 3; k++) {
+                local[k] = real(shape.vertices[v][k], 12); /* the box is about its centre */
+            }
+            real_rotate(exact, m, local);
+            vertex_at(p, v, t_q30);
+            for (int k = 0; k < 3; k++) {
+                CHECK(real_abs(p[k] - exact[k] - real(pose->x.c[k], 32)) < 0.6 * real_power2(-22));
+            }
+        }
+    }
+}
+
+static void test_path_length(void)
+{
+    struct test_random r = {9};
+
+    make_box();
+    for (int n = 0; n < CASES; n++) {
+        int64_t way_q22, turn_q30;
+        int32_t tau_q30, turn;
+        double start[8][3], way, most = 0;
+        carom_v3_q40 g;
+
+        random_state(&r, n % 3 ? 0.2 : 40, n % 2 ? 0.49 : 3);
+        random_vector(&r, n % 5 ? 0.01 : 1, g.c, 40);
+        tau_q30 = body_slice(&body, &state, (int32_t)test_random_range(&r, 1 << 20, CAROM_ONE_Q30));
+        way = real(body_travel_q22(&body, &state, tau_q30, &g, &turn), 22);
+        body_predict(&body, &state, tau_q30, &g);
+        for (uint32_t v = 0; v < 8; v++) {
+            vertex_at(start[v], v, 0);
+        }
+        for (int32_t i = 1; i <= 8; i++) {
+            int32_t t_q30 = CAROM_ONE_Q30 / 8 * i;
+
+            body_path_length(&body, t_q30, &way_q22, &turn_q30);
+            for (uint32_t v = 0; v < 8; v++) {
+                double p[3];
+
+                vertex_at(p, v, t_q30);
+                for (int k = 0; k < 3; k++) {
+                    p[k] -= start[v][k];
+                }
+                most = real_length(p) > most ? real_length(p) : most;
+                /* the places themselves are rounded */
+                CHECK(real_length(p) <= real(way_q22, 22) + 2 * real_power2(-22));
+            }
+            /* 2 atan |t u| <= 2 t |u| */
+            CHECK(
+                2 *
+                    real_length((double[3]){real(body.path.u.c[0], 30), real(body.path.u.c[1], 30),
+                                            real(body.path.u.c[2], 30)}) *
+                    real(t_q30, 30) <=
+                real(turn_q30, 30));
+        }
+        /*
+         * The bound for the frame goes by the spin at its start; within half a radian no spin of a
+         * body grows by more than an eighth, which the factor 1.3 of the step has room for.
+         */
+        CHECK(most <= 1.125 * way);
+        CHECK(turn_q30 <= real_round(1.125 * turn));
+        CHECK(real(way_q22, 22) >= most); /* and is no wild guess */
+        CHECK(way <= 1.3 * real(way_q22, 22) + 0.9);
+    }
+}
+
+static void test_slice(void)
+{
+    struct test_random r = {10};
+
+    make_cube();
+    for (int n = 0; n < CASES; n++) {
+        int32_t tau_q30 = (int32_t)test_random_range(&r, 1 << 10, CAROM_ONE_Q30), slice_q30;
+        double w[3], turn;
+        carom_v3_q40 spin;
+        carom_m3_q30 m;
+
+        random_state(&r, 0, n % 2 ? 0.7 : 60);
+        body_matrix(&m, &state.rotation);
+        body_spin(&body, &state, &m, &spin);
+        slice_q30 = body_slice(&body, &state, tau_q30);
+        real_vector(w, spin.c, 40);
+        turn = real_length(w) * real(slice_q30, 30);
+        CHECK(slice_q30 >= 1 && slice_q30 <= tau_q30);
+        CHECK(turn <= 0.5 * (1 + 1e-9));
+        /* the longest: all of it, or within a millionth of the limit */
+        CHECK(slice_q30 == tau_q30 || turn >= 0.5 * (1 - 1e-6));
+    }
+}
+
+/* ------------------------------------------------------------------ momenta */
+
+static void test_motion(void)
+{
+    struct test_random r = {11};
+
+    for (int n = 0; n < CASES; n++) {
+        double most_v = n % 2 ? 60 : 0.01, most_w = n % 2 ? 60 : 0.01;
+        carom_v3_q40 v, w, v2, w2;
+        carom_m3_q30 m;
+
+        if (n % 3 == 0) {
+            shape_box(&shape, 12, 8192, 82, 1000); /* thin */
+            shape_body(&shape, true, &body, &state);
+        } else {
+            make_box();
+        }
+        body.mass = fix_scale(test_random_range(&r, 1 << 10, 1 << 30), 20);
+        body.inverse_mass = fix_scaled_inverse(body.mass);
+        random_state(&r, 0, 0);
+        random_vector(&r, most_v, v.c, 40);
+        random_vector(&r, most_w, w.c, 40);
+        body_set_motion(&body, &state, &v, &w);
+        body_matrix(&m, &state.rotation);
+        body_velocity(&body, &state, &v2);
+        body_spin(&body, &state, &m, &w2);
+        for (int k = 0; k < 3; k++) {
+            /* momenta of a light body have few bits: a unit of 2^-40 is 2^-30 of its speed */
+            CHECK_NEAR(v2.c[k], v.c[k], real_round(most_v * real_power2(40 - 28)) + 2048);
+            CHECK_NEAR(w2.c[k], w.c[k], real_round(most_w * real_power2(40 - 22)) + 4000000);
+            /* p = m v */
+            CHECK_NEAR(state.momentum.c[k],
+                       real_round((double)v.c[k] * real(body.mass.m, body.mass.e)), 1 << 8);
+        }
+    }
+}
+
+static void test_inertia(void)
+{
+    struct test_random r = {12};
+
+    for (int n = 0; n < CASES; n++) {
+        struct carom_sym3 turned;
+        double j[3][3], m[3][3], mine[3][3], sum;
+        double p[3], l[3], v[3], w[3], wb[3], lb[3], energy, units;
+        struct fix_wide e;
+        carom_m3_q30 matrix;
+        carom_v3_q40 spin, velocity;
+
+        if (n % 2) {
+            shape_l(&shape, 12, 2048);
+            shape_body(&shape, true, &body, &state);
+        } else {
+            make_box();
+        }
+        random_state(&r, 2, 2);
+        body_matrix(&matrix, &state.rotation);
+        body_world_inertia(&body, &matrix, &turned);
+        real_sym3(mine, &turned);
+        real_sym3(j, &body.inertia);
+        real_quaternion(m, &state.rotation);
+        for (int a = 0; a < 3; a++) {
+            for (int b = 0; b < 3; b++) {
+                sum = 0;
+                for (int i = 0; i < 3; i++) {
+                    for (int k = 0; k < 3; k++) {
+                        sum += m[a][i] * j[i][k] * m[b][k];
+                    }
+                }
+                CHECK(real_abs(sum - mine[a][b]) <= 12 * real_power2(-turned.e));
+            }
+        }
+        /* L = R J R^T w m, and twice the energy is p.v + L.w */
+        body_spin(&body, &state, &matrix, &spin);
+        body_velocity(&body, &state, &velocity);
+        e = body_kinetic2(&body, &state, &matrix);
+        real_vector(p, state.momentum.c, 40);
+        real_vector(l, state.angular.c, 40);
+        real_vector(v, velocity.c, 40);
+        real_vector(w, spin.c, 40);
+        real_rotate(lb, mine, w);
+        real_rotate_back(wb, m, w);
+        for (int k = 0; k < 3; k++) {
+            CHECK(real_abs(lb[k] * real(body.mass.m, body.mass.e) - l[k]) < 1e-7);
+        }
+        energy = 0;
+        for (int i = 0; i < 3; i++) {
+            energy += p[i] * p[i];
+            for (int k = 0; k < 3; k++) {
+                units = real(body.mass.m, body.mass.e);
+                energy += units * units * wb[i] * j[i][k] * wb[k];
+            }
+        }
+        energy /= real(body.mass.m, body.mass.e);
+        CHECK(real_abs((real(e.hi, 16) + (double)e.lo * real_power2(-80)) / energy - 1) < 1e-7);
+    }
+}
+
+const struct test tests_body[] = {
+    {"body/matrix", test_matrix},     {"body/normalise", test_normalise},
+    {"body/turn", test_turn},         {"body/nutation", test_nutation},
+    {"body/tumble", test_tumble},     {"body/free_fall", test_free_fall},
+    {"body/parabola", test_parabola}, {"body/still", test_still},
+    {"body/point", test_point},       {"body/path_length", test_path_length},
+    {"body/slice", test_slice},       {"body/motion", test_motion},
+    {"body/inertia", test_inertia},   {0},
+};
