@@ -77,7 +77,7 @@ struct carom_mesh_raw {
     const uint16_t (*faces)[3];   /* vertex numbers, counter-clockwise from outside */
     uint32_t vertex_count;        /* 3 .. 65535 */
     uint32_t face_count;          /* 1 .. 65535 */
-    uint8_t quantum_bits;         /* 7 .. 20; no side of the mesh may be over 256 units */
+    uint8_t quantum_bits;         /* 7 .. 20 */
     uint8_t kind;                 /* enum carom_mesh_kind */
 };
 
@@ -169,7 +169,7 @@ int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t byt
  *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
  *
  * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for kind or quantum_bits; CAROM_ERR_MEMORY;
- *          CAROM_ERR_RANGE for a mesh whose box has a side over 256 units, or one that
+ *          CAROM_ERR_RANGE for a box with a side over 256 or a diagonal over 384 units, or one that
  *          winds around itself so often that its volume does not fit;
  *          or the first CAROM_ERR_MESH_... that holds. mesh is written only for CAROM_OK.
  */

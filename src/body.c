@@ -77,6 +77,13 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
     return sum;
 }
 
+struct fix_wide body_lift2(const struct body *b, const carom_v3_q40 *gravity)
+{
+    int64_t weight_q40 = fix_mul_scaled(fix_length(gravity->c), b->mass);
+
+    return fix_wide_mul(weight_q40 / 10 * 3, (int64_t)b->skin_q22 << 18);
+}
+
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)
 {
     static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
@@ -137,7 +144,11 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
 {
     int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
 
-    /* |q| = 1 and |u| < 0.26, so components stay below 1.04 and sums below 2^61 */
+    /*
+     * A slice turns by half a radian at the spin of its start; the midpoint's may be more, but
+     * |u| <= 0.25 + |u|^2 / sqrt 3 by the triangle inequality of inertias, so |u| <= 0.31 and the
+     * length of the product is at most 1.05.
+     */
     out->c[0] = q->c[0] + (int32_t)carom_round(-x * u[0] - y * u[1] - z * u[2], 30);
     out->c[1] = q->c[1] + (int32_t)carom_round(w * u[0] + y * u[2] - z * u[1], 30);
     out->c[2] = q->c[2] + (int32_t)carom_round(w * u[1] + z * u[0] - x * u[2], 30);

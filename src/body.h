@@ -84,6 +84,12 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
                               const carom_m3_q30 *r);
 
+/*
+ * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
+ * is lifted by a part of its skin gains that much; anything above is not lifting.
+ */
+struct fix_wide body_lift2(const struct body *b, const carom_v3_q40 *gravity);
+
 /* out = m v for a symmetric m; out may be v. */
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);
 

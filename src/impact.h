@@ -37,7 +37,7 @@ struct impact_result {
  * The impulse of one contact.
  *
  *   w    workspace
- *   in   at least one side moves; |V| < 2^7, |arm| <= 2^6, masses 2^-10 .. 2^10, mu <= 4
+ *   in   at least one side moves; |V| < 2^12, |arm| <= 2^6, masses 2^-10 .. 2^10, mu <= 4
  *   out  the impulse; zero when V.N >= target already (the contact does not pull)
  *
  * Returns  CAROM_OK or CAROM_ERR_RANGE when the system cannot be solved; out is written only for

@@ -68,21 +68,40 @@ void interfere_finish(struct interfere *w)
     }
 }
 
+/* Whether a face is in the list, which must be sorted. */
+static bool has_face(const struct interfere *w, struct carom_face_ref face)
+{
+    uint32_t low = 0, high = w->face_pool->used;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+
+        if (face_key(w->faces[middle]) < face_key(face)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
+}
+
 static void add_face(struct interfere *w, uint16_t body, uint16_t face)
 {
+    struct carom_face_ref ref = {body, face};
     struct pool *pool = w->face_pool;
 
     if (pool->used == pool->size) {
         interfere_finish(w); /* most of a full list are repetitions */
+        if (has_face(w, ref)) {
+            return;
+        }
     }
     if (pool->used == pool->size) {
         pool->refused++;
         w->error = CAROM_ERR_FACES_FULL;
         return;
     }
-    w->faces[pool->used].body = body;
-    w->faces[pool->used].face = face;
-    pool->used++;
+    w->faces[pool->used++] = ref;
 }
 
 /* -------------------------------------------------------------- candidates */

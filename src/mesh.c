@@ -31,13 +31,15 @@ static int check_corners(const struct carom_mesh_raw *raw)
 }
 
 /*
- * Find the box, and refuse one with a side longer than 256 units: then differences of two vertices,
- * and of a vertex and a point that a moving body can reach, fit q22, and so do lengths and radius.
+ * Find the box, and refuse one with a side over 256 or a diagonal over 384 units: then differences
+ * of two vertices, and of a vertex and a point that a moving body can reach, fit q22, and so do
+ * lengths and the radius.
  */
 static int find_box(struct carom_mesh *mesh)
 {
     const struct carom_mesh_raw *raw = &mesh->raw;
-    int32_t longest = 0;
+    int64_t side_q22[3];
+    bool fits = true;
 
     for (int k = 0; k < 3; k++) {
         mesh->box[0][k] = INT16_MAX;
@@ -48,11 +50,10 @@ static int find_box(struct carom_mesh *mesh)
             mesh->box[0][k] = c < mesh->box[0][k] ? c : mesh->box[0][k];
             mesh->box[1][k] = c > mesh->box[1][k] ? c : mesh->box[1][k];
         }
-        if (mesh->box[1][k] - mesh->box[0][k] > longest) {
-            longest = mesh->box[1][k] - mesh->box[0][k];
-        }
+        side_q22[k] = carom_shl(mesh->box[1][k] - mesh->box[0][k], 22 - raw->quantum_bits);
+        fits = fits && side_q22[k] <= (int64_t)256 << 22;
     }
-    return longest <= 256 << raw->quantum_bits ? CAROM_OK : CAROM_ERR_RANGE;
+    return fits && fix_length(side_q22) <= (int64_t)384 << 22 ? CAROM_OK : CAROM_ERR_RANGE;
 }
 
 /*

@@ -154,6 +154,19 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     return any;
 }
 
+/* What resting contacts may add to twice the energy of the bodies at hand. */
+static struct fix_wide lift2(const struct rest *r)
+{
+    struct fix_wide sum = {0, 0};
+
+    for (uint32_t i = 0; i < r->body_count; i++) {
+        if (r->bodies[i].solving) {
+            sum = fix_wide_add(sum, body_lift2(&r->bodies[i], r->gravity));
+        }
+    }
+    return sum;
+}
+
 int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
 {
     struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST};
@@ -184,9 +197,7 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
     if (warm) {
         rest_store_warm(r);
     }
-    if (impacts) {
-        rest_energy_rule(r, before);
-    }
+    rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
     return CAROM_OK;
 }
 

@@ -58,7 +58,7 @@ void rest_prepare_masses(struct contact *c)
 {
     struct contact_side *a = &c->side[0], *b = &c->side[1];
     struct fix_scaled unit;
-    int64_t half_difference, coupling, tangent;
+    int64_t off[3], tangent;
 
     unit = a->body ? a->body->mass : b->body->mass;
     if (a->body && b->body &&
@@ -85,14 +85,10 @@ void rest_prepare_masses(struct contact *c)
         }
     }
     /* the larger eigenvalue of the tangents' 2x2: one scalar that never overshoots */
-    half_difference = (c->mass_q30[1] - c->mass_q30[2]) / 2;
-    coupling = tangent_coupling_q30(c);
-    half_difference >>= 4; /* 30 + 10 bits at most: squares fit */
-    coupling >>= 4;
-    tangent = (c->mass_q30[1] + c->mass_q30[2]) / 2 +
-              ((int64_t)fix_sqrt((uint64_t)(half_difference * half_difference) +
-                                 (uint64_t)(coupling * coupling))
-               << 4);
+    off[0] = (c->mass_q30[1] - c->mass_q30[2]) / 2;
+    off[1] = tangent_coupling_q30(c);
+    off[2] = 0;
+    tangent = (c->mass_q30[1] + c->mass_q30[2]) / 2 + fix_length(off);
     /* K is at least 1: the lighter body alone gives that */
     c->step_q30[0] = (int32_t)(((int64_t)1 << 60) / c->mass_q30[0]);
     c->step_q30[1] = (int32_t)(((int64_t)1 << 60) / tangent);

@@ -16,8 +16,8 @@ _Static_assert(sizeof(struct contact) + 2 * sizeof(struct rest_warm) <= CAROM_CO
 _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BYTES");
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
-/* each carved array may be rounded up to 8 bytes; there are at most 12 of them */
-_Static_assert(sizeof(struct carom_world) + ZLIST_CELLS_MAX * sizeof(uint16_t) + 12 * 8 <=
+/* each of the carved arrays may be rounded up to 8 bytes */
+_Static_assert(sizeof(struct carom_world) + ZLIST_CELLS_MAX * sizeof(uint16_t) + 16 * 8 <=
                    CAROM_WORLD_FIXED_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
 
@@ -122,6 +122,20 @@ static bool speed_in_range(const carom_v3_q40 *v)
     return fix_length(v->c) < (int64_t)BODY_SPEED_LIMIT << 40;
 }
 
+/*
+ * Whether mass radius^2 |w| stays below 2^22: then so does the angular momentum, and q40 holds it
+ * with a bit to spare.
+ */
+static bool spin_in_range(const struct body *b, const carom_v3_q40 *w)
+{
+    struct fix_scaled rate = fix_scale(fix_length(w->c), 40);
+    struct fix_scaled square = fix_scale((int64_t)b->radius_q22 * b->radius_q22, 44);
+    struct fix_scaled moment = fix_scale((int64_t)square.m * b->mass.m, square.e + b->mass.e);
+    int64_t product = (int64_t)moment.m * rate.m;
+
+    return product == 0 || fix_bits((uint64_t)product) - (moment.e + rate.e) <= 22;
+}
+
 /* Length 1 within 2^-10; all zero stands for no rotation. */
 static bool rotation_valid(carom_quat_q30 *q)
 {
@@ -185,6 +199,12 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
         b->unit_bits = fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
         result = set_mass(b, def);
+        if (result == CAROM_OK && !spin_in_range(b, &def->spin)) {
+            result = CAROM_ERR_RANGE;
+        }
+        if (result < 0) {
+            return result;
+        }
         body_set_motion(b, s, &def->velocity, &def->spin);
     }
     return result;
@@ -311,7 +331,8 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
         return CAROM_ERR_ARGUMENT;
     }
     if (!position_in_range(&in->position) || !speed_in_range(&in->velocity) ||
-        !speed_in_range(&in->spin)) {
+        !speed_in_range(&in->spin) ||
+        (w->bodies[body].moving && !spin_in_range(&w->bodies[body], &in->spin))) {
         return CAROM_ERR_RANGE;
     }
     s = &world_now(w)->bodies[body];
@@ -330,7 +351,8 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     carom_v3_q40 v;
 
     body_velocity(b, s, &v);
-    return position_in_range(&s->position) && speed_in_range(&v);
+    return position_in_range(&s->position) && speed_in_range(&v) &&
+           fix_length(s->angular.c) < (int64_t)1 << 62;
 }
 
 struct fix_wide world_energy2(const struct carom_world *w, const struct world_state *state)

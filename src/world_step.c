@@ -45,6 +45,16 @@ static void begin(struct step *s, struct carom_world *w)
     }
 }
 
+static bool touched(const struct carom_world *w)
+{
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].in_contact) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static int fail(struct carom_world *w, int error)
 {
     w->event_count = 0;
@@ -73,10 +83,10 @@ int carom_world_step(struct carom_world *w)
 
         if (w->stats.substeps == w->config.substep_cap) {
             status |= CAROM_SUBSTEP_CAP;
-            step_limit_energy(&s);
             break;
         }
         w->stats.substeps++;
+        step_retire(&s);
         result = step_predict(&s, &slice_q30);
         if (result == CAROM_OK) {
             result = step_first_hit(&s, &found);
@@ -97,6 +107,10 @@ int carom_world_step(struct carom_world *w)
         return fail(w, result);
     }
     interfere_finish(&w->interfere);
+    if (status & CAROM_SUBSTEP_CAP || touched(w)) {
+        step_limit_energy(&s);
+    }
+    step_retire(&s);
     if (w->config.sleep) {
         rest_sleep(w->bodies, s.next->bodies, w->body_count, s.next->touching,
                    s.next->touching_count, s.gravity);

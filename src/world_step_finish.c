@@ -2,25 +2,38 @@
 /* The end of a step: the energy of a frame cut short, events, statistics. */
 #include "world_step_parts.h"
 
-/* A frame that was cut short must not have gained energy by it: scale the momenta down. */
+/* Twice the kinetic energy of the active bodies, and what contact may have lifted them by. */
+static struct fix_wide kinetic2(const struct step *s, struct fix_wide *lift2)
+{
+    struct fix_wide sum = {0, 0};
+
+    memset(lift2, 0, sizeof *lift2);
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *b = &s->w->bodies[i];
+        carom_m3_q30 r;
+
+        if (!broad_active(b, &s->next->bodies[i])) {
+            continue;
+        }
+        body_matrix(&r, &s->next->bodies[i].rotation);
+        sum = fix_wide_add(sum, body_kinetic2(b, &s->next->bodies[i], &r));
+        if (b->in_contact) {
+            *lift2 = fix_wide_add(*lift2, body_lift2(b, s->gravity));
+        }
+    }
+    return sum;
+}
+
 void step_limit_energy(struct step *s)
 {
-    struct fix_wide excess = fix_wide_add(world_energy2(s->w, s->next),
-                                          fix_wide_neg(world_energy2(s->w, world_now(s->w))));
-    struct fix_wide kinetic = {0, 0}, kept;
+    struct fix_wide lift2, kept;
+    struct fix_wide kinetic = kinetic2(s, &lift2);
+    struct fix_wide allowed = fix_wide_add(world_energy2(s->w, world_now(s->w)), lift2);
+    struct fix_wide excess = fix_wide_add(world_energy2(s->w, s->next), fix_wide_neg(allowed));
     int32_t factor_q30 = 0;
 
     if (fix_wide_sign(excess) <= 0) {
         return;
-    }
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
-            carom_m3_q30 r;
-
-            body_matrix(&r, &s->next->bodies[i].rotation);
-            kinetic =
-                fix_wide_add(kinetic, body_kinetic2(&s->w->bodies[i], &s->next->bodies[i], &r));
-        }
     }
     kept = fix_wide_add(kinetic, fix_wide_neg(excess));
     if (fix_wide_sign(kept) > 0) {
@@ -51,6 +64,21 @@ static void add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t 
     }
 }
 
+void step_retire(struct step *s)
+{
+    struct carom_world *w = s->w;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        if (broad_active(&w->bodies[i], state) && !world_in_range(&w->bodies[i], state)) {
+            *state = world_now(w)->bodies[i];
+            state->out = 1;
+            add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+        }
+    }
+}
+
 static bool is_touching(const struct world_state *s, const struct pair *p)
 {
     for (uint32_t i = 0; i < s->touching_count; i++) {
@@ -78,7 +106,6 @@ void step_drop_warm(struct step *s)
     s->next->warm_count = kept;
 }
 
-/* Begin and end of touching, rest, and bodies that left the world. */
 void step_finish_events(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -105,11 +132,6 @@ void step_finish_events(struct step *s)
 
         if (state->asleep && !before->bodies[i].asleep) {
             add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
-        }
-        if (w->bodies[i].moving && !state->out && !world_in_range(&w->bodies[i], state)) {
-            *state = before->bodies[i];
-            state->out = 1;
-            add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
         }
     }
 }

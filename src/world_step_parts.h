@@ -63,13 +63,20 @@ int step_respond(struct step *s);
 /* Note that a pair touches in this step. */
 void step_note_touching(struct step *s, const struct pair *p);
 
-/* A frame that was cut short must not have gained energy by it. */
+/*
+ * Contact must not gain energy over a frame, beyond lifting bodies within their skins: scale the
+ * momenta down if it did. A body in contact takes gravity before it moves, so one that is turned
+ * upwards on its way would climb for nothing; and a frame cut short has lost track of what it owes.
+ */
 void step_limit_energy(struct step *s);
 
 /* Keep the impulses of contacts that the next frame may continue. */
 void step_drop_warm(struct step *s);
 
-/* Begin and end of touching, rest, and bodies that left the world. */
+/* Freeze bodies that left the range of the formats in the pose they began the frame with. */
+void step_retire(struct step *s);
+
+/* Begin and end of touching, and rest. */
 void step_finish_events(struct step *s);
 void step_finish_stats(struct carom_world *w);
 
