@@ -154,13 +154,13 @@ void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const 
 {
     int32_t low = INT32_MAX, high = INT32_MIN;
 
-    CAROM_ASSERT(n >= 1 && n <= SCAN_MAX && grow >= 0 && grow < 1 << 24 && grid->shift <= 24);
+    CAROM_ASSERT(n >= 1 && n <= SCAN_MAX && grow >= 0 && grow < 1 << 29 && grid->shift <= 24);
     CAROM_ASSERT(carom_abs(grid->x0) < 1 << 25 && carom_abs(grid->y0) < 1 << 25);
     s->grid = *grid;
     s->n = n;
     s->grow = grow;
     for (int i = 0; i < n; i++) {
-        CAROM_ASSERT(carom_abs(xy[i][0]) < 1 << 24 && carom_abs(xy[i][1]) < 1 << 24);
+        CAROM_ASSERT(carom_abs(xy[i][0]) < 1 << 29 && carom_abs(xy[i][1]) < 1 << 29);
         s->xy[i][0] = xy[i][0];
         s->xy[i][1] = xy[i][1];
         low = smaller(low, xy[i][1]);
@@ -175,7 +175,7 @@ void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const 
  * The lower limit takes the crossing rounded up, the upper one rounded down: cells begin and end at
  * whole numbers, so no cell is lost, and none is won that the exact crossing does not touch.
  *
- * Bounds: y - a[1] and b[0] - a[0] are < 2^25 in size, their product < 2^50.
+ * Bounds: y - a[1] and b[0] - a[0] are < 2^31 in size, their product < 2^62.
  */
 static void add_crossing(const int32_t a[2], const int32_t b[2], int32_t y, int32_t *low,
                          int32_t *high)

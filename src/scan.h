@@ -59,8 +59,8 @@ struct scan_grid {
 /*
  * Walk over the cells that a convex polygon touches.
  *   grid  shift <= 24; the corner below 2^25 in size
- *   xy    corners in quanta of the grid, |x|, |y| < 2^24
- *   grow  quanta, 0 <= grow < 2^24
+ *   xy    corners in quanta of the grid, |x|, |y| < 2^29
+ *   grow  quanta, 0 <= grow < 2^29
  * Runs are clipped to the grid; a polygon outside the grid gives none.
  */
 struct scan_cells {

@@ -370,8 +370,8 @@ static size_t write_blob(uint8_t *out)
 
     memcpy(out, header, n);
     for (int i = 0; i < 8 * 3 + 12 * 3; i++) {
-        uint16_t word = i < 24 ? (uint16_t)lab_box.vertices[i / 3][i % 3]
-                               : lab_box.faces[(i - 24) / 3][i % 3];
+        uint16_t word =
+            i < 24 ? (uint16_t)lab_box.vertices[i / 3][i % 3] : lab_box.faces[(i - 24) / 3][i % 3];
 
         out[n++] = (uint8_t)word;
         out[n++] = (uint8_t)(word >> 8);

@@ -66,7 +66,8 @@ static void test_energy(const struct carom_mesh_raw *body, long frames, const ch
     lab_free(lab);
 }
 
-/* Without friction, what a frame with a hit changes the momentum by is its impulse and the weight. */
+/* Without friction, what a frame with a hit changes the momentum by is its impulse and the weight.
+ */
 static void test_impulse(void)
 {
     struct lab *lab = load_box(0, 0.7, 0);
@@ -108,9 +109,9 @@ static void test_impulse(void)
 
 /*
  * Dropped flat from 2 units, it rises to e^2 of its fall. Both count from where the surfaces meet,
- * the event gap, half a skin. The top is worked out from place and speed in flight, so that no frame
- * need be there. The solver stops at 2^-26 of the largest closing speed and speeds are kept to 2^-40,
- * so 1e-6 is ample; a wrong threshold or rounding of the time of the hit would be 1e-4.
+ * the event gap, half a skin. The top is worked out from place and speed in flight, so that no
+ * frame need be there. The solver stops at 2^-26 of the largest closing speed and speeds are kept
+ * to 2^-40, so 1e-6 is ample; a wrong threshold or rounding of the time of the hit would be 1e-4.
  */
 static void test_restitution(double e)
 {
@@ -153,8 +154,7 @@ static void test_dead(void)
         }
     }
     lab_report(tally.begins == 1 && highest <= 1.01 * lab->skin && lowest > 0, "bounce/dead",
-               "stays %.2f to %.2f skins above the plane", lowest / lab->skin,
-               highest / lab->skin);
+               "stays %.2f to %.2f skins above the plane", lowest / lab->skin, highest / lab->skin);
     lab_report(tally.hits == 1, "bounce/dead_hit", "%ld hit events", tally.hits);
     lab_free(lab);
 }

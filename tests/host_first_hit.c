@@ -5,10 +5,10 @@
  * does. In between the body goes straight and turns by Cayley(s u) about its centre: 300 poses on
  * the way are checked for crossing faces, and at a hit the meshes must be the event gap apart.
  *
- * Not exactly: the way to a hit is set up again for the time it takes, and a turn set up for a shorter
- * time is not a part of the longer one. With a the angle of the frame, one step of the midpoint rule
- * differs from many by terms of second order, at most a^2 / 12, and a part of that
- * is left at a hit on the way.
+ * Not exactly: the way to a hit is set up again for the time it takes, and a turn set up for a
+ * shorter time is not a part of the longer one. With a the angle of the frame, one step of the
+ * midpoint rule differs from many by terms of second order, at most a^2 / 12, and a part of that is
+ * left at a hit on the way.
  */
 #include <math.h>
 #include <stdio.h>
@@ -110,8 +110,8 @@ static double height_over(const double p[3], const double (*t)[3])
     return fabs(dot(to, normal)) / sqrt(square);
 }
 
-static void corners(double out[3][3], const struct oracle_mesh *mesh, const struct oracle_pose *pose,
-                    size_t face)
+static void corners(double out[3][3], const struct oracle_mesh *mesh,
+                    const struct oracle_pose *pose, size_t face)
 {
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 3; k++) {
@@ -169,8 +169,8 @@ static double reach(const struct carom_mesh *mesh, const struct oracle_mesh *dou
 }
 
 /*
- * Both bodies turned at random, with a plane between them; the moving one heads for a point near the
- * other's centre, and turns by up to 0.4 radians, so that the frame is one slice.
+ * Both bodies turned at random, with a plane between them; the moving one heads for a point near
+ * the other's centre, and turns by up to 0.4 radians, so that the frame is one slice.
  */
 static void start(struct lab *lab, uint64_t *random)
 {
@@ -289,9 +289,10 @@ int main(void)
         for (int j = 0; j < 4; j++) {
             test_pair(meshes[j], meshes[i], &verdict, &random);
         }
-        lab_report(verdict.hits > 2 * MOTIONS && verdict.crossed == 0 && verdict.early == 0,
-                   names[i], "%d motions, %ld hits, %ld crossed before, %ld early, gap at most %.2f of the bound",
-                   4 * MOTIONS, verdict.hits, verdict.crossed, verdict.early, verdict.gap);
+        lab_report(
+            verdict.hits > 2 * MOTIONS && verdict.crossed == 0 && verdict.early == 0, names[i],
+            "%d motions, %ld hits, %ld crossed before, %ld early, gap at most %.2f of the bound",
+            4 * MOTIONS, verdict.hits, verdict.crossed, verdict.early, verdict.gap);
     }
     return lab_finish();
 }

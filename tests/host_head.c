@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's scene, a head of 1876 faces on a field of 3034, for 900 frames, with sleep and without:
- * no faces ever cross, energy is never gained, sub-steps stay few, it bounces, slides and rests.
+ * The paper's scene, a head of 1876 faces on a field of 3034, for 900 frames, with sleep and
+ * without: no faces ever cross, energy is never gained, sub-steps stay few, it bounces, slides and
+ * rests.
  */
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +10,7 @@
 
 #include "lab.h"
 
-#define FRAMES 900
+#define FRAMES       900
 #define CREEP_FRAMES 120
 
 /* The farthest that any vertex can have moved between two states of the body. */

@@ -8,7 +8,7 @@
 
 #include "lab.h"
 
-#define FPS 60.0
+#define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)
 #define DEGREES (acos(-1) / 180)
 
@@ -29,8 +29,8 @@ static void set_velocity(struct carom_body_def *def, const double velocity[3])
 /* ---------------------------------------------------------------------- ramp */
 
 /*
- * A box lying on a plane of 20 degrees that falls towards +x, and turned about the vertical besides.
- * Returns the downhill direction.
+ * A box lying on a plane of 20 degrees that falls towards +x, and turned about the vertical
+ * besides. Returns the downhill direction.
  */
 static struct lab *load_ramp(double mu, double downhill[3])
 {
@@ -103,8 +103,8 @@ static void test_ramp_slides(void)
 /* --------------------------------------------------------------------- slide */
 
 /*
- * A box sliding without friction at 10 units/s over a plane of 4608 triangles, 240 frames across some
- * 35 of its edges: no event, the same speed. Gravity is tilted with the plane.
+ * A box sliding without friction at 10 units/s over a plane of 4608 triangles, 240 frames across
+ * some 35 of its edges: no event, the same speed. Gravity is tilted with the plane.
  */
 static void slide(const carom_quat_q30 *tilt, const char *name)
 {
@@ -158,9 +158,9 @@ static void test_slide(void)
 /* --------------------------------------------------------------------- plate */
 
 /* A plate of 100 x 100 units, 1/32 thick: the bodies are as large as 30 times its thickness. */
-static const int16_t wide_vertices[8][3] = {{-6400, -6400, -2}, {6400, -6400, -2}, {-6400, 6400, -2},
-                                            {6400, 6400, -2},   {-6400, -6400, 2}, {6400, -6400, 2},
-                                            {-6400, 6400, 2},   {6400, 6400, 2}};
+static const int16_t wide_vertices[8][3] = {
+    {-6400, -6400, -2}, {6400, -6400, -2}, {-6400, 6400, -2}, {6400, 6400, -2},
+    {-6400, -6400, 2},  {6400, -6400, 2},  {-6400, 6400, 2},  {6400, 6400, 2}};
 static struct carom_mesh_raw wide_plate(void)
 {
     struct carom_mesh_raw wide = lab_plate;

@@ -178,9 +178,9 @@ static void test_outputs(void)
 /* Room for exactly the peaks is enough. */
 static void test_exact(void)
 {
-    struct carom_caps caps = {good[CAROM_POOL_bodies].peak,  good[CAROM_POOL_pairs].peak,
+    struct carom_caps caps = {good[CAROM_POOL_bodies].peak,   good[CAROM_POOL_pairs].peak,
                               good[CAROM_POOL_contacts].peak, good[CAROM_POOL_faces].peak,
-                              good[CAROM_POOL_entries].peak, good[CAROM_POOL_candidates].peak};
+                              good[CAROM_POOL_entries].peak,  good[CAROM_POOL_candidates].peak};
     struct lab *lab = load_two_fields(&caps);
     int frame = 0, result = CAROM_OK;
 

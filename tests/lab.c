@@ -138,7 +138,8 @@ carom_quat_q30 lab_random_turn(uint64_t *state)
     }
 #define CORNERS(x, y, z)                                                                           \
     {-(x), -(y), -(z)}, {(x), -(y), -(z)}, {-(x), (y), -(z)}, {(x), (y), -(z)}, {-(x), -(y), (z)}, \
-        {(x), -(y), (z)}, {-(x), (y), (z)}, {                                                      \
+        {(x), -(y), (z)}, {-(x), (y), (z)},                                                        \
+    {                                                                                              \
         (x), (y), (z)                                                                              \
     }
 
@@ -159,14 +160,15 @@ const struct carom_mesh_raw lab_tetrahedron = SOLID(tetrahedron);
 
 /* The outline of the L, counter-clockwise, below and above. */
 #define OUTLINE(z)                                                                                 \
-    {0, 0, z}, {4096, 0, z}, {4096, 1400, z}, {1300, 1400, z}, {1300, 3300, z}, {                  \
+    {0, 0, z}, {4096, 0, z}, {4096, 1400, z}, {1300, 1400, z}, {1300, 3300, z},                    \
+    {                                                                                              \
         0, 3300, z                                                                                 \
     }
 static const int16_t l_vertices[12][3] = {OUTLINE(0), OUTLINE(1100)};
-static const uint16_t l_faces[20][3] = {
-    {0, 2, 1}, {0, 3, 2}, {0, 4, 3}, {0, 5, 4},  {6, 7, 8},  {6, 8, 9},  {6, 9, 10},
-    {6, 10, 11}, {0, 1, 7}, {0, 7, 6}, {1, 2, 8},  {1, 8, 7},  {2, 3, 9},  {2, 9, 8},
-    {3, 4, 10}, {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}};
+static const uint16_t l_faces[20][3] = {{0, 2, 1},  {0, 3, 2},  {0, 4, 3},   {0, 5, 4}, {6, 7, 8},
+                                        {6, 8, 9},  {6, 9, 10}, {6, 10, 11}, {0, 1, 7}, {0, 7, 6},
+                                        {1, 2, 8},  {1, 8, 7},  {2, 3, 9},   {2, 9, 8}, {3, 4, 10},
+                                        {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}};
 const struct carom_mesh_raw lab_l = SOLID(l);
 
 #define SHEET 10240
@@ -180,9 +182,12 @@ const struct carom_mesh_raw *lab_grid(void)
 {
     static int16_t vertices[(GRID + 1) * (GRID + 1)][3];
     static uint16_t faces[2 * GRID * GRID][3];
-    static const struct carom_mesh_raw grid = {
-        (const int16_t(*)[3])vertices, (const uint16_t(*)[3])faces,
-        (GRID + 1) * (GRID + 1), 2 * GRID * GRID, 8, CAROM_SURFACE};
+    static const struct carom_mesh_raw grid = {(const int16_t(*)[3])vertices,
+                                               (const uint16_t(*)[3])faces,
+                                               (GRID + 1) * (GRID + 1),
+                                               2 * GRID * GRID,
+                                               8,
+                                               CAROM_SURFACE};
 
     for (int v = 0; v < (GRID + 1) * (GRID + 1); v++) {
         vertices[v][0] = (int16_t)((v % (GRID + 1) * 2 - GRID) * 160);
@@ -224,10 +229,9 @@ static void weigh(struct lab *lab)
 
             first[i] += d * sum / 24;
             for (int j = 0; j < 3; j++) {
-                second[i][j] += d *
-                                (sum * (a[j] + b[j] + c[j]) + a[i] * a[j] + b[i] * b[j] +
-                                 c[i] * c[j]) /
-                                120;
+                second[i][j] +=
+                    d * (sum * (a[j] + b[j] + c[j]) + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]) /
+                    120;
             }
         }
     }
@@ -238,8 +242,8 @@ static void weigh(struct lab *lab)
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
 
-        lab->inertia[i] = (second[j][j] + second[k][k]) / volume -
-                          lab->centre[j] * lab->centre[j] - lab->centre[k] * lab->centre[k];
+        lab->inertia[i] = (second[j][j] + second[k][k]) / volume - lab->centre[j] * lab->centre[j] -
+                          lab->centre[k] * lab->centre[k];
         /* xy, yz, zx */
         lab->inertia[3 + i] = lab->centre[i] * lab->centre[j] - second[i][j] / volume;
     }
@@ -366,7 +370,8 @@ double lab_energy(const struct lab *lab)
     return oracle_energy(&body, gravity);
 }
 
-/* The mesh's own centre is what its vertices are placed about: weigh() need not have the last bit. */
+/* The mesh's own centre is what its vertices are placed about: weigh() need not have the last bit.
+ */
 struct oracle_pose lab_pose(const struct lab *lab, int body)
 {
     struct carom_body_state state = state_of(lab, body);
@@ -452,8 +457,8 @@ static void watch_energy(const struct lab *lab, struct lab_tally *tally, bool co
     double gravity[3], weight, energy = lab_energy(lab);
 
     gravity_of(lab, gravity);
-    weight = lab->mass * sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] +
-                              gravity[2] * gravity[2]);
+    weight = lab->mass *
+             sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
     if (tally->frames == 1) {
         tally->energy_first = energy;
     } else if (contact) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * lab - what the scene tests share: a world with one body that moves over one that does not, watched
- * in double precision through the public interface. Host only.
+ * lab - what the scene tests share: a world with one body that moves over one that does not,
+ * watched in double precision through the public interface. Host only.
  *
  *   struct lab lab = lab_load(&ground, &body);   or lab_load_scene("head")
  *   lab.scene.body.position.c[2] = ...           change how things start
@@ -87,11 +87,11 @@ bool lab_asleep(const struct lab *lab);
 /* What lab_step saw of a run. Start with {0}. */
 struct lab_tally {
     long frames, capped;
-    long crossed;    /* frames with faces that cross */
-    long hits;       /* hit events */
+    long crossed; /* frames with faces that cross */
+    long hits;    /* hit events */
     long begins, ends;
-    long touching;   /* frames with contacts */
-    long sliding;    /* of those, frames in which a pressed contact slips by 1/20 unit a second */
+    long touching; /* frames with contacts */
+    long sliding;  /* of those, frames in which a pressed contact slips by 1/20 unit a second */
     uint32_t substeps[65]; /* frames by the number of sub-steps */
     double energy_first, energy;
     double energy_change; /* the largest distance from the first frame's, relative */

@@ -23,15 +23,24 @@
 #define PLACE_NOISE 4e-6
 #define ANGLE_NOISE 1e-6
 
+#define EDGES_MAX 1800
+
+struct bounds {
+    double low[3], high[3];
+};
+
 /* One of the two bodies, in world axes. */
 struct solid {
     struct shape *shape;
     double p[SHAPE_VERTICES][3];
     double normal[SHAPE_FACES][3];
+    struct bounds face[SHAPE_FACES], edge[EDGES_MAX];
+    bool own_vertex[SHAPE_VERTICES], own_edge[EDGES_MAX]; /* which the mesh leaves to be tested */
 };
 
 static struct shape shape_a, shape_b;
 static struct solid a = {.shape = &shape_a}, b = {.shape = &shape_b};
+static struct solid turned = {.shape = &shape_a}; /* a, turned as far as it may */
 static struct body bodies[2];
 static struct body_state states[2];
 static const struct pair pairs[1] = {{0, 1}};
@@ -122,6 +131,33 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
 
 /* ------------------------------------------------------------------- scenes */
 
+/* Grow a box to hold a point, or start it there. */
+static void bound(struct bounds *box, const double p[3], bool first)
+{
+    for (int k = 0; k < 3; k++) {
+        box->low[k] = first || p[k] < box->low[k] ? p[k] : box->low[k];
+        box->high[k] = first || p[k] > box->high[k] ? p[k] : box->high[k];
+    }
+}
+
+static void note_owned(struct solid *s)
+{
+    const struct carom_mesh *mesh = &s->shape->mesh;
+
+    memset(s->own_vertex, 0, sizeof s->own_vertex);
+    memset(s->own_edge, 0, sizeof s->own_edge);
+    for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            if (mesh->faces[f].own >> k & 1) {
+                s->own_vertex[mesh->raw.faces[f][k]] = true;
+            }
+            if (mesh->faces[f].own >> (3 + k) & 1) {
+                s->own_edge[mesh->faces[f].edge[k]] = true;
+            }
+        }
+    }
+}
+
 static void place(struct solid *s, struct body *body, const struct body_state *state)
 {
     const struct carom_mesh *mesh = &s->shape->mesh;
@@ -157,39 +193,94 @@ static void place(struct solid *s, struct body *body, const struct body_state *s
         length = real_length(n);
         for (int k = 0; k < 3; k++) {
             s->normal[f][k] = n[k] / length;
+            bound(&s->face[f], s->p[c[k]], k == 0);
+        }
+    }
+    for (uint32_t e = 0; e < mesh->edge_count; e++) {
+        bound(&s->edge[e], s->p[mesh->edges[e].vertex[0]], true);
+        bound(&s->edge[e], s->p[mesh->edges[e].vertex[1]], false);
+    }
+}
+
+/* A point inside a face or on an edge, and a direction in which the surface looks there. */
+static void random_place(struct test_random *r, const struct solid *s, double out[3], double n[3])
+{
+    const struct carom_mesh *mesh = &s->shape->mesh;
+    uint32_t e = (uint32_t)test_random_range(r, 0, mesh->edge_count - 1);
+    const struct carom_edge *edge = &mesh->edges[e];
+    const uint16_t *c = s->shape->faces[edge->face[0]];
+    bool on_edge = test_random_range(r, 0, 1);
+    double along = real(test_random_range(r, 1, 7), 3);
+
+    for (int k = 0; k < 3; k++) {
+        double p = s->p[edge->vertex[0]][k], q = s->p[edge->vertex[1]][k];
+        double middle = (s->p[c[0]][k] + s->p[c[1]][k] + s->p[c[2]][k]) / 3;
+
+        out[k] = on_edge ? p + along * (q - p) : middle;
+        n[k] = s->normal[edge->face[0]][k];
+        if (on_edge && edge->face[1] != CAROM_NO_FACE) {
+            n[k] += s->normal[edge->face[1]][k];
         }
     }
 }
 
-/* Body 0 over a place of body 1, turned anyhow; both anywhere in the world. */
+/* The lowest vertex along n, or a point of the flattest edge from there. */
+static void lowest_place(struct test_random *r, const struct solid *s, const double n[3],
+                         double out[3])
+{
+    double along = test_random_range(r, 0, 1) ? real(test_random_range(r, 1, 7), 3) : 0;
+    uint32_t lowest = 0, next = 0;
+    double least = 1e9;
+
+    for (uint32_t v = 1; v < s->shape->raw.vertex_count; v++) {
+        lowest = real_dot(s->p[v], n) < real_dot(s->p[lowest], n) ? v : lowest;
+    }
+    for (uint32_t v = 0; v < s->shape->raw.vertex_count; v++) {
+        double d[3], rise;
+
+        for (int k = 0; k < 3; k++) {
+            d[k] = s->p[v][k] - s->p[lowest][k];
+        }
+        rise = v == lowest ? 1e9 : real_dot(d, n) / real_length(d);
+        next = rise < least ? v : next;
+        least = rise < least ? rise : least;
+    }
+    for (int k = 0; k < 3; k++) {
+        out[k] = s->p[lowest][k] + along * (s->p[next][k] - s->p[lowest][k]);
+    }
+}
+
+/* The bodies turned anyhow, anywhere in the world, with a point of one near a point of the other.
+ */
 static void random_scene(struct test_random *r, bool turn_b)
 {
-    double q[4], m[3][3], local[3], world[3];
-    int half = shape_b.mesh.box[1][0], z = shape_b.mesh.box[1][2];
+    double on_a[3], on_b[3], n[3];
 
-    states[0].rotation = shape_random_turn(r);
-    states[1].rotation =
-        turn_b ? shape_random_turn(r) : (carom_quat_q30){{CAROM_ONE_Q30, 0, 0, 0}};
-    local[0] = real(test_random_range(r, -half, half), shape_b.raw.quantum_bits);
-    local[1] = real(test_random_range(r, -half, half), shape_b.raw.quantum_bits);
-    local[2] = real(test_random_range(r, 0, z), shape_b.raw.quantum_bits) +
-               real(test_random_range(r, 0, shape_a.mesh.radius_q22), 22);
-    for (int k = 0; k < 4; k++) {
-        q[k] = states[1].rotation.c[k];
-    }
-    real_matrix(m, q);
-    real_rotate(world, m, local);
-    for (int k = 0; k < 3; k++) {
-        states[1].position.c[k] =
-            test_random_range(r, -((int64_t)3000 << 32), (int64_t)3000 << 32);
-        states[0].position.c[k] = states[1].position.c[k] + real_round(world[k] * 4294967296.0);
-    }
     for (int i = 0; i < 2; i++) {
-        bodies[i].reach_q22 = (int32_t)test_random_range(r, 0, 1) << test_random_range(r, 8, 18);
+        bodies[i].reach_q22 =
+            (int32_t)test_random_range(r, 64, (int64_t)1 << test_random_range(r, 8, 17));
         bodies[i].turn_q30 = (int32_t)test_random_range(r, 0, CAROM_ONE_Q30 / 10);
+        states[i].rotation = (carom_quat_q30){{CAROM_ONE_Q30, 0, 0, 0}};
     }
+    states[0].rotation = shape_random_turn(r);
+    if (turn_b) {
+        states[1].rotation = shape_random_turn(r);
+    }
+    for (int k = 0; k < 3; k++) {
+        states[1].position.c[k] = test_random_range(r, -((int64_t)3000 << 32), (int64_t)3000 << 32);
+    }
+    states[0].position = states[1].position;
     place(&a, &bodies[0], &states[0]);
     place(&b, &bodies[1], &states[1]);
+    random_place(r, &b, on_b, n);
+    lowest_place(r, &a, n, on_a);
+    for (int k = 0; k < 3; k++) {
+        int64_t near_q22 = bodies[0].reach_q22 + bodies[1].reach_q22;
+
+        states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
+                                   test_random_range(r, -near_q22, near_q22) * 512;
+    }
+    place(&a, &bodies[0], &states[0]);
 }
 
 /* ------------------------------------------------------------ by trying all */
@@ -271,21 +362,11 @@ static double from_face(const double p[3], const struct solid *s, uint32_t f)
     return best;
 }
 
-/* Whether boxes around two sets of points are farther apart than the reach: only to save time. */
-static bool boxes_apart(const double (*const p[3]), int np, const double (*const q[3]), int nq)
+/* Whether boxes are farther apart than the reach: only to save time. */
+static bool bounds_apart(const struct bounds *p, const struct bounds *q)
 {
     for (int k = 0; k < 3; k++) {
-        double p0 = 1e9, p1 = -1e9, q0 = 1e9, q1 = -1e9;
-
-        for (int i = 0; i < np; i++) {
-            p0 = (*p[i])[k] < p0 ? (*p[i])[k] : p0;
-            p1 = (*p[i])[k] > p1 ? (*p[i])[k] : p1;
-        }
-        for (int i = 0; i < nq; i++) {
-            q0 = (*q[i])[k] < q0 ? (*q[i])[k] : q0;
-            q1 = (*q[i])[k] > q1 ? (*q[i])[k] : q1;
-        }
-        if (p1 < q0 - reach || q1 < p0 - reach) {
+        if (p->high[k] + reach < q->low[k] || q->high[k] + reach < p->low[k]) {
             return true;
         }
     }
@@ -342,11 +423,13 @@ static double into_faces(const struct solid *s, const struct carom_edge *edge, c
     return most;
 }
 
-static bool edge_cones(const struct carom_edge *ea, const struct carom_edge *eb, double tolerance)
+/* Whether the normal of two edges, or its opposite, lies in the cones of both. */
+static bool edge_cones(const struct solid *on_a, const struct carom_edge *ea,
+                       const struct carom_edge *eb, double tolerance)
 {
     double e[3], f[3], w[3], length;
 
-    minus(e, a.p[ea->vertex[1]], a.p[ea->vertex[0]]);
+    minus(e, on_a->p[ea->vertex[1]], on_a->p[ea->vertex[0]]);
     minus(f, b.p[eb->vertex[1]], b.p[eb->vertex[0]]);
     real_cross(w, e, f);
     length = real_length(w);
@@ -360,55 +443,33 @@ static bool edge_cones(const struct carom_edge *ea, const struct carom_edge *eb,
             n[k] = sign * w[k] / length;
             back[k] = -n[k];
         }
-        if (into_faces(&b, eb, n) < tolerance && into_faces(&a, ea, back) < tolerance) {
+        if (into_faces(&b, eb, n) < tolerance && into_faces(on_a, ea, back) < tolerance) {
             return true;
         }
     }
     return false;
 }
 
-static bool owned(const struct carom_mesh *mesh, uint32_t v)
+/*
+ * Every vertex of one body near a face of the other is a candidate. Near: at the start. Facing it:
+ * after the turn that on_a stands for. Returns how many there are.
+ */
+static uint32_t try_vertices(const struct solid *on_a, int kind, double tolerance)
 {
-    for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
-        for (int k = 0; k < 3; k++) {
-            if (mesh->raw.faces[f][k] == v && mesh->faces[f].own >> k & 1) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-static bool owned_edge(const struct carom_mesh *mesh, uint32_t e)
-{
-    uint32_t f = mesh->edges[e].face[0];
-
-    for (int k = 0; k < 3; k++) {
-        if (mesh->faces[f].edge[k] == e) {
-            return mesh->faces[f].own >> (3 + k) & 1;
-        }
-    }
-    return false;
-}
-
-/* Every vertex of `from` near a face of `to` is a candidate. Returns how many there are. */
-static uint32_t try_vertices(const struct solid *from, const struct solid *to, int kind)
-{
-    double tolerance = real(INTERFERE_CONE_Q30, 30) + turn - ANGLE_NOISE;
+    const struct solid *from = kind == CANDIDATE_VERTEX_FACE ? &a : &b;
+    const struct solid *to = kind == CANDIDATE_VERTEX_FACE ? &b : &a;
+    const struct solid *cone = kind == CANDIDATE_VERTEX_FACE ? on_a : &b;
+    const struct solid *plane = kind == CANDIDATE_VERTEX_FACE ? &b : on_a;
     uint32_t count = 0;
 
     for (uint32_t v = 0; v < from->shape->raw.vertex_count; v++) {
-        if (!owned(&from->shape->mesh, v)) {
-            continue;
-        }
-        for (uint32_t f = 0; f < to->shape->raw.face_count; f++) {
-            const uint16_t *c = to->shape->faces[f];
-            const double(*const corners[3])[3] = {&to->p[c[0]], &to->p[c[1]], &to->p[c[2]]};
-            const double(*const point[1])[3] = {&from->p[v]};
+        struct bounds point = {{0}, {0}};
 
-            if (!boxes_apart((const double(*const *)[3])point, 1, (const double(*const *)[3])corners, 3) &&
+        bound(&point, from->p[v], true);
+        for (uint32_t f = 0; f < to->shape->raw.face_count && from->own_vertex[v]; f++) {
+            if (!bounds_apart(&point, &to->face[f]) &&
                 from_face(from->p[v], to, f) <= reach - PLACE_NOISE &&
-                vertex_cone(from, v, to->normal[f], tolerance)) {
+                vertex_cone(cone, v, plane->normal[f], tolerance)) {
                 CHECK(in_set(&found, kind, v, f));
                 count++;
             }
@@ -417,18 +478,268 @@ static uint32_t try_vertices(const struct solid *from, const struct solid *to, i
     return count;
 }
 
-static uint32_t try_edges(void)
+static uint32_t try_edges(const struct solid *on_a, double tolerance)
 {
     uint32_t count = 0;
 
     for (uint32_t i = 0; i < shape_a.mesh.edge_count; i++) {
         const struct carom_edge *ea = &shape_a.mesh.edges[i];
-        const double *p0 = a.p[ea->vertex[0]], *p1 = a.p[ea->vertex[1]];
 
-        for (uint32_t j = 0; j < shape_b.mesh.edge_count && owned_edge(&shape_a.mesh, i); j++) {
+        for (uint32_t j = 0; j < shape_b.mesh.edge_count && a.own_edge[i]; j++) {
             const struct carom_edge *eb = &shape_b.mesh.edges[j];
-            const double *q0 = b.p[eb->vertex[0]], *q1 = b.p[eb->vertex[1]];
+
+            if (b.own_edge[j] && !bounds_apart(&a.edge[i], &b.edge[j]) &&
+                between_segments(a.p[ea->vertex[0]], a.p[ea->vertex[1]], b.p[eb->vertex[0]],
+                                 b.p[eb->vertex[1]]) <= reach - PLACE_NOISE &&
+                edge_cones(on_a, ea, eb, tolerance)) {
+                CHECK(in_set(&found, CANDIDATE_EDGE_EDGE, i, j));
+                count++;
+            }
         }
     }
     return count;
 }
+
+/* Interfering faces: sorted, each once, and those of every candidate among them. */
+static void check_faces(void)
+{
+    for (uint32_t i = 0; i < face_pool.used; i++) {
+        CHECK(faces[i].body <= 1);
+        CHECK(i == 0 || faces[i].body > faces[i - 1].body ||
+              (faces[i].body == faces[i - 1].body && faces[i].face > faces[i - 1].face));
+    }
+    for (uint32_t f = 0; f < shape_b.raw.face_count; f++) {
+        bool is_candidate = false, is_listed = false;
+
+        for (uint32_t v = 0; v < shape_a.raw.vertex_count; v++) {
+            is_candidate = is_candidate || in_set(&found, CANDIDATE_VERTEX_FACE, v, f);
+        }
+        for (uint32_t i = 0; i < face_pool.used && is_candidate && !is_listed; i++) {
+            is_listed = faces[i].body == 1 && faces[i].face == f;
+        }
+        CHECK_EQ(is_candidate, is_listed);
+    }
+}
+
+/* ---------------------------------------------------------------------- tests */
+
+static void start(struct test_random *r, bool turn_b)
+{
+    random_scene(r, turn_b);
+    reach = real(bodies[0].reach_q22 + bodies[1].reach_q22, 22);
+    turn = real(bodies[0].turn_q30 + bodies[1].turn_q30, 30);
+}
+
+static void make(int which)
+{
+    switch (which) {
+    case 0:
+        shape_box(&shape_a, 12, 4096, 2458, 1228);
+        break;
+    case 1:
+        shape_ball(&shape_a, 12, 2048);
+        break;
+    default:
+        shape_l(&shape_a, 12, 2048);
+    }
+    shape_body(&shape_a, true, &bodies[0], &states[0]);
+    shape_body(&shape_b, false, &bodies[1], &states[1]);
+    note_owned(&a);
+    note_owned(&b);
+}
+
+/* a turned about some axis, as far as both bodies may turn against each other. */
+static void turn_a(struct test_random *r)
+{
+    struct body_state state = states[0];
+    struct body body = bodies[0];
+    double u[3], q[4], p[4], length, sine, cosine;
+
+    for (int k = 0; k < 3; k++) {
+        u[k] = real(test_random_range(r, -100, 100), 0) + 0.5;
+    }
+    length = real_length(u);
+    real_sine_cosine(turn / 2, &sine, &cosine);
+    for (int k = 0; k < 4; k++) {
+        q[k] = real(state.rotation.c[k], 30);
+        p[k] = k == 0 ? cosine : u[k - 1] / length * sine;
+    }
+    state.rotation.c[0] = (int32_t)real_round(
+        (p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3]) * CAROM_ONE_Q30);
+    for (int k = 1; k <= 3; k++) {
+        int i = k % 3 + 1, j = i % 3 + 1;
+
+        state.rotation.c[k] = (int32_t)real_round(
+            (p[0] * q[k] + p[k] * q[0] + p[i] * q[j] - p[j] * q[i]) * CAROM_ONE_Q30);
+    }
+    place(&turned, &body, &state);
+}
+
+/* Nothing that can touch is missing, whatever the shapes, poses, reach and turn. */
+static void check_recall(uint64_t seed)
+{
+    double cone = real(INTERFERE_CONE_Q30, 30) - ANGLE_NOISE;
+    struct test_random r = {seed};
+    uint32_t vertices = 0, edges = 0, handed = 0;
+
+    for (int which = 0; which < 3; which++) {
+        make(which);
+        for (int n = 0; n < POSES / 3; n++) {
+            struct collector to;
+
+            start(&r, n % 2);
+            CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+            vertices += try_vertices(&a, CANDIDATE_VERTEX_FACE, cone + turn);
+            vertices += try_vertices(&a, CANDIDATE_FACE_VERTEX, cone + turn);
+            edges += try_edges(&a, cone + turn);
+            turn_a(&r);
+            try_vertices(&turned, CANDIDATE_VERTEX_FACE, cone);
+            try_vertices(&turned, CANDIDATE_FACE_VERTEX, cone);
+            try_edges(&turned, cone);
+            handed += to.count;
+            check_faces();
+        }
+    }
+    CHECK(vertices >= POSES / 4 && edges >= POSES / 20); /* the oracle is not idle */
+    /* and not everything is a candidate */
+    CHECK(handed < 10 * (vertices + edges) + 40 * POSES);
+}
+
+static void test_plane(void)
+{
+    shape_plane(&shape_b, 9, FIELD, 512);
+    check_recall(1);
+}
+
+static void test_field(void)
+{
+    shape_field(&shape_b, 9, FIELD, 400, 300, 7);
+    check_recall(2);
+}
+
+/* A field finer than the body: its vertices lie against the body's faces. */
+static void test_fine_field(void)
+{
+    shape_field(&shape_b, 12, FIELD, 512, 500, 8);
+    check_recall(3);
+}
+
+/* A solid as the body that is asked. */
+static void test_solid(void)
+{
+    shape_l(&shape_b, 11, 1500);
+    check_recall(4);
+}
+
+/* Small working pools hand over the same candidates, in chunks; the same faces interfere. */
+static void test_chunks(void)
+{
+    static const uint32_t sizes[][2] = {{ENTRIES, 1}, {1, CANDIDATES}, {1, 1}, {3, 7}};
+    static struct carom_face_ref listed[FACES];
+    struct test_random r = {5};
+
+    shape_field(&shape_b, 11, FIELD, 400, 300, 7);
+    make(2);
+    for (int n = 0; n < POSES / 3; n++) {
+        struct collector all, to;
+        uint32_t face_count;
+
+        start(&r, n % 2);
+        CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &all), CAROM_OK);
+        CHECK(work.whole && entry_pool.refused == 0 && candidate_pool.refused == 0);
+        CHECK_EQ(work.candidate_count, all.count);
+        face_count = face_pool.used;
+        memcpy(listed, faces, sizeof listed);
+        /* kept: the same again without gathering */
+        memset(&again, 0, sizeof again);
+        memset(&to, 0, sizeof to);
+        to.base.visit = collect;
+        to.set = &again;
+        CHECK_EQ(interfere_visit(&work, bodies, pairs, 1, &to.base), CAROM_OK);
+        CHECK(work.gathers == 1 && memcmp(&found, &again, sizeof found) == 0);
+        for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+            CHECK_EQ(gather(&again, sizes[i][0], sizes[i][1], FACES, &to), CAROM_OK);
+            CHECK(memcmp(&found, &again, sizeof found) == 0);
+            CHECK(to.largest <= sizes[i][1]);
+            CHECK_EQ(work.whole, to.count <= sizes[i][1]);
+            CHECK_EQ(face_pool.used, face_count);
+            CHECK(memcmp(listed, faces, face_count * sizeof faces[0]) == 0);
+        }
+    }
+}
+
+/* The pool of faces holds what there are, or is too short by name; never by the way of working. */
+static void test_faces_full(void)
+{
+    struct test_random r = {6};
+    int several = 0;
+
+    shape_field(&shape_b, 12, FIELD, 400, 300, 7);
+    make(1);
+    for (int n = 0; n < POSES; n++) {
+        struct collector to;
+        uint32_t needed;
+
+        start(&r, true);
+        CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+        needed = face_pool.used;
+        CHECK_EQ(face_pool.peak, needed);
+        if (needed < 4) {
+            continue;
+        }
+        several++;
+        CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, needed, &to), CAROM_OK);
+        CHECK_EQ(face_pool.used, needed);
+        /* gathered twice, because the candidates do not fit */
+        CHECK_EQ(gather(&found, 2, 1, needed, &to), CAROM_OK);
+        CHECK_EQ(interfere_visit(&work, bodies, pairs, 1, &to.base), CAROM_OK);
+        interfere_finish(&work);
+        CHECK_EQ(face_pool.used, needed);
+        CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, needed - 1, &to), CAROM_ERR_FACES_FULL);
+        CHECK(face_pool.refused > 0);
+        CHECK_EQ(gather(&found, 2, 1, needed - 1, &to), CAROM_ERR_FACES_FULL);
+    }
+    CHECK(several > 0);
+}
+
+static void test_order(void)
+{
+    static const struct candidate sorted[] = {{0, 0, 0, 5}, {0, 0, 0, 6}, {0, 0, 3, 1},
+                                              {0, 1, 0, 0}, {0, 2, 0, 0}, {1, 0, 0, 0}};
+
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 6; k++) {
+            int order = candidate_compare(&sorted[i], &sorted[k]);
+
+            CHECK_EQ((order > 0) - (order < 0), (i > k) - (i < k));
+        }
+    }
+}
+
+/* Bodies far from each other, and no pairs at all. */
+static void test_nothing(void)
+{
+    struct collector to;
+
+    shape_plane(&shape_b, 9, FIELD, 512);
+    make(0);
+    bodies[0].gathered_at.c[2] = (int64_t)2 << 32;
+    bodies[0].reach_q22 = 1 << 21;
+    CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+    CHECK(to.count == 0 && face_pool.used == 0);
+    bodies[0].gathered_at.c[2] = (int64_t)4000 << 32;
+    CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+    CHECK(to.count == 0 && face_pool.used == 0);
+}
+
+const struct test tests_interfere[] = {
+    {"interfere/plane", test_plane},
+    {"interfere/field", test_field},
+    {"interfere/fine_field", test_fine_field},
+    {"interfere/solid", test_solid},
+    {"interfere/chunks", test_chunks},
+    {"interfere/faces_full", test_faces_full},
+    {"interfere/order", test_order},
+    {"interfere/nothing", test_nothing},
+    {0},
+};
