@@ -31,11 +31,11 @@ plausible()
         $2 == 10 || $2 == 20 {
             # gravity acts for whole frames; the height is printed to 1 mm, rounded down
             fallen = 9810 / 2 * ($2 / 60) ^ 2
-            if ($4 < 2000 - fallen - 2 || $4 > 2000 - fallen + 1) bad = 1
+            if ($3 < 2000 - fallen - 2 || $3 > 2000 - fallen + 1) bad = 1
             seen++
         }
-        $2 > 30 && $4 > 1000 || $4 < 222 { bad = 1 }
-        { rest = $4 }
+        $2 > 30 && $3 > 1000 || $3 < 222 { bad = 1 }
+        { rest = $3 }
         END { exit bad || seen != 2 || rest < 222 || rest > 224 }' "$1"
 }
 

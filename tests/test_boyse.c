@@ -1,0 +1,585 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * First hits against the true motion in double precision: the distance of two features is sampled
+ * over the slice and every change of its sign is closed in on.
+ */
+#include "boyse.h"
+#include "real.h"
+#include "shapes.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define CASES   4000 /* of each kind */
+#define SAMPLES 256
+#else
+#define CASES   6
+#define SAMPLES 24
+#endif
+
+#define UNIT (1.0 / 4194304) /* a unit of the last place of q22 */
+
+static struct shape shape_a, shape_b;
+static struct body bodies[2];
+static struct body_state states[2];
+static struct boyse_pair pair;
+
+/* ---------------------------------------------------- the motion, in double */
+
+/* A body's path: where a point of it is at t. */
+struct motion {
+    double x[3], v[3], g[3], q[4], u[3];
+};
+
+static struct motion motion[2];
+static struct shape *const shapes[2] = {&shape_a, &shape_b};
+
+static void read_motion(int side)
+{
+    const struct body_path *path = &bodies[side].path;
+    struct motion *m = &motion[side];
+
+    for (int k = 0; k < 3; k++) {
+        m->x[k] = real(states[side].position.c[k], 32);
+        m->v[k] = real(path->v.c[k], 40);
+        m->g[k] = real(path->g.c[k], 40);
+        m->u[k] = real(path->u.c[k], 30);
+    }
+    for (int k = 0; k < 4; k++) {
+        m->q[k] = real(states[side].rotation.c[k], 30);
+    }
+}
+
+/* A body at one time: centre and axes. */
+struct pose {
+    double x[3], r[3][3];
+};
+
+static void pose_at(struct pose *p, int side, double t)
+{
+    const struct motion *m = &motion[side];
+    const double *a = m->q;
+    double b[3] = {t * m->u[0], t * m->u[1], t * m->u[2]};
+    double q[4] = {a[0] - a[1] * b[0] - a[2] * b[1] - a[3] * b[2],
+                   a[1] + a[0] * b[0] + a[2] * b[2] - a[3] * b[1],
+                   a[2] + a[0] * b[1] + a[3] * b[0] - a[1] * b[2],
+                   a[3] + a[0] * b[2] + a[1] * b[1] - a[2] * b[0]};
+
+    real_matrix(p->r, q);
+    for (int k = 0; k < 3; k++) {
+        p->x[k] = m->x[k] + t * m->v[k] + t * t * m->g[k];
+    }
+}
+
+static void vertex_local(double out[3], int side, uint32_t v)
+{
+    const struct carom_mesh *mesh = &shapes[side]->mesh;
+
+    for (int k = 0; k < 3; k++) {
+        out[k] = real(shapes[side]->vertices[v][k], mesh->raw.quantum_bits) -
+                 real(mesh->mass.centre.c[k], 22);
+    }
+}
+
+static void vertex_world(double out[3], int side, struct pose *p, uint32_t v)
+{
+    double local[3];
+
+    vertex_local(local, side, v);
+    real_rotate(out, p->r, local);
+    for (int k = 0; k < 3; k++) {
+        out[k] += p->x[k];
+    }
+}
+
+static void minus(double out[3], const double p[3], const double q[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = p[k] - q[k];
+    }
+}
+
+static void unit(double v[3])
+{
+    double length = real_length(v);
+
+    for (int k = 0; k < 3; k++) {
+        v[k] /= length;
+    }
+}
+
+/* The two features at a time. */
+struct features {
+    struct pose pose[2];
+    double gap;           /* signed distance; edges: of the lines, along w */
+    double n[3];          /* what the gap is measured along */
+    double p[3], c[3][3]; /* vertex and face */
+    double e[2][3], from[2][3], length[2], sine;
+};
+
+static int vertex_side(int kind)
+{
+    return kind == CANDIDATE_VERTEX_FACE ? 0 : 1;
+}
+
+static void features_at(struct features *f, const struct candidate *c, double t)
+{
+    double d[3];
+
+    pose_at(&f->pose[0], 0, t);
+    pose_at(&f->pose[1], 1, t);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        uint32_t edge[2] = {c->i, c->j};
+
+        for (int s = 0; s < 2; s++) {
+            const struct carom_edge *mesh_edge = &shapes[s]->mesh.edges[edge[s]];
+            double to[3];
+
+            vertex_world(f->from[s], s, &f->pose[s], mesh_edge->vertex[0]);
+            vertex_world(to, s, &f->pose[s], mesh_edge->vertex[1]);
+            minus(f->e[s], to, f->from[s]);
+            f->length[s] = real_length(f->e[s]);
+            unit(f->e[s]);
+        }
+        real_cross(f->n, f->e[0], f->e[1]);
+        f->sine = real_length(f->n);
+        unit(f->n);
+        minus(d, f->from[0], f->from[1]);
+    } else {
+        int v = vertex_side(c->kind);
+        double e[3], g[3];
+
+        vertex_world(f->p, v, &f->pose[v], c->i);
+        for (int k = 0; k < 3; k++) {
+            vertex_world(f->c[k], 1 - v, &f->pose[1 - v], shapes[1 - v]->faces[c->j][k]);
+        }
+        minus(e, f->c[1], f->c[0]);
+        minus(g, f->c[2], f->c[0]);
+        real_cross(f->n, e, g);
+        unit(f->n);
+        f->sine = 1;
+        minus(d, f->p, f->c[0]);
+    }
+    f->gap = real_dot(f->n, d);
+}
+
+static double gap_at(const struct candidate *c, double t)
+{
+    struct features f;
+
+    features_at(&f, c, t);
+    return f.gap;
+}
+
+/* ----------------------------------------------------------------- validity */
+
+/* How far inside the face the vertex is; how far inside their edges the nearest points are. */
+static double inside(const struct features *f, const struct candidate *c)
+{
+    double least = 1e9, d[3];
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        double b = real_dot(f->e[0], f->e[1]), d0, d1, s[2];
+
+        minus(d, f->from[0], f->from[1]);
+        d0 = real_dot(d, f->e[0]);
+        d1 = real_dot(d, f->e[1]);
+        s[0] = (b * d1 - d0) / (f->sine * f->sine);
+        s[1] = (d1 - b * d0) / (f->sine * f->sine);
+        for (int k = 0; k < 2; k++) {
+            least = s[k] < least ? s[k] : least;
+            least = f->length[k] - s[k] < least ? f->length[k] - s[k] : least;
+        }
+        return least;
+    }
+    for (int k = 0; k < 3; k++) {
+        double e[3], in[3], x;
+
+        minus(e, f->c[(k + 1) % 3], f->c[k]);
+        unit(e);
+        real_cross(in, f->n, e);
+        minus(d, f->p, f->c[k]);
+        x = real_dot(in, d);
+        least = x < least ? x : least;
+    }
+    return least;
+}
+
+/* The least rise along n, a cosine, of the edges that leave a vertex. */
+static double vertex_rise(int side, const struct pose *p, uint32_t v, const double n[3])
+{
+    double least = 1, local[3], rotated[3], d[3];
+
+    vertex_local(local, side, v);
+    for (uint32_t f = 0; f < shapes[side]->raw.face_count; f++) {
+        const uint16_t *c = shapes[side]->faces[f];
+
+        for (int k = 0; k < 9; k++) {
+            if (c[k / 3] == v && k / 3 != k % 3) {
+                double other[3], rise;
+
+                vertex_local(other, side, c[k % 3]);
+                minus(d, other, local);
+                real_rotate(rotated, (double(*)[3])p->r, d);
+                rise = real_dot(rotated, n) / real_length(d);
+                least = rise < least ? rise : least;
+            }
+        }
+    }
+    return least;
+}
+
+/* The most that n points into a face of an edge, a cosine. */
+static double into_faces(int side, struct pose *p, uint32_t number, const double n[3])
+{
+    const struct carom_edge *edge = &shapes[side]->mesh.edges[number];
+    double most = -1, from[3], to[3], e[3];
+
+    vertex_world(from, side, p, edge->vertex[0]);
+    vertex_world(to, side, p, edge->vertex[1]);
+    minus(e, to, from);
+    unit(e);
+    for (int s = 0; s < 2; s++) {
+        for (int k = 0; k < 3 && edge->face[s] != CAROM_NO_FACE; k++) {
+            uint16_t v = shapes[side]->faces[edge->face[s]][k];
+            double corner[3], in[3], x;
+
+            if (v == edge->vertex[0] || v == edge->vertex[1]) {
+                continue;
+            }
+            vertex_world(corner, side, p, v);
+            minus(in, corner, from);
+            x = real_dot(in, e);
+            for (int i = 0; i < 3; i++) {
+                in[i] -= x * e[i];
+            }
+            unit(in);
+            most = real_dot(in, n) > most ? real_dot(in, n) : most;
+        }
+    }
+    return most;
+}
+
+/*
+ * How far within the cone tolerance the normal is, `sign` times n being N from b into a (edges) or
+ * the face's (vertex and face).
+ */
+static double in_cones(struct features *f, const struct candidate *c, int sign)
+{
+    double tolerance = real(INTERFERE_CONE_Q30, 30), n[3], back[3], x[2];
+
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        int v = vertex_side(c->kind);
+
+        return vertex_rise(v, &f->pose[v], c->i, f->n) + tolerance;
+    }
+    for (int k = 0; k < 3; k++) {
+        n[k] = sign * f->n[k];
+        back[k] = -n[k];
+    }
+    x[0] = tolerance - into_faces(0, &f->pose[0], c->i, back);
+    x[1] = tolerance - into_faces(1, &f->pose[1], c->j, n);
+    return x[0] < x[1] ? x[0] : x[1];
+}
+
+/* The first root at which the features meet while approaching, by sampling. */
+struct answer {
+    bool found;
+    bool doubtful; /* too close to call at some root on the way */
+    double t;      /* of the root */
+    double from;   /* of the root before */
+    double open;   /* the largest gap in between */
+    double slope;  /* of the gap at the root, downwards */
+    int sign;
+};
+
+static double find_root(const struct candidate *c, double low, double high, bool positive_low)
+{
+    for (int k = 0; k < 40; k++) {
+        double t = (low + high) / 2;
+
+        if ((gap_at(c, t) > 0) == positive_low) {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+    return low;
+}
+
+static void try_root(struct answer *a, const struct candidate *c, double t, bool falls)
+{
+    struct features f;
+    double place, cones, slope;
+    int sign = falls ? 1 : -1;
+
+    features_at(&f, c, t);
+    slope = (gap_at(c, t + 1e-5) - gap_at(c, t - 1e-5)) / 2e-5;
+    if (c->kind != CANDIDATE_EDGE_EDGE && !falls) {
+        a->from = t;
+        a->open = 0;
+        return; /* out through the back */
+    }
+    place = inside(&f, c);
+    cones = in_cones(&f, c, sign);
+    if (place > 2e-5 && cones > 2e-5 && real_abs(slope) > 1e-3 && f.sine > 0.03) {
+        a->found = true;
+        a->t = t;
+        a->slope = real_abs(slope);
+        a->sign = c->kind == CANDIDATE_EDGE_EDGE ? sign : 1;
+        return;
+    }
+    a->doubtful = a->doubtful || !(place < -2e-5 || cones < -2e-5) || f.sine < 0.03;
+    a->from = t;
+    a->open = 0;
+}
+
+static struct answer answer_for(const struct candidate *c)
+{
+    struct answer a = {false, false, 0, 0, 0, 0, 1};
+    double last = gap_at(c, 0);
+
+    a.open = real_abs(last);
+    for (int k = 1; k <= SAMPLES && !a.found && !a.doubtful; k++) {
+        double t = (double)k / SAMPLES, gap = gap_at(c, t);
+
+        if ((gap > 0) != (last > 0)) {
+            try_root(&a, c, find_root(c, t - 1.0 / SAMPLES, t, last > 0), last > 0);
+        }
+        a.open = real_abs(gap) > a.open && !a.found ? real_abs(gap) : a.open;
+        last = gap;
+    }
+    return a;
+}
+
+/* -------------------------------------------------------------------- cases */
+
+static void random_vector(struct test_random *r, double size, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = size * real(test_random_range(r, -(1 << 20), 1 << 20), 20);
+    }
+}
+
+/* Set a's motion, in units or radians a frame, and both paths. */
+static void set_paths(const double v[3], const double w[3], const carom_v3_q40 *gravity)
+{
+    carom_v3_q40 v_q40, w_q40;
+
+    for (int k = 0; k < 3; k++) {
+        v_q40.c[k] = real_round(v[k] * real_power2(40));
+        w_q40.c[k] = real_round(w[k] * real_power2(40));
+    }
+    body_set_motion(&bodies[0], &states[0], &v_q40, &w_q40);
+    body_predict(&bodies[0], &states[0], CAROM_ONE_Q30, gravity);
+    body_predict(&bodies[1], &states[1], CAROM_ONE_Q30, gravity);
+    boyse_pair_init(&pair, &bodies[0], &bodies[1]);
+    read_motion(0);
+    read_motion(1);
+}
+
+static void make(int which)
+{
+    if (which % 2) {
+        shape_l(&shape_a, 12, 1700);
+    } else {
+        shape_box(&shape_a, 12, 4096, 2458, 1228);
+    }
+    switch (which / 2 % 3) {
+    case 0:
+        shape_l(&shape_b, 12, 1900);
+        break;
+    case 1:
+        shape_plane(&shape_b, 9, 2, 8192);
+        break;
+    default:
+        shape_field(&shape_b, 10, 4, 700, 500, 3);
+    }
+    shape_body(&shape_a, true, &bodies[0], &states[0]);
+    shape_body(&shape_b, false, &bodies[1], &states[1]);
+}
+
+/* Any turn of both bodies, any motion, far out in the world. */
+static void random_motion(struct test_random *r)
+{
+    carom_v3_q40 gravity;
+    double v[3], w[3], g[3], x[3];
+
+    for (int s = 0; s < 2; s++) {
+        states[s].rotation = shape_random_turn(r);
+        body_normalise(&states[s].rotation);
+    }
+    random_vector(r, 2000, x);
+    random_vector(r, 0.3, v);
+    random_vector(r, 0.25, w);
+    random_vector(r, 0.01, g);
+    for (int k = 0; k < 3; k++) {
+        states[0].position.c[k] = states[1].position.c[k] = real_round(x[k] * real_power2(32));
+        gravity.c[k] = real_round(g[k] * real_power2(40));
+    }
+    set_paths(v, w, &gravity);
+}
+
+static void random_features(struct test_random *r, struct candidate *c)
+{
+    int side = vertex_side(c->kind);
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        c->i = (uint32_t)test_random_range(r, 0, shape_a.mesh.edge_count - 1);
+        c->j = (uint32_t)test_random_range(r, 0, shape_b.mesh.edge_count - 1);
+    } else {
+        c->i = (uint32_t)test_random_range(r, 0, shapes[side]->raw.vertex_count - 1);
+        c->j = (uint32_t)test_random_range(r, 0, shapes[1 - side]->raw.face_count - 1);
+    }
+}
+
+/* Two features that meet at some time; of most cases such that can be touching. */
+static void random_case(struct test_random *r, struct candidate *c, int kind)
+{
+    double d[3], t = real(test_random_range(r, 10, 1000), 10);
+    double s = real(test_random_range(r, 1, 511), 10), q = real(test_random_range(r, 1, 511), 10);
+    struct features f;
+    bool facing = false;
+
+    memset(c, 0, sizeof *c);
+    c->kind = (uint8_t)kind;
+    for (int n = 0; n < 40 && !facing; n++) {
+        random_motion(r);
+        random_features(r, c);
+        features_at(&f, c, t);
+        facing = in_cones(&f, c, 1) > 0 || in_cones(&f, c, -1) > 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        if (kind == CANDIDATE_EDGE_EDGE) {
+            d[k] = f.from[1][k] + 2 * q * f.length[1] * f.e[1][k] - f.from[0][k] -
+                   2 * s * f.length[0] * f.e[0][k];
+        } else {
+            d[k] = f.c[0][k] + s * (f.c[1][k] - f.c[0][k]) + q * (f.c[2][k] - f.c[0][k]) - f.p[k];
+            d[k] = kind == CANDIDATE_VERTEX_FACE ? d[k] : -d[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        states[0].position.c[k] += real_round(d[k] * real_power2(32));
+        bodies[0].path.origin_q22[k] = carom_round(states[0].position.c[k], 10);
+        bodies[0].path.start.x.c[k] =
+            states[0].position.c[k] - carom_shl(bodies[0].path.origin_q22[k], 10);
+    }
+    bodies[0].path.now = bodies[0].path.start;
+    boyse_pair_init(&pair, &bodies[0], &bodies[1]);
+    read_motion(0);
+}
+
+/*
+ * The places and the normal, from b into a, at the root. The root that is found is one of a surface
+ * up to three units nearer.
+ */
+static void check_touch(const struct boyse_touch *touch, const struct candidate *c,
+                        const struct answer *a)
+{
+    double early, place;
+    struct features f;
+
+    features_at(&f, c, a->t);
+    early = 6 * UNIT / (f.sine * a->slope);
+    place = 3 * UNIT + early; /* no point is faster than a unit a frame */
+    for (int k = 0; k < 3; k++) {
+        double n = (c->kind == CANDIDATE_FACE_VERTEX ? -1 : a->sign) * f.n[k];
+        double origin = real(bodies[0].path.origin_q22[k], 22);
+        double on_a = real(touch->on_a.c[k], 22), on_b = real(touch->on_b.c[k], 22);
+
+        CHECK(real_abs(real(touch->normal.c[k], 30) - n) < 1e-8 + early / f.sine);
+        if (c->kind != CANDIDATE_EDGE_EDGE) {
+            CHECK(real_abs(on_a + origin - f.p[k]) < place);
+        }
+        CHECK(real_abs(on_a - on_b) < 6 * UNIT / f.sine);
+    }
+}
+
+/* A returned hit against the true motion. Returns whether there was one that could be judged. */
+static bool check_case(const struct candidate *c)
+{
+    double event = real(pair.skin_q22 / 2, 22), gap, t;
+    struct answer a = answer_for(c);
+    struct boyse_hit hit;
+    struct features f;
+    uint32_t roots = 0;
+    bool is_hit = boyse_first(&pair, c, &hit, &roots);
+
+    if (a.doubtful || real_abs(gap_at(c, 0)) < 4 * event) {
+        return false;
+    }
+    if (!a.found) {
+        if (is_hit) {
+            /* only where the surfaces come within the few units that the search looks ahead by */
+            double least = 1e9;
+
+            for (int k = 0; k <= 4096; k++) {
+                gap = real_abs(gap_at(c, (double)k / 4096));
+                least = gap < least ? gap : least;
+            }
+            CHECK(least < 2e-5);
+        }
+        return false;
+    }
+    CHECK(is_hit && roots == 1);
+    if (!is_hit) {
+        return true;
+    }
+    t = real(hit.t_q30, 30);
+    features_at(&f, c, t);
+    gap = a.sign * f.gap;
+    CHECK(hit.t_q30 >= 0 && t <= a.t);
+    CHECK(gap >= 0); /* never past the surface */
+    CHECK(hit.touch.valid && hit.touch.sign == a.sign);
+    if (a.open > 1.1 * event) {
+        /* the gap is the event gap within two units; where edges are nearly parallel, of w.d */
+        CHECK(real_abs(gap - event) <= 2 * UNIT / f.sine + 1e-8);
+    } else {
+        CHECK(gap <= event + 2 * UNIT / f.sine);
+    }
+    /* and stays below it until they meet */
+    for (int k = 1; k < 8; k++) {
+        CHECK(a.sign * gap_at(c, t + (a.t - t) * k / 8) < gap + UNIT);
+    }
+    check_touch(&hit.touch, c, &a);
+    return true;
+}
+
+static void check_kind(int kind)
+{
+    struct test_random r = {(uint64_t)kind + 1};
+    int hits = 0;
+
+    for (int n = 0; n < CASES; n++) {
+        struct candidate c;
+
+        if (n % (CASES / 6) == 0) {
+            make(n / (CASES / 6));
+        }
+        random_case(&r, &c, kind);
+        hits += check_case(&c);
+    }
+    test_print("hits %d\n", hits);
+    CHECK(20 * hits >= CASES);
+}
+
+static void test_vertex_face(void)
+{
+    check_kind(CANDIDATE_VERTEX_FACE);
+}
+
+static void test_face_vertex(void)
+{
+    check_kind(CANDIDATE_FACE_VERTEX);
+}
+
+static void test_edge_edge(void)
+{
+    check_kind(CANDIDATE_EDGE_EDGE);
+}
+
+const struct test tests_boyse[] = {
+    {"boyse/vertex_face", test_vertex_face},
+    {"boyse/face_vertex", test_face_vertex},
+    {"boyse/edge_edge", test_edge_edge},
+    {0},
+};
