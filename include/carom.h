@@ -216,7 +216,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 7424
+#define CAROM_WORLD_FIXED_BYTES 8448
 
 enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,

@@ -5,6 +5,30 @@
 
 /* ------------------------------------------------------------------- lists */
 
+static void forget(struct interfere *w)
+{
+    for (uint32_t i = 0; i < INTERFERE_SEEN; i++) {
+        w->seen[i].leaf_faces = 0;
+    }
+}
+
+/* Whether a pair comes up for the first time, as far as is remembered. */
+static bool is_new(struct interfere *w, uint16_t leaf_face, uint16_t face_b)
+{
+    struct interfere_seen *seen = &w->seen[face_b % INTERFERE_SEEN];
+    uint16_t bit = (uint16_t)(1u << leaf_face);
+
+    if (seen->face_b != face_b) {
+        seen->face_b = face_b;
+        seen->leaf_faces = 0;
+    }
+    if (seen->leaf_faces & bit) {
+        return false;
+    }
+    seen->leaf_faces |= bit;
+    return true;
+}
+
 /* Merge the two z-lists of one cell: both run from the highest z1 down. */
 static void merge_cell(struct interfere *w, uint32_t cell)
 {
@@ -16,12 +40,7 @@ static void merge_cell(struct interfere *w, uint32_t cell)
         const struct zentry *entry = &w->lists.entry[e];
 
         for (const struct carom_zref *r = first; r < end && r->z1 >= entry->z0; r++) {
-            uint32_t key = (uint32_t)entry->face << 16 | r->face;
-            uint32_t *seen = &w->seen[(key * 2654435761u) >> 24];
-
-            /* a pair shares many cells; a pair forgotten too early is only work done twice */
-            if (r->z0 <= entry->z1 && *seen != key) {
-                *seen = key;
+            if (r->z0 <= entry->z1 && is_new(w, entry->face, r->face)) {
                 interfere_narrow(w, entry->face, r->face);
             }
         }
@@ -68,58 +87,79 @@ static void enter_cell(struct interfere *w, const struct zface *f, const struct 
     w->cells[1][1] = row > w->cells[1][1] ? row : w->cells[1][1];
 }
 
-/* The corners of a leaf's face in quanta of b's grid, with the reach and the rounding in `grow`. */
-static void face_in_quanta(const struct interfere *w, const struct interfere_face *lf,
-                           struct zface *f)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    int shift = 22 - mb->raw.quantum_bits;
-
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            f->p[k][i] = (w->vertices[lf->corner[k]].c[i] + mb->mass.centre.c[i]) >> shift;
-        }
-    }
-    f->grow = (w->reach_q22 >> shift) + 2;
-}
-
-static void scan_leaf(struct interfere *w)
+/* Carry the faces of a leaf into b's frame. */
+static void place_leaf(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
     const struct carom_leaf *leaf = w->leaf;
-    struct scan_grid grid = mesh_grid(w->b->mesh);
+    carom_v3_q22 vertices[CAROM_LEAF_VERTICES];
 
     for (uint32_t i = 0; i < leaf->vertex_count; i++) {
         carom_v3_q22 v = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
 
         carom_rotate(v.c, &w->to_b, v.c);
         for (int k = 0; k < 3; k++) {
-            w->vertices[i].c[k] = v.c[k] + w->offset_q22[k];
+            vertices[i].c[k] = v.c[k] + w->offset_q22[k];
         }
     }
-    for (uint16_t i = 0; i < leaf->face_count; i++) {
-        struct interfere_face *lf = &w->leaf_faces[i];
-        uint32_t number = ma->leaf_faces[leaf->first_face + i];
-        int32_t lowest = INT32_MAX;
-        struct zface f;
-        struct scan_cells cells;
-        struct scan_run run;
-        int32_t xy[3][2];
+    for (uint32_t i = 0; i < leaf->face_count; i++) {
+        const uint8_t *corner = ma->leaf_corners[leaf->first_face + i];
+        struct interfere_face *f = &w->leaf_faces[i];
 
-        memcpy(lf->corner, ma->leaf_corners[leaf->first_face + i], 3);
-        carom_rotate(lf->normal.c, &w->to_b, ma->faces[number].normal.c);
-        face_in_quanta(w, lf, &f);
-        for (int k = 0; k < 3; k++) {
-            xy[k][0] = f.p[k][0];
-            xy[k][1] = f.p[k][1];
-            lowest = f.p[k][2] - f.grow < lowest ? f.p[k][2] - f.grow : lowest;
-        }
-        scan_cells_begin(&cells, &grid, (const int32_t(*)[2])xy, 3, f.grow);
-        while (scan_cells_next(&cells, &run)) {
-            for (int32_t col = run.x0; col < run.x1; col++) {
-                enter_cell(w, &f, &grid, col, run.y, lowest, i);
+        f->number = ma->leaf_faces[leaf->first_face + i];
+        f->face = &ma->faces[f->number];
+        carom_rotate(f->normal.c, &w->to_b, f->face->normal.c);
+        f->low = f->high = vertices[corner[0]];
+        for (int n = 0; n < 3; n++) {
+            f->p[n] = vertices[corner[n]];
+            for (int k = 0; k < 3; k++) {
+                f->low.c[k] = f->p[n].c[k] < f->low.c[k] ? f->p[n].c[k] : f->low.c[k];
+                f->high.c[k] = f->p[n].c[k] > f->high.c[k] ? f->p[n].c[k] : f->high.c[k];
             }
         }
+        for (int k = 0; k < 3; k++) {
+            f->low.c[k] -= w->reach_q22;
+            f->high.c[k] += w->reach_q22;
+        }
+    }
+}
+
+/* Scan-convert one of the leaf's faces onto b's cells, with the reach and the rounding in `grow`.
+ */
+static void scan_face(struct interfere *w, const struct scan_grid *grid, uint16_t leaf_face)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_face *lf = &w->leaf_faces[leaf_face];
+    int shift = 22 - mb->raw.quantum_bits;
+    int32_t lowest = INT32_MAX, xy[3][2];
+    struct zface f;
+    struct scan_cells cells;
+    struct scan_run run;
+
+    f.grow = (w->reach_q22 >> shift) + 2;
+    for (int n = 0; n < 3; n++) {
+        for (int k = 0; k < 3; k++) {
+            f.p[n][k] = (lf->p[n].c[k] + mb->mass.centre.c[k]) >> shift;
+        }
+        xy[n][0] = f.p[n][0];
+        xy[n][1] = f.p[n][1];
+        lowest = f.p[n][2] - f.grow < lowest ? f.p[n][2] - f.grow : lowest;
+    }
+    scan_cells_begin(&cells, grid, (const int32_t(*)[2])xy, 3, f.grow);
+    while (scan_cells_next(&cells, &run)) {
+        for (int32_t col = run.x0; col < run.x1; col++) {
+            enter_cell(w, &f, grid, col, run.y, lowest, leaf_face);
+        }
+    }
+}
+
+static void scan_leaf(struct interfere *w)
+{
+    struct scan_grid grid = mesh_grid(w->b->mesh);
+
+    place_leaf(w);
+    for (uint16_t i = 0; i < w->leaf->face_count; i++) {
+        scan_face(w, &grid, i);
     }
     merge_lists(w);
 }
@@ -215,12 +255,10 @@ static void gather_pair(struct interfere *w)
     }
     w->reach_q22 = w->a->reach_q22 + w->b->reach_q22;
     w->turn_q30 = w->a->turn_q30 + w->b->turn_q30;
-    memset(w->seen, 0xff, sizeof w->seen);
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {
             w->leaf = &ma->leaves[i];
-            /* keys are numbered within the leaf */
-            memset(w->seen, 0xff, sizeof w->seen);
+            forget(w);
             scan_leaf(w);
         }
     }

@@ -36,14 +36,25 @@ struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
 };
 
+/*
+ * Which of the leaf's faces a face of b has come up with lately, a bit each: a pair shares many
+ * cells. A slot that is taken by another face of b forgets, which is only work done twice.
+ */
 #define INTERFERE_SEEN 256
+struct interfere_seen {
+    uint16_t face_b, leaf_faces;
+};
+
 /* Cosine tolerance of the normal cones in the collision test, 0.02. */
 #define INTERFERE_CONE_Q30 21474836
 
-/* One of a leaf's faces in b's frame. */
+/* A face in b's mesh frame, about b's centre of mass. */
 struct interfere_face {
+    uint16_t number;
+    const struct carom_face *face;
+    carom_v3_q22 p[3];
     carom_v3_q30 normal;
-    uint8_t corner[3]; /* into vertices */
+    carom_v3_q22 low, high; /* of its corners */
 };
 
 struct interfere {
@@ -66,9 +77,8 @@ struct interfere {
     int32_t reach_q22, turn_q30;
     const struct carom_leaf *leaf;
     int32_t cells[2][2]; /* columns and rows that hold entries: first and last */
-    carom_v3_q22 vertices[CAROM_LEAF_VERTICES];
-    struct interfere_face leaf_faces[CAROM_LEAF_FACES];
-    uint32_t seen[INTERFERE_SEEN]; /* face pairs that came up lately */
+    struct interfere_face leaf_faces[CAROM_LEAF_FACES]; /* grown by the reach: low and high too */
+    struct interfere_seen seen[INTERFERE_SEEN];
 };
 
 /*

@@ -168,16 +168,9 @@ static int32_t cone_tolerance(const struct interfere *w)
     return sum > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)sum;
 }
 
-struct triangle {
-    const struct carom_face *face;
-    carom_v3_q22 p[3]; /* in b's frame */
-    carom_v3_q30 normal;
-    uint16_t number;
-};
-
 /* Owned vertices of `from` against the face `to`; both given in b's frame. */
-static bool vertex_face(struct interfere *w, const struct triangle *from, const struct triangle *to,
-                        uint8_t kind)
+static bool vertex_face(struct interfere *w, const struct interfere_face *from,
+                        const struct interfere_face *to, uint8_t kind)
 {
     const struct carom_mesh *mesh = kind == CANDIDATE_VERTEX_FACE ? w->a->mesh : w->b->mesh;
     bool any = false;
@@ -281,7 +274,8 @@ static bool edges_near(const struct interfere *in, const struct carom_edge *ea,
     return lines_near(in, ea, e.c, eb, d, w, sine_q30) && arcs_meet(in, ea, eb, w, sine_q30);
 }
 
-static bool edge_edge(struct interfere *w, const struct triangle *a, const struct triangle *b)
+static bool edge_edge(struct interfere *w, const struct interfere_face *a,
+                      const struct interfere_face *b)
 {
     bool any = false;
 
@@ -305,35 +299,34 @@ static bool edge_edge(struct interfere *w, const struct triangle *a, const struc
     return any;
 }
 
-static int32_t lowest(const struct triangle *t, int k)
+/*
+ * Set up face b, unless its box is farther than the reach from that of face a (which is grown by
+ * it). Most pairs end here.
+ */
+static bool boxes_meet(const struct interfere *w, const struct interfere_face *a,
+                       struct interfere_face *b)
 {
-    int32_t m = t->p[0].c[k] < t->p[1].c[k] ? t->p[0].c[k] : t->p[1].c[k];
+    const struct carom_mesh *mb = w->b->mesh;
 
-    return m < t->p[2].c[k] ? m : t->p[2].c[k];
-}
-
-static int32_t highest(const struct triangle *t, int k)
-{
-    int32_t m = t->p[0].c[k] > t->p[1].c[k] ? t->p[0].c[k] : t->p[1].c[k];
-
-    return m > t->p[2].c[k] ? m : t->p[2].c[k];
-}
-
-/* Whether the boxes of two triangles are farther apart than the reach. */
-static bool boxes_apart(const struct interfere *w, const struct triangle *a,
-                        const struct triangle *b)
-{
+    for (int k = 0; k < 3; k++) {
+        b->p[k] = mesh_corner(mb, b->number, k);
+    }
     for (int k = 2; k >= 0; k--) {
-        if (lowest(a, k) - highest(b, k) > w->reach_q22 ||
-            lowest(b, k) - highest(a, k) > w->reach_q22) {
-            return true;
+        int32_t x = b->p[0].c[k], y = b->p[1].c[k], z = b->p[2].c[k];
+
+        if ((x > a->high.c[k] && y > a->high.c[k] && z > a->high.c[k]) ||
+            (x < a->low.c[k] && y < a->low.c[k] && z < a->low.c[k])) {
+            return false;
         }
     }
-    return false;
+    b->face = &mb->faces[b->number];
+    b->normal = b->face->normal;
+    return true;
 }
 
 /* Whether all corners of t lie on one side of the plane of `plane`, farther than the reach. */
-static bool apart(const struct interfere *w, const struct triangle *t, const struct triangle *plane)
+static bool apart(const struct interfere *w, const struct interfere_face *t,
+                  const struct interfere_face *plane)
 {
     int over = 0, under = 0;
 
@@ -348,29 +341,18 @@ static bool apart(const struct interfere *w, const struct triangle *t, const str
 
 void interfere_narrow(struct interfere *w, uint16_t leaf_face, uint16_t face_b)
 {
-    const struct carom_mesh *ma = w->a->mesh, *mb = w->b->mesh;
-    const struct interfere_face *lf = &w->leaf_faces[leaf_face];
-    struct triangle a, b;
+    const struct interfere_face *a = &w->leaf_faces[leaf_face];
+    struct interfere_face b = {.number = face_b};
     bool any;
 
-    a.number = ma->leaf_faces[w->leaf->first_face + leaf_face];
-    a.face = &ma->faces[a.number];
-    a.normal = lf->normal;
-    b.number = face_b;
-    b.face = &mb->faces[face_b];
-    b.normal = b.face->normal;
-    for (int k = 0; k < 3; k++) {
-        a.p[k] = w->vertices[lf->corner[k]];
-        b.p[k] = mesh_corner(mb, face_b, k);
-    }
-    if (boxes_apart(w, &a, &b) || apart(w, &a, &b) || apart(w, &b, &a)) {
+    if (!boxes_meet(w, a, &b) || apart(w, a, &b) || apart(w, &b, a)) {
         return;
     }
-    any = vertex_face(w, &a, &b, CANDIDATE_VERTEX_FACE);
-    any |= vertex_face(w, &b, &a, CANDIDATE_FACE_VERTEX);
-    any |= edge_edge(w, &a, &b);
+    any = vertex_face(w, a, &b, CANDIDATE_VERTEX_FACE);
+    any |= vertex_face(w, &b, a, CANDIDATE_FACE_VERTEX);
+    any |= edge_edge(w, a, &b);
     if (any) {
-        add_face(w, w->body_a, a.number);
+        add_face(w, w->body_a, a->number);
         add_face(w, w->body_b, b.number);
     }
 }
