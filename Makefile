@@ -51,6 +51,8 @@ SHELL_TESTS := $(wildcard tests/*.sh)
 
 # ------------------------------------------------------------------- commands
 
+export PYTHONDONTWRITEBYTECODE := 1
+
 # V=1 shows the commands themselves.
 ifndef V
 MAKEFLAGS += -s --no-print-directory

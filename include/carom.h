@@ -284,6 +284,7 @@ struct carom_body_def {
  * CAROM_ERR_UNSUPPORTED for a second moving body. A SURFACE must be stationary.
  */
 int carom_body_add(struct carom_world *world, const struct carom_body_def *def);
+/* Take a body away and wake the others. Its number may be given to the next body that is added. */
 int carom_body_remove(struct carom_world *world, int body);
 
 struct carom_body_state {
@@ -294,6 +295,7 @@ struct carom_body_state {
     bool asleep;
     bool out; /* left the world's range: frozen in its last pose */
 };
+/* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
 /* Place a body and wake it. asleep and out are ignored. */
 int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
@@ -353,6 +355,7 @@ enum carom_stage {
     CAROM_STAGE_COMMIT,
     CAROM_STAGE_COUNT
 };
+/* "predict", "broad", ...; "unknown" for a number that is no stage. */
 const char *carom_stage_name(int stage);
 
 struct carom_stats {
@@ -367,12 +370,14 @@ struct carom_stats {
     uint32_t impacts;     /* contacts solved as impacts */
     uint32_t energy_rule; /* impacts that the energy rule changed */
 };
+/* What the last step did, by stage. */
 int carom_stats(const struct carom_world *world, struct carom_stats *stats);
 
 struct carom_usage {
     const char *name;
     uint32_t size, used, peak, refused; /* used: in the last step; peak, refused: since init */
 };
+/* How full the pools are, in the order of CAROM_POOLS. */
 int carom_usage(const struct carom_world *world, struct carom_usage usage[CAROM_POOL_COUNT]);
 
 /* ----------------------------------------------------------- hash, snapshot */

@@ -45,7 +45,8 @@ void test_check(bool ok, const char *file, int line, const char *text)
 void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
                      const char *text)
 {
-    bool ok = (a < b ? (uint64_t)b - (uint64_t)a : (uint64_t)a - (uint64_t)b) <= (uint64_t)tolerance;
+    bool ok =
+        (a < b ? (uint64_t)b - (uint64_t)a : (uint64_t)a - (uint64_t)b) <= (uint64_t)tolerance;
 
     current.checks++;
     if (!ok && current.failed++ == 0) {

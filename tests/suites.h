@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /* One line a test file, in layer order. */
 SUITE(fix)
 SUITE(arena)

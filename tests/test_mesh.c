@@ -263,29 +263,38 @@ static void test_error_order(void)
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
 }
 
-/* A side of 256 units is the longest, 32768 quanta at 7 bits. */
-static void test_range(void)
+/* A box of these sides in quanta of 2^-7 units, about the origin: an odd one leans upwards. */
+static void make_large(int32_t x, int32_t y, int32_t z)
 {
-    make_box(100, 100, 100);
+    int32_t side[3] = {x, y, z};
+
+    make_box(1, 1, 1);
     raw.quantum_bits = 7;
     for (uint32_t v = 0; v < 8; v++) {
         for (int k = 0; k < 3; k++) {
-            vertices[v][k] = vertices[v][k] ? 16384 : -16384;
+            vertices[v][k] = (int16_t)(vertices[v][k] ? side[k] - side[k] / 2 : -(side[k] / 2));
         }
     }
+}
+
+/* No side may be over 256 units and no diagonal over 384: 256, 256 and 128 units have that. */
+static void test_range(void)
+{
+    make_large(32768, 32768, 16383);
     CHECK_EQ(build(), CAROM_OK);
-    /* half the diagonal of 256 units: sqrt(3) 128 */
-    CHECK_NEAR(mesh.radius_q22, 929887697, 8);
-    CHECK_NEAR(mesh.edges[0].length_q22, 1 << 30, 8);
-    for (int k = 0; k < 3; k++) {
-        for (uint32_t v = 0; v < 8; v++) {
-            vertices[v][k] = vertices[v][k] > 0 ? 16385 : -16384;
-        }
-        CHECK_REFUSED(CAROM_ERR_RANGE);
-        for (uint32_t v = 0; v < 8; v++) {
-            vertices[v][k] = vertices[v][k] > 0 ? 16384 : -16384;
-        }
-    }
+    /* half the diagonal: sqrt(2 256^2 + (16383 / 128)^2) / 2 units */
+    CHECK_NEAR(mesh.radius_q22, 805300906, 8);
+    make_large(32768, 32768, 16385);
+    CHECK_REFUSED(CAROM_ERR_RANGE);
+    make_large(32769, 100, 100);
+    CHECK_REFUSED(CAROM_ERR_RANGE);
+    make_large(100, 32769, 100);
+    CHECK_REFUSED(CAROM_ERR_RANGE);
+    make_large(100, 100, 32769);
+    CHECK_REFUSED(CAROM_ERR_RANGE);
+    make_large(100, 100, 32768);
+    CHECK_EQ(build(), CAROM_OK);
+    CHECK_NEAR(mesh.edges[0].length_q22, (int64_t)100 << 15, 1);
 }
 
 /* ----------------------------------------------------------------------- edges */

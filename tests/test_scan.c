@@ -381,20 +381,38 @@ static void test_cells(void)
     CHECK(touched > 2 * CASES);
 }
 
-/* The largest coordinates, growth and cells. */
+/* The largest grid under polygons of its own size, and under the largest ones, cut by its sides. */
 static void test_cells_large(void)
 {
     struct test_random r = {5};
-    int32_t most = (1 << 24) - 1;
+    int32_t side = 1 << 24, most = (1 << 29) - 1;
+    int crossed = 0;
 
     for (int n = 0; n < CASES / 4; n++) {
-        struct scan_grid g = {-most - 1, -most - 1, (uint8_t)(20 + n % 5), 32, 32};
+        struct scan_grid g = {-side, -side, (uint8_t)(20 + n % 5), 32, 32};
         struct polygon p;
 
         g.nx = g.ny = (uint8_t)(1 << (25 - g.shift));
+        random_kind(&r, &p, n, side - 4);
+        CHECK_EQ(wrong_cells(&p, &g, n % 2 ? 0 : (int32_t)test_random_range(&r, 0, side)), 0);
+
         random_kind(&r, &p, n, most - 4);
-        CHECK_EQ(wrong_cells(&p, &g, n % 2 ? 0 : (int32_t)test_random_range(&r, 0, most)), 0);
+        CHECK_EQ(wrong_cells(&p, &g, 0), 0);
+        CHECK_EQ(wrong_cells(&p, &g, (int32_t)test_random_range(&r, 0, most)), 0);
+
+        /* moved so that the middle of its first side is in the grid, and grown by a little */
+        random_points(&r, &p, 3, most / 3);
+        for (int k = 0; k < 2; k++) {
+            int32_t middle = (p.xy[0][k] + p.xy[1][k]) / 2;
+
+            for (int i = 0; i < 3; i++) {
+                p.xy[i][k] -= middle;
+            }
+        }
+        CHECK_EQ(wrong_cells(&p, &g, (int32_t)test_random_range(&r, 0, 1 << 20)), 0);
+        crossed += cell[0][0] != cell[g.ny - 1][g.nx - 1] || cell[0][g.nx - 1] != cell[g.ny - 1][0];
     }
+    CHECK(crossed > CASES / 16);
 }
 
 /* Drawn on squared paper: cells of 4 quanta, a triangle from (1, 1) to (11, 1) and (1, 7). */
