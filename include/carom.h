@@ -271,7 +271,7 @@ struct carom_body_def {
     bool stationary;
     carom_v3_q32 position;   /* of the centre of mass; of a SURFACE's origin. Within +-4096 */
     carom_quat_q30 rotation; /* of length 1 within 2^-10; all zero means none */
-    carom_v3_q40 velocity;   /* units / frame, length below 64 */
+    carom_v3_q40 velocity;   /* units / frame; |velocity| + radius |spin| below 64 */
     carom_v3_q40 spin;       /* radians / frame in world axes, length below 64 */
     uint32_t mass_q20;       /* 2^-10 .. 2^10; 0: the mesh's volume, density 1 */
     int32_t restitution_q30; /* e, 0 .. 1; a pair takes the smaller of its two */

@@ -16,10 +16,11 @@
 
 #include "mesh.h"
 
-#define BODY_WORLD_LIMIT  4096 /* units: a body whose centre leaves +-this is frozen */
-#define BODY_SPEED_LIMIT  64   /* units or radians a frame */
-#define BODY_RADIUS_LIMIT 32   /* units, of a moving body */
-#define BODY_TURN_MAX_Q30 (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
+#define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
+#define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
+#define BODY_RADIUS_MAX_Q22 (32 << 22) /* of a moving body */
+#define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
+#define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 
 /* What a step changes: all of it is hashed and saved. */
 struct body_state {

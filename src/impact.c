@@ -213,7 +213,7 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
 
     CAROM_ASSERT(in->friction_q16 <= CAROM_MU_MAX_Q16);
     for (int k = 0; k < 3; k++) {
-        CAROM_ASSERT(carom_abs(in->velocity.c[k]) < (int64_t)1 << 47);
+        CAROM_ASSERT(carom_abs(in->velocity.c[k]) < (int64_t)1 << 52);
     }
     p.wanted_q70 = fix_wide_add(fix_wide_mul(in->target_q40, CAROM_ONE_Q30),
                                 fix_wide_neg(impact_speed_q70(in, &in->normal)));

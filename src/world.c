@@ -111,29 +111,35 @@ static bool position_in_range(const carom_v3_q32 *p)
     return true;
 }
 
-static bool speed_in_range(const carom_v3_q40 *v)
+/*
+ * Whether every point of a body, of radius r, is slower than the limit: |v| + r |w| < 64, and |w| <
+ * 64 when it is given. No impact can then make the centre faster than that within a frame, because
+ * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
+ */
+static bool motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
 {
+    const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
+    int64_t turning_q40;
+
     for (int k = 0; k < 3; k++) {
-        if (v->c[k] > (int64_t)BODY_SPEED_LIMIT << 40 ||
-            v->c[k] < -((int64_t)BODY_SPEED_LIMIT << 40)) {
+        if (v->c[k] > limit_q40 || v->c[k] < -limit_q40) {
             return false;
         }
     }
-    return fix_length(v->c) < (int64_t)BODY_SPEED_LIMIT << 40;
+    turning_q40 = fix_mul(fix_length(w->c), b->radius_q22, 22);
+    return fix_length(v->c) + turning_q40 < limit_q40;
 }
 
-/*
- * Whether mass radius^2 |w| stays below 2^22: then so does the angular momentum, and q40 holds it
- * with a bit to spare.
- */
-static bool spin_in_range(const struct body *b, const carom_v3_q40 *w)
+static bool spin_in_range(const carom_v3_q40 *w)
 {
-    struct fix_scaled rate = fix_scale(fix_length(w->c), 40);
-    struct fix_scaled square = fix_scale((int64_t)b->radius_q22 * b->radius_q22, 44);
-    struct fix_scaled moment = fix_scale((int64_t)square.m * b->mass.m, square.e + b->mass.e);
-    int64_t product = (int64_t)moment.m * rate.m;
+    const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
 
-    return product == 0 || fix_bits((uint64_t)product) - (moment.e + rate.e) <= 22;
+    for (int k = 0; k < 3; k++) {
+        if (w->c[k] > limit_q40 || w->c[k] < -limit_q40) {
+            return false;
+        }
+    }
+    return fix_length(w->c) < limit_q40;
 }
 
 /* Length 1 within 2^-10; all zero stands for no rotation. */
@@ -185,9 +191,9 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
         (!def->stationary && def->mesh->raw.kind != CAROM_SOLID)) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (!position_in_range(&def->position) || !speed_in_range(&def->velocity) ||
-        !speed_in_range(&def->spin) ||
-        (!def->stationary && def->mesh->radius_q22 > BODY_RADIUS_LIMIT << 22)) {
+    if (!position_in_range(&def->position) ||
+        (!def->stationary && (def->mesh->radius_q22 > BODY_RADIUS_MAX_Q22 ||
+                              def->mesh->radius_q22 < BODY_RADIUS_MIN_Q22))) {
         return CAROM_ERR_RANGE;
     }
     b->mesh = def->mesh;
@@ -198,10 +204,10 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     if (b->moving) {
         b->unit_bits = fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
-        result = set_mass(b, def);
-        if (result == CAROM_OK && !spin_in_range(b, &def->spin)) {
-            result = CAROM_ERR_RANGE;
+        if (!spin_in_range(&def->spin) || !motion_in_range(b, &def->velocity, &def->spin)) {
+            return CAROM_ERR_RANGE;
         }
+        result = set_mass(b, def);
         if (result < 0) {
             return result;
         }
@@ -330,9 +336,10 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     if (!rotation_valid(&q)) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (!position_in_range(&in->position) || !speed_in_range(&in->velocity) ||
-        !speed_in_range(&in->spin) ||
-        (w->bodies[body].moving && !spin_in_range(&w->bodies[body], &in->spin))) {
+    if (!position_in_range(&in->position) ||
+        (w->bodies[body].moving &&
+         (!spin_in_range(&in->spin) ||
+          !motion_in_range(&w->bodies[body], &in->velocity, &in->spin)))) {
         return CAROM_ERR_RANGE;
     }
     s = &world_now(w)->bodies[body];
@@ -348,10 +355,11 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
 
 bool world_in_range(const struct body *b, const struct body_state *s)
 {
-    carom_v3_q40 v;
+    carom_v3_q40 v, still = {{0, 0, 0}};
 
+    /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
     body_velocity(b, s, &v);
-    return position_in_range(&s->position) && speed_in_range(&v) &&
+    return position_in_range(&s->position) && motion_in_range(b, &v, &still) &&
            fix_length(s->angular.c) < (int64_t)1 << 62;
 }
 

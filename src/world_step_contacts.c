@@ -91,11 +91,11 @@ static void note_hits(struct step *s)
         if (!c->impact) {
             continue;
         }
-        while (e < end && (e->a != p->a || e->b != p->b)) {
+        while (e < end && (e->kind != CAROM_EVENT_HIT || e->a != p->a || e->b != p->b)) {
             e++;
         }
         if (e == end) {
-            if (w->event_count == w->config.caps.pairs) {
+            if (w->event_count >= w->config.caps.pairs + w->config.caps.bodies) {
                 continue;
             }
             w->event_count++;

@@ -652,6 +652,18 @@ static void above(double x, double y, double z, bool ridge)
     }
 }
 
+static bool is_convex(const struct carom_mesh *mesh, uint32_t edge)
+{
+    const struct carom_face *f = &mesh->faces[mesh->edges[edge].face[0]];
+
+    for (int k = 0; k < 3; k++) {
+        if (f->edge[k] == edge) {
+            return f->own >> (3 + k) & 1;
+        }
+    }
+    return false;
+}
+
 /* The candidate of a kind whose features meet first, and when they meet and the search stops. */
 static bool first_of_all(int kind, struct boyse_hit *best)
 {
@@ -667,6 +679,10 @@ static bool first_of_all(int kind, struct boyse_hit *best)
         struct candidate c = {0, (uint8_t)kind, n / nj, n % nj};
         struct boyse_hit hit;
 
+        if (kind == CANDIDATE_EDGE_EDGE &&
+            !(is_convex(&shape_a.mesh, c.i) && is_convex(&shape_b.mesh, c.j))) {
+            continue;
+        }
         if (boyse_first(&pair, &c, &hit, &roots) && (!any || hit.t_q30 < best->t_q30)) {
             *best = hit;
             best->candidate = c;
@@ -692,7 +708,6 @@ static void test_translating_vertex(void)
     for (int flip = 0; flip < 2; flip++) {
         above(0.25, 0.3, 0.2, false);
         if (flip) {
-            /* upside down and under the box: its plane's vertices stay out of it */
             states[0].rotation = (carom_quat_q30){{0, CAROM_ONE_Q30, 0, 0}};
         }
         set_paths((double[3]){0.125, 0, -0.25}, still, NULL);
@@ -748,13 +763,13 @@ static void test_translating_edge(void)
 
 /*
  * A point (x, z) on a circle about the centre of the box reaches the height -h at the angle of
- * which (z - h) tau^2 - 2 x tau - (z + h) = 0, tau = tan(angle / 2); the box turns by Cayley(t u),
+ * which (z - h) tau^2 + 2 x tau - (z + h) = 0, tau = tan(angle / 2); the box turns by Cayley(t u),
  * so that tau = t |u|.
  */
 static double circle_time(double x, double z, double h, double u)
 {
     double root = real_sqrt(x * x + z * z - h * h);
-    double tau[2] = {(x - root) / (z - h), (x + root) / (z - h)};
+    double tau[2] = {(-x - root) / (z - h), (-x + root) / (z - h)};
 
     for (int k = 0; k < 2; k++) {
         if (tau[k] <= 0) {
@@ -785,26 +800,86 @@ static void test_turning_vertex(void)
 /* The other role: the box turns about y until its lower face meets the tip of a tetrahedron. */
 static void test_turning_face(void)
 {
-    double tip[2] = {0.375, 0}, t, u;
+    /* from the diagonal of a cube to the vertical: cos = 1/sqrt 3 about (1, -1, 0) */
+    double cosine = real_sqrt((1 + real_sqrt(1. / 3)) / 2);
+    double sine = real_sqrt((1 - real_sqrt(1. / 3)) / 4), x = 0.375, z = -0.2, t;
     struct boyse_hit hit;
 
     above(0, 0, 0, false);
     shape_tetrahedron(&shape_b, 12, 1024);
     shape_body(&shape_b, false, &bodies[1], &states[1]);
-    for (int k = 0; k < 3; k++) {
-        /* vertex 0, at (1/4, 1/4, 1/4) from its centre, a little under the face */
-        states[1].position.c[k] = k == 0 ? CAROM_RATIO(1, 8, 32) : -CAROM_RATIO(1, 4, 32);
-    }
-    tip[1] = -0.2;
-    states[1].position.c[2] += real_round(tip[1] * real_power2(32));
+    states[1].rotation.c[0] = (int32_t)real_round(cosine * CAROM_ONE_Q30);
+    states[1].rotation.c[1] = (int32_t)real_round(sine * CAROM_ONE_Q30);
+    states[1].rotation.c[2] = -states[1].rotation.c[1];
+    /* the tip is sqrt 3 / 4 over the centre */
+    states[1].position.c[0] = real_round(x * real_power2(32));
+    states[1].position.c[2] = real_round((z - real_sqrt(3) / 4) * real_power2(32));
     set_paths(still, (double[3]){0, 0.48, 0}, NULL);
-    u = real_length(motion[0].u);
     CHECK(first_of_all(CANDIDATE_FACE_VERTEX, &hit));
-    /* seen from the box the tip turns back: up to the face at -600/4096, less the event gap */
-    t = circle_time(tip[0], -tip[1], -600. / 4096 - real(pair.skin_q22 / 2, 22), -u);
-    t = t < 0 ? -t : t;
+    /* seen from the box the tip turns back, up to the face at -600/4096 */
+    t = circle_time(-x, z, 600. / 4096 + real(pair.skin_q22 / 2, 22), real_length(motion[0].u));
     CHECK(t > 0 && t < 1);
     check_time(&hit, t, 0.15);
+    CHECK(hit.touch.normal.c[2] > 0 && hit.touch.normal.c[0] > 0);
+}
+
+/* Figure 3b: the box turns about z until an upright edge of it meets a ridge along x. */
+static void test_turning_edge(void)
+{
+    double x = 0.5, y = -1200. / 4096, wall = 0.4, t;
+    struct boyse_hit hit;
+
+    above(0, 0, 0, false);
+    shape_box(&shape_b, 12, 8192, 2048, 2048);
+    shape_body(&shape_b, false, &bodies[1], &states[1]);
+    /* an eighth of a turn about x: an edge looks along y, at sqrt 2 / 4 from the centre */
+    states[1].rotation = (carom_quat_q30){{992008094, 410903207, 0, 0}};
+    states[1].position.c[1] = -real_round((wall + real_sqrt(0.125)) * real_power2(32));
+    set_paths(still, (double[3]){0, 0, -0.48}, NULL);
+    CHECK(first_of_all(CANDIDATE_EDGE_EDGE, &hit));
+    /* y' = y cos - x sin, as above with y for z */
+    t = circle_time(x, y, wall - real(pair.skin_q22 / 2, 22), real_length(motion[0].u));
+    CHECK(t > 0 && t < 1);
+    check_time(&hit, t, 0.2);
+    CHECK_NEAR(hit.touch.normal.c[1], CAROM_ONE_Q30, 1 << 10);
+    CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit));
+}
+
+/* ----------------------------------------------------------------- the start */
+
+/* A corner over the plane at `gap` units of q22 and moving at `speed`, a unit a frame at most. */
+static bool start_at(int32_t gap, double speed, struct boyse_hit *hit)
+{
+    above(0.25, 0.3, 600. / 4096, false);
+    states[0].position.c[2] += carom_shl(gap, 10);
+    set_paths((double[3]){0, 0, speed}, still, NULL);
+    return first_of_all(CANDIDATE_VERTEX_FACE, hit);
+}
+
+static void test_at_start(void)
+{
+    struct boyse_hit hit;
+    int32_t skin;
+
+    start_at(0, 0, &hit);
+    skin = pair.skin_q22;
+    CHECK_EQ(skin, bodies[0].radius_q22 >> 11);
+    /* clear of the event gap: it goes on to that */
+    CHECK(start_at(skin, -0.125, &hit));
+    check_time(&hit, real(skin - skin / 2, 22) / 0.125, 0.125);
+    /* closer than that: to half of what there is */
+    CHECK(start_at(skin / 4, -0.125, &hit));
+    CHECK(hit.t_q30 > 0 && real(hit.t_q30, 30) * 0.125 <= real(skin / 4, 22));
+    /* touching or overlapping: at once while it approaches, never while it leaves */
+    CHECK(start_at(0, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == 0);
+    CHECK(start_at(-skin / 4, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == -skin / 4);
+    CHECK(!start_at(0, 0.125, &hit));
+    CHECK(!start_at(-skin / 4, 0.125, &hit));
+    CHECK(!start_at(skin / 4, 0.125, &hit));
+    /* far below: on its way out through the back */
+    CHECK(!start_at(-4 * skin, -0.125, &hit));
+    /* resting: no motion, no hit */
+    CHECK(!start_at(skin, 0, &hit));
 }
 
 const struct test tests_boyse[] = {
@@ -817,5 +892,7 @@ const struct test tests_boyse[] = {
     {"boyse/translating_edge", test_translating_edge},
     {"boyse/turning_vertex", test_turning_vertex},
     {"boyse/turning_face", test_turning_face},
+    {"boyse/turning_edge", test_turning_edge},
+    {"boyse/at_start", test_at_start},
     {0},
 };
