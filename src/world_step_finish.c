@@ -24,13 +24,39 @@ static struct fix_wide kinetic2(const struct step *s, struct fix_wide *lift2)
     return sum;
 }
 
+/* Every active body stays where the frame found it, at rest. */
+static void hold_still(struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        if (broad_active(&s->w->bodies[i], state)) {
+            state->position = world_now(s->w)->bodies[i].position;
+            state->rotation = world_now(s->w)->bodies[i].rotation;
+            memset(&state->momentum, 0, sizeof state->momentum);
+            memset(&state->angular, 0, sizeof state->angular);
+        }
+    }
+}
+
+static void scale_momenta(struct step *s, int32_t factor_q30)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        for (int k = 0; k < 3; k++) {
+            state->momentum.c[k] = fix_mul(state->momentum.c[k], factor_q30, 30);
+            state->angular.c[k] = fix_mul(state->angular.c[k], factor_q30, 30);
+        }
+    }
+}
+
 void step_limit_energy(struct step *s)
 {
     struct fix_wide lift2, kept;
     struct fix_wide kinetic = kinetic2(s, &lift2);
     struct fix_wide allowed = fix_wide_add(world_energy2(s->w, world_now(s->w)), lift2);
     struct fix_wide excess = fix_wide_add(world_energy2(s->w, s->next), fix_wide_neg(allowed));
-    int32_t factor_q30 = 0;
 
     if (fix_wide_sign(excess) <= 0) {
         return;
@@ -39,15 +65,9 @@ void step_limit_energy(struct step *s)
     if (fix_wide_sign(kept) > 0) {
         struct fix_scaled ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
 
-        factor_q30 = (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
-    }
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            int64_t *p = &s->next->bodies[i].momentum.c[k], *l = &s->next->bodies[i].angular.c[k];
-
-            *p = fix_mul(*p, factor_q30, 30);
-            *l = fix_mul(*l, factor_q30, 30);
-        }
+        scale_momenta(s, (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio)));
+    } else {
+        hold_still(s); /* it climbed by more than it has to give */
     }
 }
 

@@ -191,6 +191,59 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     body_place(b, state);
 }
 
+bool shape_owns_vertex(const struct shape *s, uint32_t vertex)
+{
+    for (uint32_t f = 0; f < s->raw.face_count; f++) {
+        for (int k = 0; k < 3; k++) {
+            if (s->faces[f][k] == vertex && s->mesh.faces[f].own >> k & 1) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool shape_owns_edge(const struct shape *s, uint32_t edge)
+{
+    const struct carom_face *f = &s->mesh.faces[s->mesh.edges[edge].face[0]];
+
+    for (int k = 0; k < 3; k++) {
+        if (f->edge[k] == edge) {
+            return f->own >> (3 + k) & 1;
+        }
+    }
+    return false;
+}
+
+uint32_t shape_candidates(const struct shape *a, const struct shape *b, uint16_t pair,
+                          struct candidate *out, uint32_t max)
+{
+    const struct shape *sides[3][2] = {{a, b}, {b, a}, {a, b}};
+    uint32_t count = 0;
+
+    for (uint8_t kind = CANDIDATE_VERTEX_FACE; kind <= CANDIDATE_EDGE_EDGE; kind++) {
+        const struct shape *from = sides[kind][0], *to = sides[kind][1];
+        bool edges = kind == CANDIDATE_EDGE_EDGE;
+        uint32_t ni = edges ? from->mesh.edge_count : from->raw.vertex_count;
+        uint32_t nj = edges ? to->mesh.edge_count : to->raw.face_count;
+
+        for (uint32_t i = 0; i < ni; i++) {
+            bool owns = edges ? shape_owns_edge(from, i) : shape_owns_vertex(from, i);
+
+            for (uint32_t j = 0; j < nj && owns; j++) {
+                if (edges && !shape_owns_edge(to, j)) {
+                    continue;
+                }
+                if (count < max) {
+                    out[count] = (struct candidate){pair, kind, i, j};
+                }
+                count++;
+            }
+        }
+    }
+    return count;
+}
+
 carom_quat_q30 shape_random_turn(struct test_random *r)
 {
     carom_quat_q30 q;

@@ -8,7 +8,7 @@
 #ifndef CAROM_TEST_SHAPES_H
 #define CAROM_TEST_SHAPES_H
 
-#include "body.h"
+#include "interfere.h"
 #include "test.h"
 
 #define SHAPE_VERTICES 625
@@ -45,6 +45,17 @@ void shape_field(struct shape *s, int quantum_bits, int n, int side, int rough, 
  * of it, with e = mu = 0.
  */
 void shape_body(const struct shape *s, bool moving, struct body *b, struct body_state *state);
+
+/* Whether the mesh leaves a vertex or an edge to be tested: it is convex. */
+bool shape_owns_vertex(const struct shape *s, uint32_t vertex);
+bool shape_owns_edge(const struct shape *s, uint32_t edge);
+
+/*
+ * Every vertex with every face, and every edge with every edge, of a pair of shapes, as interfere
+ * would hand them over if all were near: sorted. Returns how many; at most `max` are written.
+ */
+uint32_t shape_candidates(const struct shape *a, const struct shape *b, uint16_t pair,
+                          struct candidate *out, uint32_t max);
 
 /* Any rotation, uniformly. */
 carom_quat_q30 shape_random_turn(struct test_random *r);

@@ -142,19 +142,11 @@ static void bound(struct bounds *box, const double p[3], bool first)
 
 static void note_owned(struct solid *s)
 {
-    const struct carom_mesh *mesh = &s->shape->mesh;
-
-    memset(s->own_vertex, 0, sizeof s->own_vertex);
-    memset(s->own_edge, 0, sizeof s->own_edge);
-    for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
-        for (int k = 0; k < 3; k++) {
-            if (mesh->faces[f].own >> k & 1) {
-                s->own_vertex[mesh->raw.faces[f][k]] = true;
-            }
-            if (mesh->faces[f].own >> (3 + k) & 1) {
-                s->own_edge[mesh->faces[f].edge[k]] = true;
-            }
-        }
+    for (uint32_t v = 0; v < s->shape->raw.vertex_count; v++) {
+        s->own_vertex[v] = shape_owns_vertex(s->shape, v);
+    }
+    for (uint32_t e = 0; e < s->shape->mesh.edge_count; e++) {
+        s->own_edge[e] = shape_owns_edge(s->shape, e);
     }
 }
 
