@@ -302,8 +302,10 @@ int carom_body_set(struct carom_world *world, int body, const struct carom_body_
 
 /*
  * Move the world by one frame. All or nothing.
- * Returns CAROM_OK, a sum of carom_status bits, or an error.
- * Source  paper figures 4 and 5
+ * Returns  CAROM_OK or a sum of carom_status bits; CAROM_ERR_PAIRS_FULL, CAROM_ERR_CONTACTS_FULL,
+ *          CAROM_ERR_FACES_FULL; CAROM_ERR_RANGE when a body is too fast beside too large a mesh:
+ *          their radii and the way of a frame and a third must stay below 256 units together.
+ * Source   paper figures 4 and 5
  */
 int carom_world_step(struct carom_world *world);
 

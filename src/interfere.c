@@ -246,6 +246,15 @@ static bool relate(struct interfere *w)
     return true;
 }
 
+/*
+ * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
+ * the fastest bodies do not.
+ */
+static bool in_range(const struct interfere *w)
+{
+    return 2 * ((int64_t)w->b->radius_q22 + w->a->radius_q22 + w->reach_q22) < INT32_MAX;
+}
+
 static void gather_pair(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
@@ -254,6 +263,10 @@ static void gather_pair(struct interfere *w)
         return;
     }
     w->reach_q22 = w->a->reach_q22 + w->b->reach_q22;
+    if (!in_range(w)) {
+        w->error = CAROM_ERR_RANGE;
+        return;
+    }
     w->turn_q30 = w->a->turn_q30 + w->b->turn_q30;
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {

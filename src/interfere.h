@@ -89,7 +89,7 @@ void interfere_begin(struct interfere *w);
 
 /*
  * Hand every candidate of the pairs to the visitor.
- * Returns CAROM_OK or CAROM_ERR_FACES_FULL.
+ * Returns CAROM_OK, CAROM_ERR_FACES_FULL, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);

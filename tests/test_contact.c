@@ -1,0 +1,504 @@
+/* SPDX-License-Identifier: MIT */
+#include "contact.h"
+#include "real.h"
+#include "shapes.h"
+#include "test.h"
+
+#define CONTACTS   64
+#define CANDIDATES 4096
+
+static struct shape shape_a, shape_b;
+static struct body bodies[2];
+static struct body_state states[2];
+static struct boyse_pair pair;
+static struct contact contacts[CONTACTS];
+static struct candidate candidates[CANDIDATES];
+static uint32_t candidate_count;
+static struct pool pool;
+static struct contact_list list = {contacts, &pool};
+
+/* Both bodies at rest in the middle, a to be moved; place() when they are where they should be. */
+static void begin(void)
+{
+    pool = (struct pool){CONTACTS, 0, 0, 0};
+    shape_body(&shape_a, true, &bodies[0], &states[0]);
+    shape_body(&shape_b, false, &bodies[1], &states[1]);
+    candidate_count = shape_candidates(&shape_a, &shape_b, 0, candidates, CANDIDATES);
+    CHECK(candidate_count <= CANDIDATES);
+}
+
+static void place(void)
+{
+    body_place(&bodies[0], &states[0]);
+    body_place(&bodies[1], &states[1]);
+    boyse_pair_init(&pair, &bodies[0], &bodies[1]);
+}
+
+/* The contacts of all candidates, in an order that starts anywhere; false when they do not fit. */
+static bool find(int32_t margin_q22, uint32_t start)
+{
+    bool fits = true;
+
+    pool_clear(&pool);
+    for (uint32_t n = 0; n < candidate_count; n++) {
+        fits = fits &&
+               contact_add(&list, &pair, &candidates[(start + n) % candidate_count], margin_q22);
+    }
+    return fits;
+}
+
+static bool in_order(void)
+{
+    for (uint32_t i = 1; i < pool.used; i++) {
+        if (candidate_compare(&contacts[i - 1].key, &contacts[i].key) >= 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Directions are three unit vectors, square to each other. */
+static void check_directions(const struct contact *c)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            int64_t dot = carom_dot(c->direction[i].c, c->direction[k].c) >> 30;
+
+            CHECK_NEAR(dot, i == k ? CAROM_ONE_Q30 : 0, 8);
+        }
+    }
+}
+
+/* A box of 1 x 0.6 x 0.3 over a plane of 2 x 2 squares of 4 units, its corners off the edges. */
+static void box_over_plane(int32_t gap_q22)
+{
+    shape_box(&shape_a, 12, 4096, 2400, 1200);
+    shape_plane(&shape_b, 9, 2, 2048);
+    begin();
+    states[0].position.c[0] = (int64_t)3 << 30;
+    states[0].position.c[1] = (int64_t)3 << 29;
+    states[0].position.c[2] = carom_shl((600 << 10) + gap_q22, 10);
+    place();
+}
+
+/* -------------------------------------------------------------------- shapes */
+
+static void check_four_corners(int32_t gap_q22)
+{
+    uint8_t seen = 0;
+
+    CHECK(in_order());
+    contact_merge(&list);
+    CHECK_EQ(pool.used, 4);
+    for (uint32_t i = 0; i < pool.used; i++) {
+        const struct contact *c = &contacts[i];
+        uint32_t v = c->key.i;
+
+        check_directions(c);
+        CHECK(c->key.kind == CANDIDATE_VERTEX_FACE && c->key.pair == 0);
+        CHECK(c->direction[0].c[0] == 0 && c->direction[0].c[1] == 0);
+        CHECK_EQ(c->direction[0].c[2], CAROM_ONE_Q30);
+        CHECK_EQ(c->gap_q22, gap_q22);
+        CHECK_EQ(c->skin_q22, bodies[0].skin_q22);
+        CHECK(c->side[0].body == &bodies[0] && c->side[1].body == NULL);
+        CHECK(v < 4); /* the lower ones, and each once */
+        CHECK(!(seen >> v & 1));
+        seen |= (uint8_t)(1 << v);
+        for (int k = 0; k < 2; k++) {
+            CHECK_EQ(c->side[0].arm.c[k], shape_a.vertices[v][k] * 1024);
+            CHECK_EQ(c->point.c[k],
+                     states[0].position.c[k] + shape_a.vertices[v][k] * ((int64_t)1 << 20));
+        }
+        /* half way between the surfaces */
+        CHECK_NEAR(c->point.c[2], carom_shl(gap_q22, 10) / 2, 1024);
+        CHECK_NEAR(c->side[0].arm.c[2], -600 * 1024 - gap_q22 / 2, 1);
+    }
+    CHECK_EQ(seen, 15);
+}
+
+static void test_flat(void)
+{
+    int32_t skin;
+
+    box_over_plane(0);
+    skin = bodies[0].skin_q22;
+    for (int32_t gap = -2 * skin; gap <= 5 * skin; gap += skin / 2) {
+        box_over_plane(gap);
+        CHECK(find(5 * skin, 0));
+        check_four_corners(gap);
+    }
+}
+
+/* The same, both turned and far out: normals and gaps within the rounding of places. */
+static void test_tilted(void)
+{
+    struct test_random r = {1};
+
+    for (int n = 0; n < 8; n++) {
+        double m[3][3], q[4], local[3], world[3], up[3] = {0, 0, 1}, normal[3];
+        int32_t gap = (int32_t)test_random_range(&r, -1000, 1500);
+
+        box_over_plane(gap);
+        for (int k = 0; k < 3; k++) {
+            local[k] = real(states[0].position.c[k], 32);
+        }
+        states[1].rotation = shape_random_turn(&r);
+        body_normalise(&states[1].rotation);
+        states[0].rotation = states[1].rotation;
+        for (int k = 0; k < 4; k++) {
+            q[k] = states[1].rotation.c[k];
+        }
+        real_matrix(m, q);
+        real_rotate(world, m, local);
+        real_rotate(normal, m, up);
+        for (int k = 0; k < 3; k++) {
+            states[1].position.c[k] = test_random_range(&r, -((int64_t)1 << 43), (int64_t)1 << 43);
+            states[0].position.c[k] =
+                states[1].position.c[k] + real_round(world[k] * real_power2(32));
+        }
+        place();
+        CHECK(find(2000, 0));
+        CHECK(in_order());
+        contact_merge(&list);
+        CHECK_EQ(pool.used, 4);
+        for (uint32_t i = 0; i < pool.used; i++) {
+            check_directions(&contacts[i]);
+            CHECK_NEAR(contacts[i].gap_q22, gap, 4);
+            for (int k = 0; k < 3; k++) {
+                CHECK_NEAR(contacts[i].direction[0].c[k], real_round(normal[k] * CAROM_ONE_Q30),
+                           16);
+            }
+        }
+    }
+}
+
+/* An edge on a face: its two ends. */
+static void test_edge_on_face(void)
+{
+    int64_t height_q32 = real_round((1200 + 600) / real_sqrt(2) * (1 << 20));
+
+    shape_box(&shape_a, 12, 4096, 2400, 1200);
+    shape_plane(&shape_b, 9, 2, 2048);
+    begin();
+    /* an eighth of a turn about x: half sides 1200 and 600 add up */
+    states[0].rotation = (carom_quat_q30){{992008094, 410903207, 0, 0}};
+    states[0].position.c[0] = (int64_t)3 << 30;
+    states[0].position.c[1] = (int64_t)3 << 29;
+    states[0].position.c[2] = height_q32 + (500 << 10);
+    place();
+    CHECK(find(1000, 0));
+    contact_merge(&list);
+    CHECK_EQ(pool.used, 2);
+    CHECK_NEAR(contacts[0].point.c[0] + contacts[1].point.c[0], (int64_t)3 << 31, 1 << 12);
+    CHECK_NEAR(carom_abs(contacts[0].point.c[0] - contacts[1].point.c[0]), (int64_t)1 << 32,
+               1 << 12);
+    for (uint32_t i = 0; i < 2; i++) {
+        CHECK_NEAR(contacts[i].gap_q22, 500, 2);
+        CHECK_EQ(contacts[i].direction[0].c[2], CAROM_ONE_Q30);
+        CHECK_NEAR(contacts[i].point.c[1], (int64_t)3 << 29, (int64_t)1 << 31);
+    }
+}
+
+/* Two edges that cross: one place, along their cross product. */
+static void test_crossing_edges(void)
+{
+    for (int flip = 0; flip < 2; flip++) {
+        int sign = flip ? -1 : 1;
+
+        shape_box(&shape_a, 12, 4096, 2400, 1200);
+        shape_box(&shape_b, 10, 1024, 4096, 1024);
+        begin();
+        states[0].rotation = (carom_quat_q30){{992008094, 410903207, 0, 0}};
+        states[1].rotation = (carom_quat_q30){{992008094, 0, 410903207, 0}};
+        /* heights of the ridges: 1800 / sqrt 2 quanta of 2^-12, 1 / sqrt 2 */
+        states[0].position.c[2] =
+            sign * (real_round((1800. / 4096 + 1) / real_sqrt(2) * real_power2(32)) + (700 << 10));
+        states[0].position.c[0] = (int64_t)1 << 30; /* meets a off its middle */
+        place();
+        CHECK(find(1000, 0));
+        CHECK_EQ(pool.used, 1);
+        CHECK_EQ(contacts[0].key.kind, CANDIDATE_EDGE_EDGE);
+        CHECK_NEAR(contacts[0].gap_q22, 700, 3);
+        CHECK_NEAR(contacts[0].direction[0].c[2], sign * CAROM_ONE_Q30, 4);
+        CHECK_NEAR(contacts[0].point.c[0], 0, 1 << 12);
+        CHECK_NEAR(contacts[0].side[0].arm.c[0], -(1 << 20), 4);
+        check_directions(&contacts[0]);
+    }
+}
+
+/* -------------------------------------------------------------------- rules */
+
+static void test_margin(void)
+{
+    int32_t skin;
+
+    box_over_plane(700);
+    skin = bodies[0].skin_q22;
+    CHECK(find(700, 0));
+    CHECK_EQ(pool.used, 4);
+    CHECK(find(699, 0));
+    CHECK_EQ(pool.used, 0);
+    /* what is deeper than two skins and a half is not a contact of these features */
+    box_over_plane(-(skin * 5 / 2));
+    CHECK(find(700, 0));
+    CHECK_EQ(pool.used, 4);
+    box_over_plane(-(skin * 5 / 2) - 1);
+    CHECK(find(700, 0));
+    CHECK_EQ(pool.used, 0);
+    /* beside the plane there is nothing to touch */
+    box_over_plane(0);
+    states[0].position.c[0] = (int64_t)6 << 32;
+    place();
+    CHECK(find(700, 0));
+    CHECK_EQ(pool.used, 0);
+}
+
+/* The list does not depend on the order in which candidates come, nor on how often. */
+static void test_order(void)
+{
+    static struct contact first[CONTACTS];
+    uint32_t count;
+
+    shape_box(&shape_a, 12, 4096, 2400, 1200);
+    shape_field(&shape_b, 12, 4, 2048, 0, 1); /* corners on edges of it */
+    begin();
+    states[0].position.c[2] = carom_shl((600 << 10) + 300, 10);
+    place();
+    CHECK(find(700, 0));
+    CHECK(in_order());
+    count = pool.used;
+    CHECK(count > 4);
+    memcpy(first, contacts, sizeof first);
+    for (uint32_t start = 1; start < candidate_count; start += candidate_count / 13) {
+        memset(contacts, 0xa5, sizeof contacts);
+        CHECK(find(700, start));
+        CHECK_EQ(pool.used, count);
+        CHECK(memcmp(first, contacts, count * sizeof first[0]) == 0);
+    }
+    for (uint32_t n = 0; n < candidate_count; n++) {
+        CHECK(contact_add(&list, &pair, &candidates[n], 700));
+    }
+    CHECK_EQ(pool.used, count);
+    CHECK(memcmp(first, contacts, count * sizeof first[0]) == 0);
+}
+
+/* A corner on a vertex of the ground meets six faces there: one contact, of the smallest gap. */
+static void test_merge(void)
+{
+    int32_t least = INT32_MAX;
+
+    shape_box(&shape_a, 12, 4096, 2048, 1200);
+    shape_plane(&shape_b, 12, 4, 2048);
+    begin();
+    states[0].position.c[2] = carom_shl((600 << 10) + 300, 10);
+    place();
+    CHECK(find(700, 0));
+    CHECK(pool.used >= 8);
+    for (uint32_t i = 0; i < pool.used; i++) {
+        contacts[i].gap_q22 += (int32_t)(i * 7 % 5); /* as rounding may leave them */
+        least = contacts[i].gap_q22 < least ? contacts[i].gap_q22 : least;
+    }
+    contact_merge(&list);
+    CHECK_EQ(pool.used, 4);
+    CHECK(in_order());
+    for (uint32_t i = 0; i < 4; i++) {
+        CHECK(contacts[i].gap_q22 >= 300 && contacts[i].gap_q22 <= 304);
+        least = contacts[i].gap_q22 == least ? -1 : least;
+    }
+    CHECK_EQ(least, -1);
+    contact_merge(&list); /* nothing more to do */
+    CHECK_EQ(pool.used, 4);
+}
+
+static void test_full(void)
+{
+    box_over_plane(300);
+    pool.size = 4;
+    CHECK(find(700, 0));
+    CHECK(pool.used == 4 && pool.refused == 0);
+    pool.size = 3;
+    CHECK(!find(700, 0));
+    CHECK(pool.used == 3 && pool.refused >= 1);
+    CHECK(in_order());
+    /* what is no contact needs no place */
+    pool.size = 0;
+    CHECK(find(299, 0));
+}
+
+/* The hit that led here is among the contacts, once. */
+static void test_force(void)
+{
+    struct boyse_hit hit;
+    carom_v3_q22 centre_a, centre_b;
+    int32_t skin;
+
+    box_over_plane(300);
+    skin = bodies[0].skin_q22;
+    memset(&hit, 0, sizeof hit);
+    for (int k = 0; k < 3; k++) {
+        centre_a.c[k] = (int32_t)carom_round(bodies[0].path.start.x.c[k], 10);
+        centre_b.c[k] = pair.offset_q22[k];
+    }
+    /* a corner that was found already, by its key */
+    CHECK(find(700, 0));
+    contact_merge(&list);
+    hit.candidate = contacts[2].key;
+    boyse_touch(&pair, &hit.candidate, 0, &hit.touch);
+    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK_EQ(pool.used, 4);
+    /* the same place and normal by other features */
+    hit.candidate.kind = CANDIDATE_EDGE_EDGE;
+    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK_EQ(pool.used, 4);
+    /* the same place with another normal */
+    hit.touch.normal = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
+    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK_EQ(pool.used, 5);
+    CHECK(in_order());
+    CHECK_EQ(contacts[4].key.kind, CANDIDATE_EDGE_EDGE);
+    CHECK_EQ(contacts[4].direction[0].c[1], CAROM_ONE_Q30);
+    CHECK_EQ(contacts[4].gap_q22, skin / 2);
+    check_directions(&contacts[4]);
+    /* another place: none of the four corners is within twenty skins */
+    box_over_plane(300);
+    CHECK(find(700, 0));
+    boyse_touch(&pair, &contacts[0].key, 0, &hit.touch);
+    hit.candidate = contacts[0].key;
+    hit.candidate.kind = CANDIDATE_FACE_VERTEX;
+    hit.touch.on_a.c[0] += 21 * skin;
+    hit.touch.on_b.c[0] += 21 * skin;
+    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK_EQ(pool.used, 5);
+    /* and it needs a place in the pool */
+    box_over_plane(300);
+    pool.size = 4;
+    CHECK(find(700, 0));
+    CHECK(!contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+}
+
+/* ------------------------------------------------------------- indeterminate */
+
+/* The least rise along n of the edges that leave a vertex; n in world axes. */
+static double least_rise(const struct shape *s, const struct body *b, uint32_t v, const double n[3])
+{
+    double least = 1;
+
+    for (uint32_t f = 0; f < s->raw.face_count; f++) {
+        for (int k = 0; k < 9; k++) {
+            uint16_t other = s->faces[f][k % 3];
+            int32_t d[3];
+            double e[3];
+
+            if (s->faces[f][k / 3] != v || other == v) {
+                continue;
+            }
+            for (int i = 0; i < 3; i++) {
+                d[i] = s->vertices[other][i] - s->vertices[v][i];
+            }
+            carom_rotate(d, &b->path.start.r, d);
+            for (int i = 0; i < 3; i++) {
+                e[i] = d[i];
+            }
+            least =
+                real_dot(e, n) / real_length(e) < least ? real_dot(e, n) / real_length(e) : least;
+        }
+    }
+    return least;
+}
+
+/* Every normal found is one along which neither body leans into the other; all at the tip. */
+static void check_normals(uint32_t vertex_a, int32_t reach)
+{
+    CHECK(pool.used >= 1);
+    for (uint32_t i = 0; i < pool.used; i++) {
+        double n[3];
+
+        for (int k = 0; k < 3; k++) {
+            n[k] = real(contacts[i].direction[0].c[k], 30);
+            CHECK_NEAR(contacts[i].point.c[k], 0, (int64_t)reach << 10);
+        }
+        CHECK(n[2] > 0);
+        CHECK(least_rise(&shape_a, &bodies[0], vertex_a, n) >= -0.03);
+        check_directions(&contacts[i]);
+        CHECK_NEAR(contacts[i].gap_q22, 0, 8);
+    }
+}
+
+/* A corner down, as the diagonal of a cube, in the origin: vertex 0. */
+static void corner_down(void)
+{
+    double cosine = real_sqrt((1 + real_sqrt(1. / 3)) / 2);
+    double sine = real_sqrt((1 - real_sqrt(1. / 3)) / 4);
+
+    shape_box(&shape_a, 12, 2048, 2048, 2048);
+    begin();
+    states[0].rotation.c[0] = (int32_t)real_round(cosine * CAROM_ONE_Q30);
+    states[0].rotation.c[1] = (int32_t)real_round(sine * CAROM_ONE_Q30);
+    states[0].rotation.c[2] = -states[0].rotation.c[1];
+    body_normalise(&states[0].rotation);
+    states[0].position.c[2] = real_round(real_sqrt(3) / 4 * real_power2(32));
+}
+
+static void test_vertex_on_vertex(void)
+{
+    /* on the tip of a pyramid, of the middle of a field: every height is 0 but that one */
+    shape_field(&shape_b, 12, 2, 2048, 0, 0);
+    shape_b.vertices[4][2] = 1024;
+    CHECK_EQ(carom_mesh_build(&shape_b.mesh, &shape_b.raw, shape_b.block, sizeof shape_b.block),
+             CAROM_OK);
+    corner_down();
+    states[1].position.c[2] = -((int64_t)1 << 30);
+    place();
+    CHECK(find(300, 0));
+    check_normals(0, 300);
+    CHECK(pool.used >= 3); /* a cone of normals: at least its three corners */
+    contact_merge(&list);
+    check_normals(0, 300);
+    for (uint32_t i = 0; i < pool.used; i++) {
+        double back[3];
+
+        for (int k = 0; k < 3; k++) {
+            back[k] = -real(contacts[i].direction[0].c[k], 30);
+        }
+        CHECK(least_rise(&shape_b, &bodies[1], 4, back) >= -0.03);
+    }
+}
+
+static void test_vertex_on_edge(void)
+{
+    /* on a ridge along y, in the middle of a face's edge */
+    shape_field(&shape_b, 12, 2, 2048, 0, 0);
+    for (int y = 0; y < 3; y++) {
+        shape_b.vertices[3 * y + 1][2] = 1024;
+    }
+    CHECK_EQ(carom_mesh_build(&shape_b.mesh, &shape_b.raw, shape_b.block, sizeof shape_b.block),
+             CAROM_OK);
+    corner_down();
+    states[1].position.c[1] = (int64_t)1 << 30;
+    states[1].position.c[2] = -((int64_t)1 << 30);
+    place();
+    CHECK(find(300, 0));
+    check_normals(0, 300);
+    contact_merge(&list);
+    check_normals(0, 300);
+    /* square to the ridge, but for normals of corners that reach past the cube's cone */
+    for (uint32_t i = 0; i < pool.used; i++) {
+        CHECK(carom_abs(contacts[i].direction[0].c[1]) < CAROM_ONE_Q30 / 30);
+    }
+    CHECK_EQ(pool.used, 2); /* left and right of the ridge */
+}
+
+const struct test tests_contact[] = {
+    {"contact/flat", test_flat},
+    {"contact/tilted", test_tilted},
+    {"contact/edge_on_face", test_edge_on_face},
+    {"contact/crossing_edges", test_crossing_edges},
+    {"contact/margin", test_margin},
+    {"contact/order", test_order},
+    {"contact/merge", test_merge},
+    {"contact/full", test_full},
+    {"contact/force", test_force},
+    {"contact/vertex_on_vertex", test_vertex_on_vertex},
+    {"contact/vertex_on_edge", test_vertex_on_edge},
+    {0},
+};
