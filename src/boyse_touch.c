@@ -180,6 +180,27 @@ static bool normal_in_cones(const struct boyse_pair *pair, const struct boyse_ed
 }
 
 /*
+ * The sign of N by the way that the faces of both edges look: out of b and against a. Edges that
+ * are nearly flat have both normals within the tolerance of their cones.
+ */
+static int facing_sign(const struct boyse_pair *pair, const struct boyse_edge_edge *ee,
+                       int32_t t_q30, const int32_t normal[3])
+{
+    int32_t n_a[3], n_b[3];
+    int64_t out = 0;
+
+    carom_rotate_back(n_a, &body_pose_at(pair->a, t_q30)->r, normal);
+    carom_rotate_back(n_b, &body_pose_at(pair->b, t_q30)->r, normal);
+    for (int side = 0; side < 2; side++) {
+        uint16_t face_a = ee->edge_a->face[side], face_b = ee->edge_b->face[side];
+
+        out -= face_a == CAROM_NO_FACE ? 0 : carom_dot(n_a, pair->a->mesh->faces[face_a].normal.c);
+        out += face_b == CAROM_NO_FACE ? 0 : carom_dot(n_b, pair->b->mesh->faces[face_b].normal.c);
+    }
+    return out >= 0 ? 1 : -1;
+}
+
+/*
  * Places of nearest approach along the two lines, q22. With b = e.f and D = 1 - b^2 = |w|^2:
  * s = (b d.f - d.e) / D and q = (d.f - b d.e) / D. False when either lies off its edge.
  */
@@ -205,6 +226,7 @@ static void touch_edge_edge(const struct boyse_pair *pair, const struct candidat
     struct boyse_edge_edge ee;
     int64_t s_q22, q_q22;
     int32_t n[3];
+    int likely;
 
     boyse_place_edge_edge(pair, c, t_q30, &ee);
     touch->valid = false;
@@ -218,13 +240,16 @@ static void touch_edge_edge(const struct boyse_pair *pair, const struct candidat
         touch->on_a.c[k] = ee.start_a.c[k] + (int32_t)carom_round(ee.e[k] * s_q22, 30);
         touch->on_b.c[k] = ee.start_b.c[k] + (int32_t)carom_round(ee.f[k] * q_q22, 30);
     }
-    for (int sign = 1; sign >= -1 && !touch->valid; sign -= 2) {
+    likely = facing_sign(pair, &ee, t_q30, n);
+    for (int k = 0; k < 2 && !touch->valid; k++) {
+        int sign = k == 0 ? likely : -likely;
+
         if (normal_in_cones(pair, &ee, t_q30, n, sign)) {
             touch->valid = true;
             touch->sign = (int8_t)sign;
             touch->gap_q22 = edge_gap(&ee, sign);
-            for (int k = 0; k < 3; k++) {
-                touch->normal.c[k] = sign * n[k];
+            for (int i = 0; i < 3; i++) {
+                touch->normal.c[i] = sign * n[i];
             }
         }
     }

@@ -108,7 +108,6 @@ static void place_leaf(struct interfere *w)
 
         f->number = ma->leaf_faces[leaf->first_face + i];
         f->face = &ma->faces[f->number];
-        carom_rotate(f->normal.c, &w->to_b, f->face->normal.c);
         f->low = f->high = vertices[corner[0]];
         for (int n = 0; n < 3; n++) {
             f->p[n] = vertices[corner[n]];
@@ -144,6 +143,9 @@ static void scan_face(struct interfere *w, const struct scan_grid *grid, uint16_
         xy[n][0] = f.p[n][0];
         xy[n][1] = f.p[n][1];
         lowest = f.p[n][2] - f.grow < lowest ? f.p[n][2] - f.grow : lowest;
+    }
+    if (lowest > w->leaf_top) {
+        return;
     }
     scan_cells_begin(&cells, grid, (const int32_t(*)[2])xy, 3, f.grow);
     while (scan_cells_next(&cells, &run)) {
@@ -197,7 +199,7 @@ static int32_t highest_under(const struct carom_mesh *mb, const int64_t low[3],
 
 /* Whether the sphere around a leaf, grown by the reach, meets the box of b and what lies under it.
  */
-static bool leaf_near(const struct interfere *w, const struct carom_leaf *leaf)
+static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
     const struct carom_mesh *mb = w->b->mesh;
     int shift = 22 - mb->raw.quantum_bits;
@@ -215,7 +217,8 @@ static bool leaf_near(const struct interfere *w, const struct carom_leaf *leaf)
             return false;
         }
     }
-    return low[2] <= highest_under(mb, low, high);
+    w->leaf_top = highest_under(mb, low, high);
+    return low[2] <= w->leaf_top;
 }
 
 /* -------------------------------------------------------------------- pair */

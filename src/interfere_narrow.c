@@ -341,11 +341,15 @@ static bool apart(const struct interfere *w, const struct interfere_face *t,
 
 void interfere_narrow(struct interfere *w, uint16_t leaf_face, uint16_t face_b)
 {
-    const struct interfere_face *a = &w->leaf_faces[leaf_face];
+    struct interfere_face *a = &w->leaf_faces[leaf_face];
     struct interfere_face b = {.number = face_b};
     bool any;
 
-    if (!boxes_meet(w, a, &b) || apart(w, a, &b) || apart(w, &b, a)) {
+    if (!boxes_meet(w, a, &b) || apart(w, a, &b)) {
+        return;
+    }
+    carom_rotate(a->normal.c, &w->to_b, a->face->normal.c);
+    if (apart(w, &b, a)) {
         return;
     }
     any = vertex_face(w, a, &b, CANDIDATE_VERTEX_FACE);

@@ -3,11 +3,11 @@
  * lab - what the scene tests share: a world with one body that moves over one that does not,
  * watched in double precision through the public interface. Host only.
  *
- *   struct lab lab = lab_load(&ground, &body);   or lab_load_scene("head")
- *   lab.scene.body.position.c[2] = ...           change how things start
- *   lab_start(&lab);
- *   lab_step(&lab, &tally);                      frame by frame
- *   lab_free(&lab);
+ *   struct lab *lab = lab_load(&ground, &body);  or lab_load_scene("head")
+ *   lab->scene.body.position.c[2] = ...          change how things start
+ *   lab_start(lab);
+ *   lab_step(lab, &tally);                       frame by frame
+ *   lab_free(lab);
  *
  * Every function ends the program when what it needs fails, e.g. a mesh that does not build.
  */

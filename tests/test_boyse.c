@@ -683,6 +683,18 @@ static void check_time(const struct boyse_hit *hit, double t, double speed)
     CHECK(real_abs(real(hit->t_q30, 30) - t) <= 3 * UNIT / speed + 1e-8);
 }
 
+static uint32_t edge_between(const struct shape *s, uint16_t v, uint16_t w)
+{
+    uint32_t e = 0;
+
+    while (e + 1 < s->mesh.edge_count &&
+           !((s->mesh.edges[e].vertex[0] == v && s->mesh.edges[e].vertex[1] == w) ||
+             (s->mesh.edges[e].vertex[0] == w && s->mesh.edges[e].vertex[1] == v))) {
+        e++;
+    }
+    return e;
+}
+
 /* Figure 2a: a corner of the box falls on the plane, straight and on a parabola. */
 static void test_translating_vertex(void)
 {
@@ -830,6 +842,44 @@ static void test_turning_edge(void)
     CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit));
 }
 
+/*
+ * Two ridges so flat that the normal and its opposite are both within the tolerance of the cones:
+ * the side that the faces look to is the one that counts, whichever way the edges run.
+ */
+static void test_flat_ridges(void)
+{
+    for (int flip = 0; flip < 2; flip++) {
+        struct candidate c = {0, CANDIDATE_EDGE_EDGE, 0, 0};
+        struct boyse_touch touch;
+        struct boyse_hit hit;
+        uint32_t roots = 0;
+
+        above(0, 0, 0.25, false);
+        /* the diagonal of the box's lower side and the middle of the field stand out */
+        shape_a.vertices[0][2] = shape_a.vertices[3][2] = -604;
+        CHECK_EQ(carom_mesh_build(&shape_a.mesh, &shape_a.raw, shape_a.block, sizeof shape_a.block),
+                 CAROM_OK);
+        shape_field(&shape_b, 9, 2, 2048, 0, 0);
+        for (int y = 0; y < 3; y++) {
+            shape_b.vertices[3 * y + 1][2] = 4;
+        }
+        CHECK_EQ(carom_mesh_build(&shape_b.mesh, &shape_b.raw, shape_b.block, sizeof shape_b.block),
+                 CAROM_OK);
+        states[0].rotation =
+            (carom_quat_q30){{flip ? 0 : CAROM_ONE_Q30, 0, 0, flip ? CAROM_ONE_Q30 : 0}};
+        set_paths((double[3]){0, 0, -0.125}, still, NULL);
+        c.i = edge_between(&shape_a, 0, 3);
+        c.j = edge_between(&shape_b, 1, 4);
+        states[0].position.c[1] = -((int64_t)2 << 32); /* over the middle of that edge */
+        set_paths((double[3]){0, 0, -0.125}, still, NULL);
+        CHECK(shape_owns_edge(&shape_a, c.i) && shape_owns_edge(&shape_b, c.j));
+        boyse_touch(&pair, &c, 0, &touch);
+        CHECK(touch.valid && touch.normal.c[2] > CAROM_ONE_Q30 / 10 * 9);
+        CHECK(touch.gap_q22 > 0);
+        CHECK(boyse_first(&pair, &c, &hit, &roots));
+    }
+}
+
 /* ----------------------------------------------------------------- the start */
 
 /* A corner over the plane at `gap` units of q22 and moving at `speed`, a unit a frame at most. */
@@ -878,6 +928,7 @@ const struct test tests_boyse[] = {
     {"boyse/turning_vertex", test_turning_vertex},
     {"boyse/turning_face", test_turning_face},
     {"boyse/turning_edge", test_turning_edge},
+    {"boyse/flat_ridges", test_flat_ridges},
     {"boyse/at_start", test_at_start},
     {0},
 };
