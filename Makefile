@@ -80,7 +80,7 @@ run: ## a scene on a board; BOARD= SCENE=head|box FRAMES=600 MESH=file AWAKE=1 F
 	    $(B)/head.elf scene=$(SCENE) $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
 
 test: ## every test, on the host and on a board; TEST= selects by a part of a name
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/tests.elf
