@@ -35,7 +35,7 @@ endif
 
 objects = $(addprefix $(B)/,$(addsuffix .o,$(basename $(1))))
 ENGINE := $(call objects,$(wildcard src/*.c))
-SUPPORT := $(call objects,$(PORT) port/option.c port/assert.c) $(LINKER_FILES)
+SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LINKER_FILES)
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board

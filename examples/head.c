@@ -4,8 +4,6 @@
  *
  * Options: scene=head|box|user  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  */
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "carom.h"
@@ -29,24 +27,11 @@ static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(WIDTH_MAX, DEPTH_ROWS)];
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 
-__attribute__((format(printf, 1, 2))) static void print(const char *format, ...)
-{
-    char line[320];
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    for (const char *c = line; *c; c++) {
-        port_putc(*c);
-    }
-}
-
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
 {
     if (result < 0) {
-        print("%s: %s\n", what, carom_result_text(result));
+        port_print("%s: %s\n", what, carom_result_text(result));
         port_exit(1);
     }
     return result;
@@ -63,7 +48,7 @@ static void print_hash(const struct carom_world *world)
     uint64_t hash = carom_world_hash(world);
 
     /* in two halves: the small printf of newlib has no 64-bit formats */
-    print("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffff));
+    port_print("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffff));
 }
 
 static void load(struct scene *scene)
@@ -76,25 +61,25 @@ static void load(struct scene *scene)
         long bytes = port_read_file(file, file_block, sizeof file_block);
 
         if (bytes < 0) {
-            print("%s: cannot be read\n", file);
+            port_print("%s: cannot be read\n", file);
             port_exit(1);
         }
         expect(carom_mesh_read(&user, file_block, (size_t)bytes, user_block, sizeof user_block),
                file);
     }
     expect(scene_load(scene, name, file ? &user : NULL, mesh_block, sizeof mesh_block), name);
-    print("scene %s: %lu faces on %lu\n", name, (unsigned long)scene->body_mesh.raw.face_count,
-          (unsigned long)scene->ground_mesh.raw.face_count);
+    port_print("scene %s: %lu faces on %lu\n", name, (unsigned long)scene->body_mesh.raw.face_count,
+               (unsigned long)scene->ground_mesh.raw.face_count);
 }
 
 static void print_columns(void)
 {
-    print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
-    print("columns frame,status,substeps,hits,contacts,candidates,faces");
+    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    port_print("columns frame,status,substeps,hits,contacts,candidates,faces");
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
-        print(",%s", carom_stage_name(stage));
+        port_print(",%s", carom_stage_name(stage));
     }
-    print(",total,draw,hash\n");
+    port_print(",total,draw,hash\n");
 }
 
 static void print_frame(const struct carom_world *world, int frame, int status, uint32_t draw_ticks)
@@ -103,13 +88,14 @@ static void print_frame(const struct carom_world *world, int frame, int status, 
     struct carom_stats stats;
 
     expect(carom_stats(world, &stats), "stats");
-    print("frame %d,%d,%lu,%lu,%lu,%lu,%d", frame, status, (unsigned long)stats.substeps,
-          (unsigned long)stats.hits, (unsigned long)stats.contacts, (unsigned long)stats.candidates,
-          expect(carom_interfering_faces(world, &faces), "faces"));
+    port_print("frame %d,%d,%lu,%lu,%lu,%lu,%d", frame, status, (unsigned long)stats.substeps,
+               (unsigned long)stats.hits, (unsigned long)stats.contacts,
+               (unsigned long)stats.candidates,
+               expect(carom_interfering_faces(world, &faces), "faces"));
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
-        print(",%lu", cost(stats.ticks[stage]));
+        port_print(",%lu", cost(stats.ticks[stage]));
     }
-    print(",%lu,%lu,", cost(stats.total_ticks), cost(draw_ticks));
+    port_print(",%lu,%lu,", cost(stats.total_ticks), cost(draw_ticks));
     print_hash(world);
 }
 
@@ -119,9 +105,9 @@ static void print_usage(const struct carom_world *world)
 
     expect(carom_usage(world, usage), "usage");
     for (int pool = 0; pool < CAROM_POOL_COUNT; pool++) {
-        print("usage %s,%lu,%lu,%lu,%lu\n", usage[pool].name, (unsigned long)usage[pool].size,
-              (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
-              (unsigned long)usage[pool].refused);
+        port_print("usage %s,%lu,%lu,%lu,%lu\n", usage[pool].name, (unsigned long)usage[pool].size,
+                   (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
+                   (unsigned long)usage[pool].refused);
     }
 }
 
@@ -168,7 +154,7 @@ int main(void)
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
-    print("hash ");
+    port_print("hash ");
     print_hash(world);
     port_exit(0);
 }

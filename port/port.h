@@ -42,6 +42,9 @@ uint32_t port_instructions(uint32_t ticks);
 /* One character to the console. */
 void port_putc(char c);
 
+/* printf over port_putc, in every port; at most 319 characters. */
+void port_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 /* Pad bits; 0 where there is none. */
 uint32_t port_input(void);
 

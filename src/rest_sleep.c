@@ -41,7 +41,7 @@ void rest_sleep(const struct body *bodies, struct body_state *states, uint32_t b
 
             if (bodies[touching[i].a].moving && bodies[touching[i].b].moving &&
                 (a->quiet == QUIET_FRAMES) != (b->quiet == QUIET_FRAMES)) {
-                a->quiet = b->quiet = QUIET_FRAMES - 1;
+                *(a->quiet == QUIET_FRAMES ? &a->quiet : &b->quiet) = QUIET_FRAMES - 1;
                 again = true;
             }
         }

@@ -5,8 +5,6 @@
  *
  * Each scene runs twice, the second time in memory full of rubbish: the same hashes must come out.
  */
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "lab.h"
@@ -18,19 +16,6 @@
 static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static unsigned count, failed;
-
-__attribute__((format(printf, 1, 2))) static void print(const char *format, ...)
-{
-    char line[160];
-    va_list arguments;
-
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    for (const char *c = line; *c; c++) {
-        port_putc(*c);
-    }
-}
 
 /* A body over a ground, built where the scenes of scene.h are. */
 static int load(struct scene *scene, const struct carom_mesh_raw *ground,
@@ -138,18 +123,19 @@ static void test(const char *name, int (*loaded)(struct scene *), int frames)
 
     for (int i = 0; i < lines; i++) {
         /* in two halves: the small printf of newlib has no 64-bit formats */
-        print("# hash %s %d %08lx%08lx\n", name, (i + 1) * EVERY, (unsigned long)(first[i] >> 32),
-              (unsigned long)(first[i] & 0xffffffff));
+        port_print("# hash %s %d %08lx%08lx\n", name, (i + 1) * EVERY,
+                   (unsigned long)(first[i] >> 32), (unsigned long)(first[i] & 0xffffffff));
         ok = ok && first[i] == second[i];
     }
     /* at least while things move, no two states are the same */
     ok = ok && first[0] != first[1];
     count++;
     failed += !ok;
-    print("%s %u - hashes/%s (%d frames, twice: %s)\n", ok ? "ok" : "not ok", count, name, frames,
-          carom_result_text(lines < 0   ? lines
-                            : again < 0 ? again
-                                        : CAROM_OK));
+    port_print("%s %u - hashes/%s (%d frames, twice: %s)\n", ok ? "ok" : "not ok", count, name,
+               frames,
+               carom_result_text(lines < 0   ? lines
+                                 : again < 0 ? again
+                                             : CAROM_OK));
 }
 
 int main(void)
@@ -159,6 +145,6 @@ int main(void)
     test("bounce", load_bounce, 2000);
     test("ramp", load_ramp, 300);
     test("l", load_l, 400);
-    print("1..%u\n", count);
+    port_print("1..%u\n", count);
     port_exit(failed != 0);
 }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The runner: every suite of tests/suites.h, in order; argument 1 is a part of a name to select. */
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "port.h"
@@ -21,24 +19,11 @@ static struct {
     uint32_t checks, failed;
 } current;
 
-void test_print(const char *format, ...)
-{
-    char line[256];
-    va_list args;
-
-    va_start(args, format);
-    vsnprintf(line, sizeof line, format, args);
-    va_end(args);
-    for (const char *c = line; *c; c++) {
-        port_putc(*c);
-    }
-}
-
 void test_check(bool ok, const char *file, int line, const char *text)
 {
     current.checks++;
     if (!ok && current.failed++ == 0) {
-        test_print("# %s:%d: not true: %s\n", file, line, text);
+        port_print("# %s:%d: not true: %s\n", file, line, text);
     }
 }
 
@@ -51,7 +36,7 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
     current.checks++;
     if (!ok && current.failed++ == 0) {
         /* in two halves: the small printf of newlib has no 64-bit formats */
-        test_print("# %s:%d: %s: 0x%08lx%08lx against 0x%08lx%08lx\n", file, line, text,
+        port_print("# %s:%d: %s: 0x%08lx%08lx against 0x%08lx%08lx\n", file, line, text,
                    (unsigned long)((uint64_t)a >> 32), (unsigned long)(a & 0xffffffff),
                    (unsigned long)((uint64_t)b >> 32), (unsigned long)(b & 0xffffffff));
     }
@@ -88,16 +73,16 @@ int main(void)
             t->run();
             if (current.checks == 0) {
                 current.failed = 1;
-                test_print("# no checks ran\n");
+                port_print("# no checks ran\n");
             }
             *(current.failed ? &failed : &passed) += 1;
-            test_print("%s %u - %s (%lu checks)\n", current.failed ? "not ok" : "ok",
+            port_print("%s %u - %s (%lu checks)\n", current.failed ? "not ok" : "ok",
                        passed + failed, t->name, (unsigned long)current.checks);
             if (current.failed) {
-                test_print("# again: make test TEST=%s\n", t->name);
+                port_print("# again: make test TEST=%s\n", t->name);
             }
         }
     }
-    test_print("1..%u\n# %u passed, %u failed\n", passed + failed, passed, failed);
+    port_print("1..%u\n# %u passed, %u failed\n", passed + failed, passed, failed);
     port_exit(failed != 0 || passed == 0);
 }

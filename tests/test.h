@@ -16,9 +16,6 @@ struct test {
     void (*run)(void);
 };
 
-/* printf to the console of the port; at most 255 characters. */
-void test_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
 void test_check(bool ok, const char *file, int line, const char *text);
 void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
                      const char *text);
