@@ -76,7 +76,7 @@ struct interfere {
     int32_t offset_q22[3]; /* a's centre of mass in b's mesh frame, about b's centre of mass */
     int32_t reach_q22, turn_q30;
     const struct carom_leaf *leaf;
-    int32_t leaf_top;       /* highest z of b in the cells under the leaf, quanta */
+    int32_t leaf_top;    /* highest z of b in the cells under the leaf, quanta */
     int32_t cells[2][2]; /* columns and rows that hold entries: first and last */
     struct interfere_face leaf_faces[CAROM_LEAF_FACES]; /* grown by the reach: low and high too */
     struct interfere_seen seen[INTERFERE_SEEN];

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 #include "mass.h"
-#include "gauss.h"
 
 /*
  * Every face spans a tetrahedron with the origin. Its signed volume is det / 6 with
@@ -251,11 +250,10 @@ static int excess_bits(const int64_t *v, int n, int bits)
     return fix_bits(all) - bits;
 }
 
-int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out)
+int mass_invert(struct gauss *w, const struct carom_sym3 *in, struct carom_sym3 *out)
 {
     static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     int64_t m[6], x_q40[6];
-    struct gauss w;
     int down, up;
 
     for (int n = 0; n < 6; n++) {
@@ -267,15 +265,15 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out)
     for (int col = 0; col < 3; col++) {
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j < 3; j++) {
-                w.a[i][j] = (int32_t)rescale(m[entry[i][j]], down);
+                w->a[i][j] = (int32_t)rescale(m[entry[i][j]], down);
             }
-            w.a[i][3] = i == col ? (int32_t)1 << 29 : 0;
+            w->a[i][3] = i == col ? (int32_t)1 << 29 : 0;
         }
-        if (gauss_solve(&w, 3)) {
+        if (gauss_solve(w, 3)) {
             return -1;
         }
         for (int i = 0; i <= col; i++) {
-            x_q40[entry[i][col]] = w.x_q40[i];
+            x_q40[entry[i][col]] = w->x_q40[i];
         }
     }
     up = excess_bits(x_q40, 6, 30);

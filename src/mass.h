@@ -7,7 +7,7 @@
 #define CAROM_SRC_MASS_H
 
 #include "carom.h"
-#include "fix.h"
+#include "gauss.h"
 
 /*
  * Mass properties of a closed, outward-oriented mesh.
@@ -24,9 +24,10 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
 
 /*
  * Inverse of a symmetric positive matrix of shared exponent, by gauss.
+ *   w    workspace
  *   in   xx, yy, zz, xy, yz, zx times 2^-e
  * Returns 0, or -1 when it is singular.
  */
-int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out);
+int mass_invert(struct gauss *w, const struct carom_sym3 *in, struct carom_sym3 *out);
 
 #endif

@@ -164,7 +164,7 @@ static bool rotation_valid(carom_quat_q30 *q)
     return true;
 }
 
-static int set_mass(struct body *b, const struct carom_body_def *def)
+static int set_mass(struct body *b, const struct carom_body_def *def, struct gauss *w)
 {
     int64_t mass_q32 = def->mass_q20 ? (int64_t)def->mass_q20 << 12 : def->mesh->mass.volume_q32;
 
@@ -174,11 +174,12 @@ static int set_mass(struct body *b, const struct carom_body_def *def)
     b->mass = fix_scale(mass_q32, 32);
     b->inverse_mass = fix_scaled_inverse(b->mass);
     b->inertia = def->mesh->mass.inertia;
-    return mass_invert(&b->inertia, &b->inverse_inertia) < 0 ? CAROM_ERR_RANGE : CAROM_OK;
+    return mass_invert(w, &b->inertia, &b->inverse_inertia) < 0 ? CAROM_ERR_RANGE : CAROM_OK;
 }
 
 /* Everything about a body that its definition settles. */
-static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def)
+static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def,
+                     struct gauss *w)
 {
     int result = CAROM_OK;
 
@@ -207,7 +208,7 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
         if (!spin_in_range(&def->spin) || !motion_in_range(b, &def->velocity, &def->spin)) {
             return CAROM_ERR_RANGE;
         }
-        result = set_mass(b, def);
+        result = set_mass(b, def, w);
         if (result < 0) {
             return result;
         }
@@ -228,7 +229,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         return CAROM_ERR_NULL;
     }
     pool = &w->pools[CAROM_POOL_bodies];
-    result = make_body(&made, &state, def);
+    result = make_body(&made, &state, def, &w->rest.gauss);
     if (result < 0) {
         return result;
     }

@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * First hits against the true motion in double precision: the distance of two features is sampled
+ * over the slice and every change of its sign is closed in on.
+ */
+#include "duo.h"
+#include "real.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define CASES   4000 /* of each kind */
+#define SAMPLES 256
+#else
+#define CASES   6
+#define SAMPLES 24
+#endif
+
+/* --------------------------------------------------------------- the true hit */
+
+struct answer {
+    bool found;
+    bool doubtful; /* too close to call at some root on the way */
+    double t;      /* of the root */
+    double from;   /* of the root before */
+    double open;   /* the largest gap in between */
+    double slope;  /* of the gap at the root, downwards */
+    int sign;
+};
+
+static double find_root(const struct candidate *c, double low, double high, bool positive_low)
+{
+    for (int k = 0; k < 40; k++) {
+        double t = (low + high) / 2;
+
+        if ((duo_gap_at(c, t) > 0) == positive_low) {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+    return low;
+}
+
+static void try_root(struct answer *a, const struct candidate *c, double t, bool falls)
+{
+    struct duo_features f;
+    double place, cones, slope, loose;
+    int sign = falls ? 1 : -1;
+
+    duo_features_at(&f, c, t);
+    slope = real_abs(duo_gap_at(c, t + 1e-5) - duo_gap_at(c, t - 1e-5)) / 2e-5;
+    if (c->kind != CANDIDATE_EDGE_EDGE && !falls) {
+        a->from = t;
+        a->open = 0;
+        return; /* out through the back */
+    }
+    place = duo_inside(&f, c);
+    cones = duo_in_cones(&f, c, sign);
+    /* the root that is tested may be one of a surface three units nearer: when, and how turned? */
+    loose = 2e-5 + 6 * DUO_UNIT / (f.sine * f.sine * slope + 1e-9);
+    if (place > loose && cones > loose && f.sine * slope > 1e-3 && f.sine > 0.03) {
+        a->found = true;
+        a->t = t;
+        a->slope = slope;
+        a->sign = c->kind == CANDIDATE_EDGE_EDGE ? sign : 1;
+        return;
+    }
+    a->doubtful = a->doubtful || !(place < -loose || cones < -loose);
+    a->from = t;
+    a->open = 0;
+}
+
+static struct answer answer_for(const struct candidate *c)
+{
+    struct answer a = {false, false, 0, 0, 0, 0, 1};
+    double last = duo_gap_at(c, 0);
+
+    a.open = real_abs(last);
+    for (int k = 1; k <= SAMPLES && !a.found && !a.doubtful; k++) {
+        double t = (double)k / SAMPLES, gap = duo_gap_at(c, t);
+
+        if ((gap > 0) != (last > 0)) {
+            try_root(&a, c, find_root(c, t - 1.0 / SAMPLES, t, last > 0), last > 0);
+        }
+        a.open = real_abs(gap) > a.open && !a.found ? real_abs(gap) : a.open;
+        last = gap;
+    }
+    return a;
+}
+
+/* -------------------------------------------------------------------- cases */
+
+static void random_vector(struct test_random *r, double size, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = size * real(test_random_range(r, -(1 << 20), 1 << 20), 20);
+    }
+}
+
+/* Set a's motion, in units or radians a frame, and both paths. */
+static void make(int which)
+{
+    if (which % 2) {
+        shape_l(&duo.shape[0], 12, 1700);
+    } else {
+        shape_box(&duo.shape[0], 12, 4096, 2458, 1228);
+    }
+    switch (which / 2 % 3) {
+    case 0:
+        shape_l(&duo.shape[1], 12, 1900);
+        break;
+    case 1:
+        shape_plane(&duo.shape[1], 9, 2, 8192);
+        break;
+    default:
+        shape_field(&duo.shape[1], 10, 4, 700, 500, 3);
+    }
+    duo_begin();
+}
+
+/* Any turn of both bodies, any motion, far out in the world. */
+static void random_motion(struct test_random *r)
+{
+    carom_v3_q40 gravity;
+    double v[3], w[3], g[3], x[3];
+
+    for (int s = 0; s < 2; s++) {
+        duo.state[s].rotation = shape_random_turn(r);
+        body_normalise(&duo.state[s].rotation);
+    }
+    random_vector(r, 2000, x);
+    random_vector(r, 0.3, v);
+    random_vector(r, 0.25, w);
+    random_vector(r, 0.01, g);
+    for (int k = 0; k < 3; k++) {
+        duo.state[0].position.c[k] = duo.state[1].position.c[k] =
+            real_round(x[k] * real_power2(32));
+        gravity.c[k] = real_round(g[k] * real_power2(40));
+    }
+    duo_set_paths(v, w, &gravity);
+}
+
+/* One of the convex edges: no others are candidates. */
+static uint32_t random_edge(struct test_random *r, const struct shape *s)
+{
+    uint32_t edge;
+
+    do {
+        edge = (uint32_t)test_random_range(r, 0, s->mesh.edge_count - 1);
+    } while (!shape_owns_edge(s, edge));
+    return edge;
+}
+
+static void random_features(struct test_random *r, struct candidate *c)
+{
+    int side = duo_vertex_side(c->kind);
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        c->i = random_edge(r, &duo.shape[0]);
+        c->j = random_edge(r, &duo.shape[1]);
+    } else {
+        c->i = (uint32_t)test_random_range(r, 0, duo.shape[side].raw.vertex_count - 1);
+        c->j = (uint32_t)test_random_range(r, 0, duo.shape[1 - side].raw.face_count - 1);
+    }
+}
+
+/* Two features that meet at some time; of most cases such that can be touching. */
+static void random_case(struct test_random *r, struct candidate *c, int kind)
+{
+    double d[3], t = real(test_random_range(r, 10, 1000), 10);
+    double s = real(test_random_range(r, 1, 511), 10), q = real(test_random_range(r, 1, 511), 10);
+    struct duo_features f;
+    bool facing = false;
+
+    memset(c, 0, sizeof *c);
+    c->kind = (uint8_t)kind;
+    for (int n = 0; n < 40 && !facing; n++) {
+        random_motion(r);
+        random_features(r, c);
+        duo_features_at(&f, c, t);
+        facing = duo_in_cones(&f, c, 1) > 0 || duo_in_cones(&f, c, -1) > 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        if (kind == CANDIDATE_EDGE_EDGE) {
+            d[k] = f.from[1][k] + 2 * q * f.length[1] * f.e[1][k] - f.from[0][k] -
+                   2 * s * f.length[0] * f.e[0][k];
+        } else {
+            d[k] = f.c[0][k] + s * (f.c[1][k] - f.c[0][k]) + q * (f.c[2][k] - f.c[0][k]) - f.p[k];
+            d[k] = kind == CANDIDATE_VERTEX_FACE ? d[k] : -d[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        duo.state[0].position.c[k] += real_round(d[k] * real_power2(32));
+        duo.body[0].path.origin_q22[k] = carom_round(duo.state[0].position.c[k], 10);
+        duo.body[0].path.start.x.c[k] =
+            duo.state[0].position.c[k] - carom_shl(duo.body[0].path.origin_q22[k], 10);
+    }
+    duo.body[0].path.now = duo.body[0].path.start;
+    boyse_pair_init(&duo.pair, &duo.body[0], &duo.body[1]);
+    duo_read_motion();
+}
+
+/*
+ * The places and the normal, from b into a, at the root. The root that is found is one of a surface
+ * up to three units nearer.
+ */
+static void check_touch(const struct boyse_touch *touch, const struct candidate *c,
+                        const struct answer *a)
+{
+    double early, place;
+    struct duo_features f;
+
+    duo_features_at(&f, c, a->t);
+    early = 6 * DUO_UNIT / (f.sine * a->slope);
+    place = 3 * DUO_UNIT + early; /* no point is faster than a unit a frame */
+    for (int k = 0; k < 3; k++) {
+        double n = (c->kind == CANDIDATE_FACE_VERTEX ? -1 : a->sign) * f.n[k];
+        double origin = real(duo.body[0].path.origin_q22[k], 22);
+        double on_a = real(touch->on_a.c[k], 22), on_b = real(touch->on_b.c[k], 22);
+
+        CHECK(real_abs(real(touch->normal.c[k], 30) - n) < 1e-8 + early / f.sine);
+        if (c->kind != CANDIDATE_EDGE_EDGE) {
+            CHECK(real_abs(on_a + origin - f.p[k]) < place);
+        }
+        CHECK(real_abs(on_a - on_b) < 6 * DUO_UNIT / f.sine);
+    }
+}
+
+/* A returned hit against the true motion. Returns whether there was one that could be judged. */
+static bool check_case(const struct candidate *c)
+{
+    double event = real(duo.pair.skin_q22 / 2, 22), gap, t;
+    struct answer a = answer_for(c);
+    struct boyse_hit hit;
+    struct duo_features f;
+    uint32_t roots = 0;
+    bool is_hit = boyse_first(&duo.pair, c, &hit, &roots);
+
+    if (a.doubtful || real_abs(duo_gap_at(c, 0)) < 4 * event) {
+        return false;
+    }
+    if (!a.found) {
+        if (is_hit) {
+            /* only where the surfaces come within the few units that the search looks ahead by */
+            double least = 1e9;
+
+            for (int k = 0; k <= 4096; k++) {
+                gap = real_abs(duo_gap_at(c, (double)k / 4096));
+                least = gap < least ? gap : least;
+            }
+            CHECK(least < 2e-5);
+        }
+        return false;
+    }
+    CHECK(is_hit && roots == 1);
+    if (!is_hit) {
+        return true;
+    }
+    t = real(hit.t_q30, 30);
+    duo_features_at(&f, c, t);
+    gap = a.sign * f.gap;
+    CHECK(hit.t_q30 >= 0 && t <= a.t);
+    CHECK(gap >= 0); /* never past the surface */
+    CHECK(hit.touch.valid && hit.touch.sign == a.sign);
+    if (a.open > 1.1 * event) {
+        /* the event gap within two units and the rounding of places, in w.d for edges */
+        CHECK(real_abs(gap - event) <= 3 * DUO_UNIT / f.sine + 1e-8);
+    } else {
+        CHECK(gap <= event + 3 * DUO_UNIT / f.sine);
+    }
+    /* and stays below it until they meet */
+    for (int k = 1; k < 8; k++) {
+        CHECK(a.sign * duo_gap_at(c, t + (a.t - t) * k / 8) < gap + DUO_UNIT);
+    }
+    check_touch(&hit.touch, c, &a);
+    return true;
+}
+
+static void check_kind(int kind)
+{
+    struct test_random r = {(uint64_t)kind + 1};
+    int hits = 0;
+
+    for (int n = 0; n < CASES; n++) {
+        struct candidate c;
+
+        if (n % (CASES / 6) == 0) {
+            make(n / (CASES / 6));
+        }
+        random_case(&r, &c, kind);
+        hits += check_case(&c);
+    }
+    CHECK(20 * hits >= CASES);
+}
+
+static void test_vertex_face(void)
+{
+    check_kind(CANDIDATE_VERTEX_FACE);
+}
+
+static void test_face_vertex(void)
+{
+    check_kind(CANDIDATE_FACE_VERTEX);
+}
+
+static void test_edge_edge(void)
+{
+    check_kind(CANDIDATE_EDGE_EDGE);
+}
+
+/* --------------------------------------------------------------- polynomial */
+
+/* P(t) = p(t) (1 + s^2 t^2), p being the distance, or w.d for edges, in double. */
+static void test_polynomial(void)
+{
+    struct test_random r = {9};
+
+    for (int n = 0; n < CASES; n++) {
+        struct candidate c;
+        int64_t a_q40[5];
+        double s2;
+
+        if (n % (CASES / 6) == 0) {
+            make(n / (CASES / 6));
+        }
+        random_case(&r, &c, n % 3);
+        boyse_polynomial(&duo.pair, &c, a_q40);
+        s2 = real_dot(duo.motion[0].u, duo.motion[0].u);
+        for (int k = 0; k <= 4; k++) {
+            double t = k == 4 ? 1 : real(test_random_range(&r, 0, 1024), 10), value = 0;
+            struct duo_features f;
+
+            duo_features_at(&f, &c, t);
+            for (int i = 4; i >= 0; i--) {
+                CHECK(carom_abs(a_q40[i]) < (int64_t)1 << 49);
+                value = value * t + real(a_q40[i], 40);
+            }
+            /* places are rounded to a unit, directions to 2^-30 on lengths of up to 30 units */
+            CHECK(real_abs(value - f.gap * f.sine * (1 + s2 * t * t)) < 3 * DUO_UNIT);
+        }
+    }
+}
+
+const struct test tests_boyse_first[] = {
+    {"boyse_first/vertex_face", test_vertex_face},
+    {"boyse_first/face_vertex", test_face_vertex},
+    {"boyse_first/edge_edge", test_edge_edge},
+    {"boyse_first/polynomial", test_polynomial},
+    {0},
+};
