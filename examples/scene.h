@@ -51,10 +51,11 @@ struct carom_config scene_config(void);
 
 /*
  * Build the meshes of a scene and say where its bodies start.
- *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else
- * NULL mem   aligned to 8: SCENE_MESH_BYTES; for `user`, CAROM_MESH_BYTES of its counts and of the
- * field Returns CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of the three, or what
- * carom_mesh_build returned.
+ *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else NULL
+ *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, CAROM_MESH_BYTES of its counts and of the field
+ *
+ * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of the three, or what
+ *          carom_mesh_build returned.
  */
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes);

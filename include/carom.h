@@ -31,8 +31,7 @@ extern "C" {
 enum carom_status {
     CAROM_OK = 0,
     CAROM_OVER_BUDGET = 1, /* bit: the step took more ticks than config.budget_ticks */
-    CAROM_SUBSTEP_CAP =
-        2 /* bit: the step ran out of sub-steps; the rest of the frame was dropped */
+    CAROM_SUBSTEP_CAP = 2  /* bit: out of sub-steps; the rest of the frame was dropped */
 };
 
 enum carom_error {
@@ -63,9 +62,8 @@ const char *carom_result_text(int result);
 /* ------------------------------------------------------------------- meshes */
 
 enum carom_mesh_kind {
-    CAROM_SOLID = 0, /* closed, oriented outwards */
-    CAROM_SURFACE =
-        1 /* open, single-valued in its own z, solid below: a height field; stationary */
+    CAROM_SOLID = 0,  /* closed, oriented outwards */
+    CAROM_SURFACE = 1 /* a height field: open, one z over each x, y, solid below; stationary */
 };
 
 /*
@@ -94,11 +92,10 @@ struct carom_mass {
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
 };
 
-/* Fields below this line of a struct are Carom's own: visible so that you can reserve them. */
+/* What follows up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
 struct carom_edge {
     uint16_t vertex[2];
-    uint16_t face[2]; /* face[0] runs from vertex[0] to vertex[1]; face[1] is CAROM_NO_FACE at a
-                         border */
+    uint16_t face[2];       /* face[0] runs with the edge; face[1] is CAROM_NO_FACE at a border */
     carom_v3_q30 direction; /* from vertex[0] to vertex[1] */
     int32_t length_q22;
 };
@@ -424,13 +421,13 @@ enum carom_pixel_format {
 extern const uint32_t carom_draw_palette[256];
 
 struct carom_picture {
-    void *pixels;           /* the top left one; aligned to the size of a pixel */
-    int32_t width, height;  /* pixels, 1 .. 2048 */
-    int32_t stride;         /* bytes from one row to the next, a multiple of the size of a pixel */
-    uint8_t format;         /* enum carom_pixel_format */
-    void *workspace;        /* depth rows, aligned to 8; WIRE needs none, and it may be NULL */
-    size_t workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); fewer rows than the picture has
-                               cost time, not results */
+    void *pixels;          /* the top left one; aligned to the size of a pixel */
+    int32_t width, height; /* pixels, 1 .. 2048 */
+    int32_t stride;        /* bytes from one row to the next, a multiple of the size of a pixel */
+    uint8_t format;        /* enum carom_pixel_format */
+    void *workspace;       /* depth rows, aligned to 8; WIRE needs none, and it may be NULL */
+    size_t
+        workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); few rows cost time, not results */
 };
 
 /* Workspace to draw `rows` rows of the picture at once. */
@@ -441,9 +438,9 @@ struct carom_picture {
  * coloured. Every pixel of the picture is written, none outside of it.
  *
  * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length
- * out of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away; CAROM_ERR_MEMORY
- * for a workspace that is too small, or memory that is not aligned. Unless CAROM_OK, nothing is
- * drawn.
+ *          out of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away;
+ *          CAROM_ERR_MEMORY for a workspace that is too small, or memory that is not aligned.
+ *          Unless CAROM_OK, nothing is drawn.
  */
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);
