@@ -262,5 +262,3 @@ double duo_in_cones(struct duo_features *f, const struct candidate *c, int sign)
     x[1] = tolerance - into_faces(1, &f->pose[1], c->j, n);
     return x[0] < x[1] ? x[0] : x[1];
 }
-
-/* The first root at which the features meet while approaching, by sampling. */

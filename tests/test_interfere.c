@@ -5,38 +5,23 @@
  */
 #include "interfere.h"
 #include "real.h"
-#include "shapes.h"
+#include "solids.h"
 #include "test.h"
 
 #ifdef TEST_LONG
 #define POSES 2000 /* of each two shapes */
 #define FIELD 12
 #else
-#define POSES 12
-#define FIELD 5
+#define POSES 9
+#define FIELD 4
 #endif
 
 #define CANDIDATES 4096
 #define FACES      2048
 #define ENTRIES    512
 /* Rounding of the places and directions that the engine works with. */
-#define PLACE_NOISE 4e-6
-#define ANGLE_NOISE 1e-6
-
-#define EDGES_MAX 1800
-
-struct bounds {
-    double low[3], high[3];
-};
-
-/* One of the two bodies, in world axes. */
-struct solid {
-    struct shape *shape;
-    double p[SHAPE_VERTICES][3];
-    double normal[SHAPE_FACES][3];
-    struct bounds face[SHAPE_FACES], edge[EDGES_MAX];
-    bool own_vertex[SHAPE_VERTICES], own_edge[EDGES_MAX]; /* which the mesh leaves to be tested */
-};
+#define PLACE_NOISE_Q22 16
+#define ANGLE_NOISE     1e-6
 
 static struct shape shape_a, shape_b;
 static struct solid a = {.shape = &shape_a}, b = {.shape = &shape_b};
@@ -131,67 +116,11 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
 
 /* ------------------------------------------------------------------- scenes */
 
-/* Grow a box to hold a point, or start it there. */
-static void bound(struct bounds *box, const double p[3], bool first)
+static void place(int i)
 {
-    for (int k = 0; k < 3; k++) {
-        box->low[k] = first || p[k] < box->low[k] ? p[k] : box->low[k];
-        box->high[k] = first || p[k] > box->high[k] ? p[k] : box->high[k];
-    }
-}
-
-static void note_owned(struct solid *s)
-{
-    for (uint32_t v = 0; v < s->shape->raw.vertex_count; v++) {
-        s->own_vertex[v] = shape_owns_vertex(s->shape, v);
-    }
-    for (uint32_t e = 0; e < s->shape->mesh.edge_count; e++) {
-        s->own_edge[e] = shape_owns_edge(s->shape, e);
-    }
-}
-
-static void place(struct solid *s, struct body *body, const struct body_state *state)
-{
-    const struct carom_mesh *mesh = &s->shape->mesh;
-    double q[4], m[3][3];
-
-    body->gathered_at = state->position;
-    body_matrix(&body->gathered_r, &state->rotation);
-    for (int k = 0; k < 4; k++) {
-        q[k] = state->rotation.c[k];
-    }
-    real_matrix(m, q);
-    for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
-        double local[3];
-
-        for (int k = 0; k < 3; k++) {
-            local[k] = real(s->shape->vertices[v][k], mesh->raw.quantum_bits) -
-                       real(mesh->mass.centre.c[k], 22);
-        }
-        real_rotate(s->p[v], m, local);
-        for (int k = 0; k < 3; k++) {
-            s->p[v][k] += real(state->position.c[k], 32);
-        }
-    }
-    for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
-        const uint16_t *c = s->shape->faces[f];
-        double e[3], g[3], n[3], length;
-
-        for (int k = 0; k < 3; k++) {
-            e[k] = s->p[c[1]][k] - s->p[c[0]][k];
-            g[k] = s->p[c[2]][k] - s->p[c[0]][k];
-        }
-        real_cross(n, e, g);
-        length = real_length(n);
-        for (int k = 0; k < 3; k++) {
-            s->normal[f][k] = n[k] / length;
-            bound(&s->face[f], s->p[c[k]], k == 0);
-        }
-    }
-    for (uint32_t e = 0; e < mesh->edge_count; e++) {
-        bound(&s->edge[e], s->p[mesh->edges[e].vertex[0]], true);
-        bound(&s->edge[e], s->p[mesh->edges[e].vertex[1]], false);
-    }
+    solid_place(i == 0 ? &a : &b, &states[i]);
+    bodies[i].gathered_at = states[i].position;
+    body_matrix(&bodies[i].gathered_r, &states[i].rotation);
 }
 
 /* A point inside a face or on an edge, and a direction in which the surface looks there. */
@@ -262,8 +191,8 @@ static void random_scene(struct test_random *r, bool turn_b)
         states[1].position.c[k] = test_random_range(r, -((int64_t)3000 << 32), (int64_t)3000 << 32);
     }
     states[0].position = states[1].position;
-    place(&a, &bodies[0], &states[0]);
-    place(&b, &bodies[1], &states[1]);
+    place(0);
+    place(1);
     random_place(r, &b, on_b, n);
     lowest_place(r, &a, n, on_a);
     for (int k = 0; k < 3; k++) {
@@ -272,175 +201,14 @@ static void random_scene(struct test_random *r, bool turn_b)
         states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
                                    test_random_range(r, -near_q22, near_q22) * 512;
     }
-    place(&a, &bodies[0], &states[0]);
+    place(0);
 }
 
 /* ------------------------------------------------------------ by trying all */
 
-static double reach, turn;
-
-static void minus(double out[3], const double p[3], const double q[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = p[k] - q[k];
-    }
-}
-
-static double clamp(double v)
-{
-    return v < 0 ? 0 : v > 1 ? 1 : v;
-}
-
-/* Distance of p0 p1 from q0 q1: try the inner optimum, then each end. */
-static double between_segments(const double p0[3], const double p1[3], const double q0[3],
-                               const double q1[3])
-{
-    double e[3], f[3], d[3], best = 1e9, ee, ef, ff, det;
-
-    minus(e, p1, p0);
-    minus(f, q1, q0);
-    minus(d, p0, q0);
-    ee = real_dot(e, e);
-    ef = real_dot(e, f);
-    ff = real_dot(f, f);
-    det = ee * ff - ef * ef;
-    for (int i = 0; i < 5; i++) {
-        double s, q, x[3];
-
-        if (i < 2) {
-            s = i;
-            q = clamp((real_dot(d, f) + s * ef) / ff);
-        } else if (i < 4) {
-            q = i - 2;
-            s = clamp((q * ef - real_dot(d, e)) / ee);
-        } else if (det > 1e-12 * ee * ff) {
-            s = clamp((ef * real_dot(d, f) - ff * real_dot(d, e)) / det);
-            q = clamp((ee * real_dot(d, f) - ef * real_dot(d, e)) / det);
-        } else {
-            break;
-        }
-        for (int k = 0; k < 3; k++) {
-            x[k] = d[k] + s * e[k] - q * f[k];
-        }
-        best = real_length(x) < best ? real_length(x) : best;
-    }
-    return best;
-}
-
-static double from_face(const double p[3], const struct solid *s, uint32_t f)
-{
-    const uint16_t *c = s->shape->faces[f];
-    double d[3], height, best = 1e9;
-    bool inside = true;
-
-    minus(d, p, s->p[c[0]]);
-    height = real_dot(d, s->normal[f]);
-    for (int k = 0; k < 3; k++) {
-        double e[3], in[3];
-
-        minus(e, s->p[c[(k + 1) % 3]], s->p[c[k]]);
-        minus(d, p, s->p[c[k]]);
-        real_cross(in, s->normal[f], e);
-        inside = inside && real_dot(in, d) >= 0;
-    }
-    if (inside) {
-        return real_abs(height);
-    }
-    for (int k = 0; k < 3; k++) {
-        double x = between_segments(p, p, s->p[c[k]], s->p[c[(k + 1) % 3]]);
-
-        best = x < best ? x : best;
-    }
-    return best;
-}
-
-/* Whether boxes are farther apart than the reach: only to save time. */
-static bool bounds_apart(const struct bounds *p, const struct bounds *q)
-{
-    for (int k = 0; k < 3; k++) {
-        if (p->high[k] + reach < q->low[k] || q->high[k] + reach < p->low[k]) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* No edge of the vertex goes down along n by more than the tolerance. */
-static bool vertex_cone(const struct solid *s, uint32_t v, const double n[3], double tolerance)
-{
-    for (uint32_t f = 0; f < s->shape->raw.face_count; f++) {
-        const uint16_t *c = s->shape->faces[f];
-
-        for (int k = 0; k < 3; k++) {
-            for (int i = 1; i < 3 && c[k] == v; i++) {
-                double e[3];
-
-                minus(e, s->p[c[(k + i) % 3]], s->p[v]);
-                if (real_dot(e, n) < -tolerance * real_length(e)) {
-                    return false;
-                }
-            }
-        }
-    }
-    return true;
-}
-
-/* How much of a unit vector n points into the faces of an edge, at most. */
-static double into_faces(const struct solid *s, const struct carom_edge *edge, const double n[3])
-{
-    double most = -1;
-
-    for (int side = 0; side < 2; side++) {
-        const double *from = s->p[edge->vertex[0]];
-        double e[3], d[3], in[3], along;
-        const uint16_t *c;
-
-        if (edge->face[side] == CAROM_NO_FACE) {
-            continue;
-        }
-        c = s->shape->faces[edge->face[side]];
-        minus(e, s->p[edge->vertex[1]], from);
-        for (int k = 0; k < 3; k++) {
-            if (c[k] != edge->vertex[0] && c[k] != edge->vertex[1]) {
-                minus(d, s->p[c[k]], from);
-            }
-        }
-        along = real_dot(d, e) / real_dot(e, e);
-        for (int k = 0; k < 3; k++) {
-            in[k] = d[k] - along * e[k];
-        }
-        along = real_dot(n, in) / real_length(in);
-        most = along > most ? along : most;
-    }
-    return most;
-}
-
-/* Whether the normal of two edges, or its opposite, lies in the cones of both. */
-static bool edge_cones(const struct solid *on_a, const struct carom_edge *ea,
-                       const struct carom_edge *eb, double tolerance)
-{
-    double e[3], f[3], w[3], length;
-
-    minus(e, on_a->p[ea->vertex[1]], on_a->p[ea->vertex[0]]);
-    minus(f, b.p[eb->vertex[1]], b.p[eb->vertex[0]]);
-    real_cross(w, e, f);
-    length = real_length(w);
-    if (length < 0.01 * real_length(e) * real_length(f)) {
-        return false; /* parallel: vertices and faces are enough */
-    }
-    for (int sign = -1; sign <= 1; sign += 2) {
-        double n[3], back[3];
-
-        for (int k = 0; k < 3; k++) {
-            n[k] = sign * w[k] / length;
-            back[k] = -n[k];
-        }
-        if (into_faces(&b, eb, n) < tolerance && into_faces(on_a, ea, back) < tolerance) {
-            return true;
-        }
-    }
-    return false;
-}
+/* Of both bodies together. */
+static int64_t reach_q22;
+static double turn;
 
 /*
  * Every vertex of one body near a face of the other is a candidate. Near: at the start. Facing it:
@@ -455,13 +223,9 @@ static uint32_t try_vertices(const struct solid *on_a, int kind, double toleranc
     uint32_t count = 0;
 
     for (uint32_t v = 0; v < from->shape->raw.vertex_count; v++) {
-        struct bounds point = {{0}, {0}};
-
-        bound(&point, from->p[v], true);
         for (uint32_t f = 0; f < to->shape->raw.face_count && from->own_vertex[v]; f++) {
-            if (!bounds_apart(&point, &to->face[f]) &&
-                from_face(from->p[v], to, f) <= reach - PLACE_NOISE &&
-                vertex_cone(cone, v, plane->normal[f], tolerance)) {
+            if (solid_vertex_near(from, v, to, f, reach_q22 - PLACE_NOISE_Q22) &&
+                solid_vertex_cone(cone, v, plane->normal[f], tolerance)) {
                 CHECK(in_set(&found, kind, v, f));
                 count++;
             }
@@ -475,15 +239,9 @@ static uint32_t try_edges(const struct solid *on_a, double tolerance)
     uint32_t count = 0;
 
     for (uint32_t i = 0; i < shape_a.mesh.edge_count; i++) {
-        const struct carom_edge *ea = &shape_a.mesh.edges[i];
-
         for (uint32_t j = 0; j < shape_b.mesh.edge_count && a.own_edge[i]; j++) {
-            const struct carom_edge *eb = &shape_b.mesh.edges[j];
-
-            if (b.own_edge[j] && !bounds_apart(&a.edge[i], &b.edge[j]) &&
-                between_segments(a.p[ea->vertex[0]], a.p[ea->vertex[1]], b.p[eb->vertex[0]],
-                                 b.p[eb->vertex[1]]) <= reach - PLACE_NOISE &&
-                edge_cones(on_a, ea, eb, tolerance)) {
+            if (b.own_edge[j] && solid_edges_near(&a, i, &b, j, reach_q22 - PLACE_NOISE_Q22) &&
+                solid_edge_cones(on_a, i, &b, j, tolerance)) {
                 CHECK(in_set(&found, CANDIDATE_EDGE_EDGE, i, j));
                 count++;
             }
@@ -518,7 +276,7 @@ static void check_faces(void)
 static void start(struct test_random *r, bool turn_b)
 {
     random_scene(r, turn_b);
-    reach = real(bodies[0].reach_q22 + bodies[1].reach_q22, 22);
+    reach_q22 = bodies[0].reach_q22 + bodies[1].reach_q22;
     turn = real(bodies[0].turn_q30 + bodies[1].turn_q30, 30);
 }
 
@@ -536,15 +294,14 @@ static void make(int which)
     }
     shape_body(&shape_a, true, &bodies[0], &states[0]);
     shape_body(&shape_b, false, &bodies[1], &states[1]);
-    note_owned(&a);
-    note_owned(&b);
+    solid_note_owned(&a);
+    solid_note_owned(&b);
 }
 
 /* a turned about some axis, as far as both bodies may turn against each other. */
 static void turn_a(struct test_random *r)
 {
     struct body_state state = states[0];
-    struct body body = bodies[0];
     double u[3], q[4], p[4], length, sine, cosine;
 
     for (int k = 0; k < 3; k++) {
@@ -564,7 +321,7 @@ static void turn_a(struct test_random *r)
         state.rotation.c[k] = (int32_t)real_round(
             (p[0] * q[k] + p[k] * q[0] + p[i] * q[j] - p[j] * q[i]) * CAROM_ONE_Q30);
     }
-    place(&turned, &body, &state);
+    solid_place(&turned, &state);
 }
 
 /* Nothing that can touch is missing, whatever the shapes, poses, reach and turn. */

@@ -7,15 +7,16 @@
 #ifdef TEST_LONG
 #define CASES 20000
 #else
-#define CASES 60
+#define CASES 40
 #endif
 
 #define CONTACTS 16
 
-/* Body 0 is the ground, 1 and 2 may move; pair 0 is (1, 0), pair 1 is (2, 1). */
+/* Body 0 is the ground, the others may move; pair 0 is (1, 0), pair 1 is (2, 1). */
+#define BODIES 4
 static struct shape ground, solid;
-static struct body bodies[3];
-static struct body_state states[3];
+static struct body bodies[BODIES];
+static struct body_state states[BODIES];
 static const struct pair pairs[2] = {{1, 0}, {2, 1}};
 static struct contact contacts[CONTACTS];
 static struct rest_warm warm[CONTACTS];
@@ -31,7 +32,7 @@ static int64_t q40(double v)
 
 static void set_surface(double e, double mu)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < BODIES; i++) {
         bodies[i].restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
         bodies[i].friction_q16 = (uint32_t)real_round(mu * 65536);
     }
@@ -53,7 +54,7 @@ static void clear_contacts(void)
 {
     pool = (struct pool){CONTACTS, 0, 0, 0};
     rest.sweeps = rest.impacts = rest.energy_rules = 0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < BODIES; i++) {
         body_place(&bodies[i], &states[i]);
         bodies[i].in_contact = false;
     }
@@ -63,7 +64,7 @@ static void clear_contacts(void)
 static void begin(int moving, double fall)
 {
     memset(&rest, 0, sizeof rest);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < BODIES; i++) {
         shape_body(i == 0 ? &ground : &solid, i > 0, &bodies[i], &states[i]);
     }
     gravity = (carom_v3_q40){{0, 0, -q40(fall)}};
@@ -431,7 +432,7 @@ static void random_motion(struct test_random *r, int body)
 }
 
 /* What the bodies gained is what the contacts gave: P at r on a, -P at r on b. */
-static void check_momenta(const struct body_state before[3])
+static void check_momenta(const struct body_state before[BODIES])
 {
     carom_v3_q40 p[3] = {{{0}}};
     double l[3][3] = {{0}};
@@ -490,7 +491,7 @@ static void test_impacts(void)
 
     make_box();
     for (int n = 0; n < CASES; n++) {
-        struct body_state before[3];
+        struct body_state before[BODIES];
         double e0;
 
         begin(1 + n % 2, 1 / 2000.0);
@@ -602,29 +603,36 @@ static void test_sleep(void)
     }
 }
 
-/* Bodies that touch fall asleep together; those that do not, each for itself. */
+/*
+ * Bodies that touch fall asleep together, however long the chain; those that do not, each for
+ * itself.
+ */
 static void test_islands(void)
 {
-    const struct pair apart[2] = {{1, 0}, {2, 0}};
+    static const struct pair chain[3] = {{1, 0}, {2, 1}, {3, 2}},
+                             apart[3] = {{1, 0}, {2, 0}, {3, 0}};
 
     make_cube();
     for (int touching = 0; touching < 2; touching++) {
-        begin(2, 1 / 367.0);
-        bodies[1].in_contact = bodies[2].in_contact = true;
-        set_motion(2, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
+        const struct pair *island = touching ? chain : apart;
+
+        begin(3, 1 / 367.0);
+        bodies[1].in_contact = bodies[2].in_contact = bodies[3].in_contact = true;
+        set_motion(3, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 30; frame++) {
-            frame_of_sleep(touching ? pairs : apart, 2);
+            rest_sleep(bodies, states, 4, island, 3, &gravity);
         }
-        CHECK(states[1].asleep == !touching && !states[2].asleep);
-        set_motion(2, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
+        CHECK(states[1].asleep == !touching && states[2].asleep == !touching);
+        CHECK(!states[3].asleep);
+        set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 19; frame++) {
-            frame_of_sleep(touching ? pairs : apart, 2);
-            CHECK(!states[2].asleep);
+            rest_sleep(bodies, states, 4, island, 3, &gravity);
+            CHECK(!states[3].asleep);
         }
         for (int frame = 0; frame < 2; frame++) {
-            frame_of_sleep(touching ? pairs : apart, 2);
+            rest_sleep(bodies, states, 4, island, 3, &gravity);
         }
-        CHECK(states[1].asleep && states[2].asleep);
+        CHECK(states[1].asleep && states[2].asleep && states[3].asleep);
     }
 }
 

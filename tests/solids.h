@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * solids - meshes in a pose, in double precision: distances and normal cones of their features, by
+ * way of all faces. What interference detection is held against.
+ */
+#ifndef CAROM_TEST_SOLIDS_H
+#define CAROM_TEST_SOLIDS_H
+
+#include "shapes.h"
+
+#define SOLID_EDGES 1800
+
+/* A box along the axes of the world, in whole numbers: boards compare those faster. */
+struct solid_bounds {
+    int64_t low_q22[3], high_q22[3];
+};
+
+/* A shape in world axes. */
+struct solid {
+    struct shape *shape;
+    double p[SHAPE_VERTICES][3];
+    double normal[SHAPE_FACES][3];
+    struct solid_bounds vertex[SHAPE_VERTICES], face[SHAPE_FACES], edge[SOLID_EDGES];
+    bool own_vertex[SHAPE_VERTICES], own_edge[SOLID_EDGES]; /* which the mesh leaves to be tested */
+};
+
+/* Take over a shape that was made anew. */
+void solid_note_owned(struct solid *s);
+void solid_place(struct solid *s, const struct body_state *state);
+
+/* Whether a vertex comes within the reach of a face, or two edges of each other. */
+bool solid_vertex_near(const struct solid *from, uint32_t vertex, const struct solid *to,
+                       uint32_t face, int64_t reach_q22);
+bool solid_edges_near(const struct solid *a, uint32_t i, const struct solid *b, uint32_t j,
+                      int64_t reach_q22);
+
+/* Whether no edge of the vertex goes down along n by more than the tolerance, a cosine. */
+bool solid_vertex_cone(const struct solid *s, uint32_t vertex, const double n[3], double tolerance);
+
+/* Whether the normal of two edges, or its opposite, lies in the cones of both. */
+bool solid_edge_cones(const struct solid *a, uint32_t i, const struct solid *b, uint32_t j,
+                      double tolerance);
+
+#endif
