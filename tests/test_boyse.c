@@ -12,7 +12,6 @@ static const double still[3] = {0, 0, 0};
 /* A box of 1 x 0.6 x 0.3 units at a height over a plane, or over a ridge along y. */
 static void above(double x, double y, double z, bool ridge)
 {
-    static const double size[3] = {4096, 2400, 1200};
     double to[3] = {x, y, z};
 
     if (ridge) {
@@ -20,7 +19,7 @@ static void above(double x, double y, double z, bool ridge)
     } else {
         shape_plane(&duo.shape[1], 9, 2, 8192);
     }
-    shape_box(&duo.shape[0], 12, (int)size[0], (int)size[1], (int)size[2]);
+    shape_box(&duo.shape[0], 12, 4096, 2400, 1200);
     duo_begin();
     if (ridge) {
         /* an eighth of a turn about y: one edge along y is on top, at 1/sqrt 2 */
