@@ -207,9 +207,9 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        936
+#define CAROM_BODY_BYTES        880
 #define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     560
+#define CAROM_CONTACT_BYTES     608
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12

@@ -68,10 +68,10 @@ struct body {
     struct body_path path;
     carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
     carom_m3_q30 gathered_r;
-    bool solving;                /* has a contact in the solve at hand */
-    carom_v3_q40 velocity, spin; /* before a solve */
-    int64_t dv[3], dw[3];        /* what a solve changes them by, in its units */
-    carom_v3_q40 saved[2][2];    /* momentum and angular momentum set aside by the energy rule */
+    bool solving;                               /* has a contact in the solve at hand */
+    carom_v3_q40 velocity, spin;                /* before a solve */
+    int64_t dv[3], dw[3];                       /* what a solve changes them by, in its units */
+    carom_v3_q40 saved_momentum, saved_angular; /* before it, for the energy rule */
 };
 
 /* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
@@ -109,7 +109,7 @@ void body_place(struct body *b, const struct body_state *s);
  */
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
-/* The longest slice, at most tau_q30, that turns no further than BODY_TURN_MAX_Q30. */
+/* The longest slice, at most tau_q30, that turns by BODY_TURN_MAX_Q30 at the present spin. */
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
 
 /* The pose at t of the path; remembered, so that asking again is free. */

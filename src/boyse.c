@@ -208,8 +208,7 @@ static bool touches_at_start(const struct boyse_pair *pair, const struct candida
     }
     boyse_touch(pair, c, 0, &hit->touch);
     hit->t_q30 = 0;
-    return hit->touch.valid && hit->touch.sign * slope < 0 && hit->touch.gap_q22 <= 0 &&
-           hit->touch.gap_q22 > -(pair->skin_q22 * 5 / 2);
+    return hit->touch.valid && hit->touch.sign * slope < 0 && hit->touch.gap_q22 <= 0;
 }
 
 bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,

@@ -37,6 +37,7 @@ struct contact {
     int32_t step_q30[2];      /* inverse of the above: normal, and one scalar for both tangents */
     int32_t impulse[3];       /* accumulated along the directions, in solver units */
     carom_v3_q40 impulse_q40; /* the result: P on a, -P on b */
+    carom_v3_q40 wanted_q40, plastic_q40; /* between which the energy rule chooses */
 };
 
 /* The contacts of a world at the present poses, sorted by key, with their pool. */

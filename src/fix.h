@@ -42,7 +42,10 @@ int fix_bits(uint64_t v);
 /* floor(sqrt(v)), exact for every v. */
 uint32_t fix_sqrt(uint64_t v);
 
-/* a * b / 2^s to nearest; 1 <= s <= 62; the result must fit. The product may take 95 bits. */
+/*
+ * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
+ * bits.
+ */
 int64_t fix_mul(int64_t a, int32_t b, int s);
 
 /* a * b as a 128-bit number, exact. */

@@ -194,10 +194,10 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
     before = rest_energy_before(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
+    rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
     if (warm) {
         rest_store_warm(r);
     }
-    rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
     return CAROM_OK;
 }
 

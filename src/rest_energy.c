@@ -15,28 +15,41 @@ static struct fix_wide kinetic2(const struct rest *r)
     return sum;
 }
 
-static void save(struct rest *r, int slot)
+static void save_momenta(struct rest *r)
 {
     for (uint32_t i = 0; i < r->body_count; i++) {
-        r->bodies[i].saved[slot][0] = r->states[i].momentum;
-        r->bodies[i].saved[slot][1] = r->states[i].angular;
+        r->bodies[i].saved_momentum = r->states[i].momentum;
+        r->bodies[i].saved_angular = r->states[i].angular;
     }
 }
 
-/* Momenta at slot 0 + k (slot 1 - slot 0). */
-static void blend(struct rest *r, int32_t k_q30)
+static void restore_momenta(struct rest *r)
 {
     for (uint32_t i = 0; i < r->body_count; i++) {
-        const struct body *b = &r->bodies[i];
-        const carom_v3_q40 *from = b->saved[0], *to = b->saved[1];
-
-        for (int k = 0; b->solving && k < 3; k++) {
-            r->states[i].momentum.c[k] =
-                from[0].c[k] + fix_mul(to[0].c[k] - from[0].c[k], k_q30, 30);
-            r->states[i].angular.c[k] =
-                from[1].c[k] + fix_mul(to[1].c[k] - from[1].c[k], k_q30, 30);
+        if (r->bodies[i].solving) {
+            r->states[i].momentum = r->bodies[i].saved_momentum;
+            r->states[i].angular = r->bodies[i].saved_angular;
         }
     }
+}
+
+/*
+ * From the saved momenta, apply impulses that are k of the way from the plastic to the wanted ones.
+ * Impulses are blended, not momenta, so that they stay equal and opposite to the last bit.
+ */
+static void apply_blend(struct rest *r, int32_t k_q30)
+{
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        struct contact *c = &r->list.contacts[i];
+
+        for (int k = 0; k < 3; k++) {
+            int64_t from = c->plastic_q40.c[k];
+
+            c->impulse_q40.c[k] = from + fix_mul(c->wanted_q40.c[k] - from, k_q30, 30);
+        }
+    }
+    restore_momenta(r);
+    rest_apply(r);
 }
 
 /* Whether the energy is above `before`. Momenta are rounded: a rise below 2^-26 is not one. */
@@ -50,7 +63,7 @@ static bool rises(const struct rest *r, struct fix_wide before)
 
 struct fix_wide rest_energy_before(struct rest *r)
 {
-    save(r, 0);
+    save_momenta(r);
     return kinetic2(r);
 }
 
@@ -63,22 +76,23 @@ void rest_energy_rule(struct rest *r, struct fix_wide before)
         return;
     }
     r->energy_rules++;
-    /* slot 0 holds the momenta before, the states hold the wanted ones: those go to slot 1 */
-    save(r, 1);
-    blend(r, 0);
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        r->list.contacts[i].wanted_q40 = r->list.contacts[i].impulse_q40;
+    }
     rest_solve_sweeps(r, &plastic, false);
-    rest_apply(r);
-    save(r, 0);
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        r->list.contacts[i].plastic_q40 = r->list.contacts[i].impulse_q40;
+    }
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
     while (high - low > 1) {
         int32_t k_q30 = low + (high - low) / 2;
 
-        blend(r, k_q30);
+        apply_blend(r, k_q30);
         if (rises(r, before)) {
             high = k_q30;
         } else {
             low = k_q30;
         }
     }
-    blend(r, low);
+    apply_blend(r, low);
 }
