@@ -354,14 +354,30 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     return CAROM_OK;
 }
 
+static bool each_within(const int64_t v[3], int64_t limit)
+{
+    for (int k = 0; k < 3; k++) {
+        if (v[k] > limit || v[k] < -limit) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool world_in_range(const struct body *b, const struct body_state *s)
 {
+    const int64_t angular_limit_q40 = (int64_t)1 << 62;
+    int64_t momentum_limit_q40 =
+        b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
     carom_v3_q40 v, still = {{0, 0, 0}};
 
+    if (!position_in_range(&s->position) || !each_within(s->momentum.c, momentum_limit_q40) ||
+        !each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
+        return false;
+    }
     /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
     body_velocity(b, s, &v);
-    return position_in_range(&s->position) && motion_in_range(b, &v, &still) &&
-           fix_length(s->angular.c) < (int64_t)1 << 62;
+    return motion_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
 }
 
 struct fix_wide world_energy2(const struct carom_world *w, const struct world_state *state)

@@ -192,32 +192,40 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     return size;
 }
 
+static bool body_plausible(const struct body *b, const struct body_state *s)
+{
+    int64_t square_q60 = 0;
+
+    for (int k = 0; k < 4; k++) {
+        if (carom_abs(s->rotation.c[k]) > CAROM_ONE_Q30 + 4) {
+            return false;
+        }
+        square_q60 += (int64_t)s->rotation.c[k] * s->rotation.c[k];
+    }
+    return s->asleep <= b->moving && s->out <= b->moving &&
+           carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << 40 && world_in_range(b, s);
+}
+
+static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
+{
+    return a < w->body_count && b < w->body_count && w->bodies[a].mesh && w->bodies[b].mesh;
+}
+
 /* A snapshot may be whole and still hold what no step could have left. */
 static bool plausible(const struct carom_world *w, const struct world_state *state)
 {
     for (uint32_t i = 0; i < w->body_count; i++) {
-        const struct body_state *s = &state->bodies[i];
-        int64_t square_q60 = 0;
-
-        if (!w->bodies[i].mesh) {
-            continue;
-        }
-        for (int k = 0; k < 4; k++) {
-            square_q60 += (int64_t)(s->rotation.c[k] >> 1) * (s->rotation.c[k] >> 1) * 4;
-        }
-        if (s->asleep > 1 || s->out > 1 ||
-            carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 40 ||
-            !world_in_range(&w->bodies[i], s)) {
+        if (w->bodies[i].mesh && !body_plausible(&w->bodies[i], &state->bodies[i])) {
             return false;
         }
     }
     for (uint32_t i = 0; i < state->warm_count; i++) {
-        if (state->warm[i].a >= w->body_count || state->warm[i].b >= w->body_count) {
+        if (!pair_plausible(w, state->warm[i].a, state->warm[i].b)) {
             return false;
         }
     }
     for (uint32_t i = 0; i < state->touching_count; i++) {
-        if (state->touching[i].a >= w->body_count || state->touching[i].b >= w->body_count) {
+        if (!pair_plausible(w, state->touching[i].a, state->touching[i].b)) {
             return false;
         }
     }

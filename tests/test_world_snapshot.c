@@ -411,13 +411,19 @@ static void test_implausible(void)
         /* the box weighs 0.35: a momentum of 23 is a speed above 64 */
         refuse_number(w, size, fast + 8 * k, (uint64_t)(23 * ONE), 8);
         refuse_number(w, size, fast + 8 * k, (uint64_t)(-23 * ONE), 8);
+        refuse_number(w, size, fast + 8 * k, (uint64_t)1 << 62, 8);
+        refuse_number(w, size, fast + 8 * k, (uint64_t)1 << 63, 8);
         refuse_number(w, size, AT_BOX + AT_ANGULAR + 8 * k, (uint64_t)1 << 62, 8);
+        refuse_number(w, size, AT_BOX + AT_ANGULAR + 8 * k, (uint64_t)1 << 63, 8);
+        refuse_number(w, size, AT_BOX + AT_ANGULAR + 8 * k, INT64_MAX, 8);
+        refuse_number(w, size, AT_GROUND + AT_MOMENTUM + 8 * k, 1, 8);
     }
     refuse_number(w, size, AT_BOX + AT_ROTATION, 0, 4);
     refuse_number(w, size, AT_BOX + AT_ROTATION, (uint32_t)INT32_MIN, 4);
     refuse_number(w, size, AT_GROUND + AT_ROTATION + 8, CAROM_ONE_Q30, 4);
     refuse_number(w, size, AT_BOX + AT_ASLEEP, 2, 1);
     refuse_number(w, size, AT_BOX + AT_OUT, 2, 1);
+    refuse_number(w, size, AT_GROUND + AT_ASLEEP, 1, 1);
     refuse_number(w, size, AT_WARM, 17, 4);
     for (int side = 0; side < 2; side++) {
         refuse_number(w, size, AT_WARM + 4 + 2 * side, 3, 2);
