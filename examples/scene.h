@@ -40,7 +40,7 @@ struct scene {
 #define SCENE_FIELD_FACES    3034
 
 /* bodies, pairs, contacts, faces, entries, candidates */
-#define SCENE_CAPS        2, 1, 256, 1024, 1024, 2048
+#define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
 #define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_CAPS)
 
 /* The raw meshes of the head scene, generated. */

@@ -8,7 +8,7 @@
 #define ROOT_BITS       27 /* of the largest coefficient */
 #define ROOT_NOISE      4  /* Horner's rounding, in the units of the coefficients */
 #define ROOT_STRIDE_Q30 16
-#define ROOT_ROUNDS     300 /* never reached: strides double */
+#define ROOT_ROUNDS     300 /* never reached: strides grow twofold */
 
 struct quartic {
     int32_t a[5];
