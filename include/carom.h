@@ -386,7 +386,8 @@ uint64_t carom_world_hash(const struct carom_world *world);
 
 /* Bytes of a snapshot of this world now, or an error. */
 int carom_snapshot_size(const struct carom_world *world);
-/* Write the dynamic state, the same bytes on every machine. Returns the bytes written or an error.
+/*
+ * Write the dynamic state, the same bytes on every machine. Returns the bytes written or an error.
  */
 int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);
 /*

@@ -74,7 +74,8 @@ typedef struct {
 #define CAROM_GRAVITY_MM_S2(mm_s2, fps) CAROM_RATIO(mm_s2, (int64_t)1000 * (fps) * (fps), 40)
 #define CAROM_SPIN_MRAD_S(mrad_s, fps)  CAROM_VELOCITY_MM_S(mrad_s, fps)
 
-/* v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest.
+/*
+ * v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest.
  */
 static inline int64_t carom_round(int64_t v, int s)
 {

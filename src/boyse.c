@@ -2,7 +2,8 @@
 /* Roots of P(t), and the time to stop at before the first that is a hit. */
 #include "boyse.h"
 
-/* A pair that starts clear of contact is followed to a surface this much nearer (see boyse_first).
+/*
+ * A pair that starts clear of contact is followed to a surface this much nearer (see boyse_first).
  */
 #define ROOT_LEVEL_Q22  3
 #define ROOT_BITS       27 /* of the largest coefficient */

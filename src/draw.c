@@ -27,7 +27,8 @@ static uint32_t ramp_colour(const struct draw_pass *pass, const struct draw_body
     return draw_colour(pass->canvas.picture->format, (uint32_t)(ramp * DRAW_SHADES + shade));
 }
 
-/* Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
+/*
+ * Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
  */
 static uint32_t face_colour(const struct draw_pass *pass, const struct draw_body *body,
                             const carom_v3_q30 *normal, bool hot)

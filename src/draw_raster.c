@@ -205,7 +205,8 @@ void draw_line(const struct draw_canvas *canvas, const struct draw_corner *a,
         size[1] = -size[1];
     }
     n = size[major];
-    /* |size| <= 2^11 pixels; the error of a step, 2^-16, grows to 2^-5 of a pixel at the far end.
+    /*
+     * |size| <= 2^11 pixels; the error of a step, 2^-16, grows to 2^-5 of a pixel at the far end.
      */
     if (n > 0) {
         step_q16 = size[!major] * (1 << 16) / n;

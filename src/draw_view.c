@@ -170,7 +170,8 @@ void draw_corner_place(const struct draw_body *body, uint32_t vertex, struct dra
     }
 }
 
-/* How far inside of a plane of DRAW_OUT_CLIP, given by its bit, up to a factor; |result| <= 2^30.
+/*
+ * How far inside of a plane of DRAW_OUT_CLIP, given by its bit, up to a factor; |result| <= 2^30.
  */
 static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], uint32_t plane)
 {
@@ -233,7 +234,8 @@ void draw_corner_project(const struct draw_body *body, struct draw_corner *corne
 static void cross_plane(int32_t out[3], const int32_t inner[3], const int32_t outer[3],
                         int32_t d_inner, int32_t d_outer)
 {
-    /* d_inner >= 0 > d_outer, both at most 2^30: the fraction is below 1 and the product below 2^61
+    /*
+     * d_inner >= 0 > d_outer, both at most 2^30: the fraction is below 1 and the product below 2^61
      */
     int64_t t_q30 = (int64_t)d_inner * CAROM_ONE_Q30 / ((int64_t)d_inner - d_outer);
 

@@ -16,7 +16,8 @@ int fix_bits(uint64_t v)
 
 uint32_t fix_sqrt(uint64_t v)
 {
-    /* Digit by digit, two bits of v for one of the root: no division, no rounding to argue about.
+    /*
+     * Digit by digit, two bits of v for one of the root: no division, no rounding to argue about.
      */
     uint64_t root = 0;
     uint64_t bit = v ? (uint64_t)1 << ((fix_bits(v) - 1) & ~1) : 0;

@@ -238,11 +238,9 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
                 return CAROM_ERR_RANGE;
             }
         }
-        if (!in->may_gain) {
-            changed = energy_rule(&p, &x);
-            if (changed < 0) {
-                return CAROM_ERR_RANGE;
-            }
+        changed = energy_rule(&p, &x);
+        if (changed < 0) {
+            return CAROM_ERR_RANGE;
         }
     }
     result.energy_rule = changed > 0;

@@ -23,7 +23,6 @@ struct impact {
     carom_v3_q40 velocity; /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) */
     int64_t target_q40;    /* the wanted V'.N: -e V.N for an impact */
     uint32_t friction_q16;
-    bool may_gain; /* skip the energy rule: a resting contact that pushes bodies apart */
 };
 
 struct impact_result {

@@ -181,7 +181,8 @@ static void set_body_rows(const struct impact_problem *p)
             for (int l = 0; l < 3; l++) {
                 a[first + 3 + k][first + 3 + l] = m->inertia_q30[inertia_entry[k][l]];
             }
-            /* (arm x P)_j has arm_k P_i with a plus sign, (arm x P)_i has arm_k P_j with a minus.
+            /*
+             * (arm x P)_j has arm_k P_i with a plus sign, (arm x P)_i has arm_k P_j with a minus.
              */
             a[first + 3 + j][impulse + i] = -turn;
             a[first + 3 + i][impulse + j] = turn;

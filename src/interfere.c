@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Which faces of two bodies are near each other: leaves, scan conversion, and the merge of lists.
+/*
+ * Which faces of two bodies are near each other: leaves, scan conversion, and the merge of lists.
  */
 #include "interfere_narrow.h"
 
@@ -123,7 +124,8 @@ static void place_leaf(struct interfere *w)
     }
 }
 
-/* Scan-convert one of the leaf's faces onto b's cells, with the reach and the rounding in `grow`.
+/*
+ * Scan-convert one of the leaf's faces onto b's cells, with the reach and the rounding in `grow`.
  */
 static void scan_face(struct interfere *w, const struct scan_grid *grid, uint16_t leaf_face)
 {
@@ -197,7 +199,8 @@ static int32_t highest_under(const struct carom_mesh *mb, const int64_t low[3],
     return top;
 }
 
-/* Whether the sphere around a leaf, grown by the reach, meets the box of b and what lies under it.
+/*
+ * Whether the sphere around a leaf, grown by the reach, meets the box of b and what lies under it.
  */
 static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {

@@ -83,8 +83,8 @@ struct interfere {
 };
 
 /*
- * Forget the candidates and remember the poses and reach of now: `gathered` of every body.
- * Called at the start of a frame and whenever a body has used up its reach.
+ * Forget the candidates. Called at the start of a frame and whenever a body has used up its reach,
+ * after reach, turn and the pose to gather for have been set in every body.
  */
 void interfere_begin(struct interfere *w);
 

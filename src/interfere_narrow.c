@@ -224,7 +224,8 @@ static bool lines_near(const struct interfere *in, const struct carom_edge *ea, 
            q_q22 <= ((eb->length_q22 * sine2_q30) >> 30) + slack_q22;
 }
 
-/* Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
+/*
+ * Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
  */
 static bool arcs_meet(const struct interfere *in, const struct carom_edge *ea,
                       const struct carom_edge *eb, const int32_t w[3], int64_t sine_q30)

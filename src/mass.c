@@ -260,7 +260,8 @@ int mass_invert(struct gauss *w, const struct carom_sym3 *in, struct carom_sym3 
         m[n] = in->m[n];
     }
     down = excess_bits(m, 6, 29);
-    /* A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column.
+    /*
+     * A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column.
      */
     for (int col = 0; col < 3; col++) {
         for (int i = 0; i < 3; i++) {

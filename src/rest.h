@@ -61,6 +61,13 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
+/* Part of a velocity or an impulse along a direction. */
+static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
+{
+    return fix_mul(v->c[0], n->c[0], 30) + fix_mul(v->c[1], n->c[1], 30) +
+           fix_mul(v->c[2], n->c[2], 30);
+}
+
 /* e and mu of a pair of bodies: the smaller of the two. */
 int32_t rest_restitution(const struct body *a, const struct body *b);
 uint32_t rest_friction(const struct body *a, const struct body *b);

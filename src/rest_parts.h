@@ -34,12 +34,6 @@ static inline struct body_state *rest_state(const struct rest *r, const struct c
     return &r->states[side == 0 ? p->a : p->b];
 }
 
-static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
-{
-    return fix_mul(v->c[0], n->c[0], 30) + fix_mul(v->c[1], n->c[1], 30) +
-           fix_mul(v->c[2], n->c[2], 30);
-}
-
 /* Masses that the contact's impulses move: K along each direction, and the steps of a sweep. */
 void rest_prepare_masses(struct contact *c);
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "world.h"
 
-/* Smallest capacities, and the sizes that CAROM_WORLD_BYTES promises. */
+/* What a step may report at most: begin, hit and end of a pair, rest and out of a body. */
 #define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
 
+/* The sizes that CAROM_WORLD_BYTES promises. */
 _Static_assert(sizeof(struct body) + 2 * sizeof(struct body_state) +
                        2 * sizeof(struct carom_event) <=
                    CAROM_BODY_BYTES,

@@ -86,10 +86,8 @@ int carom_contacts(const struct carom_world *w, struct carom_contact *out, int m
         out[i].b = p->b;
         out[i].normal = c->direction[0];
         out[i].gap_q22 = c->gap_q22;
-        for (int k = 0; k < 3; k++) {
-            out[i].point.c[k] = c->point.c[k];
-            out[i].impulse_q40 += fix_mul(c->impulse_q40.c[k], c->direction[0].c[k], 30);
-        }
+        out[i].point = c->point;
+        out[i].impulse_q40 = rest_along_q40(&c->impulse_q40, &c->direction[0]);
     }
     return n;
 }

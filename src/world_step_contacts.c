@@ -24,12 +24,7 @@ void step_note_touching(struct step *s, const struct pair *p)
 {
     struct world_state *next = s->next;
 
-    for (uint32_t i = 0; i < next->touching_count; i++) {
-        if (next->touching[i].a == p->a && next->touching[i].b == p->b) {
-            return;
-        }
-    }
-    if (next->touching_count < s->w->config.caps.pairs) {
+    if (!step_is_touching(next, p) && next->touching_count < s->w->config.caps.pairs) {
         next->touching[next->touching_count++] = *p;
     }
 }
@@ -96,20 +91,13 @@ static void note_hits(struct step *s)
         }
         if (e == end) {
             if (w->event_count >= w->config.caps.pairs + w->config.caps.bodies) {
-                continue;
+                continue; /* the rest of the room is for what the end of the step finds */
             }
-            w->event_count++;
-            memset(e, 0, sizeof *e);
-            e->kind = CAROM_EVENT_HIT;
-            e->a = p->a;
-            e->b = p->b;
+            step_add_event(w, CAROM_EVENT_HIT, p->a, p->b);
         }
         if (-c->velocity_q40[0] > e->speed_q40) {
             e->speed_q40 = -c->velocity_q40[0];
-            e->impulse_q40 = 0;
-            for (int k = 0; k < 3; k++) {
-                e->impulse_q40 += fix_mul(c->impulse_q40.c[k], c->direction[0].c[k], 30);
-            }
+            e->impulse_q40 = rest_along_q40(&c->impulse_q40, &c->direction[0]);
         }
     }
 }

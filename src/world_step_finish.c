@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The end of a step: the energy of a frame cut short, events, statistics. */
+/* The end of a step: the energy of contact, bodies that left, events, statistics. */
 #include "world_step_parts.h"
 
 /* Twice the kinetic energy of the active bodies, and what contact may have lifted them by. */
@@ -71,7 +71,7 @@ void step_limit_energy(struct step *s)
     }
 }
 
-static void add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
+void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 {
     struct carom_event *e = &w->events[w->event_count];
 
@@ -94,12 +94,12 @@ void step_retire(struct step *s)
         if (broad_active(&w->bodies[i], state) && !world_in_range(&w->bodies[i], state)) {
             *state = world_now(w)->bodies[i];
             state->out = 1;
-            add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+            step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
         }
     }
 }
 
-static bool is_touching(const struct world_state *s, const struct pair *p)
+bool step_is_touching(const struct world_state *s, const struct pair *p)
 {
     for (uint32_t i = 0; i < s->touching_count; i++) {
         if (s->touching[i].a == p->a && s->touching[i].b == p->b) {
@@ -138,20 +138,20 @@ void step_finish_events(struct step *s)
         if (!broad_active(&w->bodies[p->a], &before->bodies[p->a]) &&
             !broad_active(&w->bodies[p->b], &before->bodies[p->b])) {
             step_note_touching(s, p);
-        } else if (!is_touching(s->next, p)) {
-            add_event(w, CAROM_EVENT_END, p->a, p->b);
+        } else if (!step_is_touching(s->next, p)) {
+            step_add_event(w, CAROM_EVENT_END, p->a, p->b);
         }
     }
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
-        if (!is_touching(before, &s->next->touching[i])) {
-            add_event(w, CAROM_EVENT_BEGIN, s->next->touching[i].a, s->next->touching[i].b);
+        if (!step_is_touching(before, &s->next->touching[i])) {
+            step_add_event(w, CAROM_EVENT_BEGIN, s->next->touching[i].a, s->next->touching[i].b);
         }
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body_state *state = &s->next->bodies[i];
 
         if (state->asleep && !before->bodies[i].asleep) {
-            add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
+            step_add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
         }
     }
 }

@@ -60,7 +60,11 @@ int step_start_contacts(struct step *s);
 /* Resolve the hit: the impact, then what it left slow goes into continuous contact. */
 int step_respond(struct step *s);
 
-/* Note that a pair touches in this step. */
+/* Append an event while there is room. */
+void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b);
+
+/* Whether a pair is in a state's list of touching ones; note that it touches in this step. */
+bool step_is_touching(const struct world_state *s, const struct pair *p);
 void step_note_touching(struct step *s, const struct pair *p);
 
 /*

@@ -66,7 +66,8 @@ static void test_energy(const struct carom_mesh_raw *body, long frames, const ch
     lab_free(lab);
 }
 
-/* Without friction, what a frame with a hit changes the momentum by is its impulse and the weight.
+/*
+ * Without friction, what a frame with a hit changes the momentum by is its impulse and the weight.
  */
 static void test_impulse(void)
 {

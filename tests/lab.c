@@ -370,7 +370,8 @@ double lab_energy(const struct lab *lab)
     return oracle_energy(&body, gravity);
 }
 
-/* The mesh's own centre is what its vertices are placed about: weigh() need not have the last bit.
+/*
+ * The mesh's own centre is what its vertices are placed about: weigh() need not have the last bit.
  */
 struct oracle_pose lab_pose(const struct lab *lab, int body)
 {

@@ -34,7 +34,8 @@ void make_box(int x, int y, int z);
 /* A field of n by n squares of `side` quanta, up to `rough` high. */
 void make_field(uint32_t n, int side, int rough, uint64_t seed);
 
-/* A solid with a rough top and a rough bottom: two fields, the lower one turned over, and a wall.
+/*
+ * A solid with a rough top and a rough bottom: two fields, the lower one turned over, and a wall.
  */
 void make_bumpy(uint32_t n, int side, int rough, uint64_t seed);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The paper's four kernels as special cases, with times worked out by hand, and how a slice starts.
+/*
+ * The paper's four kernels as special cases, with times worked out by hand, and how a slice starts.
  */
 #include "duo.h"
 #include "real.h"

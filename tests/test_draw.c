@@ -23,7 +23,8 @@ static void covered_pixels(void)
 {
     struct carom_world *world = new_world();
 
-    /* 2 units are 32 pixels; the diagonal runs through pixel centres and is a right edge: outside
+    /*
+     * 2 units are 32 pixels; the diagonal runs through pixel centres and is a right edge: outside
      */
     add(world, &half, at(0, 0, 0), upright, false);
     draw_8(world, &above, CAROM_DRAW_FLAT);
@@ -147,7 +148,8 @@ static void near_plane(void)
     add(world, &plain, at(0, 0, 0), upright, false);
     draw_8(world, &level, CAROM_DRAW_FLAT);
     for (int y = 0; y < SIZE; y++) {
-        /* its far edge, 32 units away, is 2 rows below the horizon; it is as wide as the view there
+        /*
+         * its far edge, 32 units away, is 2 rows below the horizon; it is as wide as the view there
          */
         for (int x = 1; x < SIZE - 1; x++) {
             CHECK_EQ(ramp_at(x, y), y >= 34 ? DRAW_STATIONARY : DRAW_BACKGROUND);
@@ -155,7 +157,8 @@ static void near_plane(void)
     }
 }
 
-/* A square that comes towards the eye on the left: from the middle on it is nearer than 1/32 unit.
+/*
+ * A square that comes towards the eye on the left: from the middle on it is nearer than 1/32 unit.
  */
 static void near_plane_cuts(void)
 {

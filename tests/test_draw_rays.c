@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere.
+/*
+ * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere.
  */
 #include "draw_scene.h"
 

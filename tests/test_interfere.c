@@ -171,7 +171,8 @@ static void lowest_place(struct test_random *r, const struct solid *s, const dou
     }
 }
 
-/* The bodies turned anyhow, anywhere in the world, with a point of one near a point of the other.
+/*
+ * The bodies turned anyhow, anywhere in the world, with a point of one near a point of the other.
  */
 static void random_scene(struct test_random *r, bool turn_b)
 {

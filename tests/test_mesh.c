@@ -216,7 +216,8 @@ static void test_bad_surface(void)
     CHECK_REFUSED(CAROM_ERR_MESH_SURFACE);
 }
 
-/* Faces side by side are not over each other, though only a side of one of them keeps them apart.
+/*
+ * Faces side by side are not over each other, though only a side of one of them keeps them apart.
  */
 static void test_good_surface(void)
 {

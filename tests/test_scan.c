@@ -36,7 +36,8 @@ static void random_points(struct test_random *r, struct polygon *p, int n, int32
     }
 }
 
-/* Gift wrapping: the counter-clockwise hull of up to 8 points, fewer than 3 when they are in line.
+/*
+ * Gift wrapping: the counter-clockwise hull of up to 8 points, fewer than 3 when they are in line.
  */
 static void random_hull(struct test_random *r, struct polygon *hull, int32_t size)
 {

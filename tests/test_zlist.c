@@ -142,7 +142,8 @@ static void test_interval_holds(void)
     }
 }
 
-/* The plane z = (x - 2y) / 4 over large triangles of both orientations: what it spans over a cell.
+/*
+ * The plane z = (x - 2y) / 4 over large triangles of both orientations: what it spans over a cell.
  */
 static void test_interval_by_hand(void)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The vector table of a Cortex-M: every exception is a fault, since nothing here uses interrupts.
+/*
+ * The vector table of a Cortex-M: every exception is a fault, since nothing here uses interrupts.
  */
 #include "start.h"
 
