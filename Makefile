@@ -46,7 +46,9 @@ TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_%,$(wildcard tests/*.c)))
+ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_% tests/accuracy_%,\
+                $(wildcard tests/*.c)))
 SHELL_TESTS := $(wildcard tests/*.sh)
 
 # ------------------------------------------------------------------- commands
@@ -64,7 +66,7 @@ NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
 
-.PHONY: help run test check size build clean force
+.PHONY: help run test accuracy oracle check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -81,11 +83,27 @@ run: ## a scene on a board; BOARD= SCENE=head|box FRAMES=600 MESH=file AWAKE=1 F
 
 test: ## every test, on the host and on a board; TEST= selects by a part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang
-	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) build/tools/carom-mesh
+	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/tests.elf
 	@tools/run_tests.py --select '$(TEST)' $(HOST_TESTS) $(SHELL_TESTS) \
 	    build/host/tests.elf build/host-debug/tests.elf build/mps2-an385/tests.elf
+
+accuracy: ## the integer kernels against independent oracles, to out/accuracy.csv
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host $(ACCURACY)
+	@mkdir -p out
+	@echo 'kernel,cases,p50,p999,p9999,max,failures' | tee out/accuracy.csv
+	@status=0; for program in $(ACCURACY); do \
+	    $$program >out/accuracy.part || status=1; tee -a out/accuracy.csv <out/accuracy.part; \
+	done; rm -f out/accuracy.part; exit $$status
+
+oracle: ## first hits of 10,000 motions against every pair of features, to out/oracle.csv
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_first_hit.elf
+	@mkdir -p out
+	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
+	    cat out/oracle.csv; exit $$status
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format

@@ -2,7 +2,7 @@
 /*
  * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
  *
- * Options: scene=head|box|user  frames=600  mesh=file (scene user)  awake=1 (no sleep)
+ * Options: scene=head|box|pile|user  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  */
 #include <stdlib.h>
 
@@ -68,7 +68,8 @@ static void load(struct scene *scene)
                file);
     }
     expect(scene_load(scene, name, file ? &user : NULL, mesh_block, sizeof mesh_block), name);
-    port_print("scene %s: %lu faces on %lu\n", name, (unsigned long)scene->body_mesh.raw.face_count,
+    port_print("scene %s: %d x %lu faces on %lu\n", name, 1 + scene->other_count,
+               (unsigned long)scene->body_mesh.raw.face_count,
                (unsigned long)scene->ground_mesh.raw.face_count);
 }
 

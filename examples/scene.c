@@ -69,6 +69,30 @@ static const struct carom_mesh_raw box_mesh = {
     box_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
+/* A tetrahedron and an L of three cubes, for the pile; all smaller by half than the box. */
+#define PILE_BITS 13
+#define TIP       1900
+static const int16_t tetrahedron_vertices[4][3] = {
+    {TIP, TIP, TIP}, {TIP, -TIP, -TIP}, {-TIP, TIP, -TIP}, {-TIP, -TIP, TIP}};
+static const uint16_t tetrahedron_faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+static const struct carom_mesh_raw tetrahedron_mesh = {
+    tetrahedron_vertices, tetrahedron_faces, 4, 4, PILE_BITS, CAROM_SOLID,
+};
+#define CUBE 1600
+static const int16_t l_vertices[12][3] = {
+    {-CUBE, -CUBE, 0}, {CUBE, -CUBE, 0}, {CUBE, 0, 0},         {0, 0, 0},
+    {0, CUBE, 0},      {-CUBE, CUBE, 0}, {-CUBE, -CUBE, CUBE}, {CUBE, -CUBE, CUBE},
+    {CUBE, 0, CUBE},   {0, 0, CUBE},     {0, CUBE, CUBE},      {-CUBE, CUBE, CUBE},
+};
+static const uint16_t l_faces[20][3] = {
+    {0, 2, 1},   {0, 3, 2},  {0, 4, 3},  {0, 5, 4},   {6, 7, 8}, {6, 8, 9},  {6, 9, 10},
+    {6, 10, 11}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9},  {2, 9, 8},
+    {3, 4, 10},  {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11},
+};
+static const struct carom_mesh_raw l_mesh = {
+    l_vertices, l_faces, 12, 20, PILE_BITS, CAROM_SOLID,
+};
+
 /* A plane of 8 x 8 units. */
 #define PLANE 16384
 static const int16_t plane_vertices[4][3] = {
@@ -114,46 +138,100 @@ static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
     return mesh;
 }
 
+/* The next of the caller's memory for a mesh, built from it. */
+static int build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, uint8_t **mem,
+                 size_t *bytes)
+{
+    size_t wanted = CAROM_MESH_BYTES(raw->vertex_count, raw->face_count);
+    int result = *bytes < wanted ? CAROM_ERR_MEMORY : carom_mesh_build(mesh, raw, *mem, wanted);
+
+    if (result >= 0) {
+        *mem += wanted;
+        *bytes -= wanted;
+    }
+    return result;
+}
+
+/* Layers of four, each turned and shifted against the one below, falling close together. */
+static void pour(struct scene *scene)
+{
+    for (int i = 0; i < SCENE_OTHERS + 1; i++) {
+        struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
+        int column = i % 4, layer = i / 4;
+
+        *def = head_start;
+        def->mesh = i % 3 == 0 ? &scene->body_mesh : &scene->other_mesh[i % 3 - 1];
+        def->position.c[0] = CAROM_POSITION_MM(-700 + 750 * (column % 2) + 90 * layer);
+        def->position.c[1] = CAROM_POSITION_MM(-500 + 750 * (column / 2) - 70 * layer);
+        def->position.c[2] = CAROM_POSITION_MM(1900 + 800 * layer + 60 * column);
+        def->velocity.c[0] = CAROM_VELOCITY_MM_S(100 * (2 - column), FPS);
+        def->velocity.c[1] = CAROM_VELOCITY_MM_S(150 - 100 * layer, FPS);
+        def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 400 * column, FPS);
+        def->spin.c[1] = CAROM_SPIN_MRAD_S(300 * layer, FPS);
+        def->spin.c[2] = CAROM_SPIN_MRAD_S(250 * (i % 5), FPS);
+    }
+    scene->other_count = SCENE_OTHERS;
+    scene->caps = (struct carom_caps){SCENE_PILE_CAPS};
+}
+
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes)
 {
-    bool box = strcmp(name, "box") == 0;
+    bool box = strcmp(name, "box") == 0, pile = strcmp(name, "pile") == 0;
     struct carom_mesh_raw ground = box ? plane_mesh : field_mesh;
-    struct carom_mesh_raw body = box ? box_mesh : head_mesh;
-    size_t ground_bytes = CAROM_MESH_BYTES(ground.vertex_count, ground.face_count);
+    struct carom_mesh_raw body = box || pile ? box_mesh : head_mesh;
+    uint8_t *next = mem;
     int result;
 
     if (strcmp(name, "user") == 0 && user) {
         body = scaled(user);
-    } else if (!box && strcmp(name, "head") != 0) {
+    } else if (!box && !pile && strcmp(name, "head") != 0) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (bytes < ground_bytes) {
-        return CAROM_ERR_MEMORY;
+    memset(scene, 0, sizeof *scene);
+    if (pile) {
+        body.quantum_bits = PILE_BITS;
     }
-    result = carom_mesh_build(&scene->ground_mesh, &ground, mem, ground_bytes);
+    result = build(&scene->ground_mesh, &ground, &next, &bytes);
     if (result >= 0) {
-        result = carom_mesh_build(&scene->body_mesh, &body, (uint8_t *)mem + ground_bytes,
-                                  bytes - ground_bytes);
+        result = build(&scene->body_mesh, &body, &next, &bytes);
+    }
+    if (result >= 0 && pile) {
+        result = build(&scene->other_mesh[0], &tetrahedron_mesh, &next, &bytes);
+    }
+    if (result >= 0 && pile) {
+        result = build(&scene->other_mesh[1], &l_mesh, &next, &bytes);
     }
     scene->ground = ground_start;
     scene->ground.mesh = &scene->ground_mesh;
     scene->body = box ? box_start : head_start;
     scene->body.mesh = &scene->body_mesh;
     scene->camera = camera;
+    scene->caps = (struct carom_caps){SCENE_CAPS};
+    if (pile) {
+        pour(scene);
+    }
     return result;
 }
 
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world)
 {
-    int result = carom_world_init(block, bytes, config, world);
+    struct carom_config own = *config;
+    int result;
 
+    if (scene->other_count > 0) {
+        own.caps = scene->caps;
+    }
+    result = carom_world_init(block, bytes, &own, world);
     if (result >= 0) {
         result = carom_body_add(*world, &scene->ground);
     }
     if (result >= 0) {
         result = carom_body_add(*world, &scene->body);
+    }
+    for (int i = 0; i < scene->other_count && result >= 0; i++) {
+        result = carom_body_add(*world, &scene->others[i]);
     }
     return result < 0 ? result : CAROM_OK;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene.h - the scenes of the examples and tests: one body that moves over one that does not.
+ * scene.h - the scenes of the examples and tests: bodies that move over one that does not.
  *
  *   head  the paper's: a bumpy head of 1876 faces, dropped with spin on a height field of 3034
  *   box   a box of three different sides, dropped on a plane
+ *   pile  16 boxes, tetrahedra and L-shapes, poured on the field
  *   user  a mesh of the caller's in place of the head
  *
  * A frame is 1/60 s and a unit 1 m.
@@ -24,10 +25,15 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
+#define SCENE_OTHERS 15
+
 struct scene {
-    struct carom_mesh ground_mesh, body_mesh;
+    struct carom_mesh ground_mesh, body_mesh, other_mesh[2];
     struct carom_body_def ground, body; /* refer to the meshes: a scene stays where it was loaded */
+    struct carom_body_def others[SCENE_OTHERS]; /* of a pile */
+    int other_count;
     struct carom_camera camera;
+    struct carom_caps caps;
 };
 
 /* Memory for the meshes of any scene but `user`, and for a world of scene_config's capacities. */
@@ -39,14 +45,15 @@ struct scene {
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
 
-/* bodies, pairs, contacts, faces, entries, candidates */
+/* bodies, pairs, contacts, faces, entries, candidates: of one body, and of a pile */
 #define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
-#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_CAPS)
+#define SCENE_PILE_CAPS   17, 128, 384, 2048, 256, 2048
+#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
 
 /* The raw meshes of the head scene, generated. */
 extern const struct carom_mesh_raw head_mesh, field_mesh;
 
-/* SCENE_CAPS, gravity, sleep on, no timing. */
+/* SCENE_CAPS, gravity, sleep on, no timing; scene_make takes a pile's own. */
 struct carom_config scene_config(void);
 
 /*
@@ -54,13 +61,13 @@ struct carom_config scene_config(void);
  *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else NULL
  *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, CAROM_MESH_BYTES of its counts and of the field
  *
- * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of the three, or what
+ * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of these, or what
  *          carom_mesh_build returned.
  */
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes);
 
-/* Make a world in a block of its own and put the two bodies in. Returns CAROM_OK or an error. */
+/* Make a world in a block of its own and put the bodies in. Returns CAROM_OK or an error. */
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
 

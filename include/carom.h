@@ -52,8 +52,7 @@ enum carom_error {
     CAROM_ERR_MESH_EDGE = -15,       /* an edge with three faces, or two of the same direction */
     CAROM_ERR_MESH_INSIDE_OUT = -16, /* a SOLID of negative volume, a SURFACE that looks down */
     CAROM_ERR_MESH_SURFACE = -17,    /* a SURFACE face that is not single-valued in z */
-    CAROM_ERR_FORMAT = -18,          /* a blob or snapshot that is not whole */
-    CAROM_ERR_UNSUPPORTED = -19      /* a second moving body: this version moves one */
+    CAROM_ERR_FORMAT = -18           /* a blob or snapshot that is not whole */
 };
 
 /* A short English text for any result. Never NULL. */
@@ -103,8 +102,9 @@ struct carom_edge {
 
 struct carom_face {
     carom_v3_q30 normal;
-    uint32_t edge[3]; /* edge k joins corners k and k+1 */
-    uint8_t own;      /* bits 0-2: corner k is tested for this face; bits 3-5: edge k is */
+    int32_t offset_q22; /* of its plane along the normal, from the centre of mass */
+    uint32_t edge[3];   /* edge k joins corners k and k+1 */
+    uint8_t own;        /* bits 0-2: corner k is tested for this face; bits 3-5: edge k is */
 };
 
 /* A cluster of neighbouring faces: what interference detection culls first. */
@@ -150,7 +150,7 @@ struct carom_mesh {
  * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
  */
 #define CAROM_MESH_BYTES(vertices, faces)                                                          \
-    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)139 * (size_t)(faces) + 7) / 8 * 8)
+    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)143 * (size_t)(faces) + 7) / 8 * 8)
 
 /*
  * Whether a raw mesh can be built: what carom_mesh_build would return.
@@ -190,7 +190,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * and the usage report.
  *
  *   bodies      moving and stationary
- *   pairs       of bodies near each other in one frame
+ *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
  *   contacts    points within the margin, before neighbouring ones are merged
  *   faces       interfering faces of one frame
  *   entries     z-list entries; working: fewer cost time, not results
@@ -207,9 +207,9 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        880
+#define CAROM_BODY_BYTES        1072
 #define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     608
+#define CAROM_CONTACT_BYTES     832
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
@@ -246,9 +246,9 @@ struct carom_world; /* lives at the start of the caller's block */
 
 struct carom_config {
     struct carom_caps caps;
-    carom_v3_q40 gravity;    /* units / frame^2; each component within +-1 */
+    carom_v3_q40 gravity;    /* at first; units / frame^2, each component within +-1 */
     bool sleep;              /* bodies at rest sleep until something wakes them */
-    uint8_t substep_cap;     /* sub-steps a frame, 1 .. 64; 0 means 32 */
+    uint8_t substep_cap;     /* sub-steps a frame; 0: 8 + 2 for each moving body that is awake */
     uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
 };
@@ -277,11 +277,11 @@ struct carom_body_def {
 
 /*
  * Add a body. Returns its number (>= 0) or an error: CAROM_ERR_ARGUMENT for e, mu, mass or rotation
- * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL,
- * CAROM_ERR_UNSUPPORTED for a second moving body. A SURFACE must be stationary.
+ * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL. A SURFACE
+ * must be stationary.
  */
 int carom_body_add(struct carom_world *world, const struct carom_body_def *def);
-/* Take a body away and wake the others. Its number may be given to the next body that is added. */
+/* Take a body away; what touches it wakes. Its number may be given to the next one that is added. */
 int carom_body_remove(struct carom_world *world, int body);
 
 struct carom_body_state {
@@ -294,8 +294,36 @@ struct carom_body_state {
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
-/* Place a body and wake it. asleep and out are ignored. */
+/*
+ * Place a body and wake it, with what touched it and what is near to its new place; a stationary
+ * body that is set where it is wakes nothing. asleep and out are ignored.
+ */
 int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
+
+/*
+ * Change gravity, and wake every body if it is another. CAROM_ERR_RANGE for a component beyond +-1,
+ * by itself or with a body's force / mass.
+ */
+int carom_world_set_gravity(struct carom_world *world, const carom_v3_q40 *gravity);
+
+/*
+ * Let a force act through a moving body's centre of mass until it is changed; wakes the body, and
+ * what is connected with it by touching, if it is another.
+ *   force  mass x units / frame^2
+ * Returns CAROM_OK; CAROM_ERR_ARGUMENT for a stationary body; CAROM_ERR_RANGE when a component of
+ *         gravity + force / mass is beyond +-1.
+ */
+int carom_body_set_force(struct carom_world *world, int body, const carom_v3_q40 *force);
+
+/*
+ * Give a moving body an impulse at once, and wake it with what is connected with it by touching.
+ *   impulse  mass x units / frame
+ *   point    of the world at which it acts, on the body or not; each component within +-4096
+ * Returns CAROM_OK; CAROM_ERR_ARGUMENT for a stationary body or one that left the world;
+ *         CAROM_ERR_RANGE when the body would become faster than carom_body_set may make it.
+ */
+int carom_body_push(struct carom_world *world, int body, const carom_v3_q40 *impulse,
+                    const carom_v3_q32 *point);
 
 /*
  * Move the world by one frame. All or nothing.
@@ -313,12 +341,13 @@ enum carom_event_kind {
     CAROM_EVENT_HIT,   /* the pair's hardest impact of the frame */
     CAROM_EVENT_END,   /* a and b no longer touch */
     CAROM_EVENT_REST,  /* a fell asleep */
-    CAROM_EVENT_OUT    /* a left the world's range and is frozen */
+    CAROM_EVENT_OUT,   /* a left the world's range and is frozen */
+    CAROM_EVENT_WAKE   /* a woke, in the step or since the one before */
 };
 
 struct carom_event {
     uint8_t kind;
-    uint16_t a, b;       /* body numbers; b is unused (0) for REST and OUT */
+    uint16_t a, b;       /* body numbers; b is unused (0) for REST, OUT and WAKE */
     int64_t speed_q40;   /* HIT: approach speed along the normal, units / frame */
     int64_t impulse_q40; /* HIT: normal impulse, mass x units / frame */
 };

@@ -1,21 +1,57 @@
 /* SPDX-License-Identifier: MIT */
 #include "body.h"
 
+/* (high 2^31 + low) / 2^s to nearest; |high|, |low| < 2^63. */
+static int64_t shift_parts(int64_t high, int64_t low, int s)
+{
+    if (s > 31) {
+        /* what low has below 2^31 cannot carry past the half */
+        return s - 31 > 62 ? 0 : carom_round(high + (low >> 31), s - 31);
+    }
+    if (s < 1) {
+        return carom_shl(carom_shl(high, 31) + low, -s);
+    }
+    return carom_shl(high, 31 - s) + carom_round(low, s);
+}
+
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
 {
     /* rows as places in xx, yy, zz, xy, yz, zx */
     static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    int64_t r[3];
+    int32_t high[3], low[3];
 
-    for (int i = 0; i < 3; i++) {
-        r[i] = 0;
-        for (int k = 0; k < 3; k++) {
-            struct fix_scaled entry = {m->m[place[i][k]], m->e};
-
-            r[i] += fix_mul_scaled(v[k], entry);
-        }
+    /* v = high 2^31 + low: sums of three products with |m| <= 2^30 are below 2^63 */
+    for (int k = 0; k < 3; k++) {
+        CAROM_ASSERT(carom_abs(v[k]) < (int64_t)1 << 62);
+        high[k] = (int32_t)(v[k] >> 31);
+        low[k] = (int32_t)(v[k] & INT32_MAX);
     }
-    memcpy(out, r, sizeof r);
+    for (int i = 0; i < 3; i++) {
+        const int32_t row[3] = {m->m[place[i][0]], m->m[place[i][1]], m->m[place[i][2]]};
+
+        out[i] = shift_parts(carom_dot(row, high), carom_dot(row, low), m->e);
+    }
+}
+
+/* out = J^-1 v with all the digits of the inverse; its exponent is raised by e. out may be v. */
+static void inverse_mul(const struct body *b, int e, int64_t out[3], const int64_t v[3])
+{
+    struct carom_sym3 inverse = b->inverse_inertia, rest = b->inverse_rest;
+    int64_t more[3];
+
+    inverse.e += e;
+    rest.e += e;
+    body_sym3_mul(more, &rest, v);
+    body_sym3_mul(out, &inverse, v);
+    for (int k = 0; k < 3; k++) {
+        out[k] += more[k];
+    }
+}
+
+void body_set_mass(struct body *b, struct fix_scaled mass)
+{
+    b->mass = mass;
+    b->inverse_mass = fix_scaled_inverse(mass);
 }
 
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
@@ -41,7 +77,7 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
     memset(w, 0, sizeof *w);
     if (b->moving) {
         angular_in_body(b, s, r, w->c);
-        body_sym3_mul(w->c, &b->inverse_inertia, w->c);
+        inverse_mul(b, 0, w->c, w->c);
         fix_rotate(w->c, r, w->c);
     }
 }
@@ -77,9 +113,9 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
     return sum;
 }
 
-struct fix_wide body_lift2(const struct body *b, const carom_v3_q40 *gravity)
+struct fix_wide body_lift2(const struct body *b)
 {
-    int64_t weight_q40 = fix_mul_scaled(fix_length(gravity->c), b->mass);
+    int64_t weight_q40 = fix_mul_scaled(b->acceleration_q40, b->mass);
 
     return fix_wide_mul(weight_q40 / 10 * 3, (int64_t)b->skin_q22 << 18);
 }
@@ -156,34 +192,57 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
     body_normalise(out);
 }
 
+/* m u / 2^60 to within a few units; |m| < 2^61, |u| < 2^60. */
+static int64_t mul_q60(int64_t m, int64_t u)
+{
+    int64_t high = m >> 31, low = m & INT32_MAX;
+    int64_t u_high = u >> 30, u_low = u & (CAROM_ONE_Q30 - 1);
+
+    return 2 * high * u_high + carom_round(low * u_high + 2 * high * u_low, 30);
+}
+
 /*
- * The Cayley vector of a torque-free turn over tau: the implicit midpoint rule
- * u = tau/2 J^-1 m with m = b + m x u, b the angular momentum in the body's axes. It keeps kinetic
- * energy for any step. A fixed point is reached when u repeats, after 4 to 6 rounds.
+ * The Cayley vector of a torque-free turn over tau: the implicit midpoint rule u = J^-1 m with
+ * m = b + m x u, b being tau/2 times the angular momentum in the body's axes. It keeps kinetic energy
+ * for any step. Each round gains two bits or more; done when q30 no longer changes.
+ *
+ * m is scaled up to 60 bits and u has q60: along the axis of a thin body J^-1 is up to 2^24 times as
+ * large as across it, and so is the error of m there that rounding u across it makes.
  */
 static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30, carom_v3_q30 *u)
 {
-    int64_t m[3];
+    int64_t start[3], m[3], u_q60[3] = {0, 0, 0};
+    uint64_t all = 0;
+    int up;
 
-    memcpy(m, l_q40, sizeof m);
-    memset(u, 0, sizeof *u);
+    for (int k = 0; k < 3; k++) {
+        all |= (uint64_t)carom_abs(l_q40[k]);
+    }
+    up = 60 - fix_bits(all);
+    up = up < 0 ? 0 : up;
+    for (int k = 0; k < 3; k++) {
+        m[k] = start[k] = fix_mul(carom_shl(l_q40[k], up), tau_q30, 31);
+    }
     for (int round = 0; round < 20; round++) {
-        carom_v3_q30 last = *u;
-        int64_t w[3], next[3];
+        int64_t next[3], change = 0;
 
-        body_sym3_mul(w, &b->inverse_inertia, m);
+        inverse_mul(b, 40 + up - 60, next, m);
         for (int k = 0; k < 3; k++) {
-            u->c[k] = (int32_t)fix_mul(w[k], tau_q30, 41); /* q40 x q30, halved, to q30 */
+            change |= carom_abs(next[k] - u_q60[k]);
+            u_q60[k] = next[k];
         }
-        if (round > 0 && memcmp(&last, u, sizeof last) == 0) {
-            return;
+        if (change < (int64_t)1 << 27) {
+            break;
         }
         for (int k = 0; k < 3; k++) {
             int i = (k + 1) % 3, j = (k + 2) % 3;
 
-            next[k] = l_q40[k] + fix_mul(m[i], u->c[j], 30) - fix_mul(m[j], u->c[i], 30);
+            next[k] = start[k] + mul_q60(m[i], u_q60[j]) - mul_q60(m[j], u_q60[i]);
         }
         memcpy(m, next, sizeof m);
+    }
+    for (int k = 0; k < 3; k++) {
+        u->c[k] = (int32_t)carom_round(u_q60[k], 30);
     }
 }
 
@@ -223,7 +282,6 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     }
     angular_in_body(b, s, &path->start.r, l);
     cayley(b, l, tau_q30, &path->u);
-    carom_rotate(path->u_world.c, &path->start.r, path->u.c);
     path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
     path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
 }

@@ -27,9 +27,11 @@ struct body_state {
     carom_v3_q32 position;
     carom_v3_q40 momentum; /* m v */
     carom_v3_q40 angular;  /* I w, world axes, about the centre of mass */
+    carom_v3_q40 force;    /* through the centre of mass, until the caller changes it */
     carom_quat_q30 rotation;
     uint8_t asleep, out;
     uint8_t quiet; /* frames in a row that the body was slow in contact */
+    uint8_t woken; /* since the last step */
 };
 
 struct body_pose {
@@ -43,8 +45,8 @@ struct body_path {
     int64_t origin_q22[3];
     carom_v3_q40 v, g;         /* displacements over the slice: linear and quadratic in t */
     carom_v3_q24 v_q24, g_q24; /* the same for the collision kernels */
-    carom_v3_q30 u, u_world;
-    int32_t u2_q30; /* |u|^2 */
+    carom_v3_q30 u;            /* the Cayley vector, in the body's axes */
+    int32_t u2_q30;            /* |u|^2 */
     bool turns;
     struct body_pose start, now; /* now: at the t last asked for */
 };
@@ -53,7 +55,8 @@ struct body {
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
     struct fix_scaled mass, inverse_mass;
-    struct carom_sym3 inertia, inverse_inertia; /* divided by the mass, in the mesh's axes */
+    struct carom_sym3 inertia;                       /* divided by the mass, in the mesh's axes */
+    struct carom_sym3 inverse_inertia, inverse_rest; /* the inverse of that is their sum */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
@@ -61,18 +64,31 @@ struct body {
     int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
 
     /* scratch of a step */
-    bool in_contact;   /* took the frame's gravity at once; moves straight */
+    carom_v3_q40 acceleration; /* by gravity and force */
+    int64_t acceleration_q40;  /* its length */
     int32_t reach_q22; /* how far any point may move before candidates must be gathered again */
     int32_t turn_q30;  /* and how far the body may turn, radians */
     int64_t moved_q22, turned_q30; /* how much of that is used up */
     struct body_path path;
     carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
     carom_m3_q30 gathered_r;
-    bool solving;                               /* has a contact in the solve at hand */
-    carom_v3_q40 velocity, spin;                /* before a solve */
-    int64_t dv[3], dw[3];                       /* what a solve changes them by, in its units */
+    int64_t box_q22[2][3];           /* in world axes around it, grown by the reach */
+    uint16_t island, next_in_island; /* its lowest body, and the next higher one */
+    uint16_t contacts;               /* where the island's contacts are listed */
+    bool in_contact;                 /* took the frame's acceleration at once; moves straight */
+    bool touched;                    /* had a contact in this step */
+    bool grounded;                   /* and one with a body that stands still */
+    bool entering;                   /* in_contact is new */
+    bool woke;                       /* in the static check at hand */
+    bool solving;                    /* has a contact in the solve at hand */
+    carom_v3_q40 velocity, spin;     /* before a solve */
+    struct carom_sym3 turning;       /* R J^-1 R^T by the solver's unit of length squared */
+    int64_t dv[3], dw[3];            /* what a solve changes them by, in its units */
     carom_v3_q40 saved_momentum, saved_angular; /* before it, for the energy rule */
 };
+
+/* Set mass and its inverse; mass > 0. */
+void body_set_mass(struct body *b, struct fix_scaled mass);
 
 /* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
@@ -89,9 +105,9 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
  * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
  * is lifted by a part of its skin gains that much; anything above is not lifting.
  */
-struct fix_wide body_lift2(const struct body *b, const carom_v3_q40 *gravity);
+struct fix_wide body_lift2(const struct body *b);
 
-/* out = m v for a symmetric m; out may be v. */
+/* out = m v for a symmetric m within 2^30; |v| < 2^62; out may be v. */
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);
 
 /* R J R^T: inertia by mass in world axes. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boyse_place - where the features of a candidate are at time t: shared by the exact test and the
- * polynomial.
+ * boyse_place - where the features of a candidate are: shared by the exact test, the early test and
+ * the polynomial.
  */
 #ifndef CAROM_SRC_BOYSE_PLACE_H
 #define CAROM_SRC_BOYSE_PLACE_H
@@ -9,37 +9,72 @@
 #include "boyse.h"
 
 /* Units of the last place of q22 that rounding may be off by in the place of a point. */
-#define BOYSE_POINT_NOISE_Q22 2
+#define BOYSE_POINT_NOISE_Q22 4
+/* Gaps that the early test looks at: rounding, and the nearer surface of boyse_first. */
+#define BOYSE_NEAR_Q22 12
 /* Sine of the angle below which edges count as parallel: 0.01. */
 #define BOYSE_PARALLEL_Q30 10737418
 
-/* A vertex against a face: the vertex, a corner of the face and its normal at t. */
-struct boyse_vertex_face {
-    carom_v3_q22 vertex, corner;
-    int32_t n[3];
-    struct body *vertex_body, *face_body;
-    bool vertex_on_a;
-};
-
-/* An edge of a against an edge of b: start points and directions, w = e x f and its length. */
-struct boyse_edge_edge {
-    const struct carom_edge *edge_a, *edge_b;
-    carom_v3_q22 start_a, start_b;
-    int32_t e[3], f[3], w[3], d[3];
-    int64_t sine_q30;
-};
-
-/* d = p - q */
-static inline void boyse_difference(int32_t d[3], const carom_v3_q22 *p, const carom_v3_q22 *q)
+/* How `to` sees `from` in the role of a candidate: of a face the vertex, of b's edge a's. */
+static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
+                                                  const struct candidate *c)
 {
+    return &pair->view[c->kind == CANDIDATE_FACE_VERTEX];
+}
+
+/*
+ * A vertex and a face, or two edges, at the start of the path or at some time of it: in the mesh
+ * axes of view->to, about its centre of mass.
+ */
+struct boyse_places {
+    carom_v3_q22 vertex; /* of the vertex, or where a's edge starts; of view->from */
+    const int32_t *n;    /* normal of the face */
+
+    const struct carom_edge *edge_a, *edge_b;
+    carom_v3_q22 start_b; /* where b's edge starts */
+    int32_t e[3];         /* directions of the edges */
+    const int32_t *f;
+    int32_t w[3], d[3]; /* e x f, and from b's start to a's */
+};
+
+/* Everything of two edges but `vertex` and e, which are given. */
+static inline void boyse_complete_edges(struct boyse_places *p)
+{
+    carom_cross(p->w, p->e, p->f, 30);
     for (int k = 0; k < 3; k++) {
-        d[k] = p->c[k] - q->c[k];
+        p->d[k] = p->vertex.c[k] - p->start_b.c[k];
     }
 }
 
-void boyse_place_vertex_face(const struct boyse_pair *pair, const struct candidate *c,
-                             int32_t t_q30, struct boyse_vertex_face *vf);
-void boyse_place_edge_edge(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                           struct boyse_edge_edge *ee);
+/* n.vertex - offset, kept whole: q52. */
+static inline int64_t boyse_plane_gap_q52(const struct boyse_view *view, const struct candidate *c,
+                                          const struct boyse_places *p)
+{
+    return carom_dot(p->n, p->vertex.c) - carom_shl(view->to->mesh->faces[c->j].offset_q22, 30);
+}
+
+/* The features at the start. */
+void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
+                       struct boyse_places *p);
+
+/*
+ * Whether they can meet on the path, by first-order motion and a bound of the rest. False for
+ * nearly every candidate.
+ */
+bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
+
+/* The coefficients of P, 40 fractional bits, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
+int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
+
+/* |w| of two edges at a time, 1 of a vertex and a face: what the gap is multiplied by in P. */
+int32_t boyse_scale(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30);
+
+/*
+ * The exact test without the places in the world: fills in touch->gap_q22, valid and sign. Returns
+ * boyse_scale of that time.
+ */
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+                   struct boyse_touch *touch);
 
 #endif

@@ -1,183 +1,316 @@
 /* SPDX-License-Identifier: MIT */
-/* The coefficients of P(t) for one moving body. */
+/* Features at the start of a path, and the coefficients of P(t). */
 #include "boyse_place.h"
 
-/*
- * Formats below: directions q30, lengths and displacements q24, so their dot products are q54, kept
- * as q40. Displacements of a slice are below 64 units and points of a within 64 units of its
- * centre, so every q24 component fits int32 and every sum stays below 2^62.
- */
-static int64_t dot_q40(const int32_t direction[3], const int32_t length_q24[3])
+void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
+                       struct boyse_places *p)
 {
-    return carom_round(carom_dot(direction, length_q24), 14);
-}
+    const struct boyse_view *view = boyse_view(pair, c);
+    const struct carom_mesh *from = view->from->mesh, *to = view->to->mesh;
+    uint32_t v = c->i;
 
-/* v times s^2; |v| < 2^49. */
-static int64_t times_u2(int64_t v_q40, const struct body_path *path)
-{
-    return path->u2_q30 ? fix_mul(v_q40, path->u2_q30, 30) : 0;
-}
-
-/* A vertex of the moving body against a standing face. */
-static void moving_vertex(const struct boyse_pair *pair, const struct candidate *c, int64_t a[5])
-{
-    const struct body_path *path = &pair->a->path;
-    struct boyse_vertex_face vf;
-    carom_v3_q22 local = mesh_vertex(pair->a->mesh, c->i);
-    int32_t d[3], arm[3], w1[3], w2[3];
-    int64_t v, g;
-
-    boyse_place_vertex_face(pair, c, 0, &vf);
-    boyse_difference(d, &vf.vertex, &vf.corner);
-    a[0] = carom_round(carom_dot(vf.n, d), 12);
-    v = dot_q40(vf.n, path->v_q24.c);
-    g = dot_q40(vf.n, path->g_q24.c);
-    a[1] = v;
-    a[2] = g;
-    if (path->turns) {
-        /* r(t) (1 + s^2 t^2) = r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)) */
-        carom_rotate(arm, &path->start.r, local.c);
-        carom_cross(w1, path->u_world.c, arm, 27); /* 2 u x r: q52 to q24, doubled */
-        carom_cross(w2, path->u_world.c, w1, 30);
-        a[1] += dot_q40(vf.n, w1);
-        a[2] += dot_q40(vf.n, w2) + times_u2(a[0], path);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        p->edge_a = &from->edges[c->i];
+        p->edge_b = &to->edges[c->j];
+        v = p->edge_a->vertex[0];
     }
-    a[3] = times_u2(v, path);
-    a[4] = times_u2(g, path);
+    p->vertex = mesh_vertex(from, v);
+    carom_rotate(p->vertex.c, &view->r, p->vertex.c);
+    for (int k = 0; k < 3; k++) {
+        p->vertex.c[k] += view->centre.c[k];
+    }
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        p->n = to->faces[c->j].normal.c;
+        return;
+    }
+    p->start_b = mesh_vertex(to, p->edge_b->vertex[0]);
+    p->f = p->edge_b->direction.c;
+    carom_rotate(p->e, &view->r, p->edge_a->direction.c);
+    boyse_complete_edges(p);
 }
 
-/* n(t) (1 + s^2 t^2) = n + 2t n1 + t^2 m for a direction n of the turning body. */
-struct turning {
-    int32_t n[3], n1[3], m[3];
+/* ------------------------------------------------------------- can they meet? */
+
+bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+                int32_t margin_q22)
+{
+    struct boyse_places p;
+    int64_t gap_q22;
+
+    boyse_place_start(pair, c, &p);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        /* |w|_1 >= |w| */
+        int64_t size = carom_abs(p.w[0]) + carom_abs(p.w[1]) + carom_abs(p.w[2]);
+
+        return carom_abs(carom_dot(p.w, p.d)) <= size * (margin_q22 + 1);
+    }
+    gap_q22 = boyse_plane_gap_q52(boyse_view(pair, c), c, &p) >> 30;
+    return gap_q22 <= margin_q22 && gap_q22 >= deepest_q22;
+}
+
+/* --------------------------------------------------------------- coefficients */
+
+/*
+ * Below, directions are q30 and lengths have as many bits beyond q22 as fit 30 (view->fine): the
+ * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are kept as
+ * q40; their largest sum is below 8 x 3 x 2^8 units.
+ */
+static int64_t dot_q40(const int32_t direction[3], const int32_t length[3], int fine)
+{
+    return carom_round(carom_dot(direction, length), 12 + fine);
+}
+
+static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = v_q22[k] * (1 << fine);
+    }
+}
+
+/*
+ * A vector that turns with a body, times 1 + s^2 t^2: c[0] + c[1] t + c[2] t^2. The formula is that
+ * of Cayley: r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)).
+ */
+struct quadratic {
+    int32_t c[3][3];
+    bool constant; /* c[1] and c[2] stand for 0, and are not set; no factor */
 };
 
-static void turning_direction(const struct body_path *path, const int32_t n[3], struct turning *d)
+static void turning(struct quadratic *q, const int32_t r[3], const struct body_path *path,
+                    const carom_v3_q30 *u)
 {
-    int32_t n2[3];
+    int32_t twice[3];
 
-    memcpy(d->n, n, sizeof d->n);
-    carom_cross(d->n1, path->u_world.c, n, 30);
-    carom_cross(n2, path->u_world.c, d->n1, 30);
+    memcpy(q->c[0], r, sizeof q->c[0]);
+    q->constant = !path->turns;
+    if (q->constant) {
+        return; /* c[1] and c[2] are not looked at */
+    }
+    carom_cross(q->c[1], u->c, r, 29);
+    carom_cross(twice, u->c, q->c[1], 30);
     for (int k = 0; k < 3; k++) {
-        d->m[k] = carom_mul_q30(path->u2_q30, n[k]) + 2 * n2[k];
+        q->c[2][k] = twice[k] + carom_mul_q30(path->u2_q30, r[k]);
     }
 }
 
-/* (n + 2t n1 + t^2 m) . (d0 + d1 t + d2 t^2) */
-static void multiply_turning(const struct turning *n, const int32_t d0[3], const int32_t d1[3],
-                             const int32_t d2[3], int64_t a[5])
+/* a += x.y for a direction x and lengths y. */
+static void add_product(int64_t *a, const struct quadratic *x, const struct quadratic *y, int fine)
 {
-    a[0] = dot_q40(n->n, d0);
-    a[1] = dot_q40(n->n, d1) + 2 * dot_q40(n->n1, d0);
-    a[2] = dot_q40(n->n, d2) + 2 * dot_q40(n->n1, d1) + dot_q40(n->m, d0);
-    a[3] = 2 * dot_q40(n->n1, d2) + dot_q40(n->m, d1);
-    a[4] = dot_q40(n->m, d2);
+    for (int i = 0; i < (x->constant ? 1 : 3); i++) {
+        for (int j = 0; j < (y->constant ? 1 : 3); j++) {
+            a[i + j] += dot_q40(x->c[i], y->c[j], fine);
+        }
+    }
+}
+
+/* v s^2, as fix_mul has it, which is called too often here: |v| < 2^52. */
+static inline int64_t times_u2(int64_t v, const struct body_path *path)
+{
+    int64_t high = (v >> 32) * path->u2_q30, low = (int64_t)(uint32_t)v * path->u2_q30;
+
+    return high * 4 + carom_round(low, 30);
+}
+
+/* a += sign v (1 + s^2 t^2) for a polynomial v of the given degree. */
+static void add_times_factor(int64_t *a, const int64_t *v, int degree, int sign,
+                             const struct body_path *path)
+{
+    for (int k = 0; k <= degree; k++) {
+        a[k] += sign * v[k];
+        if (path->u2_q30 != 0) {
+            a[k + 2] += sign * times_u2(v[k], path);
+        }
+    }
 }
 
 /*
- * Whether a point lies farther from the centre of body a than any point of it can get in a slice
- * (32 units of radius and 64 of way): such a pair cannot meet, and its numbers need not fit.
+ * The way of from's centre. A point that does not turn is its own centre, which keeps the numbers
+ * of large meshes small: `at` is where it starts from, about to's centre of reference. False when
+ * it is farther away than any two features can come together from.
  */
-static bool out_of_range(const int32_t from_centre_q22[3])
+static bool centre_way(struct quadratic *q, const struct boyse_view *view, const int32_t at_q22[3])
 {
-    const int32_t limit = 120 << 22;
+    const int32_t limit = (int32_t)1 << (30 - view->fine);
 
+    q->constant = false;
     for (int k = 0; k < 3; k++) {
-        if (carom_abs(from_centre_q22[k]) > limit) {
-            return true;
+        if (at_q22[k] > limit || at_q22[k] < -limit) {
+            return false;
         }
+        q->c[0][k] = at_q22[k] * (1 << view->fine);
+        q->c[1][k] = (int32_t)((carom_shl(view->v.c[k], view->fine) + 2) >> 2);
+        q->c[2][k] = (int32_t)((carom_shl(view->g.c[k], view->fine) + 2) >> 2);
     }
-    return false;
+    return true;
 }
 
 /* Coefficients without a root. */
-static void never(int64_t a[5])
+static int never(int64_t *a)
 {
-    memset(a, 0, 5 * sizeof a[0]);
     a[0] = (int64_t)1 << 40;
+    return 2;
 }
 
-/* A standing vertex against a face of the moving body: p = n(t).(x - c(t)) - n.(corner - c). */
-static void moving_face(const struct boyse_pair *pair, const struct candidate *c, int64_t a[5])
+/* Where from's feature starts, from its centre of mass. */
+static void arm_of(int32_t arm_q22[3], const struct boyse_view *view,
+                   const struct boyse_places *start)
 {
-    const struct body_path *path = &pair->a->path;
-    struct boyse_vertex_face vf;
-    struct turning n;
-    int32_t d[3], d0[3], d1[3], d2[3];
-    int64_t gap, corner;
-
-    boyse_place_vertex_face(pair, c, 0, &vf);
-    if (out_of_range(vf.vertex.c)) { /* a's centre is within a unit of the place of the origin */
-        never(a);
-        return;
-    }
-    boyse_difference(d, &vf.vertex, &vf.corner);
-    gap = carom_round(carom_dot(vf.n, d), 12);
     for (int k = 0; k < 3; k++) {
-        d0[k] = vf.vertex.c[k] * 4 - (int32_t)carom_round(path->start.x.c[k], 8);
-        d1[k] = -path->v_q24.c[k];
-        d2[k] = -path->g_q24.c[k];
+        arm_q22[k] = start->vertex.c[k] - view->centre.c[k];
     }
-    turning_direction(path, vf.n, &n);
-    multiply_turning(&n, d0, d1, d2, a);
-    corner = a[0] - gap; /* constant: the corner turns with the normal */
-    a[0] = gap;
-    a[2] -= times_u2(corner, path);
+}
+
+/* A vertex that moves before a face that does not turn. */
+static int moving_vertex(const struct boyse_view *view, const struct boyse_places *start,
+                         int64_t *a)
+{
+    const struct body_path *path = &view->from->path;
+    int32_t arm[3], once[3], twice[3];
+    int64_t v = carom_round(carom_dot(start->n, view->v.c), 14);
+    int64_t g = carom_round(carom_dot(start->n, view->g.c), 14);
+
+    a[1] = v;
+    a[2] = g;
+    if (!path->turns) {
+        return 2;
+    }
+    /* r(t) (1 + s^2 t^2) = r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)) */
+    arm_of(arm, view, start);
+    refine(arm, arm, view->fine);
+    carom_cross(once, view->u.c, arm, 29);
+    carom_cross(twice, view->u.c, once, 30);
+    a[1] += dot_q40(start->n, once, view->fine);
+    a[2] += dot_q40(start->n, twice, view->fine) + times_u2(a[0], path);
+    a[3] = times_u2(v, path);
+    a[4] = times_u2(g, path);
+    return 4;
 }
 
 /*
- * An edge of the moving body, direction e through r from its centre, against a standing edge f
- * through y: w.d = e.(f x (c - y)) + f.(r x e), where r x e turns with the body.
+ * n(t).(c(t) + r(t)) - offset, n turning with `to`: c is the way of the vertex's centre, r the
+ * vertex about it. Only what turns has its factor.
  */
-static void moving_edge(const struct boyse_pair *pair, const struct candidate *c, int64_t a[5])
+static int turning_face(const struct boyse_view *view, const struct boyse_places *start,
+                        int32_t offset_q22, int64_t *a)
 {
-    const struct body_path *path = &pair->a->path;
-    struct boyse_edge_edge ee;
-    struct turning e;
-    carom_v3_q22 local;
-    int32_t arm[3], near[3], from[3], d0[3], d1[3], d2[3], k0[3], k1[3], k2[3];
-    int64_t fk, along_q22;
+    const struct body_path *from = &view->from->path, *to = &view->to->path;
+    struct quadratic n, centre, arm;
+    int64_t along[BOYSE_DEGREE + 1] = {0}, plane[BOYSE_DEGREE + 1] = {0};
+    int64_t gap = a[0];
+    int32_t r[3], at[3];
 
-    boyse_place_edge_edge(pair, c, 0, &ee);
-    /* any point of the standing line serves: the one nearest to a keeps long edges in range */
-    along_q22 = -carom_round(carom_dot(ee.f, ee.start_b.c), 30);
     for (int k = 0; k < 3; k++) {
-        near[k] = ee.start_b.c[k] + (int32_t)fix_mul(along_q22, ee.f[k], 30);
+        at[k] = from->turns ? view->centre.c[k] : start->vertex.c[k];
     }
-    if (out_of_range(near)) {
-        never(a);
-        return;
+    if (!centre_way(&centre, view, at)) {
+        return never(a);
     }
-    local = mesh_vertex(pair->a->mesh, ee.edge_a->vertex[0]);
-    carom_rotate(arm, &path->start.r, local.c);
-    for (int k = 0; k < 3; k++) {
-        from[k] = (int32_t)carom_round(path->start.x.c[k], 8) - near[k] * 4;
+    turning(&n, start->n, to, &to->u);
+    add_product(along, &n, &centre, view->fine);
+    a[0] = 0;
+    add_times_factor(a, along, 4, 1, from);
+    if (from->turns) {
+        arm_of(r, view, start);
+        refine(r, r, view->fine);
+        turning(&arm, r, from, &view->u);
+        add_product(a, &n, &arm, view->fine);
     }
-    carom_cross(d0, ee.f, from, 30);
-    carom_cross(d1, ee.f, path->v_q24.c, 30);
-    carom_cross(d2, ee.f, path->g_q24.c, 30);
-    turning_direction(path, ee.e, &e);
-    multiply_turning(&e, d0, d1, d2, a);
-    carom_cross(k0, arm, ee.e, 28); /* q22 x q30 to q24 */
-    carom_cross(k1, path->u_world.c, k0, 30);
-    carom_cross(k2, path->u_world.c, k1, 30);
-    fk = dot_q40(ee.f, k0);
-    a[0] += fk;
-    a[1] += 2 * dot_q40(ee.f, k1);
-    a[2] += 2 * dot_q40(ee.f, k2) + times_u2(fk, path);
+    plane[0] = carom_shl(offset_q22, 18);
+    memset(along, 0, sizeof along);
+    add_times_factor(along, plane, 0, 1, to);
+    add_times_factor(a, along, 2, -1, from);
+    a[0] = gap; /* the exact one; the sum above is it but for rounding */
+    return from->turns ? 6 : 4;
 }
 
-void boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c, int64_t a_q40[5])
+/* out = x x y for a direction x and lengths y, collected by powers: degree 4. */
+static void cross_product(int32_t out[5][3], const struct quadratic *x, const struct quadratic *y)
 {
-    CAROM_ASSERT(!pair->b->path.turns);
-    switch (c->kind) {
-    case CANDIDATE_VERTEX_FACE:
-        moving_vertex(pair, c, a_q40);
-        break;
-    case CANDIDATE_FACE_VERTEX:
-        moving_face(pair, c, a_q40);
-        break;
-    default:
-        moving_edge(pair, c, a_q40);
+    for (int j = 0; j < 3; j++) {
+        carom_cross(out[j], x->c[0], y->c[j], 30);
     }
+    if (x->constant) {
+        return; /* degree 2 */
+    }
+    memset(out[3], 0, 2 * sizeof out[0]);
+    for (int i = 1; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            int32_t part[3];
+
+            carom_cross(part, x->c[i], y->c[j], 30);
+            for (int k = 0; k < 3; k++) {
+                out[i + j][k] += part[k];
+            }
+        }
+    }
+}
+
+/*
+ * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
+ *
+ *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) - e.(f x r_b)
+ *
+ * where r_a x e turns with a, and f x r_b with b. A line that does not turn is referred to a point
+ * on it, so that its r is 0.
+ */
+static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
+                           int64_t *a)
+{
+    const struct boyse_view *view = &pair->view[0];
+    const struct body_path *path_a = &pair->a->path, *path_b = &pair->b->path;
+    struct quadratic e, f, centre, k;
+    int32_t at[3], way[5][3], moment[3];
+
+    for (int i = 0; i < 3; i++) {
+        at[i] = path_a->turns ? view->centre.c[i] : start->vertex.c[i];
+        at[i] -= path_b->turns ? 0 : start->start_b.c[i];
+    }
+    if (!path_b->turns) {
+        /* of b's line, take the point that is nearest: it keeps long edges in range */
+        int32_t along_q22 = (int32_t)carom_round(carom_dot(start->f, at), 30);
+
+        for (int i = 0; i < 3; i++) {
+            at[i] -= carom_mul_q30(along_q22, start->f[i]);
+        }
+    }
+    if (!centre_way(&centre, view, at)) {
+        return never(a);
+    }
+    turning(&e, start->e, path_a, &view->u);
+    turning(&f, start->f, path_b, &path_b->u);
+    cross_product(way, &f, &centre);
+    for (int i = 0; i < (e.constant ? 1 : 3); i++) {
+        for (int j = 0; j < (f.constant ? 3 : 5); j++) {
+            a[i + j] += dot_q40(e.c[i], way[j], view->fine);
+        }
+    }
+    if (path_a->turns) {
+        arm_of(moment, view, start);
+        carom_cross(moment, moment, start->e, 30 - view->fine);
+        turning(&k, moment, path_a, &view->u);
+        add_product(a, &f, &k, view->fine);
+    }
+    if (path_b->turns) {
+        /* r_b x f takes care of the minus */
+        carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
+        turning(&k, moment, path_b, &path_b->u);
+        add_product(a, &e, &k, view->fine);
+    }
+    a[0] = carom_round(carom_dot(start->w, start->d), 12);
+    return (path_a->turns ? 2 : 0) + (path_b->turns ? 2 : 0) + 2;
+}
+
+int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1])
+{
+    const struct boyse_view *view = boyse_view(pair, c);
+
+    memset(a_q40, 0, (BOYSE_DEGREE + 1) * sizeof a_q40[0]);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        return edge_polynomial(pair, start, a_q40);
+    }
+    a_q40[0] = carom_round(boyse_plane_gap_q52(view, c, start), 12);
+    return view->to->path.turns
+               ? turning_face(view, start, view->to->mesh->faces[c->j].offset_q22, a_q40)
+               : moving_vertex(view, start, a_q40);
 }

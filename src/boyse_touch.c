@@ -2,6 +2,104 @@
 /* Features of a candidate at a given time: their places, their distance, and the exact test. */
 #include "boyse_place.h"
 
+/* ---------------------------------------------------------------------- pair */
+
+static int64_t length_q22(const int32_t v_q24[3])
+{
+    const int64_t v[3] = {v_q24[0], v_q24[1], v_q24[2]};
+
+    return (fix_length(v) >> 2) + 1;
+}
+
+static int32_t clamp(int64_t v)
+{
+    return v < INT32_MAX ? (int32_t)v : INT32_MAX;
+}
+
+/*
+ * Bounds of the path. A point at r goes by at most 2 s |r|, and is at most
+ * (2 s^2 + 2 s^3) |r| t^2 < 3 s^2 |r| t^2 from r + 2t u x r, as s < 0.31 (body.h). Seen from `to`,
+ * which turns as well while the point goes D from a place within X of its centre, there are
+ * 2 s (X + D) of way and 2 s D + 3 s^2 (X + D) of bend on top.
+ */
+static void set_bounds(struct boyse_view *view)
+{
+    const struct body *from = view->from, *to = view->to;
+    const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
+    int64_t s_q30 = fix_sqrt((uint64_t)from->path.u2_q30 << 30) + 1;
+    int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
+
+    if (from->path.turns) {
+        way += fix_mul(2 * s_q30, from->radius_q22, 30) + 1;
+        bend += fix_mul(3 * (int64_t)from->radius_q22, from->path.u2_q30 + 1, 30) + 1;
+    }
+    view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
+    if (to->path.turns) {
+        s_q30 = fix_sqrt((uint64_t)to->path.u2_q30 << 30) + 1;
+        reach = fix_length(centre) + from->radius_q22 + way;
+        view->seen.way_q22 = clamp(way + fix_mul(2 * reach, (int32_t)s_q30, 30) + 1);
+        view->seen.bend_q22 = clamp(bend + fix_mul(2 * way, (int32_t)s_q30, 30) +
+                                    fix_mul(3 * reach, to->path.u2_q30 + 1, 30) + 2);
+        view->fixed.way_q22 = clamp(way + fix_mul(2 * s_q30, to->radius_q22, 30) + 1);
+        view->fixed.bend_q22 =
+            clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, to->path.u2_q30 + 1, 30) + 1);
+    }
+}
+
+/*
+ * Two features that meet on the path start within its way of each other, and lie within the radius
+ * of a body that turns; what does not turn is referred to the feature itself, of which an edge of
+ * `from` has its start a diameter away. No length in P is above the sum of these.
+ */
+static void set_fine(struct boyse_view *view)
+{
+    int64_t reach = view->fixed.way_q22 + (view->to->path.turns ? view->to->radius_q22 : 0) + 8 +
+                    (view->from->path.turns ? 1 : 2) * (int64_t)view->from->radius_q22;
+
+    view->fine = 30 - fix_bits((uint64_t)reach);
+    view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
+}
+
+/* How `to` sees `from`. */
+static void set_view(struct boyse_view *view, struct body *from, struct body *to)
+{
+    const carom_m3_q30 *from_r = &from->path.start.r, *to_r = &to->path.start.r;
+    int64_t centre_q32[3], v[3], g[3];
+    int32_t turning[3];
+
+    view->from = from;
+    view->to = to;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            int64_t sum = (int64_t)to_r->c[0][k] * from_r->c[0][i] +
+                          (int64_t)to_r->c[1][k] * from_r->c[1][i] +
+                          (int64_t)to_r->c[2][k] * from_r->c[2][i];
+
+            view->r.c[k][i] = (int32_t)carom_round(sum, 30);
+        }
+        centre_q32[k] = carom_shl(from->path.origin_q22[k] - to->path.origin_q22[k], 10) +
+                        from->path.start.x.c[k] - to->path.start.x.c[k];
+        v[k] = from->path.v.c[k] - to->path.v.c[k];
+        g[k] = from->path.g.c[k] - to->path.g.c[k];
+    }
+    fix_rotate_back(centre_q32, to_r, centre_q32);
+    fix_rotate_back(v, to_r, v);
+    fix_rotate_back(g, to_r, g);
+    for (int k = 0; k < 3; k++) {
+        view->centre.c[k] = (int32_t)carom_round(centre_q32[k], 10);
+        view->v.c[k] = (int32_t)carom_round(v[k], 16);
+        view->g.c[k] = (int32_t)carom_round(g[k], 16);
+    }
+    carom_rotate(view->u.c, &view->r, from->path.u.c);
+    carom_cross(turning, view->u.c, view->centre.c, 29);
+    for (int k = 0; k < 3; k++) {
+        view->u_relative.c[k] = view->u.c[k] - to->path.u.c[k];
+        view->field.c[k] = (int32_t)carom_round(v[k], 18) - turning[k];
+    }
+    set_bounds(view);
+    set_fine(view);
+}
+
 void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
 {
     pair->a = a;
@@ -10,62 +108,179 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
     for (int k = 0; k < 3; k++) {
         pair->offset_q22[k] = (int32_t)(b->path.origin_q22[k] - a->path.origin_q22[k]);
     }
+    pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)a->path.u2_q30 << 30) +
+                                   fix_sqrt((uint64_t)b->path.u2_q30 << 30));
+    set_view(&pair->view[0], a, b);
+    set_view(&pair->view[1], b, a);
 }
 
-/* ------------------------------------------------------------ places at t */
+/* ------------------------------------------------------------------ places at t */
 
-static carom_v3_q22 point_of_a(const struct boyse_pair *pair, int32_t t_q30, uint32_t v)
+/*
+ * Cayley's turn at one time: r goes to r + k t u x r + k t^2 u x (u x r), k = 2 / (1 + s^2 t^2).
+ * The turn back differs in the sign of the first.
+ */
+struct turn {
+    int32_t u[3];
+    int32_t once_q29, twice_q29; /* k t and k t^2, at most 2; 0: no turn */
+};
+
+static struct turn turn_at(const struct body_path *path, const carom_v3_q30 *u, int32_t t_q30,
+                           int32_t t2_q30)
 {
-    carom_v3_q22 local = mesh_vertex(pair->a->mesh, v);
+    struct turn turn = {{u->c[0], u->c[1], u->c[2]}, 0, 0};
 
-    return body_point(body_pose_at(pair->a, t_q30), &local);
+    if (path->turns) {
+        /* s t < 0.31: the divisor is 1 to 1.1 in q30, the quotient at most 2^30 */
+        int32_t k_q29 = (int32_t)(((int64_t)1 << 60) /
+                                  (CAROM_ONE_Q30 + (int64_t)carom_mul_q30(path->u2_q30, t2_q30)));
+
+        turn.once_q29 = carom_mul_q30(k_q29, t_q30);
+        turn.twice_q29 = carom_mul_q30(k_q29, t2_q30);
+    }
+    return turn;
 }
 
-static carom_v3_q22 point_of_b(const struct boyse_pair *pair, int32_t t_q30, uint32_t v)
+static struct turn turn_back(struct turn turn)
 {
-    carom_v3_q22 local = mesh_vertex(pair->b->mesh, v);
-    carom_v3_q22 p = body_point(body_pose_at(pair->b, t_q30), &local);
+    turn.once_q29 = -turn.once_q29;
+    return turn;
+}
 
+/* v is turned in place, in any format; its length keeps it within int32. */
+static void apply(const struct turn *turn, int32_t v[3])
+{
+    int32_t once[3], twice[3];
+
+    if (turn->once_q29 == 0) {
+        return;
+    }
+    carom_cross(once, turn->u, v, 30);
+    carom_cross(twice, turn->u, once, 30);
     for (int k = 0; k < 3; k++) {
-        p.c[k] += pair->offset_q22[k];
+        v[k] += (int32_t)carom_round(
+            (int64_t)turn->once_q29 * once[k] + (int64_t)turn->twice_q29 * twice[k], 29);
+    }
+}
+
+/* A view at one time. */
+struct moment {
+    const struct boyse_view *view;
+    struct turn from, to, to_back;
+    int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
+};
+
+static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+{
+    int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
+
+    m->view = view;
+    m->from = turn_at(&view->from->path, &view->u, t_q30, t2_q30);
+    m->to = turn_at(&view->to->path, &view->to->path.u, t_q30, t2_q30);
+    m->to_back = turn_back(m->to);
+    for (int k = 0; k < 3; k++) {
+        /* q24 x q30 = q54: |v t + g t^2| < 2^8 units */
+        int64_t way_q54 = (int64_t)view->v.c[k] * t_q30 + (int64_t)view->g.c[k] * t2_q30;
+
+        m->centre_q22[k] = view->centre.c[k] + (int32_t)carom_round(way_q54, 32);
+    }
+}
+
+/* A direction of from's mesh in to's mesh axes, and back. */
+static void direction_to(const struct moment *m, const int32_t local[3], int32_t out[3])
+{
+    carom_rotate(out, &m->view->r, local);
+    apply(&m->from, out);
+    apply(&m->to_back, out);
+}
+
+static void direction_back(const struct moment *m, const int32_t n[3], int32_t out[3])
+{
+    const struct turn from_back = turn_back(m->from);
+
+    memcpy(out, n, 3 * sizeof out[0]);
+    apply(&m->to, out);
+    apply(&from_back, out);
+    carom_rotate_back(out, &m->view->r, out);
+}
+
+/* A point of from's mesh in to's mesh axes, about to's centre. */
+static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *local)
+{
+    carom_v3_q22 p;
+
+    carom_rotate(p.c, &m->view->r, local->c);
+    apply(&m->from, p.c);
+    for (int k = 0; k < 3; k++) {
+        p.c[k] += m->centre_q22[k];
+    }
+    apply(&m->to_back, p.c);
+    return p;
+}
+
+/* A direction, or a point about to's centre, from to's mesh axes to the world's. */
+static void to_world(const struct moment *m, int32_t v[3])
+{
+    apply(&m->to, v);
+    carom_rotate(v, &m->view->to->path.start.r, v);
+}
+
+/* The same for a point, relative to the origin of a's path. */
+static carom_v3_q22 point_to_world(const struct boyse_pair *pair, const struct moment *m,
+                                   int32_t t_q30, carom_v3_q22 p)
+{
+    const struct body *to = m->view->to;
+
+    to_world(m, p.c);
+    for (int k = 0; k < 3; k++) {
+        int64_t way_q40 = fix_mul(to->path.v.c[k] + fix_mul(to->path.g.c[k], t_q30, 30), t_q30, 30);
+
+        p.c[k] += (int32_t)carom_round(to->path.start.x.c[k] + carom_round(way_q40, 8), 10) +
+                  (to == pair->b ? pair->offset_q22[k] : 0);
     }
     return p;
 }
 
-static void direction_at(struct body *b, int32_t t_q30, const carom_v3_q30 *local, int32_t out[3])
+/* The features of a candidate at one time. */
+static void place(const struct moment *m, const struct candidate *c, struct boyse_places *p)
 {
-    carom_rotate(out, &body_pose_at(b, t_q30)->r, local->c);
-}
+    const struct carom_mesh *from = m->view->from->mesh, *to = m->view->to->mesh;
+    uint32_t v = c->i;
 
-void boyse_place_vertex_face(const struct boyse_pair *pair, const struct candidate *c,
-                             int32_t t_q30, struct boyse_vertex_face *vf)
-{
-    vf->vertex_on_a = c->kind == CANDIDATE_VERTEX_FACE;
-    vf->vertex_body = vf->vertex_on_a ? pair->a : pair->b;
-    vf->face_body = vf->vertex_on_a ? pair->b : pair->a;
-    if (vf->vertex_on_a) {
-        vf->vertex = point_of_a(pair, t_q30, c->i);
-        vf->corner = point_of_b(pair, t_q30, pair->b->mesh->raw.faces[c->j][0]);
-    } else {
-        vf->vertex = point_of_b(pair, t_q30, c->i);
-        vf->corner = point_of_a(pair, t_q30, pair->a->mesh->raw.faces[c->j][0]);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        p->edge_a = &from->edges[c->i];
+        p->edge_b = &to->edges[c->j];
+        v = p->edge_a->vertex[0];
     }
-    direction_at(vf->face_body, t_q30, &vf->face_body->mesh->faces[c->j].normal, vf->n);
+    p->vertex = mesh_vertex(from, v);
+    p->vertex = point_to(m, &p->vertex);
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        p->n = to->faces[c->j].normal.c;
+        return;
+    }
+    p->start_b = mesh_vertex(to, p->edge_b->vertex[0]);
+    p->f = p->edge_b->direction.c;
+    direction_to(m, p->edge_a->direction.c, p->e);
+    boyse_complete_edges(p);
 }
 
-void boyse_place_edge_edge(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                           struct boyse_edge_edge *ee)
+/* --------------------------------------------------------- a vertex and a face */
+
+static void test_vertex_face(const struct moment *m, const struct candidate *c,
+                             const struct boyse_places *p, struct boyse_touch *touch)
 {
-    ee->edge_a = &pair->a->mesh->edges[c->i];
-    ee->edge_b = &pair->b->mesh->edges[c->j];
-    ee->start_a = point_of_a(pair, t_q30, ee->edge_a->vertex[0]);
-    ee->start_b = point_of_b(pair, t_q30, ee->edge_b->vertex[0]);
-    direction_at(pair->a, t_q30, &ee->edge_a->direction, ee->e);
-    direction_at(pair->b, t_q30, &ee->edge_b->direction, ee->f);
-    carom_cross(ee->w, ee->e, ee->f, 30);
-    boyse_difference(ee->d, &ee->start_a, &ee->start_b);
-    ee->sine_q30 = fix_sqrt((uint64_t)carom_dot(ee->w, ee->w));
+    int32_t n[3];
+
+    touch->gap_q22 = (int32_t)(boyse_plane_gap_q52(m->view, c, p) >> 30);
+    touch->sign = 1;
+    touch->valid = false;
+    if (mesh_over_face(m->view->to->mesh, c->j, &p->vertex, BOYSE_POINT_NOISE_Q22)) {
+        direction_back(m, p->n, n);
+        touch->valid = mesh_vertex_cone(m->view->from->mesh, c->i, n, INTERFERE_CONE_Q30);
+    }
 }
+
+/* ------------------------------------------------------------------ two edges */
 
 static int64_t divide_floor(int64_t n, int64_t d)
 {
@@ -75,10 +290,10 @@ static int64_t divide_floor(int64_t n, int64_t d)
 }
 
 /* w.d is kept whole until it is divided by |w|: nearly parallel edges lose nothing. */
-static int32_t edge_gap(const struct boyse_edge_edge *ee, int sign)
+static int32_t edge_gap(const struct boyse_places *p, int32_t sine_q30, int sign)
 {
-    int64_t sine_q30 = ee->sine_q30 > BOYSE_PARALLEL_Q30 ? ee->sine_q30 : BOYSE_PARALLEL_Q30;
-    int64_t gap = divide_floor(sign * carom_dot(ee->w, ee->d), sine_q30);
+    int64_t gap = divide_floor(sign * carom_dot(p->w, p->d),
+                               sine_q30 > BOYSE_PARALLEL_Q30 ? sine_q30 : BOYSE_PARALLEL_Q30);
 
     if (gap > INT32_MAX || gap < -INT32_MAX) {
         return gap > 0 ? INT32_MAX : -INT32_MAX; /* nearly parallel and far apart */
@@ -86,181 +301,189 @@ static int32_t edge_gap(const struct boyse_edge_edge *ee, int sign)
     return (int32_t)gap;
 }
 
-static int32_t plane_gap(const struct boyse_vertex_face *vf)
-{
-    int32_t d[3];
+/*
+ * Places of nearest approach along the two lines, q22. With b = e.f and D = 1 - b^2 = |w|^2:
+ * s = (b d.f - d.e) / D and q = (d.f - b d.e) / D. False when either lies off its edge.
+ */
+struct nearest {
+    int64_t s_q22, q_q22;
+};
 
-    boyse_difference(d, &vf->vertex, &vf->corner);
-    return (int32_t)(carom_dot(vf->n, d) >> 30);
+static bool nearest_points(const struct boyse_places *p, int32_t sine_q30, struct nearest *at)
+{
+    int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
+    int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
+    int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
+    int64_t d_q30 = carom_round((int64_t)sine_q30 * sine_q30, 30); /* >= 1e-4 */
+
+    /* q32 numbers of at most 2^41 by q20: |d| <= 2^9 units */
+    at->s_q22 = divide_floor((fix_mul(df_q32, b_q30, 30) - de_q32) * ((int64_t)1 << 20), d_q30);
+    at->q_q22 = divide_floor((df_q32 - fix_mul(de_q32, b_q30, 30)) * ((int64_t)1 << 20), d_q30);
+    return at->s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           at->s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
+           at->q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           at->q_q22 <= p->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
 }
 
-int32_t boyse_gap(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30, int sign)
+/* The unit normal w / |w| of two edges, in the mesh axes of both. */
+struct edge_normal {
+    int32_t on_a[3], on_b[3];
+};
+
+static void set_normal(struct edge_normal *n, const struct moment *m, const struct boyse_places *p,
+                       int32_t sine_q30)
 {
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        struct boyse_edge_edge ee;
-
-        boyse_place_edge_edge(pair, c, t_q30, &ee);
-        return edge_gap(&ee, sign);
-    } else {
-        struct boyse_vertex_face vf;
-
-        boyse_place_vertex_face(pair, c, t_q30, &vf);
-        return plane_gap(&vf);
-    }
-}
-
-/* --------------------------------------------------------- the exact test */
-
-/* Whether a point lies over a face, in the face's own frame: d from corner 0, q22. */
-static bool inside_face(const struct carom_mesh *mesh, uint32_t face, const int32_t d[3])
-{
-    const struct carom_face *f = &mesh->faces[face];
-    carom_v3_q22 first = mesh_corner(mesh, face, 0);
+    int64_t inverse_q30 = ((int64_t)1 << 60) / sine_q30; /* 1 .. 100 */
 
     for (int k = 0; k < 3; k++) {
-        const struct carom_edge *edge = &mesh->edges[f->edge[k]];
-        int side = edge->face[0] == face ? 0 : 1;
-        carom_v3_q30 in = mesh_edge_inward(mesh, edge, side);
-        carom_v3_q22 corner = mesh_corner(mesh, face, k);
-        int32_t from[3];
-
-        for (int i = 0; i < 3; i++) {
-            from[i] = d[i] + first.c[i] - corner.c[i];
-        }
-        if ((carom_dot(in.c, from) >> 30) < -BOYSE_POINT_NOISE_Q22) {
-            return false;
-        }
+        n->on_b[k] = (int32_t)fix_mul(inverse_q30, p->w[k], 30);
     }
-    return true;
-}
-
-static void touch_vertex_face(const struct boyse_pair *pair, const struct candidate *c,
-                              int32_t t_q30, struct boyse_touch *touch)
-{
-    struct boyse_vertex_face vf;
-    carom_v3_q22 foot;
-    int32_t d[3], n[3];
-
-    boyse_place_vertex_face(pair, c, t_q30, &vf);
-    touch->gap_q22 = plane_gap(&vf);
-    touch->sign = 1;
-    for (int k = 0; k < 3; k++) {
-        foot.c[k] = vf.vertex.c[k] - (int32_t)carom_round((int64_t)vf.n[k] * touch->gap_q22, 30);
-        touch->normal.c[k] = vf.vertex_on_a ? vf.n[k] : -vf.n[k];
-    }
-    touch->on_a = vf.vertex_on_a ? vf.vertex : foot;
-    touch->on_b = vf.vertex_on_a ? foot : vf.vertex;
-
-    boyse_difference(d, &vf.vertex, &vf.corner);
-    carom_rotate_back(d, &body_pose_at(vf.face_body, t_q30)->r, d);
-    carom_rotate_back(n, &body_pose_at(vf.vertex_body, t_q30)->r, vf.n);
-    touch->valid = inside_face(vf.face_body->mesh, c->j, d) &&
-                   mesh_vertex_cone(vf.vertex_body->mesh, c->i, n, INTERFERE_CONE_Q30);
+    direction_back(m, n->on_b, n->on_a);
 }
 
 /* Whether sign * normal leaves b's edge outwards and enters a's: on neither side inside a face. */
-static bool normal_in_cones(const struct boyse_pair *pair, const struct boyse_edge_edge *ee,
-                            int32_t t_q30, const int32_t normal[3], int sign)
+static bool normal_in_cones(const struct moment *m, const struct boyse_places *p,
+                            const struct edge_normal *n, int sign)
 {
     int64_t limit_q60 = (int64_t)INTERFERE_CONE_Q30 << 30;
-    int32_t n_a[3], n_b[3];
 
-    carom_rotate_back(n_a, &body_pose_at(pair->a, t_q30)->r, normal);
-    carom_rotate_back(n_b, &body_pose_at(pair->b, t_q30)->r, normal);
     for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_a = mesh_edge_inward(pair->a->mesh, ee->edge_a, side);
-        carom_v3_q30 in_b = mesh_edge_inward(pair->b->mesh, ee->edge_b, side);
+        carom_v3_q30 in_a = mesh_edge_inward(m->view->from->mesh, p->edge_a, side);
+        carom_v3_q30 in_b = mesh_edge_inward(m->view->to->mesh, p->edge_b, side);
 
-        if (sign * carom_dot(n_b, in_b.c) > limit_q60 ||
-            -sign * carom_dot(n_a, in_a.c) > limit_q60) {
+        if (sign * carom_dot(n->on_b, in_b.c) > limit_q60 ||
+            -sign * carom_dot(n->on_a, in_a.c) > limit_q60) {
             return false;
         }
     }
     return true;
+}
+
+static int64_t along_normal(const struct carom_mesh *mesh, uint16_t face, const int32_t n[3])
+{
+    return face == CAROM_NO_FACE ? 0 : carom_dot(n, mesh->faces[face].normal.c);
 }
 
 /*
  * The sign of N by the way that the faces of both edges look: out of b and against a. Edges that
  * are nearly flat have both normals within the tolerance of their cones.
  */
-static int facing_sign(const struct boyse_pair *pair, const struct boyse_edge_edge *ee,
-                       int32_t t_q30, const int32_t normal[3])
+static int facing_sign(const struct moment *m, const struct boyse_places *p,
+                       const struct edge_normal *n)
 {
-    int32_t n_a[3], n_b[3];
     int64_t out = 0;
 
-    carom_rotate_back(n_a, &body_pose_at(pair->a, t_q30)->r, normal);
-    carom_rotate_back(n_b, &body_pose_at(pair->b, t_q30)->r, normal);
     for (int side = 0; side < 2; side++) {
-        uint16_t face_a = ee->edge_a->face[side], face_b = ee->edge_b->face[side];
-
-        out -= face_a == CAROM_NO_FACE ? 0 : carom_dot(n_a, pair->a->mesh->faces[face_a].normal.c);
-        out += face_b == CAROM_NO_FACE ? 0 : carom_dot(n_b, pair->b->mesh->faces[face_b].normal.c);
+        out += along_normal(m->view->to->mesh, p->edge_b->face[side], n->on_b) -
+               along_normal(m->view->from->mesh, p->edge_a->face[side], n->on_a);
     }
     return out >= 0 ? 1 : -1;
 }
 
-/*
- * Places of nearest approach along the two lines, q22. With b = e.f and D = 1 - b^2 = |w|^2:
- * s = (b d.f - d.e) / D and q = (d.f - b d.e) / D. False when either lies off its edge.
- */
-static bool nearest_points(const struct boyse_edge_edge *ee, int64_t *s_q22, int64_t *q_q22)
+/* Returns |w|; `at` and `n` are set when the touch is valid. */
+static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
+                          struct boyse_touch *touch, struct nearest *at, struct edge_normal *n)
 {
-    int32_t b_q30 = (int32_t)carom_round(carom_dot(ee->e, ee->f), 30);
-    int64_t de_q32 = carom_round(carom_dot(ee->d, ee->e), 20);
-    int64_t df_q32 = carom_round(carom_dot(ee->d, ee->f), 20);
-    int64_t d_q30 = carom_round(ee->sine_q30 * ee->sine_q30, 30); /* >= 1e-4 */
+    int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
 
-    /* q32 numbers of at most 2^41 by q20: |d| <= 2^9 units */
-    *s_q22 = divide_floor((fix_mul(df_q32, b_q30, 30) - de_q32) * ((int64_t)1 << 20), d_q30);
-    *q_q22 = divide_floor((df_q32 - fix_mul(de_q32, b_q30, 30)) * ((int64_t)1 << 20), d_q30);
-    return *s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           *s_q22 <= ee->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
-           *q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           *q_q22 <= ee->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
-}
-
-static void touch_edge_edge(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                            struct boyse_touch *touch)
-{
-    struct boyse_edge_edge ee;
-    int64_t s_q22, q_q22;
-    int32_t n[3];
-    int likely;
-
-    boyse_place_edge_edge(pair, c, t_q30, &ee);
     touch->valid = false;
     touch->sign = 1;
-    touch->gap_q22 = edge_gap(&ee, 1);
-    if (ee.sine_q30 < BOYSE_PARALLEL_Q30 || !nearest_points(&ee, &s_q22, &q_q22)) {
-        return;
-    }
-    for (int k = 0; k < 3; k++) {
-        n[k] = (int32_t)((int64_t)ee.w[k] * CAROM_ONE_Q30 / ee.sine_q30);
-        touch->on_a.c[k] = ee.start_a.c[k] + (int32_t)carom_round(ee.e[k] * s_q22, 30);
-        touch->on_b.c[k] = ee.start_b.c[k] + (int32_t)carom_round(ee.f[k] * q_q22, 30);
-    }
-    likely = facing_sign(pair, &ee, t_q30, n);
-    for (int k = 0; k < 2 && !touch->valid; k++) {
-        int sign = k == 0 ? likely : -likely;
-
-        if (normal_in_cones(pair, &ee, t_q30, n, sign)) {
-            touch->valid = true;
-            touch->sign = (int8_t)sign;
-            touch->gap_q22 = edge_gap(&ee, sign);
-            for (int i = 0; i < 3; i++) {
-                touch->normal.c[i] = sign * n[i];
-            }
+    touch->gap_q22 = edge_gap(p, sine_q30, 1);
+    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine_q30, at)) {
+        set_normal(n, m, p, sine_q30);
+        touch->sign = (int8_t)facing_sign(m, p, n);
+        touch->valid = normal_in_cones(m, p, n, touch->sign);
+        if (!touch->valid) {
+            touch->sign = (int8_t)-touch->sign;
+            touch->valid = normal_in_cones(m, p, n, touch->sign);
         }
+        if (touch->sign < 0) {
+            touch->gap_q22 = edge_gap(p, sine_q30, -1);
+        }
+    }
+    return sine_q30;
+}
+
+/* -------------------------------------------------------------- the exact test */
+
+int32_t boyse_scale(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+{
+    struct moment m;
+    struct boyse_places p;
+
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        return CAROM_ONE_Q30;
+    }
+    set_moment(&m, &pair->view[0], t_q30);
+    place(&m, c, &p);
+    return (int32_t)fix_sqrt((uint64_t)carom_dot(p.w, p.w));
+}
+
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+                   struct boyse_touch *touch)
+{
+    struct moment m;
+    struct boyse_places p;
+    struct nearest at;
+    struct edge_normal n;
+
+    set_moment(&m, boyse_view(pair, c), t_q30);
+    place(&m, c, &p);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        return test_edges(&m, &p, touch, &at, &n);
+    }
+    test_vertex_face(&m, c, &p, touch);
+    return CAROM_ONE_Q30;
+}
+
+static void locate_vertex_face(const struct candidate *c, const struct boyse_places *p,
+                               struct boyse_touch *touch)
+{
+    bool on_a = c->kind == CANDIDATE_VERTEX_FACE; /* the vertex is a's, N the face's normal */
+    carom_v3_q22 foot;
+
+    for (int k = 0; k < 3; k++) {
+        foot.c[k] = p->vertex.c[k] - (int32_t)carom_round((int64_t)p->n[k] * touch->gap_q22, 30);
+        touch->normal.c[k] = on_a ? p->n[k] : -p->n[k];
+    }
+    touch->on_a = on_a ? p->vertex : foot;
+    touch->on_b = on_a ? foot : p->vertex;
+}
+
+static void locate_edges(const struct boyse_places *p, const struct nearest *at,
+                         const struct edge_normal *n, struct boyse_touch *touch)
+{
+    for (int k = 0; k < 3; k++) {
+        touch->normal.c[k] = touch->sign * n->on_b[k];
+        touch->on_a.c[k] = p->vertex.c[k] + (int32_t)carom_round(p->e[k] * at->s_q22, 30);
+        touch->on_b.c[k] = p->start_b.c[k] + (int32_t)carom_round(p->f[k] * at->q_q22, 30);
     }
 }
 
 void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                  struct boyse_touch *touch)
 {
+    struct moment m;
+    struct boyse_places p;
+    struct nearest at;
+    struct edge_normal n;
+
+    set_moment(&m, boyse_view(pair, c), t_q30);
+    place(&m, c, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        touch_edge_edge(pair, c, t_q30, touch);
+        (void)test_edges(&m, &p, touch, &at, &n);
     } else {
-        touch_vertex_face(pair, c, t_q30, touch);
+        test_vertex_face(&m, c, &p, touch);
     }
+    if (!touch->valid) {
+        return;
+    }
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        locate_edges(&p, &at, &n, touch);
+    } else {
+        locate_vertex_face(c, &p, touch);
+    }
+    to_world(&m, touch->normal.c);
+    touch->on_a = point_to_world(pair, &m, t_q30, touch->on_a);
+    touch->on_b = point_to_world(pair, &m, t_q30, touch->on_b);
 }

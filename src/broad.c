@@ -2,7 +2,8 @@
 #include "broad.h"
 
 /* The box of a body in world axes, grown by its reach. */
-static void bounds(const struct body *b, const struct body_state *s, int64_t box_q22[2][3])
+static void bounds(const struct body *b, const struct body_state *s, int32_t reach_q22,
+                   int64_t box_q22[2][3])
 {
     const struct carom_mesh *mesh = b->mesh;
     int shift = 22 - mesh->raw.quantum_bits;
@@ -18,7 +19,7 @@ static void bounds(const struct body *b, const struct body_state *s, int64_t box
     }
     for (int k = 0; k < 3; k++) {
         int64_t m = carom_round(s->position.c[k], 10);
-        int64_t h = b->reach_q22 + 8; /* 8: the roundings of this function */
+        int64_t h = reach_q22 + 8; /* 8: the roundings of this function */
 
         for (int j = 0; j < 3; j++) {
             m += fix_mul(middle[j], r.c[k][j], 30);
@@ -39,28 +40,37 @@ static bool overlap(int64_t a[2][3], int64_t b[2][3])
     return true;
 }
 
-int broad_pairs(struct pair *pairs, struct pool *pool, const struct body *bodies,
+bool broad_near(const struct body *a, const struct body_state *state_a, const struct body *b,
+                const struct body_state *state_b, int32_t margin_q22)
+{
+    int64_t box_a[2][3], box_b[2][3];
+
+    bounds(a, state_a, margin_q22, box_a);
+    bounds(b, state_b, margin_q22, box_b);
+    return overlap(box_a, box_b);
+}
+
+int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
                 const struct body_state *states, uint32_t body_count)
 {
     pool_clear(pool);
+    for (uint32_t i = 0; i < body_count; i++) {
+        if (bodies[i].mesh) {
+            bounds(&bodies[i], &states[i], bodies[i].reach_q22, bodies[i].box_q22);
+        }
+    }
     for (uint32_t a = 0; a < body_count; a++) {
-        int64_t box_a[2][3];
+        bool active = broad_active(&bodies[a], &states[a]);
 
-        if (!broad_active(&bodies[a], &states[a])) {
+        if (!bodies[a].mesh || !bodies[a].moving || states[a].out) {
             continue;
         }
-        bounds(&bodies[a], &states[a], box_a);
         for (uint32_t b = 0; b < body_count; b++) {
-            int64_t box_b[2][3];
             int32_t place;
 
-            /* two active bodies meet once, as (higher, lower) */
-            if (b == a || !bodies[b].mesh || states[b].out ||
-                (b > a && broad_active(&bodies[b], &states[b]))) {
-                continue;
-            }
-            bounds(&bodies[b], &states[b], box_b);
-            if (!overlap(box_a, box_b)) {
+            if (!bodies[b].mesh || (bodies[b].moving && b >= a) || states[b].out ||
+                !(active || broad_active(&bodies[b], &states[b])) ||
+                !overlap(bodies[a].box_q22, bodies[b].box_q22)) {
                 continue;
             }
             place = pool_take(pool);

@@ -4,24 +4,6 @@
 /* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
 #define SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
 
-/* Two unit vectors square to N and to each other. */
-static void tangents(struct contact *c)
-{
-    const int32_t *n = c->direction[0].c;
-    int64_t across[3] = {0, 0, 0};
-
-    /* N x the axis that N is least along, of x and y */
-    if (carom_abs(n[0]) < carom_abs(n[1])) {
-        across[1] = n[2];
-        across[2] = -n[1];
-    } else {
-        across[0] = -n[2];
-        across[2] = n[0];
-    }
-    fix_normalise(&c->direction[1], across);
-    carom_cross(c->direction[2].c, n, c->direction[1].c, 30);
-}
-
 /* The place in key order for a candidate; sets *same when it is there already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {
@@ -59,39 +41,49 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
     return c;
 }
 
-static bool add(struct contact_list *list, uint32_t place, const struct boyse_pair *pair,
-                const struct candidate *key, const struct boyse_touch *touch,
-                const carom_v3_q22 *centre_a, const carom_v3_q22 *centre_b)
+static int32_t digits_fewer(int64_t v, int digits)
 {
-    struct contact *c = insert(list, place);
-
-    if (!c) {
-        return false;
-    }
-    c->key = *key;
-    c->gap_q22 = touch->gap_q22;
-    c->skin_q22 = pair->skin_q22;
-    c->direction[0] = touch->normal;
-    tangents(c);
-    c->side[0].body = pair->a->moving ? pair->a : NULL;
-    c->side[1].body = pair->b->moving ? pair->b : NULL;
-    for (int k = 0; k < 3; k++) {
-        int32_t middle = (int32_t)(((int64_t)touch->on_a.c[k] + touch->on_b.c[k]) >> 1);
-
-        c->side[0].arm.c[k] = middle - centre_a->c[k];
-        c->side[1].arm.c[k] = middle - centre_b->c[k];
-        c->point.c[k] = carom_shl(pair->a->path.origin_q22[k] + c->side[0].arm.c[k], 10) +
-                        pair->a->path.start.x.c[k];
-    }
-    return true;
+    return (int32_t)(digits > 0 ? carom_round(v, digits) : carom_shl(v, -digits));
 }
 
-static void centres(const struct boyse_pair *pair, carom_v3_q22 *centre_a, carom_v3_q22 *centre_b)
+/* The arms of both bodies, and the place in the world. */
+static void set_place(struct contact *c, const struct boyse_pair *pair, const carom_v3_q40 arm[2])
 {
-    for (int k = 0; k < 3; k++) {
-        centre_a->c[k] = (int32_t)carom_round(pair->a->path.start.x.c[k], 10);
-        centre_b->c[k] = pair->offset_q22[k] + (int32_t)carom_round(pair->b->path.start.x.c[k], 10);
+    for (int s = 0; s < 2; s++) {
+        struct contact_side *side = &c->side[s];
+
+        for (int k = 0; k < 3; k++) {
+            side->arm.c[k] = digits_fewer(arm[s].c[k], 40 - 22);
+            if (side->body) {
+                side->arm_q30[k] = digits_fewer(arm[s].c[k], 40 - contact_arm_bits(side->body));
+            }
+        }
     }
+    for (int k = 0; k < 3; k++) {
+        c->point.c[k] = carom_shl(pair->a->path.origin_q22[k], 10) + pair->a->path.start.x.c[k] +
+                        carom_round(arm[0].c[k], 8);
+    }
+}
+
+bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
+                    const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,
+                    const carom_v3_q40 arm[2])
+{
+    bool same;
+    uint32_t place = find_place(list, key, &same);
+    struct contact *c = same ? NULL : insert(list, place);
+
+    if (!c) {
+        return same;
+    }
+    c->key = *key;
+    c->gap_q22 = gap_q22;
+    c->skin_q22 = pair->skin_q22;
+    c->normal = *normal;
+    c->side[0].body = pair->a->moving ? pair->a : NULL;
+    c->side[1].body = pair->b->moving ? pair->b : NULL;
+    set_place(c, pair, arm);
+    return true;
 }
 
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
@@ -99,27 +91,17 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
     struct boyse_touch touch;
-    carom_v3_q22 centre_a, centre_b;
-    uint32_t place;
-    int64_t gap = boyse_gap(pair, c, 0, 1);
-    bool same;
+    carom_v3_q40 arm[2];
 
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        gap = carom_abs(gap); /* the side is not known yet */
-    }
-    if (gap > margin_q22 || gap < deepest) {
+    if (!boyse_near(pair, c, deepest, margin_q22)) {
         return true;
     }
     boyse_touch(pair, c, 0, &touch);
     if (!touch.valid || touch.gap_q22 > margin_q22 || touch.gap_q22 < deepest) {
         return true;
     }
-    place = find_place(list, c, &same);
-    if (same) {
-        return true;
-    }
-    centres(pair, &centre_a, &centre_b);
-    return add(list, place, pair, c, &touch, &centre_a, &centre_b);
+    contact_place(pair, c, &touch.normal, arm);
+    return contact_insert(list, pair, c, &touch.normal, touch.gap_q22, arm);
 }
 
 static int64_t cosine_q30(const carom_v3_q30 *a, const carom_v3_q30 *b)
@@ -137,33 +119,34 @@ static int64_t distance_q22(const carom_v3_q22 *a, const carom_v3_q22 *b)
     return sum;
 }
 
-bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
-                   const struct boyse_hit *hit, const carom_v3_q22 *centre_a,
-                   const carom_v3_q22 *centre_b)
+/* A vertex on coplanar faces: wherever the hit's path would have had it, it is here already. */
+static bool same_vertex(const struct candidate *p, const struct candidate *q)
 {
-    struct boyse_touch touch = hit->touch;
-    carom_v3_q22 arm;
-    uint32_t place;
-    bool same;
+    return p->kind == q->kind && p->kind != CANDIDATE_EDGE_EDGE && p->i == q->i;
+}
 
-    place = find_place(list, &hit->candidate, &same);
-    if (same) {
-        return true;
-    }
+bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
+                   const struct boyse_hit *hit)
+{
+    const carom_v3_q30 *normal = &hit->touch.normal;
+    carom_v3_q40 arm[2];
+    carom_v3_q22 near;
+
+    contact_place(pair, &hit->candidate, normal, arm);
     for (int k = 0; k < 3; k++) {
-        arm.c[k] = (int32_t)(((int64_t)touch.on_a.c[k] + touch.on_b.c[k]) >> 1) - centre_a->c[k];
+        near.c[k] = (int32_t)carom_round(arm[0].c[k], 18);
     }
     for (uint32_t i = 0; i < list->pool->used; i++) {
         const struct contact *c = &list->contacts[i];
 
         if (c->key.pair == hit->candidate.pair &&
-            distance_q22(&c->side[0].arm, &arm) < 20 * (int64_t)pair->skin_q22 &&
-            cosine_q30(&c->direction[0], &touch.normal) > SAME_NORMAL_Q30) {
+            (same_vertex(&c->key, &hit->candidate) ||
+             distance_q22(&c->side[0].arm, &near) < 20 * (int64_t)pair->skin_q22) &&
+            cosine_q30(&c->normal, normal) > SAME_NORMAL_Q30) {
             return true;
         }
     }
-    touch.gap_q22 = pair->skin_q22 / 2;
-    return add(list, place, pair, &hit->candidate, &touch, centre_a, centre_b);
+    return contact_insert(list, pair, &hit->candidate, normal, pair->skin_q22 / 2, arm);
 }
 
 void contact_merge(struct contact_list *list)
@@ -179,7 +162,7 @@ void contact_merge(struct contact_list *list)
 
             if (k->key.pair == c->key.pair &&
                 distance_q22(&k->side[0].arm, &c->side[0].arm) < 2 * (int64_t)c->skin_q22 &&
-                cosine_q30(&k->direction[0], &c->direction[0]) > SAME_NORMAL_Q30) {
+                cosine_q30(&k->normal, &c->normal) > SAME_NORMAL_Q30) {
                 break;
             }
         }

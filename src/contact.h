@@ -12,31 +12,64 @@
 struct contact_side {
     struct body *body; /* NULL: stationary */
     carom_v3_q22 arm;  /* from the centre of mass to the contact */
-    /* filled in by the solver; directions 0..2 are N and the two tangents */
-    int32_t share_q30;       /* the contact's mass unit over the body's mass, at most 1 */
-    int32_t lever_q30[3][3]; /* arm x direction, over the body's unit of length */
-    int32_t turn[3][3];      /* change of spin by a unit impulse, times 2^-turn_bits */
-    int32_t turn_bits[3];
+    /* the same over the body's unit of length, of a moving body: what impulses turn it by */
+    int32_t arm_q30[3];
+    /* filled in by the solver */
+    int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
+    int32_t turn[3][3]; /* change of spin by an impulse, times 2^-turn_bits */
+    int32_t turn_bits;
+};
+
+/* Rolling friction of a pair, kept with its first contact in an island; rest_roll.c. */
+struct contact_roll {
+    bool acts;
+    int32_t unit_bits; /* of length: the shorter of the two bodies' */
+    int32_t arm_q30;   /* the patch over which contacts press, in that unit */
+    int64_t mass_q30;  /* change of spin by a unit moment, at most */
+    int32_t step_q30;  /* its inverse */
+    int64_t spin[3];   /* relative, before the solve, in solver units */
+    int32_t moment[3]; /* accumulated */
+    int32_t gain[3], way[3];
+    carom_v3_q40 moment_q40, wanted_q40; /* the result: on a, and its opposite on b */
 };
 
 struct contact {
     /* found by the static check */
     struct candidate key;
-    carom_v3_q30 direction[3]; /* N from b into a, and two tangents */
+    carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
     carom_v3_q32 point; /* in the world, for carom_contacts */
     int32_t skin_q22;   /* of the pair */
     struct contact_side side[2];
 
     /* worked out by the solver */
-    int64_t velocity_q40[3]; /* V along the directions, before */
-    int64_t target_q40;      /* wanted V'.N */
+    uint16_t
+        order;    /* contacts[n].order is the n-th contact when islands come one after the other */
+    bool idle;    /* nothing asks for its island to be solved now */
+    bool resting; /* solved without any impact in its island */
+    int64_t chord_q40; /* how fast the gap opens on the path, from its start to its end */
     bool impact;
-    struct fix_scaled mass_unit;
-    int64_t mass_q30[3];      /* velocity along a direction by a unit impulse along it */
-    int32_t step_q30[2];      /* inverse of the above: normal, and one scalar for both tangents */
-    int32_t impulse[3];       /* accumulated along the directions, in solver units */
-    carom_v3_q40 impulse_q40; /* the result: P on a, -P on b */
+    carom_v3_q40 velocity; /* V before */
+    int64_t speed_q40;     /* V.N before */
+    int64_t target_q40;    /* wanted V'.N */
+    int64_t band_q40;      /* slip that friction does not resist: what closing the gap asks for */
+    struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
+    int32_t fine_bits;
+    int64_t mass_q30;    /* velocity by a unit impulse: the larger of along N and across */
+    int64_t drag_q30[3]; /* the part of K N across N */
+    int32_t inverse[6];  /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
+    bool inverted;       /* false: K is too uneven for an inverse in 30 bits */
+    int32_t step[2];     /* of a sweep when it slides, so too: along N, and one scalar across */
+
+    /* the sweeps', in solver units */
+    uint32_t friction_q16;
+    int64_t error, slip[3]; /* V.N above the wanted one and V across N, before */
+    int64_t band;           /* band_q40 */
+    int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
+    int32_t gain[3], way[3]; /* change of it in the last two sweeps, and the way it is going */
+    struct contact_roll roll;
+
+    carom_v3_q40 impulse_q40;             /* the result: P on a, -P on b */
     carom_v3_q40 wanted_q40, plastic_q40; /* between which the energy rule chooses */
 };
 
@@ -47,6 +80,30 @@ struct contact_list {
 };
 
 /*
+ * Where the features of a candidate meet in the placed poses, halfway between the surfaces, as arms
+ * from both centres of mass: arm[0] - arm[1] is what lies between the centres.
+ *
+ *   normal  N, across both features; edges: not parallel
+ * Error     of a vertex 2^-31 of its distance from the centre; of edges that over their sine
+ */
+void contact_place(const struct boyse_pair *pair, const struct candidate *c,
+                   const carom_v3_q30 *normal, carom_v3_q40 arm[2]);
+
+/* Fractional bits of arm_q30 taken as a length. */
+static inline int contact_arm_bits(const struct body *b)
+{
+    return 30 + 22 - b->unit_bits;
+}
+
+/*
+ * Take in a contact of a pair at a place. One of that key stays as it was. Returns false when the
+ * list is full.
+ */
+bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
+                    const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,
+                    const carom_v3_q40 arm[2]);
+
+/*
  * Take in a candidate if its features touch within `margin` in the placed poses: as the visitor of
  * all candidates does. Returns false when the list is full.
  */
@@ -54,13 +111,12 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
                  const struct candidate *c, int32_t margin_q22);
 
 /*
- * Make sure that the pair of a hit is among the contacts, with the normal found at the root; the
- * surfaces may be farther apart than the margin along another normal by now.
- *   centre_a, centre_b  of the bodies now, relative to the origin of the hit
+ * Make sure that the pair of a hit is among the contacts, with the normal found at the root and the
+ * place of its features in the placed poses; the surfaces may be farther apart than the margin along
+ * another normal by now.
  */
 bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
-                   const struct boyse_hit *hit, const carom_v3_q22 *centre_a,
-                   const carom_v3_q22 *centre_b);
+                   const struct boyse_hit *hit);
 
 /*
  * Merge contacts of a pair that share place and normal; the smallest gap stays.

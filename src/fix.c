@@ -3,35 +3,64 @@
 
 int fix_bits(uint64_t v)
 {
-    int bits = 0;
+    uint32_t half = (uint32_t)(v >> 32);
+    int bits = half ? 32 : 0;
 
-    for (int step = 32; step > 0; step >>= 1) {
-        if (v >> step) {
-            v >>= step;
+    half = half ? half : (uint32_t)v;
+    for (int step = 16; step > 0; step >>= 1) {
+        if (half >> step) {
+            half >>= step;
             bits += step;
         }
     }
-    return bits + (v != 0);
+    return bits + (half != 0);
+}
+
+/* floor(sqrt(v)) digit by digit: two bits of v for one of the root. */
+static uint32_t sqrt32(uint32_t v)
+{
+    uint32_t root = 0;
+
+    for (uint32_t bit = (uint32_t)1 << 30; bit; bit >>= 2) {
+        uint32_t trial = root + bit;
+
+        root >>= 1;
+        if (v >= trial) {
+            v -= trial;
+            root += bit;
+        }
+    }
+    return root;
 }
 
 uint32_t fix_sqrt(uint64_t v)
 {
-    /*
-     * Digit by digit, two bits of v for one of the root: no division, no rounding to argue about.
-     */
-    uint64_t root = 0;
-    uint64_t bit = v ? (uint64_t)1 << ((fix_bits(v) - 1) & ~1) : 0;
+    int shift = (64 - fix_bits(v)) & ~1;
+    uint64_t high, root;
 
-    while (bit) {
-        if (v >= root + bit) {
-            v -= root + bit;
-            root = (root >> 1) + bit;
-        } else {
-            root >>= 1;
-        }
-        bit >>= 2;
+    if (v >> 32 == 0) {
+        return sqrt32((uint32_t)v);
     }
-    return (uint32_t)root;
+    /* 16 bits of the root from the upper half, the others by a step of Newton's from below it */
+    v <<= shift;
+    high = (uint64_t)sqrt32((uint32_t)(v >> 32)) << 16;
+    root = high + (v - high * high) / (2 * high);
+    /* which ends at most 2 above: half the square of the step over the root is at most 1 */
+    while (root > UINT32_MAX || root * root > v) {
+        root--;
+    }
+    return (uint32_t)(root >> (shift / 2));
+}
+
+int64_t fix_sqrt_above(uint64_t v)
+{
+    int shift = fix_bits(v) - 32;
+
+    if (shift <= 0) {
+        return (int64_t)sqrt32((uint32_t)v) + 1;
+    }
+    shift += shift & 1;
+    return ((int64_t)sqrt32((uint32_t)(v >> shift)) + 1) << (shift / 2);
 }
 
 int64_t fix_mul(int64_t a, int32_t b, int s)
@@ -87,6 +116,14 @@ struct fix_wide fix_wide_mul(int64_t a, int64_t b)
     p.lo = (mid2 << 32) | (low & 0xffffffffu);
     p.hi = (int64_t)(a1 * b1 + (mid >> 32) + (mid2 >> 32));
     return (a < 0) != (b < 0) ? fix_wide_neg(p) : p;
+}
+
+struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3])
+{
+    struct fix_wide sum = fix_wide_mul(a[0], b[0]);
+
+    sum = fix_wide_add(sum, fix_wide_mul(a[1], b[1]));
+    return fix_wide_add(sum, fix_wide_mul(a[2], b[2]));
 }
 
 int fix_wide_sign(struct fix_wide a)

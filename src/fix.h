@@ -42,6 +42,9 @@ int fix_bits(uint64_t v);
 /* floor(sqrt(v)), exact for every v. */
 uint32_t fix_sqrt(uint64_t v);
 
+/* At least sqrt(v), by less than one part in 2^14 and one; half the cost. */
+int64_t fix_sqrt_above(uint64_t v);
+
 /*
  * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
  * bits.
@@ -52,6 +55,8 @@ int64_t fix_mul(int64_t a, int32_t b, int s);
 struct fix_wide fix_wide_mul(int64_t a, int64_t b);
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);
 struct fix_wide fix_wide_neg(struct fix_wide a);
+/* a . b of two vectors, exact. */
+struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3]);
 /* -1, 0 or 1. */
 int fix_wide_sign(struct fix_wide a);
 /* Bits of |a|. */

@@ -50,7 +50,7 @@ static void cone_limit(const struct impact_problem *p, const struct impact_answe
     int64_t tangential[3] = {impact_dot(d.p_q40, &p->frame.u), impact_dot(d.p_q40, &p->frame.v), 0};
     int32_t mu_q16 = (int32_t)p->in->friction_q16;
     int64_t length = fix_length(tangential), reach, growth;
-    struct fix_wide excess = fix_wide_add(impact_wide_dot(tangential, tangential),
+    struct fix_wide excess = fix_wide_add(fix_wide_dot(tangential, tangential),
                                           fix_wide_neg(fix_wide_mul(length, length)));
 
     /* One Newton step for the digits that fix_length leaves out: growth is a difference. */
@@ -132,7 +132,7 @@ static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *
     for (int k = 0; k < 3; k++) {
         sum[k] = 2 * v_q40[k] + x->dv_q40[k];
     }
-    return impact_wide_dot(x->p_q40, sum);
+    return fix_wide_dot(x->p_q40, sum);
 }
 
 /*
@@ -167,8 +167,8 @@ static int energy_rule(const struct impact_problem *p, struct impact_answer *x)
         x->p_q40[k] -= d.p_q40[k];
         x->dv_q40[k] -= d.dv_q40[k];
     }
-    square = impact_wide_dot(d.p_q40, d.dv_q40);
-    slope = impact_wide_dot(d.p_q40, v);
+    square = fix_wide_dot(d.p_q40, d.dv_q40);
+    slope = fix_wide_dot(d.p_q40, v);
     slope = fix_wide_add(slope, slope);
     down =
         fix_wide_bits(square) > fix_wide_bits(slope) ? fix_wide_bits(square) : fix_wide_bits(slope);
@@ -192,10 +192,10 @@ static int energy_rule(const struct impact_problem *p, struct impact_answer *x)
 static void finish(const struct impact_problem *p, const struct impact_answer *x,
                    struct impact_result *out)
 {
-    struct fix_scaled unit = {.m = p->mass.m, .e = p->mass.e - (x->unit - 2 * p->arm_shift)};
+    int power = p->mass_power + x->unit - 2 * p->arm_shift;
 
     for (int k = 0; k < 3; k++) {
-        out->impulse.c[k] = fix_mul_scaled(x->p_q40[k], unit);
+        out->impulse.c[k] = impact_shift(x->p_q40[k], power);
     }
     out->normal_q40 = impact_dot(out->impulse.c, &p->frame.n);
     if (out->normal_q40 < 0) {

@@ -9,12 +9,18 @@
 #include "carom.h"
 #include "gauss.h"
 
+/* A length c 2^-e: as many digits as 32 bits hold, whatever the size of the body. */
+struct impact_arm {
+    int32_t c[3];
+    int32_t e;
+};
+
 /* One of the two bodies, as the equations see it. */
 struct impact_side {
-    bool moving; /* a stationary body has no unknowns */
-    struct fix_scaled mass;
+    bool moving;                    /* a stationary body has no unknowns */
+    struct fix_scaled inverse_mass; /* what momentum is multiplied by to be velocity */
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass, in world axes */
-    carom_v3_q22 arm;          /* from the centre of mass to the contact */
+    struct impact_arm arm;     /* from the centre of mass to the contact */
 };
 
 struct impact {

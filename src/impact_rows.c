@@ -25,19 +25,11 @@ int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
     return fix_mul(v[0], d->c[0], 30) + fix_mul(v[1], d->c[1], 30) + fix_mul(v[2], d->c[2], 30);
 }
 
-struct fix_wide impact_wide_dot(const int64_t a[3], const int64_t b[3])
-{
-    struct fix_wide sum = fix_wide_mul(a[0], b[0]);
-
-    sum = fix_wide_add(sum, fix_wide_mul(a[1], b[1]));
-    return fix_wide_add(sum, fix_wide_mul(a[2], b[2]));
-}
-
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
 {
     int64_t d64[3] = {d->c[0], d->c[1], d->c[2]};
 
-    return impact_wide_dot(in->velocity.c, d64);
+    return fix_wide_dot(in->velocity.c, d64);
 }
 
 /* ------------------------------------------------------------------- frame */
@@ -75,6 +67,9 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
     }
     fix_normalise(&f->u, across);
     carom_cross(f->v.c, f->n.c, f->u.c, 30);
+    /* Some units of 2^-30. */
+    f->un_q52 = (int32_t)carom_round(carom_dot(f->u.c, f->n.c), 8);
+    f->vn_q52 = (int32_t)carom_round(carom_dot(f->v.c, f->n.c), 8);
     return slips;
 }
 
@@ -99,30 +94,29 @@ static int set_shape(struct impact_mover *m, const struct impact_side *side, int
     power = top - side->inertia.e; /* I / m = inertia_q30 2^power */
     m->inertia_odd = power & 1;
     *g = power >> 1;
-    return fix_bits(arm) - 22 - *g + 1;
+    return fix_bits(arm) - side->arm.e - *g + 1;
 }
 
-/* m* and each body's share of it. */
+/* A number up to 1 in two parts. */
+static void split_q60(int64_t v_q60, int32_t *v_q30, int32_t *rest_q60)
+{
+    *v_q30 = (int32_t)carom_round(v_q60, 30);
+    *rest_q60 = (int32_t)(v_q60 - *v_q30 * ((int64_t)1 << 30));
+}
+
+/* m*, and the shares, exact to 60 bits: m* / m is 1/2 to 1 for the lighter body. */
 static void set_masses(struct impact_problem *p, const struct impact_side *side[2])
 {
-    for (int b = 0; b < p->movers; b++) {
-        const struct fix_scaled *m = &side[b]->mass;
+    int power[2], top = 0;
 
-        if (b == 0 || m->e > p->mass.e || (m->e == p->mass.e && m->m < p->mass.m)) {
-            p->mass = *m;
-        }
+    for (int b = 0; b < p->movers; b++) {
+        power[b] = 30 - side[b]->inverse_mass.e; /* 1 / m < 2^power */
+        top = b == 0 || power[b] > top ? power[b] : top;
     }
+    p->mass_power = -top;
     for (int b = 0; b < p->movers; b++) {
-        /* m* / m = ratio 2^-(60 + e), at most 1; long division gives the ratio its 60 bits. */
-        int64_t m = side[b]->mass.m;
-        int64_t high = p->mass.m * ((int64_t)1 << 30) / m,
-                rest = p->mass.m * ((int64_t)1 << 30) % m;
-        int64_t ratio = high * ((int64_t)1 << 30) + rest * ((int64_t)1 << 30) / m;
-        int64_t share_q60 = impact_shift(ratio, side[b]->mass.e - p->mass.e);
-
-        p->mover[b].share_q30 = (int32_t)carom_round(share_q60, 30);
-        p->mover[b].share_rest_q60 =
-            (int32_t)(share_q60 - p->mover[b].share_q30 * ((int64_t)1 << 30));
+        split_q60(impact_shift(side[b]->inverse_mass.m, 30 + power[b] - top),
+                  &p->mover[b].share_q30, &p->mover[b].share_rest_q60);
     }
 }
 
@@ -151,9 +145,11 @@ void impact_prepare(struct impact_problem *p)
     }
     for (int b = 0; b < p->movers; b++) {
         for (int k = 0; k < 3; k++) {
-            /* |arm| < 2^(g + c - 1 + 22), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
-            p->mover[b].arm_q30[k] =
-                (int32_t)impact_shift(side[b]->arm.c[k], 30 - 22 - g[b] - p->arm_shift);
+            /* |arm| < 2^(g + c - 1 + e), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
+            int shift = 60 - side[b]->arm.e - g[b] - p->arm_shift;
+
+            split_q60(impact_shift(side[b]->arm.c[k], shift), &p->mover[b].arm_q30[k],
+                      &p->mover[b].arm_rest_q60[k]);
         }
     }
     set_masses(p, side);
@@ -270,6 +266,16 @@ static void set_rows(const struct impact_problem *p, const struct goal *goal)
     }
 }
 
+static int64_t times_share(const struct impact_mover *m, int64_t v)
+{
+    return fix_mul(v, m->share_q30, 30) + fix_mul(v, m->share_rest_q60, 60);
+}
+
+static int64_t times_arm(const struct impact_mover *m, int64_t v, int k)
+{
+    return fix_mul(v, m->arm_q30[k], 30) + fix_mul(v, m->arm_rest_q60[k], 60);
+}
+
 /* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
 static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
 {
@@ -281,9 +287,8 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         for (int k = 0; k < 3; k++) {
             int i = (k + 1) % 3, j = (k + 2) % 3;
 
-            out_q40[k] +=
-                m->sign * (impact_shift(dv[k], -p->arm_shift) + fix_mul(dw[i], m->arm_q30[j], 30) -
-                           fix_mul(dw[j], m->arm_q30[i], 30));
+            out_q40[k] += m->sign * (impact_shift(dv[k], -p->arm_shift) + times_arm(m, dw[i], j) -
+                                     times_arm(m, dw[j], i));
         }
     }
 }
@@ -296,15 +301,14 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
     int64_t share[3];
 
     for (int k = 0; k < 3; k++) {
-        share[k] = m->sign * (fix_mul(impulse[k], m->share_q30, 30) +
-                              fix_mul(impulse[k], m->share_rest_q60, 60));
+        share[k] = m->sign * times_share(m, impulse[k]);
         out_q40[k] = impact_shift(share[k], -p->arm_shift) - dv[k];
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
-        out_q40[3 + k] = fix_mul(share[j], m->arm_q30[i], 30 + m->inertia_odd) -
-                         fix_mul(share[i], m->arm_q30[j], 30 + m->inertia_odd);
+        out_q40[3 + k] =
+            impact_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
         for (int l = 0; l < 3; l++) {
             out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[inertia_entry[k][l]], 30);
         }
@@ -318,21 +322,26 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
 static int refine(const struct impact_problem *p, const struct goal *goal)
 {
     const int64_t *impulse = p->w->x_q40 + p->n - 3;
+    const struct impact_frame *f = &p->frame;
     int64_t residual_q40[GAUSS_MAX], *last = residual_q40 + p->n - 3, change[3], row[3];
 
     for (int b = 0; b < p->movers; b++) {
         body_residual(p, b, residual_q40 + 6 * b);
     }
     velocity_change(p, change);
-    last[0] = goal->change_q40[0] - impact_dot(change, &p->frame.n);
+    last[0] = goal->change_q40[0] - impact_dot(change, &f->n);
     if (goal->sticks) {
-        last[1] = goal->change_q40[1] - impact_dot(change, &p->frame.u);
-        last[2] = goal->change_q40[2] - impact_dot(change, &p->frame.v);
-    } else {
-        int64_t excess = impact_dot(impulse, &p->frame.v) +
-                         fix_mul(impact_dot(impulse, &p->frame.n), (int32_t)goal->friction_q16, 16);
+        /* V' along N: V'.u is not 0 but the target times u.N. */
+        int64_t after = impact_shift(p->in->target_q40, 70 - goal->bits);
 
-        last[1] = -impact_dot(impulse, &p->frame.u);
+        last[1] = goal->change_q40[1] - impact_dot(change, &f->u) + fix_mul(after, f->un_q52, 52);
+        last[2] = goal->change_q40[2] - impact_dot(change, &f->v) + fix_mul(after, f->vn_q52, 52);
+    } else {
+        int64_t normal = impact_dot(impulse, &f->n);
+        int64_t excess = impact_dot(impulse, &f->v) - fix_mul(normal, f->vn_q52, 52) +
+                         fix_mul(normal, (int32_t)goal->friction_q16, 16);
+
+        last[1] = fix_mul(normal, f->un_q52, 52) - impact_dot(impulse, &f->u);
         last[2] = -impact_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
     }
     return gauss_add(p->w, p->n, residual_q40);

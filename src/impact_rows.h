@@ -2,7 +2,7 @@
 /*
  * impact_rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
  *
- *   velocities  by V* = 2^(unit - c), masses by the lighter mass m*
+ *   velocities  by V* = 2^(unit - c), masses by m*, the power of two below the lighter one
  *   dw          by V* / 2^g of each body, 4^g being about its inertia / mass: then J = I / (m 4^g)
  *               fills its 30 bits and goes into the rows without rounding
  *   P           by m* V* / 2^c, with 2^(g + c) at least twice the longest component of an arm
@@ -23,15 +23,20 @@
 /* A moving body in the solver's units. */
 struct impact_mover {
     int32_t sign;
-    int32_t share_q30, share_rest_q60; /* share, and what 30 bits leave of it */
+    /* 30 bits for the rows, and what these leave for refinement */
+    int32_t share_q30, share_rest_q60;
     int32_t inertia_q30[6];
     int inertia_odd; /* rows 4-6 are halved where I / m is an odd power of two */
-    int32_t arm_q30[3];
+    int32_t arm_q30[3], arm_rest_q60[3];
 };
 
-/* N and two tangents: u across the slip, v along it. */
+/*
+ * N and two tangents: u across the slip, v along it. They are rounded, so u.N and v.N are not quite
+ * 0; without allowing for that, 1e-9 of the impulse would point across N.
+ */
 struct impact_frame {
     carom_v3_q30 n, u, v;
+    int32_t un_q52, vn_q52;
 };
 
 struct impact_problem {
@@ -39,8 +44,8 @@ struct impact_problem {
     const struct impact *in;
     struct impact_mover mover[2];
     int movers, n;
-    int arm_shift;          /* c */
-    struct fix_scaled mass; /* m* */
+    int arm_shift;  /* c */
+    int mass_power; /* m* = 2^mass_power */
     struct impact_frame frame;
     struct fix_wide wanted_q70; /* change of V.N */
 };
@@ -57,7 +62,6 @@ int64_t impact_shift(int64_t v, int s);
 
 /* v.d for a unit vector d. */
 int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);
-struct fix_wide impact_wide_dot(const int64_t a[3], const int64_t b[3]);
 
 /* V.d, exact. */
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d);

@@ -256,24 +256,27 @@ static bool relate(struct interfere *w)
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
  * the fastest bodies do not.
  */
-static bool in_range(const struct interfere *w)
+static bool in_range(const struct interfere *w, int64_t reach_q22)
 {
-    return 2 * ((int64_t)w->b->radius_q22 + w->a->radius_q22 + w->reach_q22) < INT32_MAX;
+    return 2 * (w->b->radius_q22 + w->a->radius_q22 + reach_q22) < INT32_MAX;
 }
 
 static void gather_pair(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
+    int64_t reach_q22, turn_q30;
 
     if (!relate(w)) {
         return;
     }
-    w->reach_q22 = w->a->reach_q22 + w->b->reach_q22;
-    if (!in_range(w)) {
+    reach_q22 = (int64_t)w->a->reach_q22 + w->b->reach_q22;
+    turn_q30 = (int64_t)w->a->turn_q30 + w->b->turn_q30;
+    if (!in_range(w, reach_q22)) {
         w->error = CAROM_ERR_RANGE;
         return;
     }
-    w->turn_q30 = w->a->turn_q30 + w->b->turn_q30;
+    w->reach_q22 = (int32_t)reach_q22;
+    w->turn_q30 = turn_q30 < INT32_MAX / 2 ? (int32_t)turn_q30 : INT32_MAX / 2;
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {
             w->leaf = &ma->leaves[i];

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "mass.h"
 
+/* A matrix whose smallest eigenvalue is below 2^-24 of the largest counts as singular. */
+#define SINGULAR_BITS 24
+
 /*
  * Every face spans a tetrahedron with the origin. Its signed volume is det / 6 with
  * det = a . (b x c), its first moment det / 24 (a + b + c) and its second moments
@@ -233,55 +236,50 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
     return CAROM_OK;
 }
 
-/* v * 2^-s to nearest, s of either sign. */
-static int64_t rescale(int64_t v, int s)
-{
-    return s < 0 ? carom_shl(v, -s) : round_off(v, s);
-}
-
-/* How many bits the largest of the numbers has, less `bits`. */
-static int excess_bits(const int64_t *v, int n, int bits)
-{
-    uint64_t all = 0;
-
-    for (int i = 0; i < n; i++) {
-        all |= (uint64_t)carom_abs(v[i]);
-    }
-    return fix_bits(all) - bits;
-}
-
-int mass_invert(struct gauss *w, const struct carom_sym3 *in, struct carom_sym3 *out)
+/*
+ * The inverse is the adjugate over the determinant, both exact: entries of at most 2^30 give cofactors
+ * below 2^61 and a determinant below 2^93.
+ */
+int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest)
 {
     static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    int64_t m[6], x_q40[6];
-    int down, up;
+    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
+    struct fix_wide det = {0, 0};
+    struct fix_scaled ratio[6];
+    int64_t cofactor[6];
+    uint64_t all = 0, size = 0;
 
     for (int n = 0; n < 6; n++) {
-        m[n] = in->m[n];
+        const uint8_t *a = entry[(row[n] + 1) % 3], *b = entry[(row[n] + 2) % 3];
+        int i = (col[n] + 1) % 3, j = (col[n] + 2) % 3;
+
+        cofactor[n] = (int64_t)in->m[a[i]] * in->m[b[j]] - (int64_t)in->m[a[j]] * in->m[b[i]];
+        all |= (uint64_t)carom_abs(cofactor[n]);
+        size |= (uint64_t)carom_abs(in->m[n]);
     }
-    down = excess_bits(m, 6, 29);
-    /*
-     * A = in / 2^(29 + down - e) has entries of at most 1; its inverse is solved column by column.
-     */
-    for (int col = 0; col < 3; col++) {
-        for (int i = 0; i < 3; i++) {
-            for (int j = 0; j < 3; j++) {
-                w->a[i][j] = (int32_t)rescale(m[entry[i][j]], down);
-            }
-            w->a[i][3] = i == col ? (int32_t)1 << 29 : 0;
-        }
-        if (gauss_solve(w, 3)) {
-            return -1;
-        }
-        for (int i = 0; i <= col; i++) {
-            x_q40[entry[i][col]] = w->x_q40[i];
-        }
+    for (int k = 0; k < 3; k++) {
+        det = fix_wide_add(det, fix_wide_mul(in->m[entry[0][k]], cofactor[entry[0][k]]));
     }
-    up = excess_bits(x_q40, 6, 30);
+    if (fix_wide_sign(det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
+        fix_wide_bits(det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
+        return -1;
+    }
     for (int n = 0; n < 6; n++) {
-        /* Rounding up to 2^30 would still fit. */
-        out->m[n] = (int32_t)rescale(x_q40[n], up);
+        ratio[n] = fix_wide_ratio((struct fix_wide){cofactor[n] >> 63, (uint64_t)cofactor[n]}, det);
     }
-    out->e = 40 - up + 29 + down - in->e;
+    share_exponent(out, ratio);
+    for (int n = 0; n < 6; n++) {
+        /* cofactor 2^e - m det, at most 1.5 det: 2^e is below 2^62, m times an entry below 2^60 */
+        struct fix_wide left = fix_wide_mul(cofactor[n], (int64_t)1 << out->e);
+
+        for (int k = 0; k < 3; k++) {
+            int64_t part = -(int64_t)out->m[n] * in->m[entry[0][k]];
+
+            left = fix_wide_add(left, fix_wide_mul(part, cofactor[entry[0][k]]));
+        }
+        rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(left, det));
+    }
+    out->e -= in->e;
+    rest->e = out->e + 29;
     return 0;
 }

@@ -7,7 +7,7 @@
 #define CAROM_SRC_MASS_H
 
 #include "carom.h"
-#include "gauss.h"
+#include "fix.h"
 
 /*
  * Mass properties of a closed, outward-oriented mesh.
@@ -23,11 +23,13 @@
 int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
 
 /*
- * Inverse of a symmetric positive matrix of shared exponent, by gauss.
- *   w    workspace
- *   in   xx, yy, zz, xy, yz, zx times 2^-e
+ * Inverse of a symmetric positive matrix of shared exponent, as a sum of two.
+ *   in    xx, yy, zz, xy, yz, zx times 2^-e, each within 2^30
+ *   out   its inverse, 30 bits
+ *   rest  what that leaves, to 2^-59 of the largest entry: across the axis of a thin body, 30 bits
+ *         for all leave hardly any
  * Returns 0, or -1 when it is singular.
  */
-int mass_invert(struct gauss *w, const struct carom_sym3 *in, struct carom_sym3 *out);
+int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest);
 
 #endif

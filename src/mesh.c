@@ -88,6 +88,38 @@ static int find_normals(struct mesh_builder *b)
                                                              : CAROM_ERR_MESH_SURFACE;
 }
 
+static int32_t magnitude(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
+                    int32_t tolerance_q22)
+{
+    const int32_t *n = mesh->faces[face].normal.c;
+    int32_t nx = magnitude(n[0]), ny = magnitude(n[1]), nz = magnitude(n[2]);
+    int axis = nx > ny ? (nx > nz ? 0 : 2) : (ny > nz ? 1 : 2);
+    int x = axis == 2 ? 0 : axis + 1, y = axis == 0 ? 2 : axis - 1;
+    int32_t one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
+    int32_t px = p->c[x] + mesh->mass.centre.c[x], py = p->c[y] + mesh->mass.centre.c[y];
+    const uint16_t *corner = mesh->raw.faces[face];
+    const int16_t *from = mesh->raw.vertices[corner[2]];
+
+    /* edges in quanta, so that the products need no more than 48 bits */
+    for (int k = 0; k < 3; k++) {
+        const int16_t *to = mesh->raw.vertices[corner[k]];
+        int32_t ex = to[x] - from[x], ey = to[y] - from[y];
+        int64_t side = (int64_t)ex * (py - from[y] * one) - (int64_t)ey * (px - from[x] * one);
+
+        if ((n[axis] > 0 ? side : -side) <
+            -(int64_t)(magnitude(ex) + magnitude(ey)) * tolerance_q22) {
+            return false;
+        }
+        from = to;
+    }
+    return true;
+}
+
 /* -------------------------------------------------------------------- build */
 
 /* The smallest sphere around the centre of mass that holds every vertex, rounded up. */
@@ -103,6 +135,17 @@ static int32_t find_radius(const struct carom_mesh *mesh)
         radius = length > radius ? length : radius;
     }
     return (int32_t)radius;
+}
+
+/* Where the planes of all faces lie; they need the centre of mass. */
+static void find_offsets(struct mesh_builder *b)
+{
+    for (uint32_t f = 0; f < b->mesh->raw.face_count; f++) {
+        carom_v3_q22 corner = mesh_corner(b->mesh, f, 0);
+
+        b->faces[f].offset_q22 =
+            (int32_t)carom_round(carom_dot(b->faces[f].normal.c, corner.c), 30);
+    }
 }
 
 /*
@@ -137,6 +180,7 @@ static int build(struct mesh_builder *b)
     if (orientation) {
         return orientation;
     }
+    find_offsets(b);
     mesh->radius_q22 = find_radius(mesh);
     mesh_build_leaves(b);
     return mesh_build_zlists(b);

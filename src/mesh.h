@@ -13,13 +13,10 @@
 static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
 {
     const int16_t *quanta = mesh->raw.vertices[v];
-    carom_v3_q22 p;
+    const int32_t *centre = mesh->mass.centre.c, one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
 
-    for (int k = 0; k < 3; k++) {
-        p.c[k] =
-            (int32_t)carom_shl(quanta[k], 22 - mesh->raw.quantum_bits) - mesh->mass.centre.c[k];
-    }
-    return p;
+    return (carom_v3_q22){
+        {quanta[0] * one - centre[0], quanta[1] * one - centre[1], quanta[2] * one - centre[2]}};
 }
 
 /* The grid of the mesh's own z-lists. */
@@ -58,6 +55,14 @@ static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
     }
     return in;
 }
+
+/*
+ * Whether a point lies over a face, seen along the coordinate axis that its normal is most along,
+ * or within a tolerance of that, times 1 to sqrt 2.
+ * Range: p within 512 units of the mesh's origin
+ */
+bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
+                    int32_t tolerance_q22);
 
 /*
  * Whether n lies in the normal cone of a vertex: no edge that leaves it goes down along n by more

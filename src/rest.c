@@ -1,10 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 #include "rest_parts.h"
 
-/* Overlap of the skins is closed by a fifth a frame. */
+/*
+ * A gap this near the skin is as good as closed. A rigid body cannot follow targets that differ by
+ * a hair at each of its contacts: nothing is asked for there, or the sweeps would shift its weight
+ * from corner to corner without end.
+ */
+#define NEAR_DIVISOR 8
+/* Overlap of the skins is closed by 1/64 of a skin a frame, evenly for the same reason ... */
+#define LIFT_DIVISOR 64
+/* ... and what overlaps by more than half a skin by a fifth of the rest besides. */
 #define RECOVERY_DIVISOR 5
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
+/* What rounding may have made of a gap since the hit was found. */
+#define HIT_GAP_NOISE_Q22 8
 
 int32_t rest_restitution(const struct body *a, const struct body *b)
 {
@@ -22,12 +32,12 @@ static void relative_velocity(const struct contact *c, carom_v3_q40 *v)
     memset(v, 0, sizeof *v);
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm.c;
+        const int32_t *arm = c->side[s].arm_q30;
 
         for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], 22) -
-                         fix_mul(b->spin.c[j], arm[i], 22);
+            int i = (k + 1) % 3, j = (k + 2) % 3, bits = contact_arm_bits(b);
+            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], bits) -
+                         fix_mul(b->spin.c[j], arm[i], bits);
 
             v->c[k] += s == 0 ? at : -at;
         }
@@ -38,7 +48,7 @@ static void relative_velocity(const struct contact *c, carom_v3_q40 *v)
 static void load_velocities(struct rest *r)
 {
     for (uint32_t i = 0; i < r->body_count; i++) {
-        r->bodies[i].solving = false;
+        r->bodies[i].solving = r->bodies[i].entering = false;
     }
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
@@ -55,18 +65,38 @@ static void load_velocities(struct rest *r)
     }
 }
 
+static int32_t restitution(const struct rest *r, const struct contact *c)
+{
+    return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
+}
+
+/* An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. */
+static int64_t slow_q40(const struct rest *r, const struct contact *c)
+{
+    int64_t largest_q40 = 0;
+
+    for (int s = 0; s < 2 && restitution(r, c) < CAROM_ONE_Q30; s++) {
+        const struct body *b = c->side[s].body;
+
+        if (b && b->acceleration_q40 > largest_q40) {
+            largest_q40 = b->acceleration_q40;
+        }
+    }
+    return 4 * largest_q40;
+}
+
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
-    const struct body *a = rest_body(r, c, 0), *b = rest_body(r, c, 1);
-    int32_t e_q30 = rest_restitution(a, b);
+    int32_t e_q30 = restitution(r, c);
     int64_t open_q22 = (int64_t)c->gap_q22 - c->skin_q22;
-    int64_t slow_q40 = e_q30 == CAROM_ONE_Q30 ? 0 : r->slow_q40;
 
-    c->impact = c->velocity_q40[0] < -slow_q40;
+    c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
-        c->target_q40 = -fix_mul(c->velocity_q40[0], e_q30, 30);
+        c->target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
     } else if (e_q30 == CAROM_ONE_Q30) {
+        c->target_q40 = 0;
+    } else if (carom_abs(open_q22) <= c->skin_q22 / NEAR_DIVISOR) {
         c->target_q40 = 0;
     } else if (open_q22 > 0) {
         /* may come nearer until the skins touch; q22 to q40 over the time */
@@ -74,23 +104,33 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 
         c->target_q40 = tau_q30 > 0 ? -(open_q22 << 40) / (time_q30 >> 8) : 0;
     } else {
-        c->target_q40 = (-open_q22 << 18) / RECOVERY_DIVISOR;
+        int64_t deep_q22 = -open_q22 - c->skin_q22 / 2;
+
+        c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
+        c->target_q40 += deep_q22 > 0 ? (deep_q22 << 18) / RECOVERY_DIVISOR : 0;
+    }
+    c->band_q40 = c->impact ? 0 : carom_abs(c->target_q40);
+    /* what the path's bend takes back of V.N must be there to begin with */
+    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->speed_q40 > c->chord_q40) {
+        c->target_q40 += c->speed_q40 - c->chord_q40;
     }
 }
 
 void rest_apply(struct rest *r)
 {
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        const struct contact *c = &r->list.contacts[i];
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
         const int64_t *p = c->impulse_q40.c;
 
         for (int s = 0; s < 2; s++) {
             struct body_state *state = rest_state(r, c, s);
-            const int32_t *arm = c->side[s].arm.c;
+            const struct body *b = c->side[s].body;
+            const int32_t *arm = c->side[s].arm_q30;
 
-            for (int k = 0; c->side[s].body && k < 3; k++) {
-                int m = (k + 1) % 3, n = (k + 2) % 3;
-                int64_t moment = fix_mul(p[n], arm[m], 22) - fix_mul(p[m], arm[n], 22);
+            for (int k = 0; b && k < 3; k++) {
+                int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+                int64_t moment = fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) +
+                                 c->roll.moment_q40.c[k];
 
                 state->momentum.c[k] += s == 0 ? p[k] : -p[k];
                 state->angular.c[k] += s == 0 ? moment : -moment;
@@ -104,8 +144,9 @@ static void impact_side(const struct contact_side *from, struct impact_side *to)
     memset(to, 0, sizeof *to);
     if (from->body) {
         to->moving = true;
-        to->mass = from->body->mass;
-        to->arm = from->arm;
+        to->inverse_mass = from->body->inverse_mass;
+        memcpy(to->arm.c, from->arm_q30, sizeof to->arm.c);
+        to->arm.e = contact_arm_bits(from->body);
         body_world_inertia(from->body, &from->body->path.start.r, &to->inertia);
     }
 }
@@ -120,7 +161,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     memset(&in, 0, sizeof in);
     impact_side(&c->side[0], &in.a);
     impact_side(&c->side[1], &in.b);
-    in.normal = c->direction[0];
+    in.normal = c->normal;
     relative_velocity(c, &in.velocity);
     in.target_q40 = c->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
@@ -137,15 +178,14 @@ static bool prepare(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    load_velocities(r);
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
-        carom_v3_q40 v;
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        rest_prepare_body(&r->bodies[i]);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
 
-        relative_velocity(c, &v);
-        for (int d = 0; d < 3; d++) {
-            c->velocity_q40[d] = rest_along_q40(&v, &c->direction[d]);
-        }
+        relative_velocity(c, &c->velocity);
+        c->speed_q40 = rest_along_q40(&c->velocity, &c->normal);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
@@ -159,29 +199,21 @@ static struct fix_wide lift2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = 0; i < r->body_count; i++) {
-        if (r->bodies[i].solving) {
-            sum = fix_wide_add(sum, body_lift2(&r->bodies[i], r->gravity));
-        }
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
     }
     return sum;
 }
 
-int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
+/* The island at hand. */
+static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST};
+    struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST, true};
     struct fix_wide before;
-    bool impacts;
+    bool impacts = prepare(r, tau_q30);
 
-    if (r->list.pool->used == 0) {
-        if (warm) {
-            r->warm_count = 0;
-        }
-        return CAROM_OK;
-    }
-    impacts = prepare(r, tau_q30);
-    if (impacts && r->list.pool->used == 1) {
-        int result = solve_impact(r, &r->list.contacts[0]);
+    if (impacts && r->count == 1) {
+        int result = solve_impact(r, rest_contact(r, 0));
 
         if (result == CAROM_OK) {
             rest_apply(r);
@@ -190,15 +222,62 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
     }
     if (impacts) {
         sw.residual = REST_RESIDUAL_IMPACT;
+        sw.rolls = false;
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        rest_contact(r, i)->resting = !impacts;
     }
     before = rest_energy_before(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
+    return CAROM_OK;
+}
+
+int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
+{
+    int result = CAROM_OK;
+
+    load_velocities(r);
+    rest_list_islands(r);
+    for (r->first = 0; r->first < r->list.pool->used && result == CAROM_OK; r->first += r->count) {
+        if (rest_take_island(r)) {
+            result = solve_island(r, tau_q30, warm);
+        }
+    }
     if (warm) {
         rest_store_warm(r);
     }
-    return CAROM_OK;
+    return result;
+}
+
+static int64_t speed_along_normal_q40(const struct contact *c)
+{
+    carom_v3_q40 v;
+
+    relative_velocity(c, &v);
+    return rest_along_q40(&v, &c->normal);
+}
+
+void rest_keep_hits(struct rest *r, uint16_t pair)
+{
+    load_velocities(r);
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        struct contact *c = &r->list.contacts[i];
+        /* a hit stops at half the skin */
+        bool hits = c->gap_q22 < c->skin_q22 / 2 + HIT_GAP_NOISE_Q22 &&
+                    speed_along_normal_q40(c) < -slow_q40(r, c);
+
+        c->idle =
+            c->key.pair != pair && !hits && !rest_body(r, c, 0)->woke && !rest_body(r, c, 1)->woke;
+    }
+}
+
+/* Whether a body is on a side of the contact that newly took gravity. */
+static bool enters(const struct contact *c)
+{
+    return (c->side[0].body && c->side[0].body->entering) ||
+           (c->side[1].body && c->side[1].body->entering);
 }
 
 bool rest_enter_contact(struct rest *r, int32_t tau_q30)
@@ -208,26 +287,27 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     load_velocities(r);
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
-        carom_v3_q40 v;
 
-        relative_velocity(c, &v);
-        if (rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30 ||
-            carom_abs(rest_along_q40(&v, &c->direction[0])) >= r->slow_q40) {
+        if (c->idle || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
-            struct body_state *state = rest_state(r, c, s);
 
-            if (!b || b->in_contact) {
-                continue;
+            if (b && !b->in_contact) {
+                b->in_contact = b->entering = any = true;
             }
-            b->in_contact = any = true;
-            for (int k = 0; k < 3; k++) {
-                state->momentum.c[k] +=
-                    fix_mul_scaled(fix_mul(r->gravity->c[k], tau_q30, 30), b->mass);
-            }
-            body_velocity(b, state, &b->velocity);
+        }
+    }
+    for (uint32_t i = 0; any && i < r->list.pool->used; i++) {
+        r->list.contacts[i].idle = !enters(&r->list.contacts[i]);
+    }
+    for (uint32_t i = 0; any && i < r->body_count; i++) {
+        const struct body *b = &r->bodies[i];
+
+        for (int k = 0; b->entering && k < 3; k++) {
+            r->states[i].momentum.c[k] +=
+                fix_mul_scaled(fix_mul(b->acceleration.c[k], tau_q30, 30), b->mass);
         }
     }
     return any;

@@ -34,30 +34,40 @@ struct rest {
     struct body *bodies;
     struct body_state *states;
     uint32_t body_count;
-    const carom_v3_q40 *gravity;
-    int64_t slow_q40; /* 4 g h: an approach slower than this is no impact */
 
     struct rest_warm *warm; /* read and written; NULL: no warm start */
     uint32_t warm_count;
+
+    /* the island being solved: its first body, and its contacts in the order of islands */
+    uint16_t island;
+    uint32_t first, count;
 
     uint32_t sweeps, impacts, energy_rules; /* for the statistics */
 };
 
 /*
- * Find momenta after the contacts of the list.
+ * Find momenta after the contacts of the list, island by island: what happens in one does not show
+ * in another. An island is left alone when all of its contacts are idle.
  *
  *   tau_q30   what is left of the frame: resting contacts may close their gap in that time
  *   warm      start from the impulses of the last frame and keep these for the next
  *
- * A single impact is solved by the paper's 9x9 or 15x15, everything else by sweeps.
+ * An island of a single impact is solved by the paper's 9x9 or 15x15, every other by sweeps.
  * Returns  CAROM_OK or CAROM_ERR_RANGE
  * Source   paper eq. (1)-(10), and "continuous contact"
  */
 int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
 
 /*
- * Bodies with a contact slower than 4 g h take the rest of the frame's gravity at once and move
- * straight. Returns whether any body newly did.
+ * Leave idle what neither belongs to the pair that hit, nor hits at the same time, nor belongs to a
+ * body that the static check woke.
+ */
+void rest_keep_hits(struct rest *r, uint16_t pair);
+
+/*
+ * Bodies with a contact that is slower than 4 g h, and not idle, take the rest of the frame's
+ * gravity at once and move straight. Returns whether any body newly did; only the contacts of such
+ * bodies are not idle then.
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
@@ -72,8 +82,17 @@ static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *
 int32_t rest_restitution(const struct body *a, const struct body *b);
 uint32_t rest_friction(const struct body *a, const struct body *b);
 
+/*
+ * Islands are moving bodies that are connected by pairs: begin, join each pair, end. Then body.island
+ * is the lowest number in a body's island; the others follow by next_in_island.
+ */
+#define REST_ISLAND_END 0xffffu
+void rest_islands_begin(struct body *bodies, uint32_t body_count);
+void rest_islands_join(struct body *bodies, const struct pair *p);
+void rest_islands_end(struct body *bodies, uint32_t body_count);
+
 /* Count quiet frames and put whole islands, bodies that touch, to sleep. */
-void rest_sleep(const struct body *bodies, struct body_state *states, uint32_t body_count,
-                const struct pair *touching, uint32_t touching_count, const carom_v3_q40 *gravity);
+void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
+                const struct pair *touching, uint32_t touching_count);
 
 #endif

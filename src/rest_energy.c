@@ -6,18 +6,17 @@ static struct fix_wide kinetic2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = 0; i < r->body_count; i++) {
-        if (r->bodies[i].solving) {
-            sum = fix_wide_add(
-                sum, body_kinetic2(&r->bodies[i], &r->states[i], &r->bodies[i].path.start.r));
-        }
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+
+        sum = fix_wide_add(sum, body_kinetic2(b, &r->states[i], &b->path.start.r));
     }
     return sum;
 }
 
 static void save_momenta(struct rest *r)
 {
-    for (uint32_t i = 0; i < r->body_count; i++) {
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
         r->bodies[i].saved_momentum = r->states[i].momentum;
         r->bodies[i].saved_angular = r->states[i].angular;
     }
@@ -25,11 +24,9 @@ static void save_momenta(struct rest *r)
 
 static void restore_momenta(struct rest *r)
 {
-    for (uint32_t i = 0; i < r->body_count; i++) {
-        if (r->bodies[i].solving) {
-            r->states[i].momentum = r->bodies[i].saved_momentum;
-            r->states[i].angular = r->bodies[i].saved_angular;
-        }
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        r->states[i].momentum = r->bodies[i].saved_momentum;
+        r->states[i].angular = r->bodies[i].saved_angular;
     }
 }
 
@@ -39,13 +36,14 @@ static void restore_momenta(struct rest *r)
  */
 static void apply_blend(struct rest *r, int32_t k_q30)
 {
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
 
         for (int k = 0; k < 3; k++) {
             int64_t from = c->plastic_q40.c[k];
 
             c->impulse_q40.c[k] = from + fix_mul(c->wanted_q40.c[k] - from, k_q30, 30);
+            c->roll.moment_q40.c[k] = fix_mul(c->roll.wanted_q40.c[k], k_q30, 30);
         }
     }
     restore_momenta(r);
@@ -69,19 +67,24 @@ struct fix_wide rest_energy_before(struct rest *r)
 
 void rest_energy_rule(struct rest *r, struct fix_wide before)
 {
-    struct rest_sweep plastic = {0, true, true, REST_RESIDUAL_IMPACT};
+    struct rest_sweep plastic = {0, true, true, REST_RESIDUAL_IMPACT, false};
     int32_t low = 0, high = CAROM_ONE_Q30;
 
     if (!rises(r, before)) {
         return;
     }
     r->energy_rules++;
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        r->list.contacts[i].wanted_q40 = r->list.contacts[i].impulse_q40;
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->wanted_q40 = c->impulse_q40;
+        c->roll.wanted_q40 = c->roll.moment_q40;
     }
     rest_solve_sweeps(r, &plastic, false);
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        r->list.contacts[i].plastic_q40 = r->list.contacts[i].impulse_q40;
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->plastic_q40 = c->impulse_q40;
     }
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
     while (high - low > 1) {

@@ -1,95 +1,221 @@
 /* SPDX-License-Identifier: MIT */
-/* Effective masses of a contact: what a unit impulse changes. */
+/* What an impulse at a contact changes: K, and steps of the sweeps. */
 #include "rest_parts.h"
 
-/* Change of spin by a unit impulse along direction d, and what it adds to the effective mass. */
-static int64_t prepare_lever(struct contact_side *side, const carom_v3_q30 *direction, int d)
-{
-    const struct body *b = side->body;
-    struct carom_sym3 inverse = b->inverse_inertia;
-    int64_t turn_q30[3], added_q30 = 0;
-    uint64_t all = 0;
-    int shift;
+/* Symmetric matrices are six numbers: xx yy zz xy yz zx. */
+static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
-    /* over the unit of length l: arm / l here and J / l^2 below */
-    carom_cross(side->lever_q30[d], side->arm.c, direction->c, b->unit_bits);
-    inverse.e -= 2 * (b->unit_bits - 22);
-    for (int k = 0; k < 3; k++) {
-        turn_q30[k] = side->lever_q30[d][k];
-    }
-    fix_rotate_back(turn_q30, &b->path.start.r, turn_q30);
-    body_sym3_mul(turn_q30, &inverse, turn_q30);
-    fix_rotate(turn_q30, &b->path.start.r, turn_q30);
-    for (int k = 0; k < 3; k++) {
-        turn_q30[k] = fix_mul(turn_q30[k], side->share_q30, 30);
-        added_q30 += fix_mul(turn_q30[k], side->lever_q30[d][k], 30);
-        all |= (uint64_t)carom_abs(turn_q30[k]);
-    }
-    /* a thin body turns fast about its axis: keep 30 bits whatever the size */
-    shift = fix_bits(all) - 30;
-    if (shift < -20) {
-        shift = -20;
-    }
-    for (int k = 0; k < 3; k++) {
-        side->turn[d][k] = shift > 0 ? (int32_t)carom_round(turn_q30[k], shift)
-                                     : (int32_t)carom_shl(turn_q30[k], -shift);
-    }
-    side->turn_bits[d] = 30 - shift;
-    return added_q30;
+/* v 2^s */
+static int64_t shifted(int64_t v, int s)
+{
+    return s > 0 ? carom_shl(v, s) : s < 0 ? carom_round(v, s < -62 ? 62 : -s) : v;
 }
 
-/* lever of direction 1 times the turn by direction 2: how the tangents are coupled. */
-static int64_t tangent_coupling_q30(const struct contact *c)
+/*
+ * R J^-1 R^T over the unit of length squared. Its largest entry is on the diagonal and at most the
+ * trace, three times as large as before: two bits are given away.
+ */
+void rest_prepare_body(struct body *b)
 {
-    int64_t sum = 0;
+    const carom_m3_q30 *r = &b->path.start.r;
+    int32_t half[3][3];
 
-    for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            int32_t column[3];
 
-        for (int k = 0; side->body && k < 3; k++) {
-            sum +=
-                carom_round((int64_t)side->turn[2][k] * side->lever_q30[1][k], side->turn_bits[2]);
+            for (int j = 0; j < 3; j++) {
+                column[j] = b->inverse_inertia.m[entry[j][k]];
+            }
+            half[i][k] = (int32_t)carom_round(carom_dot(r->c[i], column), 30);
         }
     }
-    return sum;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k <= i; k++) {
+            b->turning.m[entry[i][k]] = (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
+        }
+    }
+    b->turning.e = b->inverse_inertia.e - 2 - 2 * (b->unit_bits - 22);
 }
 
-void rest_prepare_masses(struct contact *c)
+/* a x the unit vector along axis k */
+static void across_axis(int32_t out[3], const int32_t a[3], int k)
 {
-    struct contact_side *a = &c->side[0], *b = &c->side[1];
-    struct fix_scaled unit;
-    int64_t off[3], tangent;
+    int i = (k + 1) % 3, j = (k + 2) % 3;
 
-    unit = a->body ? a->body->mass : b->body->mass;
-    if (a->body && b->body &&
-        fix_mul_scaled(CAROM_ONE_Q30, b->body->mass) < fix_mul_scaled(CAROM_ONE_Q30, unit)) {
-        unit = b->body->mass;
+    out[k] = 0;
+    out[i] = a[j];
+    out[j] = -a[i];
+}
+
+/* The turn by an impulse on one side, and what it adds to K. */
+static void prepare_side(struct contact_side *side, int64_t k_q30[6])
+{
+    const struct body *b = side->body;
+    const struct carom_sym3 *t = &b->turning;
+    int64_t turn[3][3];
+    uint64_t all = 0;
+    int down, rest;
+
+    for (int k = 0; k < 3; k++) {
+        int32_t lever[3];
+
+        across_axis(lever, side->arm_q30, k);
+        for (int i = 0; i < 3; i++) {
+            turn[i][k] = rest_row(t->m, i, lever);
+            all |= (uint64_t)carom_abs(turn[i][k]);
+        }
     }
-    c->mass_unit = unit;
-    memset(c->mass_q30, 0, sizeof c->mass_q30);
+    down = fix_bits(all) - 31;
+    down = down > 0 ? down : 0;
+    all = 0;
+    for (int i = 0; i < 9; i++) {
+        int64_t *entry_of = &turn[i / 3][i % 3];
+
+        *entry_of = (*entry_of >> down) * side->share_q30;
+        all |= (uint64_t)carom_abs(*entry_of);
+    }
+    /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
+    rest = fix_bits(all) - 30;
+    if (60 + t->e - down - rest > 50) {
+        rest = 60 + t->e - down - 50;
+    }
+    side->turn_bits = 60 + t->e - down - rest;
+    for (int i = 0; i < 9; i++) {
+        side->turn[i / 3][i % 3] = (int32_t)shifted(turn[i / 3][i % 3], -rest);
+    }
+    for (int i = 0; i < 3; i++) {
+        int m = (i + 1) % 3, n = (i + 2) % 3;
+
+        for (int k = 0; k <= i; k++) {
+            k_q30[entry[i][k]] += carom_round((int64_t)side->turn[m][k] * side->arm_q30[n] -
+                                                  (int64_t)side->turn[n][k] * side->arm_q30[m],
+                                              side->turn_bits);
+        }
+        k_q30[entry[i][i]] += side->share_q30;
+    }
+}
+
+/* The lighter body's mass, and each body's share of it. */
+static void prepare_shares(struct contact *c)
+{
+    const struct body *a = c->side[0].body, *b = c->side[1].body;
+
+    c->mass_unit = a ? a->mass : b->mass;
+    if (a && b && fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
+        c->mass_unit = b->mass;
+    }
     for (int s = 0; s < 2; s++) {
         struct contact_side *side = &c->side[s];
 
         if (!side->body) {
             continue;
         }
-        if (side->body->mass.m == unit.m && side->body->mass.e == unit.e) {
+        if (side->body->mass.m == c->mass_unit.m && side->body->mass.e == c->mass_unit.e) {
             side->share_q30 = CAROM_ONE_Q30;
         } else {
-            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, unit);
+            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, c->mass_unit);
 
             side->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
         }
-        for (int d = 0; d < 3; d++) {
-            c->mass_q30[d] += side->share_q30 + prepare_lever(side, &c->direction[d], d);
+    }
+}
+
+/* The adjugate of K in 30 bits, and its determinant. */
+static int32_t adjugate(int32_t out_q30[6], const int32_t k[6])
+{
+    static const uint8_t minor[6][4] = {{1, 2, 4, 4}, {2, 0, 5, 5}, {0, 1, 3, 3},
+                                        {5, 4, 3, 2}, {3, 5, 4, 0}, {3, 4, 5, 1}};
+
+    for (int i = 0; i < 6; i++) {
+        const uint8_t *m = minor[i];
+
+        out_q30[i] =
+            (int32_t)carom_round((int64_t)k[m[0]] * k[m[1]] - (int64_t)k[m[2]] * k[m[3]], 30);
+    }
+    return (int32_t)carom_round(
+        (int64_t)k[0] * out_q30[0] + (int64_t)k[3] * out_q30[3] + (int64_t)k[5] * out_q30[5], 30);
+}
+
+/* m v for a symmetric m of six q30 numbers */
+static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
+{
+    for (int i = 0; i < 3; i++) {
+        out[i] = (int32_t)carom_round(rest_row(m, i, v), 30);
+    }
+}
+
+/*
+ * Where K is large impulses are small: their unit is made smaller in turn. Matrices and steps that
+ * are inverse to K keep their numbers and lose fractional bits.
+ */
+static void refine_unit(struct contact *c, int64_t along_q30)
+{
+    int bits = fix_bits((uint64_t)along_q30) - 32;
+
+    c->fine_bits = bits > 0 ? bits : 0;
+    if (bits <= 0) {
+        return;
+    }
+    c->mass_unit.e += bits;
+    c->mass_q30 >>= bits;
+    for (int s = 0; s < 2; s++) {
+        c->side[s].share_q30 >>= bits;
+        c->side[s].turn_bits += bits;
+    }
+    for (int k = 0; k < 3; k++) {
+        c->drag_q30[k] = carom_round(c->drag_q30[k], bits);
+    }
+}
+
+/*
+ * K^-1 for a contact that sticks; for one that slides, steps along N and across. The larger
+ * eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
+ * T/2 + sqrt(T^2/4 - D).
+ */
+static void prepare_steps(struct contact *c, const int64_t k_q30[6])
+{
+    /* 29 bits, so that minors fit; K is at least 1, the lighter body alone gives that */
+    int shift = fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 29;
+    int32_t k[6], adjoint[6], n[3], det, half, product, root;
+    int64_t along_q30, across_q30;
+
+    for (int i = 0; i < 6; i++) {
+        k[i] = (int32_t)(k_q30[i] >> shift);
+    }
+    det = adjugate(adjoint, k);
+    c->inverted = det >= 1 << 9;
+    for (int i = 0; i < 6 && c->inverted; i++) {
+        c->inverse[i] = (int32_t)(((int64_t)adjoint[i] * CAROM_ONE_Q30 / det) >> shift);
+    }
+    multiply(n, k, c->normal.c);
+    product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
+    c->mass_q30 = carom_shl(product, shift);
+    for (int i = 0; i < 3; i++) {
+        c->drag_q30[i] = carom_shl(n[i] - carom_mul_q30(product, c->normal.c[i]), shift);
+    }
+    half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
+    multiply(n, adjoint, c->normal.c);
+    product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
+    root = carom_mul_q30(half, half) - product;
+    root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
+    across_q30 = carom_shl((int64_t)half + root, shift);
+    c->step[0] = (int32_t)(((int64_t)1 << 60) / c->mass_q30);
+    c->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
+    along_q30 = c->mass_q30;
+    c->mass_q30 = across_q30 > along_q30 ? across_q30 : along_q30;
+    refine_unit(c, along_q30);
+}
+
+void rest_prepare_masses(struct contact *c)
+{
+    int64_t k_q30[6] = {0};
+
+    prepare_shares(c);
+    for (int s = 0; s < 2; s++) {
+        if (c->side[s].body) {
+            prepare_side(&c->side[s], k_q30);
         }
     }
-    /* the larger eigenvalue of the tangents' 2x2: one scalar that never overshoots */
-    off[0] = (c->mass_q30[1] - c->mass_q30[2]) / 2;
-    off[1] = tangent_coupling_q30(c);
-    off[2] = 0;
-    tangent = (c->mass_q30[1] + c->mass_q30[2]) / 2 + fix_length(off);
-    /* K is at least 1: the lighter body alone gives that */
-    c->step_q30[0] = (int32_t)(((int64_t)1 << 60) / c->mass_q30[0]);
-    c->step_q30[1] = (int32_t)(((int64_t)1 << 60) / tangent);
+    prepare_steps(c, k_q30);
 }

@@ -8,6 +8,12 @@
 
 #include "rest.h"
 
+/*
+ * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a
+ * tie, and ties go upward.
+ */
+#define REST_DV_BITS 8
+
 /* Sweeps end when no velocity changes by more than this, in solver units of 2^-29 V*. */
 #define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 26))
 #define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
@@ -17,6 +23,7 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
+    bool rolls; /* with rolling friction: no contact is an impact */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */
@@ -34,20 +41,68 @@ static inline struct body_state *rest_state(const struct rest *r, const struct c
     return &r->states[side == 0 ? p->a : p->b];
 }
 
-/* Masses that the contact's impulses move: K along each direction, and the steps of a sweep. */
+/* Find the islands that the contacts make, and list the contacts by island, then by key. */
+void rest_list_islands(struct rest *r);
+/* Take up the island whose contacts begin at r->first; false when they are all idle. */
+bool rest_take_island(struct rest *r);
+
+/* Contact i, below r->count, of the island at hand. */
+static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
+{
+    return &r->list.contacts[r->list.contacts[r->first + i].order];
+}
+
+/* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
+static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
+{
+    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const int32_t row[3] = {m[entry[i][0]], m[entry[i][1]], m[entry[i][2]]};
+
+    return carom_dot(row, v);
+}
+
+/* A body's turning; then K of its contacts and the steps of a sweep. */
+void rest_prepare_body(struct body *b);
 void rest_prepare_masses(struct contact *c);
 
-/* Sweep until the residual is reached; impulses go to impulse_q40 of the contacts, not to the
- * bodies. */
-void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm);
+/* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
+void rest_push(struct contact *c, const int32_t impulse[3]);
+/* What one push may change: v, or +-(2^30 - 1). */
+int32_t rest_clamp(int64_t v);
+/* v cut to a length of `limit`, which is at most 2^45. */
+void rest_cut(int64_t v[3], int64_t limit);
 
-/* Keep the impulses of the contacts for the next frame. */
-void rest_store_warm(struct rest *r);
+/* Solver units. */
+static inline int64_t rest_to_units(int64_t v_q40, int unit)
+{
+    return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
+}
+
+/* Start from the impulses of the last frame. */
+void rest_load_warm(struct rest *r, const struct rest_sweep *sw);
+
+/*
+ * Rolling friction of the pair whose first contact in the island is the i-th; nothing for others.
+ * Before the sweeps; a step of a sweep, which returns how much a velocity moved; a step of the
+ * acceleration; the result.
+ */
+void rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw);
+int64_t rest_roll_sweep(struct rest *r, uint32_t i);
+void rest_roll_accelerate(struct contact *c, int32_t part_q30);
+void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
+
+/*
+ * What follows works on the island at hand.
+ *
+ * Sweep until the residual is reached; impulses go to impulse_q40 of the contacts, not to the
+ * bodies.
+ */
+void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm);
 
 /* p += P, L += r x P on a, the same P against b. */
 void rest_apply(struct rest *r);
 
-/* Set the momenta of the contacts' bodies aside, and their kinetic energy, before a solve. */
+/* Set the momenta of the island's bodies aside before a solve; twice their kinetic energy. */
 struct fix_wide rest_energy_before(struct rest *r);
 
 /*
@@ -55,5 +110,8 @@ struct fix_wide rest_energy_before(struct rest *r);
  * it was before, go back towards the frictionless plastic solution as far as needed.
  */
 void rest_energy_rule(struct rest *r, struct fix_wide before);
+
+/* Keep the impulses of all resting contacts for the next frame. */
+void rest_store_warm(struct rest *r);
 
 #endif

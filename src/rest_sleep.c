@@ -4,8 +4,10 @@
 
 #define QUIET_FRAMES 20
 
-static bool is_quiet(const struct body *b, const struct body_state *s, int64_t limit_q40)
+static bool is_quiet(const struct body *b, const struct body_state *s)
 {
+    /* an eighth of what gravity gives in a frame: what falls is never that slow for long */
+    int64_t limit_q40 = b->acceleration_q40 / 8;
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
@@ -16,41 +18,49 @@ static bool is_quiet(const struct body *b, const struct body_state *s, int64_t l
            fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
 }
 
-void rest_sleep(const struct body *bodies, struct body_state *states, uint32_t body_count,
-                const struct pair *touching, uint32_t touching_count, const carom_v3_q40 *gravity)
+/* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */
+static bool island_quiet(const struct body *bodies, const struct body_state *states, uint32_t first)
 {
-    /* an eighth of what gravity gives in a frame: a body that falls is never that slow for long */
-    int64_t limit_q40 = fix_length(gravity->c) / 8;
-    bool again = true;
+    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
+        if (broad_active(&bodies[i], &states[i]) && states[i].quiet < QUIET_FRAMES) {
+            return false;
+        }
+    }
+    return true;
+}
 
+static void put_to_sleep(const struct body *bodies, struct body_state *states, uint32_t first)
+{
+    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
+        if (broad_active(&bodies[i], &states[i])) {
+            states[i].asleep = 1;
+            memset(&states[i].momentum, 0, sizeof states[i].momentum);
+            memset(&states[i].angular, 0, sizeof states[i].angular);
+        }
+    }
+}
+
+void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
+                const struct pair *touching, uint32_t touching_count)
+{
     for (uint32_t i = 0; i < body_count; i++) {
         if (!broad_active(&bodies[i], &states[i])) {
             continue;
         }
-        if (!is_quiet(&bodies[i], &states[i], limit_q40)) {
+        if (!is_quiet(&bodies[i], &states[i])) {
             states[i].quiet = 0;
         } else if (states[i].quiet < QUIET_FRAMES) {
             states[i].quiet++;
         }
     }
-    /* an island sleeps as a whole: one restless body keeps its neighbours awake */
-    while (again) {
-        again = false;
-        for (uint32_t i = 0; i < touching_count; i++) {
-            struct body_state *a = &states[touching[i].a], *b = &states[touching[i].b];
-
-            if (bodies[touching[i].a].moving && bodies[touching[i].b].moving &&
-                (a->quiet == QUIET_FRAMES) != (b->quiet == QUIET_FRAMES)) {
-                *(a->quiet == QUIET_FRAMES ? &a->quiet : &b->quiet) = QUIET_FRAMES - 1;
-                again = true;
-            }
-        }
+    rest_islands_begin(bodies, body_count);
+    for (uint32_t i = 0; i < touching_count; i++) {
+        rest_islands_join(bodies, &touching[i]);
     }
+    rest_islands_end(bodies, body_count);
     for (uint32_t i = 0; i < body_count; i++) {
-        if (broad_active(&bodies[i], &states[i]) && states[i].quiet == QUIET_FRAMES) {
-            states[i].asleep = 1;
-            memset(&states[i].momentum, 0, sizeof states[i].momentum);
-            memset(&states[i].angular, 0, sizeof states[i].angular);
+        if (bodies[i].island == i && island_quiet(bodies, states, i)) {
+            put_to_sleep(bodies, states, i);
         }
     }
 }

@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* Symmetric sweeps over accumulated, clamped impulses, and their warm start. */
+/* Symmetric sweeps over accumulated, clamped impulses. */
 #include "rest_parts.h"
 
-static int64_t to_units(int64_t v_q40, int unit)
-{
-    return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
-}
+/* Changes of the relative velocity that are followed: 16 V*. */
+#define CHANGE_MAX ((int64_t)1 << (REST_BITS + 3))
 
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
-    return sw->plastic && c->impact ? 0 : c->target_q40;
+    return sw->plastic && (c->impact || c->target_q40 > 0) ? 0 : c->target_q40;
 }
 
 static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 {
-    int64_t largest = fix_length(r->gravity->c) | 1;
+    int64_t largest = 1;
 
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        const struct contact *c = &r->list.contacts[i];
-        int64_t change = carom_abs(c->velocity_q40[0] - wanted_q40(c, sw));
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+        int64_t change = carom_abs(c->speed_q40 - wanted_q40(c, sw));
 
-        if (change > largest) {
-            largest = change;
+        largest = change > largest ? change : largest;
+        for (int s = 0; s < 2; s++) {
+            if (c->side[s].body && c->side[s].body->acceleration_q40 > largest) {
+                largest = c->side[s].body->acceleration_q40;
+            }
         }
     }
     sw->unit = fix_bits((uint64_t)largest) - REST_BITS;
@@ -30,116 +31,263 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
     }
 }
 
-/*
- * Change of the relative velocity along direction d so far. A thin body's spin may fill 40 bits
- * while the sum stays small, so products wrap: modulo 2^64 the sum is right.
- */
-static int64_t change_along(const struct contact *c, int d)
+/* Velocities to solver units; no impulses yet. */
+static void begin(struct rest *r, const struct rest_sweep *sw)
 {
-    uint64_t sum = 0;
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+        int64_t wanted = wanted_q40(c, sw);
 
+        c->friction_q16 =
+            sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
+        c->error = rest_to_units(c->speed_q40 - wanted, sw->unit);
+        c->band = rest_to_units(c->band_q40, sw->unit);
+        c->normal_impulse = 0;
+        for (int k = 0; k < 3; k++) {
+            int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
+
+            c->slip[k] = rest_to_units(c->velocity.c[k] - along, sw->unit);
+            c->tangent_impulse[k] = 0;
+            c->gain[k] = c->way[k] = 0;
+        }
+        for (int s = 0; s < 2; s++) {
+            struct body *b = c->side[s].body;
+
+            if (b) {
+                memset(b->dv, 0, sizeof b->dv);
+                memset(b->dw, 0, sizeof b->dw);
+            }
+        }
+    }
+}
+
+int32_t rest_clamp(int64_t v)
+{
+    const int64_t most = CAROM_ONE_Q30 - 1;
+
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
+}
+
+/*
+ * How much the relative velocity has changed so far. A thin body's spin may fill 40 bits while the
+ * sum stays small, so products wrap: modulo 2^64 the sum is right.
+ */
+static void change_of_velocity(const struct contact *c, int64_t out[3])
+{
+    memset(out, 0, 3 * sizeof out[0]);
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
         const struct body *b = side->body;
-        uint64_t part = 0;
 
-        if (!b) {
-            continue;
+        for (int k = 0; b && k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+            uint64_t turned = (uint64_t)b->dw[i] * (uint64_t)(int64_t)side->arm_q30[j] -
+                              (uint64_t)b->dw[j] * (uint64_t)(int64_t)side->arm_q30[i];
+            int64_t v = carom_round(b->dv[k], REST_DV_BITS) + carom_round((int64_t)turned, 30);
+
+            out[k] += s == 0 ? v : -v;
         }
-        for (int k = 0; k < 3; k++) {
-            part += (uint64_t)(int64_t)c->direction[d].c[k] * (uint64_t)b->dv[k];
-            part += (uint64_t)(int64_t)side->lever_q30[d][k] * (uint64_t)b->dw[k];
-        }
-        sum += s == 0 ? part : 0 - part;
     }
-    return carom_round((int64_t)sum, 30);
+    for (int k = 0; k < 3; k++) {
+        out[k] = out[k] > CHANGE_MAX ? CHANGE_MAX : out[k] < -CHANGE_MAX ? -CHANGE_MAX : out[k];
+    }
 }
 
-/* Give the bodies an impulse along direction d. */
-static void push(struct contact *c, int d, int64_t impulse)
+void rest_push(struct contact *c, const int32_t impulse[3])
 {
     for (int s = 0; s < 2; s++) {
-        struct contact_side *side = &c->side[s];
-        int64_t j = s == 0 ? impulse : -impulse;
-        int64_t share;
+        const struct contact_side *side = &c->side[s];
+        struct body *b = side->body;
 
-        if (!side->body) {
-            continue;
+        for (int k = 0; b && k < 3; k++) {
+            int64_t dv = carom_round((int64_t)impulse[k] * side->share_q30, 30 - REST_DV_BITS);
+            int64_t dw = carom_round(carom_dot(side->turn[k], impulse), side->turn_bits);
+
+            b->dv[k] += s == 0 ? dv : -dv;
+            b->dw[k] += s == 0 ? dw : -dw;
         }
-        share = carom_round(j * side->share_q30, 30);
+    }
+}
+
+/* Length of a vector whose components may have more than 31 bits; down: what it is shifted by. */
+static int64_t long_length(const int64_t v[3], int *down)
+{
+    uint64_t sum = 0;
+
+    *down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 31;
+    *down = *down > 0 ? *down : 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t part = v[k] >> *down;
+
+        sum += (uint64_t)(part * part);
+    }
+    return fix_sqrt(sum);
+}
+
+void rest_cut(int64_t v[3], int64_t limit)
+{
+    int down;
+    int64_t whole = long_length(v, &down);
+
+    if (whole > limit >> down) {
         for (int k = 0; k < 3; k++) {
-            side->body->dv[k] += carom_round(share * c->direction[d].c[k], 30);
-            side->body->dw[k] += carom_round(j * side->turn[d][k], side->turn_bits[d]);
+            v[k] = fix_mul(limit, (int32_t)((v[k] >> down) * CAROM_ONE_Q30 / whole), 30);
         }
     }
 }
 
-static int64_t clamp_impulse(int64_t j)
+/* Friction is not against slip that closing a gap asks for. */
+static void leave_band(const struct contact *c, int64_t slip[3])
 {
-    const int64_t most = (int64_t)1 << 31;
+    int64_t within[3];
 
-    return j > most - 1 ? most - 1 : j < -most + 1 ? -most + 1 : j;
-}
-
-/* How much a velocity moved: impulse times effective mass. */
-static int64_t effect(int64_t impulse, int64_t mass_q30)
-{
-    return carom_abs(fix_mul(mass_q30, (int32_t)impulse, 30));
-}
-
-/* One contact, along the normal: the accumulated impulse never pulls. */
-static int64_t sweep_normal(struct contact *c, const struct rest_sweep *sw)
-{
-    int64_t error = to_units(c->velocity_q40[0] - wanted_q40(c, sw), sw->unit) + change_along(c, 0);
-    int64_t next = clamp_impulse(c->impulse[0] - fix_mul(error, c->step_q30[0], 30));
-    int64_t change;
-
-    if (next < 0) {
-        next = 0;
-    }
-    change = next - c->impulse[0];
-    c->impulse[0] = (int32_t)next;
-    push(c, 0, change);
-    return effect(clamp_impulse(change), c->mass_q30[0]);
-}
-
-/* One contact, across: towards no slip, within the disc of radius mu times the normal impulse. */
-static int64_t sweep_tangents(struct contact *c, const struct rest_sweep *sw, uint32_t mu_q16)
-{
-    int64_t limit = clamp_impulse(((int64_t)mu_q16 * c->impulse[0]) >> 16);
-    int64_t next[2], length, moved = 0;
-    int shift;
-
-    for (int d = 0; d < 2; d++) {
-        int64_t slip = to_units(c->velocity_q40[1 + d], sw->unit) + change_along(c, 1 + d);
-
-        next[d] = c->impulse[1 + d] - fix_mul(slip, c->step_q30[1], 30);
-    }
-    /* fast slip fills more than 32 bits: take the length of what fits */
-    shift = fix_bits((uint64_t)(carom_abs(next[0]) | carom_abs(next[1]))) - 31;
-    if (shift < 0) {
-        shift = 0;
-    }
-    length = (int64_t)fix_sqrt((uint64_t)((next[0] >> shift) * (next[0] >> shift)) +
-                               (uint64_t)((next[1] >> shift) * (next[1] >> shift)));
-    for (int d = 0; d < 2; d++) {
-        int64_t change;
-
-        if (length > (limit >> shift)) {
-            next[d] = (next[d] >> shift) * limit / length;
+    if (c->band > 0) {
+        memcpy(within, slip, sizeof within);
+        rest_cut(within, c->band);
+        for (int k = 0; k < 3; k++) {
+            slip[k] -= within[k];
         }
-        next[d] = clamp_impulse(next[d]);
-        change = next[d] - c->impulse[1 + d];
-        c->impulse[1 + d] = (int32_t)next[d];
-        push(c, 1 + d, change);
-        moved += effect(clamp_impulse(change), c->mass_q30[1 + d]);
     }
-    return moved;
+}
+
+static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
+{
+    return fix_mul(normal_impulse, (int32_t)c->friction_q16, 16);
+}
+
+/* A change of impulse: along N, and across it. */
+struct gain {
+    int32_t along, across[3];
+};
+
+/* What ends all motion of the contact; false when that lies outside of the friction cone. */
+static bool stick(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
+{
+    int64_t all[3], tangent[3], limit;
+    int32_t v[3], whole[3];
+    int down;
+
+    for (int k = 0; k < 3; k++) {
+        all[k] = slip[k] + fix_mul(error, c->normal.c[k], 30);
+    }
+    /* fast slip fills more than 30 bits: the next visit finds what is left over */
+    down = fix_bits((uint64_t)(carom_abs(all[0]) | carom_abs(all[1]) | carom_abs(all[2]))) - 30;
+    down = down > 0 ? down : 0;
+    for (int k = 0; k < 3; k++) {
+        v[k] = (int32_t)(all[k] >> down);
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t part = carom_round(rest_row(c->inverse, k, v), 30 - c->fine_bits);
+
+        whole[k] = rest_clamp(carom_shl(-part, down));
+    }
+    g->along = rest_clamp(carom_round(carom_dot(c->normal.c, whole), 30));
+    limit = friction_limit(c, c->normal_impulse + g->along);
+    if (limit < 0) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = rest_clamp((int64_t)whole[k] - carom_mul_q30(g->along, c->normal.c[k]));
+        tangent[k] = c->tangent_impulse[k] + g->across[k];
+    }
+    return long_length(tangent, &down) <= limit >> down;
+}
+
+/* Along N first, never pulling; then across towards no slip, within the friction cone. */
+static void slide(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
+{
+    int64_t next = c->normal_impulse - fix_mul(error, c->step[0], 30 - c->fine_bits);
+    int64_t tangent[3];
+
+    g->along = rest_clamp((next > 0 ? next : 0) - c->normal_impulse);
+    memset(g->across, 0, sizeof g->across);
+    if (c->friction_q16 == 0) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t after = slip[k] + fix_mul(c->drag_q30[k], g->along, 30);
+
+        tangent[k] = c->tangent_impulse[k] - fix_mul(after, c->step[1], 30 - c->fine_bits);
+    }
+    rest_cut(tangent, friction_limit(c, c->normal_impulse + g->along));
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = rest_clamp(tangent[k] - c->tangent_impulse[k]);
+    }
+}
+
+/* Take up a change; returns its largest component, the last place apart. */
+static int32_t add(struct contact *c, const struct gain *g)
+{
+    int32_t whole[3], most = 0;
+
+    c->normal_impulse += g->along;
+    for (int k = 0; k < 3; k++) {
+        c->tangent_impulse[k] += g->across[k];
+        whole[k] = carom_mul_q30(g->along, c->normal.c[k]) + g->across[k];
+        c->gain[k] = rest_clamp((int64_t)c->gain[k] + whole[k]);
+        most = carom_abs(whole[k]) > most ? (int32_t)carom_abs(whole[k]) : most;
+    }
+    rest_push(c, whole);
+    return most > 1 ? most : 0;
+}
+
+/* One contact; returns how much a velocity moved. */
+static int64_t visit(struct contact *c)
+{
+    int64_t change[3], slip[3], error;
+    struct gain g;
+
+    change_of_velocity(c, change);
+    error = carom_round((int64_t)c->normal.c[0] * change[0] + (int64_t)c->normal.c[1] * change[1] +
+                            (int64_t)c->normal.c[2] * change[2],
+                        30);
+    for (int k = 0; k < 3; k++) {
+        slip[k] = c->slip[k] + change[k] - fix_mul(error, c->normal.c[k], 30);
+    }
+    error += c->error;
+    leave_band(c, slip);
+    if (c->friction_q16 == 0 || !c->inverted || !stick(c, error, slip, &g)) {
+        slide(c, error, slip, &g);
+    }
+    return fix_mul(c->mass_q30, add(c, &g), 30);
+}
+
+/*
+ * Two sweeps, forwards and backwards, are one step of a symmetric iteration; its steps are
+ * conjugated (Fletcher-Reeves), which takes the root of the number of sweeps. When they grow, it
+ * begins anew.
+ */
+static void accelerate(struct rest *r, int64_t moved, int64_t before)
+{
+    int64_t part_q30 = moved < before ? moved * CAROM_ONE_Q30 / before : 0;
+
+    part_q30 = (part_q30 * part_q30) >> 30;
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+        int32_t gain[3];
+        struct gain g;
+
+        for (int k = 0; k < 3; k++) {
+            gain[k] = carom_mul_q30(c->way[k], (int32_t)part_q30);
+            c->way[k] = rest_clamp((int64_t)gain[k] + c->gain[k]);
+        }
+        g.along = (int32_t)carom_round(carom_dot(c->normal.c, gain), 30);
+        for (int k = 0; k < 3; k++) {
+            g.across[k] =
+                c->friction_q16 == 0
+                    ? 0
+                    : rest_clamp((int64_t)gain[k] - carom_mul_q30(g.along, c->normal.c[k]));
+        }
+        add(c, &g);
+        memset(c->gain, 0, sizeof c->gain);
+        rest_roll_accelerate(c, (int32_t)part_q30);
+    }
 }
 
 static void sweeps(struct rest *r, const struct rest_sweep *sw)
 {
-    uint32_t n = r->list.pool->used;
+    uint32_t n = r->count;
+    int64_t before = 0;
 
     for (int round = 0; round < REST_SWEEPS_MAX; round++) {
         int64_t moved = 0;
@@ -147,141 +295,52 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
             /* forwards and backwards in turn, so that no end of a stack is favoured */
-            struct contact *c = &r->list.contacts[round & 1 ? n - 1 - i : i];
-            uint32_t mu_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
-            int64_t m = sweep_normal(c, sw);
+            uint32_t at = round & 1 ? n - 1 - i : i;
+            int64_t m = visit(rest_contact(r, at));
 
             moved = m > moved ? m : moved;
-            if (mu_q16 > 0 && !sw->frictionless) {
-                m = sweep_tangents(c, sw, mu_q16);
-                moved = m > moved ? m : moved;
-            }
+            m = rest_roll_sweep(r, at);
+            moved = m > moved ? m : moved;
         }
         if (moved <= sw->residual) {
             return;
         }
-    }
-}
-
-/* -------------------------------------------------------------- warm start */
-
-static void clear_changes(struct rest *r)
-{
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
-
-        memset(c->impulse, 0, sizeof c->impulse);
-        for (int s = 0; s < 2; s++) {
-            if (c->side[s].body) {
-                memset(c->side[s].body->dv, 0, sizeof c->side[s].body->dv);
-                memset(c->side[s].body->dw, 0, sizeof c->side[s].body->dw);
-            }
-        }
-    }
-}
-
-/* The last frame's contact that this one continues: same bodies, nearest place, similar normal. */
-static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
-{
-    const struct pair *p = &r->pairs[c->key.pair];
-    const struct body *a = rest_body(r, c, 0);
-    int32_t nearest = a->radius_q22 / 20;
-    struct rest_warm *best = NULL;
-    carom_v3_q22 arm = c->side[0].arm;
-
-    carom_rotate_back(arm.c, &a->path.start.r, arm.c);
-    for (uint32_t i = 0; i < r->warm_count; i++) {
-        struct rest_warm *w = &r->warm[i];
-        int32_t distance = 0;
-
-        if (w->a != p->a || w->b != p->b || w->normal_q40 == 0 ||
-            carom_dot(w->normal.c, c->direction[0].c) >> 30 < CAROM_ONE_Q30 / 10 * 9) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            int32_t d = (int32_t)carom_abs(w->arm.c[k] - arm.c[k]);
-
-            distance = d > distance ? d : distance;
-        }
-        if (distance < nearest) {
-            nearest = distance;
-            best = w;
-        }
-    }
-    return best;
-}
-
-/* Start from 0.9 of the last frame's impulses: a stack sways when it starts from all of them. */
-static void load_warm(struct rest *r, const struct rest_sweep *sw)
-{
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
-        struct rest_warm *w = find_warm(r, c);
-        struct fix_scaled inverse = fix_scaled_inverse(c->mass_unit);
-        int64_t j_q40[3];
-
-        if (!w) {
-            continue;
-        }
-        inverse.e += sw->unit;
-        j_q40[0] = w->normal_q40;
-        j_q40[1] = rest_along_q40(&w->tangent_q40, &c->direction[1]);
-        j_q40[2] = rest_along_q40(&w->tangent_q40, &c->direction[2]);
-        for (int d = 0; d < 3; d++) {
-            int64_t j = fix_mul_scaled(j_q40[d] / 32 * 29, inverse);
-
-            c->impulse[d] = (int32_t)clamp_impulse(j);
-            push(c, d, c->impulse[d]);
-        }
-        w->normal_q40 = 0; /* used */
-    }
-}
-
-void rest_store_warm(struct rest *r)
-{
-    r->warm_count = r->list.pool->used;
-    for (uint32_t i = 0; i < r->warm_count; i++) {
-        const struct contact *c = &r->list.contacts[i];
-        struct rest_warm *w = &r->warm[i];
-
-        memset(w, 0, sizeof *w);
-        w->a = r->pairs[c->key.pair].a;
-        w->b = r->pairs[c->key.pair].b;
-        w->normal = c->direction[0];
-        carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, c->side[0].arm.c);
-        w->normal_q40 = rest_along_q40(&c->impulse_q40, &c->direction[0]);
-        for (int k = 0; k < 3; k++) {
-            w->tangent_q40.c[k] = c->impulse_q40.c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);
+        if (round & 1 && round < REST_SWEEPS_MAX - 1) {
+            moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
+            accelerate(r, moved, before);
+            before = moved;
         }
     }
 }
 
 /* Impulses in solver units to momentum, one rounding a component. */
-static void impulses_from_units(struct rest *r, const struct rest_sweep *sw)
+static void finish(struct rest *r, const struct rest_sweep *sw)
 {
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
         struct fix_scaled unit = c->mass_unit;
 
-        unit.e += 8 - sw->unit; /* 8 more bits survive the sum over the directions */
+        unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
         for (int k = 0; k < 3; k++) {
-            int64_t j = 0;
+            int64_t j = fix_mul(c->normal_impulse, c->normal.c[k], 22) +
+                        carom_shl(c->tangent_impulse[k], 8);
 
-            for (int d = 0; d < 3; d++) {
-                j += (int64_t)c->direction[d].c[k] * c->impulse[d];
-            }
-            c->impulse_q40.c[k] = fix_mul_scaled(carom_round(j, 22), unit);
+            c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
         }
+        rest_roll_finish(c, sw);
     }
 }
 
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {
     choose_unit(r, sw);
-    clear_changes(r);
+    begin(r, sw);
     if (warm) {
-        load_warm(r, sw);
+        rest_load_warm(r, sw);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        rest_roll_prepare(r, i, sw);
     }
     sweeps(r, sw);
-    impulses_from_units(r, sw);
+    finish(r, sw);
 }

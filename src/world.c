@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "world.h"
 
-/* What a step may report at most: begin, hit and end of a pair, rest and out of a body. */
+/* What a step may report at most: begin, hit and end of a pair; out, and rest or waking, of a body. */
 #define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
 
 /* The sizes that CAROM_WORLD_BYTES promises. */
@@ -69,13 +69,11 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     if (!mem || !config || !world) {
         return CAROM_ERR_NULL;
     }
-    if (!capacities_in_range(&config->caps) || config->substep_cap > 64) {
+    if (!capacities_in_range(&config->caps)) {
         return CAROM_ERR_ARGUMENT;
     }
-    for (int k = 0; k < 3; k++) {
-        if (config->gravity.c[k] > (int64_t)1 << 40 || config->gravity.c[k] < -((int64_t)1 << 40)) {
-            return CAROM_ERR_RANGE;
-        }
+    if (!world_gravity_in_range(&config->gravity)) {
+        return CAROM_ERR_RANGE;
     }
     if ((uintptr_t)mem % 8 != 0 || bytes < bytes_for(&config->caps)) {
         return CAROM_ERR_MEMORY;
@@ -84,13 +82,11 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     w = arena_carve(&arena, sizeof *w);
     w->config = *config;
     w->bytes = bytes;
-    if (w->config.substep_cap == 0) {
-        w->config.substep_cap = 32;
-    }
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
     CAROM_POOLS(SET_SIZE)
 #undef SET_SIZE
     carve(w, &arena);
+    world_now(w)->gravity = config->gravity;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
     w->interfere.lists.pool = &w->pools[CAROM_POOL_entries];
@@ -103,13 +99,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 static bool position_in_range(const carom_v3_q32 *p)
 {
-    for (int k = 0; k < 3; k++) {
-        if (p->c[k] > (int64_t)BODY_WORLD_LIMIT << 32 ||
-            p->c[k] < -((int64_t)BODY_WORLD_LIMIT << 32)) {
-            return false;
-        }
-    }
-    return true;
+    return world_each_within(p->c, (int64_t)BODY_WORLD_LIMIT << 32);
 }
 
 /*
@@ -117,30 +107,20 @@ static bool position_in_range(const carom_v3_q32 *p)
  * 64 when it is given. No impact can then make the centre faster than that within a frame, because
  * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
  */
-static bool motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
+static bool points_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
 {
     const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
-    int64_t turning_q40;
 
-    for (int k = 0; k < 3; k++) {
-        if (v->c[k] > limit_q40 || v->c[k] < -limit_q40) {
-            return false;
-        }
-    }
-    turning_q40 = fix_mul(fix_length(w->c), b->radius_q22, 22);
-    return fix_length(v->c) + turning_q40 < limit_q40;
+    return world_each_within(v->c, limit_q40) &&
+           fix_length(v->c) + fix_mul(fix_length(w->c), b->radius_q22, 22) < limit_q40;
 }
 
-static bool spin_in_range(const carom_v3_q40 *w)
+bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
 {
     const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
 
-    for (int k = 0; k < 3; k++) {
-        if (w->c[k] > limit_q40 || w->c[k] < -limit_q40) {
-            return false;
-        }
-    }
-    return fix_length(w->c) < limit_q40;
+    return world_each_within(w->c, limit_q40) && fix_length(w->c) < limit_q40 &&
+           points_in_range(b, v, w);
 }
 
 /* Length 1 within 2^-10; all zero stands for no rotation. */
@@ -165,22 +145,21 @@ static bool rotation_valid(carom_quat_q30 *q)
     return true;
 }
 
-static int set_mass(struct body *b, const struct carom_body_def *def, struct gauss *w)
+static int set_mass(struct body *b, const struct carom_body_def *def)
 {
     int64_t mass_q32 = def->mass_q20 ? (int64_t)def->mass_q20 << 12 : def->mesh->mass.volume_q32;
 
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
-    b->mass = fix_scale(mass_q32, 32);
-    b->inverse_mass = fix_scaled_inverse(b->mass);
+    body_set_mass(b, fix_scale(mass_q32, 32));
     b->inertia = def->mesh->mass.inertia;
-    return mass_invert(w, &b->inertia, &b->inverse_inertia) < 0 ? CAROM_ERR_RANGE : CAROM_OK;
+    return mass_invert(&b->inertia, &b->inverse_inertia, &b->inverse_rest) < 0 ? CAROM_ERR_RANGE
+                                                                               : CAROM_OK;
 }
 
 /* Everything about a body that its definition settles. */
-static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def,
-                     struct gauss *w)
+static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def)
 {
     int result = CAROM_OK;
 
@@ -206,10 +185,10 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     if (b->moving) {
         b->unit_bits = fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
-        if (!spin_in_range(&def->spin) || !motion_in_range(b, &def->velocity, &def->spin)) {
+        if (!world_motion_in_range(b, &def->velocity, &def->spin)) {
             return CAROM_ERR_RANGE;
         }
-        result = set_mass(b, def, w);
+        result = set_mass(b, def);
         if (result < 0) {
             return result;
         }
@@ -230,14 +209,9 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         return CAROM_ERR_NULL;
     }
     pool = &w->pools[CAROM_POOL_bodies];
-    result = make_body(&made, &state, def, &w->rest.gauss);
+    result = make_body(&made, &state, def);
     if (result < 0) {
         return result;
-    }
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        if (made.moving && w->bodies[i].mesh && w->bodies[i].moving) {
-            return CAROM_ERR_UNSUPPORTED;
-        }
     }
     if (pool_take(pool) < 0) {
         return CAROM_ERR_BODIES_FULL;
@@ -250,23 +224,13 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     }
     w->bodies[place] = made;
     world_now(w)->bodies[place] = state;
+    world_wake_around(w, place);
     return (int)place;
 }
 
-static bool has_body(const struct carom_world *w, int body)
+bool world_has_body(const struct carom_world *w, int body)
 {
     return body >= 0 && (uint32_t)body < w->body_count && w->bodies[body].mesh;
-}
-
-/* What has changed near a sleeping body is not known here: wake them all. */
-static void wake_all(struct carom_world *w)
-{
-    struct world_state *s = world_now(w);
-
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        s->bodies[i].asleep = 0;
-        s->bodies[i].quiet = 0;
-    }
 }
 
 int carom_body_remove(struct carom_world *w, int body)
@@ -277,10 +241,11 @@ int carom_body_remove(struct carom_world *w, int body)
     if (!w) {
         return CAROM_ERR_NULL;
     }
-    if (!has_body(w, body)) {
+    if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
     s = world_now(w);
+    world_wake_around(w, (uint32_t)body);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
     memset(&s->bodies[body], 0, sizeof s->bodies[body]);
     for (uint32_t i = 0; i < s->warm_count; i++) {
@@ -297,7 +262,6 @@ int carom_body_remove(struct carom_world *w, int body)
     }
     s->touching_count = kept;
     w->pools[CAROM_POOL_bodies].used--;
-    wake_all(w);
     return CAROM_OK;
 }
 
@@ -309,7 +273,7 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
     if (!w || !out) {
         return CAROM_ERR_NULL;
     }
-    if (!has_body(w, body)) {
+    if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
     s = &world_now(w)->bodies[body];
@@ -331,7 +295,7 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     if (!w || !in) {
         return CAROM_ERR_NULL;
     }
-    if (!has_body(w, body)) {
+    if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
     q = in->rotation;
@@ -340,29 +304,22 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     }
     if (!position_in_range(&in->position) ||
         (w->bodies[body].moving &&
-         (!spin_in_range(&in->spin) ||
-          !motion_in_range(&w->bodies[body], &in->velocity, &in->spin)))) {
+         !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
     }
     s = &world_now(w)->bodies[body];
+    if (!w->bodies[body].moving && memcmp(&s->position, &in->position, sizeof s->position) == 0 &&
+        memcmp(&s->rotation, &q, sizeof q) == 0) {
+        return CAROM_OK; /* nothing moved: nothing wakes */
+    }
     s->position = in->position;
     s->rotation = q;
     s->out = 0;
     if (w->bodies[body].moving) {
         body_set_motion(&w->bodies[body], s, &in->velocity, &in->spin);
     }
-    wake_all(w);
+    world_wake_around(w, (uint32_t)body);
     return CAROM_OK;
-}
-
-static bool each_within(const int64_t v[3], int64_t limit)
-{
-    for (int k = 0; k < 3; k++) {
-        if (v[k] > limit || v[k] < -limit) {
-            return false;
-        }
-    }
-    return true;
 }
 
 bool world_in_range(const struct body *b, const struct body_state *s)
@@ -372,42 +329,18 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
     carom_v3_q40 v, still = {{0, 0, 0}};
 
-    if (!position_in_range(&s->position) || !each_within(s->momentum.c, momentum_limit_q40) ||
-        !each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
+    if (!position_in_range(&s->position) || !world_each_within(s->momentum.c, momentum_limit_q40) ||
+        !world_each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
         return false;
     }
     /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
     body_velocity(b, s, &v);
-    return motion_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
-}
-
-struct fix_wide world_energy2(const struct carom_world *w, const struct world_state *state)
-{
-    struct fix_wide sum = {0, 0};
-
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        const struct body *b = &w->bodies[i];
-        const struct body_state *s = &state->bodies[i];
-        carom_m3_q30 r;
-
-        if (!broad_active(b, s)) {
-            continue;
-        }
-        body_matrix(&r, &s->rotation);
-        sum = fix_wide_add(sum, body_kinetic2(b, s, &r));
-        for (int k = 0; k < 3; k++) {
-            /* -2 m g.c: q40 times q32 brought to q40 */
-            int64_t weight_q40 = fix_mul_scaled(w->config.gravity.c[k], b->mass);
-
-            sum = fix_wide_add(sum, fix_wide_mul(-2 * weight_q40, carom_shl(s->position.c[k], 8)));
-        }
-    }
-    return sum;
+    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
 }
 
 const struct carom_mesh *world_mesh(const struct carom_world *w, int body, bool *moving)
 {
-    if (!has_body(w, body)) {
+    if (!world_has_body(w, body)) {
         return NULL;
     }
     *moving = w->bodies[body].moving;

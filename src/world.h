@@ -12,10 +12,11 @@
  * current one and exchanges them last, so that an error leaves the world as it was, bit for bit.
  */
 struct world_state {
+    carom_v3_q40 gravity;
     struct body_state *bodies;
     struct rest_warm *warm; /* impulses of the last frame's resting contacts */
     uint32_t warm_count;
-    struct pair *touching; /* pairs that touched: for begin and end events */
+    struct pair *touching; /* pairs that touched, in order: for events, and to wake islands */
     uint32_t touching_count;
 };
 
@@ -53,11 +54,36 @@ static inline struct world_state *world_now(const struct carom_world *w)
     return (struct world_state *)&w->states[w->now];
 }
 
-/* Twice the kinetic and potential energy of all active bodies, 80 fractional bits. */
-struct fix_wide world_energy2(const struct carom_world *world, const struct world_state *state);
-
 /* Whether a state's place and speed are within what the formats hold. */
 bool world_in_range(const struct body *b, const struct body_state *s);
+
+/* Whether there is a body of this number. */
+bool world_has_body(const struct carom_world *world, int body);
+
+/* Whether each component is at most `limit` in size. */
+bool world_each_within(const int64_t v[3], int64_t limit);
+
+/* Whether a body may be given this velocity and spin. */
+bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w);
+
+/* Whether each component of a gravity is within +-1. */
+bool world_gravity_in_range(const carom_v3_q40 *gravity);
+
+/* What gravity and a force give a body, 0 for one that stands still; false when out of range. */
+bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
+                        const carom_v3_q40 *force, carom_v3_q40 *out);
+
+/* Wake every body. */
+void world_wake_all(struct carom_world *world);
+
+/* Wake a body with its island. */
+void world_wake_island(struct carom_world *world, uint32_t body);
+
+/* Wake a body, and the islands that touch it or are near to where it is. */
+void world_wake_around(struct carom_world *world, uint32_t body);
+
+/* Wake the islands that have a contact in the list; returns whether there was any. */
+bool world_wake_touched(struct carom_world *world, struct body_state *states);
 
 /* The mesh of a body and whether it moves; NULL when there is no such body. */
 const struct carom_mesh *world_mesh(const struct carom_world *world, int body, bool *moving);

@@ -24,7 +24,6 @@ const char *carom_result_text(int result)
         "the mesh is inside out",
         "the surface is not single-valued in z",
         "the data is truncated, altered or of another kind",
-        "not supported in this version: a second moving body",
     };
     const int count = (int)(sizeof errors / sizeof errors[0]);
 
@@ -84,10 +83,10 @@ int carom_contacts(const struct carom_world *w, struct carom_contact *out, int m
         memset(&out[i], 0, sizeof out[i]);
         out[i].a = p->a;
         out[i].b = p->b;
-        out[i].normal = c->direction[0];
+        out[i].normal = c->normal;
         out[i].gap_q22 = c->gap_q22;
         out[i].point = c->point;
-        out[i].impulse_q40 = rest_along_q40(&c->impulse_q40, &c->direction[0]);
+        out[i].impulse_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
     }
     return n;
 }

@@ -3,16 +3,17 @@
  * The state hash and snapshots. Both go through one description of the state, so that the hash is
  * of exactly the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
  *
- *   u32 magic, u32 body places
- *   a place: u8 0 free, 1 stationary, 2 moving; then, if not free: position 3 x i64,
- *       momentum 3 x i64, angular momentum 3 x i64, rotation 4 x i32, u8 asleep, out, quiet
+ *   u32 magic, gravity 3 x i64, u32 body places
+ *   a place: u8 0 free, 1 stationary, 2 moving; then, if not free: position 3 x i64, momentum
+ *       3 x i64, angular momentum 3 x i64, force 3 x i64, rotation 4 x i32,
+ *       u8 asleep, out, quiet, woken
  *   u32 count of kept impulses; each: u16 a, b, arm 3 x i32, normal 3 x i32, i64, tangent 3 x i64
  *   u32 count of touching pairs; each: u16 a, b
  *   u64 FNV-1a of all bytes before
  */
 #include "world.h"
 
-#define MAGIC     0x31534d43u /* "CMS1" */
+#define MAGIC     0x32534d43u /* "CMS2" */
 #define FNV_START 0xcbf29ce484222325u
 #define FNV_PRIME 0x100000001b3u
 
@@ -98,10 +99,12 @@ static void stream_body(struct stream *s, const struct body *b, struct body_stat
         vector64(s, state->position.c);
         vector64(s, state->momentum.c);
         vector64(s, state->angular.c);
+        vector64(s, state->force.c);
         vector32(s, state->rotation.c, 4);
         number8(s, &state->asleep);
         number8(s, &state->out);
         number8(s, &state->quiet);
+        number8(s, &state->woken);
     }
 }
 
@@ -132,6 +135,7 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
 
     s->fnv = FNV_START;
     expect(s, MAGIC, 4);
+    vector64(s, state->gravity.c);
     expect(s, w->body_count, 4);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
         stream_body(s, &w->bodies[i], &state->bodies[i]);
@@ -192,8 +196,10 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     return size;
 }
 
-static bool body_plausible(const struct body *b, const struct body_state *s)
+static bool body_plausible(const struct body *b, const struct body_state *s,
+                           const carom_v3_q40 *gravity)
 {
+    carom_v3_q40 acceleration;
     int64_t square_q60 = 0;
 
     for (int k = 0; k < 4; k++) {
@@ -202,20 +208,28 @@ static bool body_plausible(const struct body *b, const struct body_state *s)
         }
         square_q60 += (int64_t)s->rotation.c[k] * s->rotation.c[k];
     }
-    return s->asleep <= b->moving && s->out <= b->moving &&
-           carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << 40 && world_in_range(b, s);
+    return s->asleep <= b->moving && s->out <= b->moving && s->woken <= b->moving &&
+           (b->moving || (s->force.c[0] | s->force.c[1] | s->force.c[2]) == 0) &&
+           carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << 40 && world_in_range(b, s) &&
+           world_acceleration(b, gravity, &s->force, &acceleration);
 }
 
+/* As broad.h names a pair. */
 static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
 {
-    return a < w->body_count && b < w->body_count && w->bodies[a].mesh && w->bodies[b].mesh;
+    return a < w->body_count && b < w->body_count && w->bodies[a].moving && w->bodies[b].mesh &&
+           (a > b || !w->bodies[b].moving);
 }
 
 /* A snapshot may be whole and still hold what no step could have left. */
 static bool plausible(const struct carom_world *w, const struct world_state *state)
 {
+    if (!world_gravity_in_range(&state->gravity)) {
+        return false;
+    }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].mesh && !body_plausible(&w->bodies[i], &state->bodies[i])) {
+        if (w->bodies[i].mesh &&
+            !body_plausible(&w->bodies[i], &state->bodies[i], &state->gravity)) {
             return false;
         }
     }
@@ -225,7 +239,10 @@ static bool plausible(const struct carom_world *w, const struct world_state *sta
         }
     }
     for (uint32_t i = 0; i < state->touching_count; i++) {
-        if (!pair_plausible(w, state->touching[i].a, state->touching[i].b)) {
+        const struct pair *p = &state->touching[i], *last = i > 0 ? p - 1 : NULL;
+
+        if (!pair_plausible(w, p->a, p->b) ||
+            (last && (last->a > p->a || (last->a == p->a && last->b >= p->b)))) {
             return false;
         }
     }

@@ -20,53 +20,84 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
     }
 }
 
-void step_note_touching(struct step *s, const struct pair *p)
+/* The static check in the present poses. */
+static int check(struct step *s)
 {
-    struct world_state *next = s->next;
+    struct step_visitor v;
 
-    if (!step_is_touching(next, p) && next->touching_count < s->w->config.caps.pairs) {
-        next->touching[next->touching_count++] = *p;
+    step_place_all(s);
+    pool_clear(s->w->rest.list.pool);
+    return step_visit(s, &v, visit_contacts);
+}
+
+/* Pairs have new numbers after they were gathered again; this one is still there. */
+static uint16_t pair_number(const struct carom_world *w, const struct pair *p)
+{
+    uint16_t n = 0;
+
+    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
+        n++;
+        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
+    }
+    return n;
+}
+
+/*
+ * The contacts at the present poses, among them the hit that led here, if one did. What sleeps and
+ * is touched wakes: then there are more bodies to gather for, and maybe more contacts.
+ */
+static int gather_contacts(struct step *s, bool at_hit)
+{
+    struct carom_world *w = s->w;
+    struct pair p = {0, 0};
+    int result;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].woke = false;
+    }
+    if (at_hit) {
+        p = w->pairs[s->hit.candidate.pair];
+    }
+    for (;;) {
+        result = check(s);
+        if (result == CAROM_OK && at_hit) {
+            struct boyse_pair pair;
+
+            boyse_pair_init(&pair, &w->bodies[p.a], &w->bodies[p.b]);
+            if (!contact_force(&w->rest.list, &pair, &s->hit)) {
+                result = CAROM_ERR_CONTACTS_FULL;
+            }
+        }
+        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
+            return result;
+        }
+        result = step_gather(s);
+        if (result < 0) {
+            return result;
+        }
+        if (at_hit) {
+            s->hit.candidate.pair = pair_number(w, &p);
+        }
     }
 }
 
-/* The static check in the present poses; `forced`: the hit that led here, or NULL. */
-static int find_contacts(struct step *s, const struct boyse_hit *forced)
+/* The static check: contacts, each place once, and which pairs touch. */
+static int find_contacts(struct step *s, bool at_hit)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
-    carom_v3_q22 centre_a, centre_b;
-    struct step_visitor v;
-    int result;
+    int result = gather_contacts(s, at_hit);
 
-    if (forced) {
-        /* where the bodies are now, relative to the origin that the hit refers to */
-        const struct pair *p = &w->pairs[forced->candidate.pair];
-        const struct body *a = &w->bodies[p->a];
-
-        for (int k = 0; k < 3; k++) {
-            int64_t origin = a->path.origin_q22[k];
-
-            centre_a.c[k] =
-                (int32_t)(carom_round(s->next->bodies[p->a].position.c[k], 10) - origin);
-            centre_b.c[k] =
-                (int32_t)(carom_round(s->next->bodies[p->b].position.c[k], 10) - origin);
-        }
-    }
-    step_place_all(s);
-    pool_clear(list->pool);
-    result = step_visit(s, &v, visit_contacts);
-    if (result == CAROM_OK && forced) {
-        step_select_pair(&v, forced->candidate.pair);
-        if (!contact_force(list, &v.pair, forced, &centre_a, &centre_b)) {
-            result = CAROM_ERR_CONTACTS_FULL;
-        }
-    }
     if (result == CAROM_OK) {
         contact_merge(list);
-        for (uint32_t i = 0; i < list->pool->used; i++) {
-            step_note_touching(s, &w->pairs[list->contacts[i].key.pair]);
-        }
         w->stats.contacts = list->pool->used;
+    }
+    for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK; i++) {
+        uint16_t pair = list->contacts[i].key.pair;
+
+        if (i == 0 || list->contacts[i - 1].key.pair != pair) {
+            result = step_note_touching(s, &w->pairs[pair]);
+        }
     }
     step_mark(w, CAROM_STAGE_CONTACT);
     return result;
@@ -95,9 +126,58 @@ static void note_hits(struct step *s)
             }
             step_add_event(w, CAROM_EVENT_HIT, p->a, p->b);
         }
-        if (-c->velocity_q40[0] > e->speed_q40) {
-            e->speed_q40 = -c->velocity_q40[0];
-            e->impulse_q40 = rest_along_q40(&c->impulse_q40, &c->direction[0]);
+        if (-c->speed_q40 > e->speed_q40) {
+            e->speed_q40 = -c->speed_q40;
+            e->impulse_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
+        }
+    }
+}
+
+/* Of shorter slices nothing is asked: less than a thousandth of a frame. */
+#define CHORD_SLICE_MIN_Q30 (1 << 20)
+
+/* By how much the gap of a contact changes on the present paths, q22. */
+static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c)
+{
+    struct boyse_touch from, to;
+
+    boyse_touch(pair, c, 0, &from);
+    boyse_touch(pair, c, CAROM_ONE_Q30, &to);
+    return (int64_t)(to.sign == from.sign ? to.gap_q22 : -to.gap_q22) - from.gap_q22;
+}
+
+/*
+ * How the gap of each contact is going to change in the next slice. A body that rolls or tips does
+ * not keep the V.N that it starts with: its arm turns, and so does its spin. Without this it comes
+ * back to the surface within the frame, at once if it rolls fast, and uses up the sub-steps.
+ */
+static void find_chords(struct step *s)
+{
+    struct carom_world *w = s->w;
+    struct contact_list *list = &w->rest.list;
+    int32_t slice_q30 = step_slice(s);
+    struct step_visitor v = {.step = s, .pair_number = -1};
+
+    for (uint32_t i = 0; i < w->body_count && slice_q30 > CHORD_SLICE_MIN_Q30; i++) {
+        if (broad_active(&w->bodies[i], &s->next->bodies[i])) {
+            body_predict(&w->bodies[i], &s->next->bodies[i], slice_q30, NULL);
+        }
+    }
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        struct contact *c = &list->contacts[i];
+
+        c->chord_q40 = INT64_MAX;
+        if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
+            continue;
+        }
+        step_select_pair(&v, c->key.pair);
+        /* a bend of a few units is rounding */
+        if (v.pair.view[0].seen.bend_q22 + v.pair.view[1].seen.bend_q22 > 16) {
+            int64_t way_q22 = gap_change(&v.pair, &c->key) + 4;
+
+            if (carom_abs(way_q22) < 1 << 24) {
+                c->chord_q40 = way_q22 * ((int64_t)1 << 38) / (slice_q30 >> 10);
+            }
         }
     }
 }
@@ -106,8 +186,10 @@ static int solve(struct step *s, bool warm)
 {
     struct carom_world *w = s->w;
     uint32_t impacts = w->rest.impacts;
-    int result = rest_solve(&w->rest, s->left_q30, warm);
+    int result;
 
+    find_chords(s);
+    result = rest_solve(&w->rest, s->left_q30, warm);
     note_hits(s);
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);
     return result;
@@ -116,7 +198,7 @@ static int solve(struct step *s, bool warm)
 /* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
 int step_start_contacts(struct step *s)
 {
-    int result = find_contacts(s, NULL);
+    int result = find_contacts(s, false);
 
     if (result < 0) {
         return result;
@@ -131,12 +213,12 @@ int step_start_contacts(struct step *s)
 /* Resolve a hit: the impact, then what it left slow goes into continuous contact. */
 int step_respond(struct step *s)
 {
-    struct boyse_hit hit = s->hit;
     int result;
 
     s->w->stats.hits++;
-    result = find_contacts(s, &hit);
+    result = find_contacts(s, true);
     if (result == CAROM_OK) {
+        rest_keep_hits(&s->w->rest, s->hit.candidate.pair);
         result = solve(s, false);
     }
     if (result == CAROM_OK && rest_enter_contact(&s->w->rest, s->left_q30)) {

@@ -1,75 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The end of a step: the energy of contact, bodies that left, events, statistics. */
+/* The end of a step: bodies that left, events, statistics. */
 #include "world_step_parts.h"
-
-/* Twice the kinetic energy of the active bodies, and what contact may have lifted them by. */
-static struct fix_wide kinetic2(const struct step *s, struct fix_wide *lift2)
-{
-    struct fix_wide sum = {0, 0};
-
-    memset(lift2, 0, sizeof *lift2);
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body *b = &s->w->bodies[i];
-        carom_m3_q30 r;
-
-        if (!broad_active(b, &s->next->bodies[i])) {
-            continue;
-        }
-        body_matrix(&r, &s->next->bodies[i].rotation);
-        sum = fix_wide_add(sum, body_kinetic2(b, &s->next->bodies[i], &r));
-        if (b->in_contact) {
-            *lift2 = fix_wide_add(*lift2, body_lift2(b, s->gravity));
-        }
-    }
-    return sum;
-}
-
-/* Every active body stays where the frame found it, at rest. */
-static void hold_still(struct step *s)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        struct body_state *state = &s->next->bodies[i];
-
-        if (broad_active(&s->w->bodies[i], state)) {
-            state->position = world_now(s->w)->bodies[i].position;
-            state->rotation = world_now(s->w)->bodies[i].rotation;
-            memset(&state->momentum, 0, sizeof state->momentum);
-            memset(&state->angular, 0, sizeof state->angular);
-        }
-    }
-}
-
-static void scale_momenta(struct step *s, int32_t factor_q30)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        struct body_state *state = &s->next->bodies[i];
-
-        for (int k = 0; k < 3; k++) {
-            state->momentum.c[k] = fix_mul(state->momentum.c[k], factor_q30, 30);
-            state->angular.c[k] = fix_mul(state->angular.c[k], factor_q30, 30);
-        }
-    }
-}
-
-void step_limit_energy(struct step *s)
-{
-    struct fix_wide lift2, kept;
-    struct fix_wide kinetic = kinetic2(s, &lift2);
-    struct fix_wide allowed = fix_wide_add(world_energy2(s->w, world_now(s->w)), lift2);
-    struct fix_wide excess = fix_wide_add(world_energy2(s->w, s->next), fix_wide_neg(allowed));
-
-    if (fix_wide_sign(excess) <= 0) {
-        return;
-    }
-    kept = fix_wide_add(kinetic, fix_wide_neg(excess));
-    if (fix_wide_sign(kept) > 0) {
-        struct fix_scaled ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
-
-        scale_momenta(s, (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio)));
-    } else {
-        hold_still(s); /* it climbed by more than it has to give */
-    }
-}
 
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 {
@@ -84,9 +15,10 @@ void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
     }
 }
 
-void step_retire(struct step *s)
+bool step_retire(struct step *s)
 {
     struct carom_world *w = s->w;
+    bool any = false;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body_state *state = &s->next->bodies[i];
@@ -95,18 +27,57 @@ void step_retire(struct step *s)
             *state = world_now(w)->bodies[i];
             state->out = 1;
             step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+            any = true;
         }
     }
+    return any;
+}
+
+/* Where a pair is in the list, or belongs. */
+static uint32_t touching_place(const struct world_state *s, const struct pair *p)
+{
+    uint32_t low = 0, high = s->touching_count;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        const struct pair *at = &s->touching[middle];
+
+        if (at->a < p->a || (at->a == p->a && at->b < p->b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static bool touching_at(const struct world_state *s, uint32_t place, const struct pair *p)
+{
+    return place < s->touching_count && s->touching[place].a == p->a &&
+           s->touching[place].b == p->b;
 }
 
 bool step_is_touching(const struct world_state *s, const struct pair *p)
 {
-    for (uint32_t i = 0; i < s->touching_count; i++) {
-        if (s->touching[i].a == p->a && s->touching[i].b == p->b) {
-            return true;
-        }
+    return touching_at(s, touching_place(s, p), p);
+}
+
+int step_note_touching(struct step *s, const struct pair *p)
+{
+    struct world_state *next = s->next;
+    uint32_t place = touching_place(next, p);
+
+    if (touching_at(next, place, p)) {
+        return CAROM_OK;
     }
-    return false;
+    if (next->touching_count == s->w->config.caps.pairs) {
+        return CAROM_ERR_PAIRS_FULL;
+    }
+    memmove(&next->touching[place + 1], &next->touching[place],
+            (next->touching_count - place) * sizeof *p);
+    next->touching[place] = *p;
+    next->touching_count++;
+    return CAROM_OK;
 }
 
 /* Impulses of contacts that nobody will look at in the next frame. */
@@ -126,18 +97,28 @@ void step_drop_warm(struct step *s)
     s->next->warm_count = kept;
 }
 
-void step_finish_events(struct step *s)
+/* Whether nothing of a pair was computed, so that it still touches though nobody looked. */
+static bool left_alone(const struct step *s, const struct pair *p)
+{
+    const struct body *bodies = s->w->bodies;
+    const struct body_state *before = world_now(s->w)->bodies, *next = s->next->bodies;
+
+    return !broad_active(&bodies[p->a], &before[p->a]) &&
+           !broad_active(&bodies[p->b], &before[p->b]) &&
+           !broad_active(&bodies[p->a], &next[p->a]) && !broad_active(&bodies[p->b], &next[p->b]);
+}
+
+int step_finish_events(struct step *s)
 {
     struct carom_world *w = s->w;
     const struct world_state *before = world_now(w);
+    int result = CAROM_OK;
 
-    for (uint32_t i = 0; i < before->touching_count; i++) {
+    for (uint32_t i = 0; i < before->touching_count && result == CAROM_OK; i++) {
         const struct pair *p = &before->touching[i];
 
-        /* nothing moved: they still touch, though nobody looked */
-        if (!broad_active(&w->bodies[p->a], &before->bodies[p->a]) &&
-            !broad_active(&w->bodies[p->b], &before->bodies[p->b])) {
-            step_note_touching(s, p);
+        if (left_alone(s, p)) {
+            result = step_note_touching(s, p);
         } else if (!step_is_touching(s->next, p)) {
             step_add_event(w, CAROM_EVENT_END, p->a, p->b);
         }
@@ -150,10 +131,15 @@ void step_finish_events(struct step *s)
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body_state *state = &s->next->bodies[i];
 
+        if (state->woken) {
+            step_add_event(w, CAROM_EVENT_WAKE, (uint16_t)i, 0);
+            state->woken = 0;
+        }
         if (state->asleep && !before->bodies[i].asleep) {
             step_add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
         }
     }
+    return result;
 }
 
 void step_finish_stats(struct carom_world *w)

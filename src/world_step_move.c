@@ -2,7 +2,7 @@
 /* The moving part of a step: candidates for the rest of the frame, paths, first hit, advance. */
 #include "world_step_parts.h"
 
-#define REFINEMENTS 4
+#define REFINEMENTS 8
 
 void step_mark(struct carom_world *w, enum carom_stage stage)
 {
@@ -61,7 +61,7 @@ static void predict_all(struct step *s, int32_t tau_q30)
         struct body *b = &s->w->bodies[i];
 
         if (b->mesh) {
-            body_predict(b, &s->next->bodies[i], tau_q30, b->in_contact ? NULL : s->gravity);
+            body_predict(b, &s->next->bodies[i], tau_q30, b->in_contact ? NULL : &b->acceleration);
         }
     }
 }
@@ -79,7 +79,7 @@ static void set_reach(struct step *s)
         if (!b->mesh) {
             continue;
         }
-        way_q22 = body_travel_q22(b, &s->next->bodies[i], s->left_q30, s->gravity, &turn_q30);
+        way_q22 = body_travel_q22(b, &s->next->bodies[i], s->left_q30, &b->acceleration, &turn_q30);
         if (broad_active(b, &s->next->bodies[i])) {
             /* a third more than it is going to move, and room for four margins of five skins */
             b->reach_q22 = (int32_t)(way_q22 + way_q22 / 10 * 3 + 20 * (int64_t)b->skin_q22);
@@ -131,17 +131,23 @@ static bool leaves_region(const struct step *s)
     return false;
 }
 
-/* The longest slice that every body's turn allows, with all paths set. */
+int32_t step_slice(const struct step *s)
+{
+    int32_t slice_q30 = s->left_q30;
+
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
+            slice_q30 = body_slice(&s->w->bodies[i], &s->next->bodies[i], slice_q30);
+        }
+    }
+    return slice_q30;
+}
+
 int step_predict(struct step *s, int32_t *slice_q30)
 {
     int result = CAROM_OK;
 
-    *slice_q30 = s->left_q30;
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
-            *slice_q30 = body_slice(&s->w->bodies[i], &s->next->bodies[i], *slice_q30);
-        }
-    }
+    *slice_q30 = step_slice(s);
     predict_all(s, *slice_q30);
     if (leaves_region(s)) {
         result = step_gather(s);
@@ -179,6 +185,10 @@ int step_first_hit(struct step *s, bool *found)
     int result = step_visit(s, &v, visit_first_hit);
 
     *found = v.found;
+    if (v.found) {
+        step_select_pair(&v, s->hit.candidate.pair);
+        boyse_touch(&v.pair, &s->hit.candidate, s->hit.root_q30, &s->hit.touch);
+    }
     step_mark(s->w, CAROM_STAGE_BOYSE);
     return result;
 }
@@ -195,10 +205,70 @@ void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
         body_path_length(b, t_q30, &way_q22, &turn_q30);
         b->moved_q22 += way_q22;
         b->turned_q30 += turn_q30;
-        body_advance(b, &s->next->bodies[i], t_q30, slice_q30, b->in_contact ? NULL : s->gravity);
+        body_advance(b, &s->next->bodies[i], t_q30, slice_q30,
+                     b->in_contact ? NULL : &b->acceleration);
     }
     s->left_q30 -= (int32_t)(((int64_t)slice_q30 * t_q30) >> 30);
     step_mark(s->w, CAROM_STAGE_ADVANCE);
+}
+
+/* The gap of the hit's features at a time of the paths; INT32_MAX when they do not face there. */
+static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+{
+    struct boyse_touch touch;
+
+    boyse_touch(pair, c, t_q30, &touch);
+    return touch.valid ? touch.gap_q22 : INT32_MAX;
+}
+
+/*
+ * A path that was set up again may end nearer than the hit was to stop. The time at which to leave
+ * it: its end, unless less than half of the event gap is left there and less than at its start.
+ */
+static int32_t leave_at(const struct step *s)
+{
+    const struct carom_world *w = s->w;
+    const struct candidate *c = &s->hit.candidate;
+    const struct pair *p = &w->pairs[c->pair];
+    int32_t low = 0, high = CAROM_ONE_Q30, least;
+    struct boyse_pair pair;
+
+    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
+    least = gap_at(&pair, c, 0);
+    least = least < pair.skin_q22 / 4 ? least : pair.skin_q22 / 4;
+    if (gap_at(&pair, c, high) >= least) {
+        return high;
+    }
+    for (int round = 0; round < 12; round++) {
+        int32_t middle = low + (high - low) / 2;
+
+        *(gap_at(&pair, c, middle) >= least ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/*
+ * A path that was set up again may end before the hit, as the turn of a body with three different
+ * sides bends. The slice at whose end the gap is the event gap, by the rate at which it closes
+ * there; the same slice when that is not worth a round, and never more than `most`.
+ */
+static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q30)
+{
+    const struct carom_world *w = s->w;
+    const struct candidate *c = &s->hit.candidate;
+    const struct pair *p = &w->pairs[c->pair];
+    struct boyse_pair pair;
+    int64_t wanted, end, before, longer_q30;
+
+    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
+    wanted = pair.skin_q22 / 2;
+    end = gap_at(&pair, c, CAROM_ONE_Q30);
+    before = gap_at(&pair, c, CAROM_ONE_Q30 - CAROM_ONE_Q30 / 64);
+    if (end == INT32_MAX || before == INT32_MAX || before <= end || end <= wanted + wanted / 16) {
+        return slice_q30;
+    }
+    longer_q30 = slice_q30 + slice_q30 / 64 * (end - wanted) / (before - end);
+    return longer_q30 < most_q30 ? (int32_t)longer_q30 : most_q30;
 }
 
 /*
@@ -208,7 +278,7 @@ void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
  */
 int step_go_to_hit(struct step *s, int32_t slice_q30)
 {
-    int32_t t_q30 = CAROM_ONE_Q30;
+    int32_t t_q30 = CAROM_ONE_Q30, most_q30 = slice_q30;
 
     slice_q30 = (int32_t)(((int64_t)slice_q30 * s->hit.t_q30) >> 30);
     for (int round = 0; round < REFINEMENTS; round++) {
@@ -222,10 +292,20 @@ int step_go_to_hit(struct step *s, int32_t slice_q30)
         }
         s->w->stats.refinements++;
         t_q30 = CAROM_ONE_Q30;
-        if (!found || s->hit.t_q30 >= CAROM_ONE_Q30 - 1) {
+        if (!found) {
+            int32_t longer_q30 = lengthen(s, slice_q30, most_q30);
+
+            if (longer_q30 > slice_q30 && round < REFINEMENTS - 5) {
+                slice_q30 = longer_q30;
+                continue;
+            }
+            t_q30 = leave_at(s);
+        } else if (s->hit.t_q30 < CAROM_ONE_Q30 - 1) {
+            t_q30 = s->hit.t_q30;
+        }
+        if (t_q30 == CAROM_ONE_Q30) {
             break;
         }
-        t_q30 = s->hit.t_q30;
         if (t_q30 <= 1) {
             t_q30 = 0;
             break;

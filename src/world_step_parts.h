@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * world_step_parts - what the files of a step share. world_step.c is the pipeline; the others are
- * its stations: move (predict, first hit, advance), contacts (static check, solve), finish (events,
- * energy of a frame cut short, statistics).
+ * its stations: move (predict, first hit, advance), contacts (static check, solve), energy (of
+ * contact over the frame), finish (events, statistics).
  */
 #ifndef CAROM_SRC_WORLD_STEP_PARTS_H
 #define CAROM_SRC_WORLD_STEP_PARTS_H
@@ -13,10 +13,13 @@
 struct step {
     struct carom_world *w;
     struct world_state *next;
-    const carom_v3_q40 *gravity;
     int32_t left_q30; /* of the frame */
+    uint32_t substep_cap;
     struct boyse_hit hit;
 };
+
+/* Start the next state as a copy of the current one, with nothing found yet. */
+void step_begin(struct step *s, struct carom_world *w);
 
 /* A visitor of candidates that knows which pair they belong to. */
 struct step_visitor {
@@ -42,7 +45,10 @@ void step_place_all(struct step *s);
 /* Pairs, interfering faces and candidates for the rest of the frame. */
 int step_gather(struct step *s);
 
-/* Set the paths of the longest slice that every body's turn allows. */
+/* The longest slice of what is left that every body's turn allows. */
+int32_t step_slice(const struct step *s);
+
+/* Set the paths of that slice. */
 int step_predict(struct step *s, int32_t *slice_q30);
 
 /* The earliest hit on the paths, into s->hit. */
@@ -63,25 +69,32 @@ int step_respond(struct step *s);
 /* Append an event while there is room. */
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b);
 
-/* Whether a pair is in a state's list of touching ones; note that it touches in this step. */
+/*
+ * Whether a pair is in a state's list of touching ones; note that it touches in this step, with
+ * CAROM_OK or CAROM_ERR_PAIRS_FULL.
+ */
 bool step_is_touching(const struct world_state *s, const struct pair *p);
-void step_note_touching(struct step *s, const struct pair *p);
+int step_note_touching(struct step *s, const struct pair *p);
 
 /*
  * Contact must not gain energy over a frame, beyond lifting bodies within their skins: scale the
- * momenta down if it did. A body in contact takes gravity before it moves, so one that is turned
- * upwards on its way would climb for nothing; and a frame cut short has lost track of what it owes.
+ * momenta of an island down if it did. A body in contact takes gravity before it moves, so one that
+ * is turned upwards on its way would climb for nothing; and a frame cut short has lost track of what
+ * it owes. An island is what was connected by touching in this step.
  */
-void step_limit_energy(struct step *s);
+void step_limit_energy(struct step *s, bool cut_short);
 
 /* Keep the impulses of contacts that the next frame may continue. */
 void step_drop_warm(struct step *s);
 
-/* Freeze bodies that left the range of the formats in the pose they began the frame with. */
-void step_retire(struct step *s);
+/*
+ * Freeze bodies that left the range of the formats in the pose they began the frame with. Returns
+ * whether any did.
+ */
+bool step_retire(struct step *s);
 
-/* Begin and end of touching, and rest. */
-void step_finish_events(struct step *s);
+/* Begin and end of touching, waking and rest; CAROM_OK or CAROM_ERR_PAIRS_FULL. */
+int step_finish_events(struct step *s);
 void step_finish_stats(struct carom_world *w);
 
 #endif

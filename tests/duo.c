@@ -7,10 +7,10 @@ struct duo duo;
 
 /* -------------------------------------------------------------------- motion */
 
-void duo_begin(void)
+void duo_begin(bool b_moves)
 {
     shape_body(&duo.shape[0], true, &duo.body[0], &duo.state[0]);
-    shape_body(&duo.shape[1], false, &duo.body[1], &duo.state[1]);
+    shape_body(&duo.shape[1], b_moves, &duo.body[1], &duo.state[1]);
 }
 
 static void read_motion(int side)
@@ -35,7 +35,7 @@ void duo_read_motion(void)
     read_motion(1);
 }
 
-void duo_set_paths(const double v[3], const double w[3], const carom_v3_q40 *gravity)
+void duo_set_motion(int side, const double v[3], const double w[3])
 {
     carom_v3_q40 v_q40, w_q40;
 
@@ -43,7 +43,12 @@ void duo_set_paths(const double v[3], const double w[3], const carom_v3_q40 *gra
         v_q40.c[k] = real_round(v[k] * real_power2(40));
         w_q40.c[k] = real_round(w[k] * real_power2(40));
     }
-    body_set_motion(&duo.body[0], &duo.state[0], &v_q40, &w_q40);
+    body_set_motion(&duo.body[side], &duo.state[side], &v_q40, &w_q40);
+}
+
+void duo_set_paths(const double v[3], const double w[3], const carom_v3_q40 *gravity)
+{
+    duo_set_motion(0, v, w);
     body_predict(&duo.body[0], &duo.state[0], CAROM_ONE_Q30, gravity);
     body_predict(&duo.body[1], &duo.state[1], CAROM_ONE_Q30, gravity);
     boyse_pair_init(&duo.pair, &duo.body[0], &duo.body[1]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * duo - a moving body and one that stands still on their paths, and where their features are in
- * double precision: the true motion that the collision kernels are held against.
+ * duo - a moving body and another one, still or moving, on their paths, and where their features are
+ * in double precision: the true motion that the collision kernels are held against.
  */
 #ifndef CAROM_TEST_DUO_H
 #define CAROM_TEST_DUO_H
@@ -18,7 +18,7 @@ struct duo_motion {
 
 struct duo {
     struct shape shape[2];
-    struct body body[2]; /* 0 is a, which moves */
+    struct body body[2]; /* 0 is a, which moves; b may */
     struct body_state state[2];
     struct boyse_pair pair;
     struct duo_motion motion[2];
@@ -27,9 +27,11 @@ struct duo {
 extern struct duo duo;
 
 /* Bodies of both shapes, in the middle of the world. */
-void duo_begin(void);
+void duo_begin(bool b_moves);
 
-/* Give a its motion, in units and radians a frame, and set both paths over a whole frame. */
+/* Give a body its motion, in units and radians a frame. */
+void duo_set_motion(int side, const double v[3], const double w[3]);
+/* Set both paths over a whole frame, with that motion of a. */
 void duo_set_paths(const double v[3], const double w[3], const carom_v3_q40 *gravity);
 
 /* Read the paths again after they were changed by hand. */

@@ -151,8 +151,6 @@ static void test_bodies(struct lab *lab)
     REFUSED_WITH(position.c[0], ((int64_t)4096 << 32) + 1, CAROM_ERR_RANGE);
     REFUSED_WITH(position.c[1], INT64_MIN, CAROM_ERR_RANGE);
     REFUSED_WITH(stationary, false, CAROM_ERR_ARGUMENT); /* a SURFACE that moves */
-    def = lab->scene.body;
-    REFUSED(carom_body_add(w, &def), CAROM_ERR_UNSUPPORTED); /* a second body that moves */
     def = good;
     REFUSED(carom_body_add(w, &def), CAROM_ERR_BODIES_FULL);
     REFUSED(carom_body_remove(w, -1), CAROM_ERR_BODY);
@@ -209,11 +207,50 @@ static void test_states(struct lab *lab)
     end("bad_input/states");
 }
 
+/* Forces and pushes; body SCENE_GROUND stands still. */
+static void test_forces(struct lab *lab)
+{
+    const int64_t much = ((int64_t)1 << 40) + 1, extreme[2] = {INT64_MIN, INT64_MAX};
+    const carom_v3_q40 none = {{0, 0, 0}}, too_much = {{0, 0, much}};
+    const carom_v3_q32 origin = {{0, 0, 0}}, beyond = {{0, ((int64_t)4096 << 32) + 1, 0}};
+    struct carom_world *w = lab->world;
+
+    begin(w);
+    REFUSED(carom_world_set_gravity(NULL, &none), CAROM_ERR_NULL);
+    REFUSED(carom_world_set_gravity(w, NULL), CAROM_ERR_NULL);
+    REFUSED(carom_world_set_gravity(w, &too_much), CAROM_ERR_RANGE);
+    REFUSED(carom_body_set_force(NULL, SCENE_BODY, &none), CAROM_ERR_NULL);
+    REFUSED(carom_body_set_force(w, SCENE_BODY, NULL), CAROM_ERR_NULL);
+    REFUSED(carom_body_set_force(w, SCENE_GROUND, &none), CAROM_ERR_ARGUMENT);
+    REFUSED(carom_body_set_force(w, -1, &none), CAROM_ERR_BODY);
+    REFUSED(carom_body_set_force(w, 2, &none), CAROM_ERR_BODY);
+    REFUSED(carom_body_set_force(w, SCENE_BODY, &too_much), CAROM_ERR_RANGE);
+    REFUSED(carom_body_push(NULL, SCENE_BODY, &none, &origin), CAROM_ERR_NULL);
+    REFUSED(carom_body_push(w, SCENE_BODY, NULL, &origin), CAROM_ERR_NULL);
+    REFUSED(carom_body_push(w, SCENE_BODY, &none, NULL), CAROM_ERR_NULL);
+    REFUSED(carom_body_push(w, SCENE_GROUND, &none, &origin), CAROM_ERR_ARGUMENT);
+    REFUSED(carom_body_push(w, INT32_MAX, &none, &origin), CAROM_ERR_BODY);
+    REFUSED(carom_body_push(w, SCENE_BODY, &none, &beyond), CAROM_ERR_RANGE);
+    for (int i = 0; i < 6; i++) {
+        carom_v3_q40 v = none;
+        carom_v3_q32 point = origin;
+
+        v.c[i / 2] = extreme[i % 2];
+        point.c[i / 2] = extreme[i % 2];
+        REFUSED(carom_world_set_gravity(w, &v), CAROM_ERR_RANGE);
+        REFUSED(carom_body_set_force(w, SCENE_BODY, &v), CAROM_ERR_RANGE);
+        REFUSED(carom_body_push(w, SCENE_BODY, &v, &origin), CAROM_ERR_RANGE);
+        REFUSED(carom_body_push(w, SCENE_BODY, &none, &point), CAROM_ERR_RANGE);
+    }
+    end("bad_input/forces");
+}
+
 /* --------------------------------------------------------------------- worlds */
 
 static void test_init(struct lab *lab)
 {
-    static _Alignas(8) uint8_t block[SCENE_WORLD_BYTES + 8];
+    enum { BYTES = CAROM_WORLD_BYTES(SCENE_CAPS) };
+    static _Alignas(8) uint8_t block[BYTES + 8];
     const struct carom_config good = scene_config();
     struct carom_config config = good;
     struct carom_world *untouched = NULL, *world = NULL;
@@ -224,19 +261,17 @@ static void test_init(struct lab *lab)
     REFUSED(carom_world_init(block, sizeof block, &config, &world), (error))
 
     begin(lab->world);
-    REFUSED(carom_world_init(block, SCENE_WORLD_BYTES - 1, &good, &world), CAROM_ERR_MEMORY);
-    REFUSED(carom_world_init(block + 4, SCENE_WORLD_BYTES, &good, &world), CAROM_ERR_MEMORY);
+    REFUSED(carom_world_init(block, BYTES - 1, &good, &world), CAROM_ERR_MEMORY);
+    REFUSED(carom_world_init(block + 4, BYTES, &good, &world), CAROM_ERR_MEMORY);
     NO_WORLD(caps.bodies, 0, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.pairs, 0, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.contacts, 4097, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.faces, 65536, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.entries, 0, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.candidates, UINT32_MAX, CAROM_ERR_ARGUMENT);
-    NO_WORLD(substep_cap, 65, CAROM_ERR_ARGUMENT);
     NO_WORLD(gravity.c[2], ((int64_t)1 << 40) + 1, CAROM_ERR_RANGE);
     check(world == untouched, "no world comes out", __LINE__, 0);
-    check(carom_world_init(block, SCENE_WORLD_BYTES, &good, &world) == CAROM_OK, "enough bytes",
-          __LINE__, 0);
+    check(carom_world_init(block, BYTES, &good, &world) == CAROM_OK, "enough bytes", __LINE__, 0);
     end("bad_input/init");
 }
 
@@ -442,6 +477,7 @@ int main(void)
     test_bodies(lab);
     test_moving(lab);
     test_states(lab);
+    test_forces(lab);
     test_init(lab);
     test_snapshots(lab);
     test_meshes(lab);

@@ -1,298 +1,224 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first hit of random motions, judged from outside. Without gravity and with one sub-step a
- * frame, a step that hits ends where the surfaces meet, and one that does not ends where the motion
- * does. In between the body goes straight and turns by Cayley(s u) about its centre: 300 poses on
- * the way are checked for crossing faces, and at a hit the meshes must be the event gap apart.
+ * The first hit of random motions, judged from outside (first_hit.h): 10,000 of small meshes, one of
+ * them moving or both, and 50 of the head against itself.
  *
- * Not exactly: the way to a hit is set up again for the time it takes, and a turn set up for a
- * shorter time is not a part of the longer one. With a the angle of the frame, one step of the
- * midpoint rule differs from many by terms of second order, at most a^2 / 12, and a part of that is
- * left at a hit on the way.
+ *   host_first_hit.elf            a fiftieth of the motions; prints TAP
+ *   host_first_hit.elf all        all of them in two processes; prints the rows of out/oracle.csv
+ *   host_first_hit.elf ROW N      one motion of one row (numbers from 0), told in full
+ *
+ * A row of the table stands for the motions of a pair of meshes:
+ *
+ *   mesh_a, mesh_b  a moves, b stands still or moves as well
+ *   movers          1 or 2
+ *   motions, hits   how many, and how many of them hit
+ *   aside           at the hit the features are the event gap apart along N, but N does not yet lead
+ *                   from one to the other: a body that comes in flat stops over or beside an edge
+ *   different       the pipeline's hit is not, bit for bit, the first of all pairs of features
+ *   missed          faces cross before the hit, or without one
+ *   early           at the hit they are farther apart along N, or never meet
+ *   late            they are nearer, although they were farther apart before
+ *   crossed         faces cross where the step goes to
+ *
+ * The last five must be 0; a motion that counts there is named on standard error.
  */
-#include <math.h>
+#define _DEFAULT_SOURCE /* fork, mmap */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "first_hit.h"
 #include "lab.h"
 
-#define MOTIONS 50
-#define SAMPLES 300
+#define MOTIONS      160 /* of a pair of meshes */
+#define HEAD_MOTIONS 25
+#define SHARE        50 /* of which make test does one */
+#define PROCESSES    2
 
-/* ------------------------------------------------------------------ distances */
+/* ---------------------------------------------------------------------- rows */
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void between(double out[3], const double from[3], const double to[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = to[k] - from[k];
-    }
-}
-
-static double length_along(const double offset[3], const double a[3], double s, const double b[3],
-                           double t)
-{
-    double square = 0;
-
-    for (int k = 0; k < 3; k++) {
-        double d = offset[k] + s * a[k] - t * b[k];
-
-        square += d * d;
-    }
-    return sqrt(square);
-}
-
-static double clamp(double t)
-{
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-
-/* Of two segments: the least over the inner solution and the ends of each against the other. */
-static double segment_distance(const double p[3], const double q[3], const double u[3],
-                               const double v[3])
-{
-    double a[3], b[3], offset[3], aa, bb, ab, ao, bo, determinant, least = HUGE_VAL;
-
-    between(a, p, q);
-    between(b, u, v);
-    between(offset, u, p);
-    aa = dot(a, a);
-    bb = dot(b, b);
-    ab = dot(a, b);
-    ao = dot(a, offset);
-    bo = dot(b, offset);
-    determinant = aa * bb - ab * ab;
-    if (determinant > 1e-12 * aa * bb) {
-        double s = (ab * bo - bb * ao) / determinant, t = (aa * bo - ab * ao) / determinant;
-
-        if (s >= 0 && s <= 1 && t >= 0 && t <= 1) {
-            least = length_along(offset, a, s, b, t);
-        }
-    }
-    for (int end = 0; end < 2; end++) {
-        least = fmin(least, length_along(offset, a, end, b, clamp((bo + end * ab) / bb)));
-        least = fmin(least, length_along(offset, a, clamp((end * ab - ao) / aa), b, end));
-    }
-    return least;
-}
-
-/* From a point to the inside of a triangle; HUGE_VAL when its foot is outside. */
-static double height_over(const double p[3], const double (*t)[3])
-{
-    double side[2][3], to[3], normal[3], square, along[2];
-
-    between(side[0], t[0], t[1]);
-    between(side[1], t[0], t[2]);
-    between(to, t[0], p);
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        normal[k] = side[0][i] * side[1][j] - side[0][j] * side[1][i];
-    }
-    square = dot(normal, normal);
-    /* barycentric coordinates: (to x side1).n / n.n and (side0 x to).n / n.n */
-    for (int which = 0; which < 2; which++) {
-        const double *left = which == 0 ? to : side[0], *right = which == 0 ? side[1] : to;
-
-        along[which] = 0;
-        for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-
-            along[which] += (left[i] * right[j] - left[j] * right[i]) * normal[k] / square;
-        }
-    }
-    if (along[0] < 0 || along[1] < 0 || along[0] + along[1] > 1) {
-        return HUGE_VAL;
-    }
-    return fabs(dot(to, normal)) / sqrt(square);
-}
-
-static void corners(double out[3][3], const struct oracle_mesh *mesh,
-                    const struct oracle_pose *pose, size_t face)
-{
-    for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 3; k++) {
-            out[c][k] = pose->position[k] +
-                        dot(pose->rotation.row[k], mesh->vertices[mesh->faces[face][c]]);
-        }
-    }
-}
-
-/* The distance of two meshes that do not cross. */
-static double distance(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
-                       const struct oracle_mesh *b, const struct oracle_pose *pose_b)
-{
-    double least = HUGE_VAL;
-
-    for (size_t i = 0; i < a->face_count; i++) {
-        double from[3][3];
-
-        corners(from, a, pose_a, i);
-        for (size_t j = 0; j < b->face_count; j++) {
-            double to[3][3];
-
-            corners(to, b, pose_b, j);
-            for (int c = 0; c < 3; c++) {
-                least = fmin(least, height_over(from[c], (const double(*)[3])to));
-                least = fmin(least, height_over(to[c], (const double(*)[3])from));
-                for (int d = 0; d < 3; d++) {
-                    least = fmin(least, segment_distance(from[c], from[(c + 1) % 3], to[d],
-                                                         to[(d + 1) % 3]));
-                }
-            }
-        }
-    }
-    return least;
-}
-
-/* ------------------------------------------------------------------- motions */
-
-/* How far a mesh reaches along a direction, from the point its position stands for. */
-static double reach(const struct carom_mesh *mesh, const struct oracle_mesh *doubles,
-                    const carom_quat_q30 *turned, const double direction[3])
-{
-    double most = -HUGE_VAL;
-
-    for (size_t v = 0; v < doubles->vertex_count; v++) {
-        double about[3], place[3];
-
-        for (int k = 0; k < 3; k++) {
-            about[k] = doubles->vertices[v][k] - lab_double(mesh->mass.centre.c[k], 22);
-        }
-        lab_rotate(place, turned, about);
-        most = fmax(most, dot(place, direction));
-    }
-    return most;
-}
-
-/*
- * Both bodies turned at random, with a plane between them; the moving one heads for a point near
- * the other's centre, and turns by up to 0.4 radians, so that the frame is one slice.
- */
-static void start(struct lab *lab, uint64_t *random)
-{
-    struct carom_body_def *body = &lab->scene.body, *ground = &lab->scene.ground;
-    const double x[3] = {1, 0, 0};
-    double away[3], facing[3], apart, speed = lab_random(random, 0.2, 1.5);
-    carom_quat_q30 direction = lab_random_turn(random);
-
-    body->rotation = lab_random_turn(random);
-    ground->rotation = lab_random_turn(random);
-    lab_rotate(away, &direction, x);
-    for (int k = 0; k < 3; k++) {
-        facing[k] = -away[k];
-    }
-    apart = reach(&lab->scene.ground_mesh, &lab->ground, &ground->rotation, away) +
-            reach(&lab->scene.body_mesh, &lab->body, &body->rotation, facing) +
-            lab_random(random, 0.005, 0.3);
-    for (int k = 0; k < 3; k++) {
-        double aim = lab_random(random, -0.4, 0.4);
-
-        body->position.c[k] = lab_fixed(away[k] * apart, 32);
-        body->velocity.c[k] = lab_fixed((aim - away[k] * apart) * speed, 40);
-        body->spin.c[k] = lab_fixed(lab_random(random, -0.23, 0.23), 40);
-    }
-    lab_start(lab);
-}
-
-/* Pose number `sample` of the way from one state to another. */
-static struct oracle_pose on_the_way(const struct lab *lab, const struct oracle_body *from,
-                                     const struct oracle_body *to, int sample)
-{
-    const double *p = from->quaternion, *q = to->quaternion;
-    double s = (double)sample / SAMPLES, cayley[4], turned[4], position[3], centre[3];
-
-    /* conjugate(p) q is along (1, u); scale u by s */
-    cayley[0] = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-    for (int k = 0; k < 3; k++) {
-        int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
-
-        cayley[1 + k] = s * (p[0] * q[1 + k] - q[0] * p[1 + k] - (p[i] * q[j] - p[j] * q[i]));
-    }
-    turned[0] = p[0] * cayley[0] - p[1] * cayley[1] - p[2] * cayley[2] - p[3] * cayley[3];
-    for (int k = 0; k < 3; k++) {
-        int i = 1 + (k + 1) % 3, j = 1 + (k + 2) % 3;
-
-        turned[1 + k] =
-            p[0] * cayley[1 + k] + cayley[0] * p[1 + k] + p[i] * cayley[j] - p[j] * cayley[i];
-        position[k] = from->position[k] + s * (to->position[k] - from->position[k]);
-        centre[k] = lab_double(lab->scene.body_mesh.mass.centre.c[k], 22);
-    }
-    return oracle_pose_make(position, turned, centre);
-}
-
-/* How far apart meshes may be at a hit. */
-static double gap_allowed(const struct lab *lab, const struct oracle_body *body)
-{
-    double angle2 = dot(body->spin, body->spin);
-
-    return 1.01 * lab->skin / 2 + angle2 / 12 * lab_double(lab->scene.body_mesh.radius_q22, 22);
-}
-
-struct verdict {
-    long hits, crossed, early;
-    double gap; /* the largest at a hit, of what is allowed */
+struct row {
+    int mesh_a, mesh_b, movers;
+    long motions, hits, aside, different, missed, early, late, crossed;
 };
 
-static void judge(struct lab *lab, struct verdict *verdict)
+#define ROWS_MAX 80
+struct table {
+    struct row rows[ROWS_MAX];
+    int count;
+};
+
+static void add_row(struct table *t, int mesh_a, int mesh_b, int movers)
 {
-    struct oracle_pose ground = lab_pose(lab, SCENE_GROUND), pose;
-    struct oracle_body from = lab_body(lab), to;
-    struct lab_tally tally = {0};
-    bool crossed = false;
-
-    lab_step(lab, &tally);
-    to = lab_body(lab);
-    for (int sample = 0; sample <= SAMPLES && !crossed; sample++) {
-        pose = on_the_way(lab, &from, &to, sample);
-        crossed = oracle_crossings(&lab->body, &pose, &lab->ground, &ground, 1e-9).pairs != 0;
-    }
-    verdict->crossed += crossed;
-    if (tally.hits) {
-        double gap = distance(&lab->body, &pose, &lab->ground, &ground) / gap_allowed(lab, &from);
-
-        verdict->hits++;
-        verdict->gap = fmax(verdict->gap, gap);
-        verdict->early += gap > 1;
-    }
+    t->rows[t->count++] = (struct row){.mesh_a = mesh_a, .mesh_b = mesh_b, .movers = movers};
 }
 
-static void test_pair(const struct carom_mesh_raw *ground, const struct carom_mesh_raw *body,
-                      struct verdict *verdict, uint64_t *random)
+/* Every pair of meshes with one mover and, each once, with two; then the head against itself. */
+static void make_rows(struct table *t)
 {
-    struct lab *lab = lab_load(ground, body);
-
-    lab->config.gravity = (carom_v3_q40){{0, 0, 0}};
-    lab->config.sleep = false;
-    lab->config.substep_cap = 1;
-    lab_surface(lab, 1, 0);
-    for (int i = 0; i < MOTIONS; i++) {
-        start(lab, random);
-        judge(lab, verdict);
-    }
-    lab_free(lab);
-}
-
-int main(void)
-{
-    const struct carom_mesh_raw *meshes[4] = {&lab_box, &lab_l, &lab_tetrahedron, &lab_plate};
-    const char *names[4] = {"first_hit/box", "first_hit/l", "first_hit/tetrahedron",
-                            "first_hit/plate"};
-    uint64_t random = 3;
-
-    for (int i = 0; i < 4; i++) {
-        struct verdict verdict = {0};
-
-        for (int j = 0; j < 4; j++) {
-            test_pair(meshes[j], meshes[i], &verdict, &random);
+    for (int a = 0; a < FIRST_HIT_SOLIDS; a++) {
+        for (int b = 0; b <= FIRST_HIT_FIELD; b++) {
+            add_row(t, a, b, 1);
         }
-        lab_report(
-            verdict.hits > 2 * MOTIONS && verdict.crossed == 0 && verdict.early == 0, names[i],
-            "%d motions, %ld hits, %ld crossed before, %ld early, gap at most %.2f of the bound",
-            4 * MOTIONS, verdict.hits, verdict.crossed, verdict.early, verdict.gap);
     }
+    for (int a = 0; a < FIRST_HIT_SOLIDS; a++) {
+        for (int b = 0; b <= a; b++) {
+            add_row(t, a, b, 2);
+        }
+    }
+    add_row(t, FIRST_HIT_HEAD1876, FIRST_HIT_HEAD1876, 1);
+    add_row(t, FIRST_HIT_HEAD1876, FIRST_HIT_HEAD1876, 2);
+}
+
+static int motions_of(const struct row *row)
+{
+    return row->mesh_a == FIRST_HIT_HEAD1876 ? HEAD_MOTIONS : MOTIONS;
+}
+
+static void tell(int row, int n, const struct first_hit_verdict *v)
+{
+    fprintf(stderr,
+            "row %d motion %d:%s%s%s%s%s%s t %.9f kind %d i %u j %u gap %.9f of %.9f, meet %.9f, "
+            "crossing %.9f, left %.9f\n",
+            row, n, v->hit ? " hit" : "", v->different ? " different" : "",
+            v->missed ? " missed" : "", v->early ? " early" : "", v->late ? " late" : "",
+            v->crossed ? " crossed" : "", lab_double(v->t_q30, 30), v->candidate.kind,
+            (unsigned)v->candidate.i, (unsigned)v->candidate.j, v->gap, v->event_gap, v->meet,
+            v->crossing, v->left);
+}
+
+static void run(struct row *row, int number, int n)
+{
+    struct first_hit_motion motion;
+    struct first_hit_verdict verdict;
+
+    first_hit_make_motion(&motion, row->mesh_a, row->mesh_b, row->movers, n);
+    first_hit_judge(&motion, &verdict);
+    row->motions++;
+    row->hits += verdict.hit;
+    row->aside += verdict.aside;
+    row->different += verdict.different;
+    row->missed += verdict.missed;
+    row->early += verdict.early;
+    row->late += verdict.late;
+    row->crossed += verdict.crossed;
+    if (verdict.different || verdict.missed || verdict.early || verdict.late || verdict.crossed) {
+        tell(number, n, &verdict);
+    }
+}
+
+/* Every so many-th motion of all rows, beginning at the first-th. */
+static void run_share(struct table *t, int first, int every)
+{
+    for (int r = 0; r < t->count; r++) {
+        int motions = motions_of(&t->rows[r]), step = every < motions ? every : motions;
+
+        for (int n = (first + r) % step; n < motions; n += step) {
+            run(&t->rows[r], r, n);
+        }
+    }
+}
+
+static bool fails(const struct row *row)
+{
+    return row->different || row->missed || row->early || row->late || row->crossed ||
+           row->hits == 0;
+}
+
+static void add_up(struct row *sum, const struct row *row)
+{
+    sum->motions += row->motions;
+    sum->hits += row->hits;
+    sum->aside += row->aside;
+    sum->different += row->different;
+    sum->missed += row->missed;
+    sum->early += row->early;
+    sum->late += row->late;
+    sum->crossed += row->crossed;
+}
+
+/* All motions, shared out to processes that count in memory of all. */
+static int run_all(struct table *table)
+{
+    struct table *parts = mmap(NULL, PROCESSES * sizeof *parts, PROT_READ | PROT_WRITE,
+                               MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    bool failed = parts == MAP_FAILED;
+    int status;
+
+    for (int i = 0; i < PROCESSES && !failed; i++) {
+        pid_t child = fork();
+
+        if (child == 0) {
+            parts[i] = *table;
+            run_share(&parts[i], i, PROCESSES);
+            _exit(0);
+        }
+        failed = child < 0;
+    }
+    while (wait(&status) >= 0) {
+        failed |= status != 0;
+    }
+    puts("mesh_a,mesh_b,movers,motions,hits,aside,different,missed,early,late,crossed");
+    for (int r = 0; r < table->count && !failed; r++) {
+        struct row *row = &table->rows[r];
+
+        for (int i = 0; i < PROCESSES; i++) {
+            add_up(row, &parts[i].rows[r]);
+        }
+        printf("%s,%s,%d,%ld,%ld,%ld,%ld,%ld,%ld,%ld,%ld\n", first_hit_meshes[0][row->mesh_a].name,
+               first_hit_meshes[0][row->mesh_b].name, row->movers, row->motions, row->hits,
+               row->aside, row->different, row->missed, row->early, row->late, row->crossed);
+    }
+    for (int r = 0; r < table->count; r++) {
+        failed |= fails(&table->rows[r]);
+    }
+    return failed;
+}
+
+/* The rows of so many movers as one line of TAP. */
+static void report(const struct table *table, const char *name, int movers)
+{
+    struct row sum = {0};
+
+    for (int r = 0; r < table->count; r++) {
+        const struct row *row = &table->rows[r];
+
+        if (row->movers == movers) {
+            add_up(&sum, row);
+        }
+    }
+    lab_report(!fails(&sum), name,
+               "%ld motions, %ld hits, %ld aside, %ld different, %ld missed, %ld early, %ld late, "
+               "%ld crossed",
+               sum.motions, sum.hits, sum.aside, sum.different, sum.missed, sum.early, sum.late,
+               sum.crossed);
+}
+
+int main(int argc, char **argv)
+{
+    static struct table table;
+
+    first_hit_make_meshes();
+    make_rows(&table);
+    if (argc == 2 && strcmp(argv[1], "all") == 0) {
+        return run_all(&table);
+    }
+    if (argc == 3) {
+        int row = atoi(argv[1]), n = atoi(argv[2]);
+        struct first_hit_motion motion;
+        struct first_hit_verdict verdict;
+
+        first_hit_make_motion(&motion, table.rows[row].mesh_a, table.rows[row].mesh_b,
+                              table.rows[row].movers, n);
+        first_hit_judge(&motion, &verdict);
+        tell(row, n, &verdict);
+        return 0;
+    }
+    run_share(&table, 0, SHARE);
+    report(&table, "first_hit/one_mover", 1);
+    report(&table, "first_hit/two_movers", 2);
     return lab_finish();
 }

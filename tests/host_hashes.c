@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * State hashes on the way through four scenes. test_hashes.sh builds this with other compilers and
+ * State hashes on the way through five scenes. test_hashes.sh builds this with other compilers and
  * options and for the boards, and compares every line that starts with "# hash".
  *
  * Each scene runs twice, the second time in memory full of rubbish: the same hashes must come out.
@@ -90,6 +90,12 @@ static int load_l(struct scene *scene)
     return result;
 }
 
+/* Sixteen bodies poured on the field, until they sleep. */
+static int load_pile(struct scene *scene)
+{
+    return scene_load(scene, "pile", NULL, mesh_block, sizeof mesh_block);
+}
+
 /* ------------------------------------------------------------------------- run */
 
 /* The hashes of one run, a line each; returns how many, or an error. */
@@ -145,6 +151,7 @@ int main(void)
     test("bounce", load_bounce, 2000);
     test("ramp", load_ramp, 300);
     test("l", load_l, 400);
+    test("pile", load_pile, 300);
     port_print("1..%u\n", count);
     port_exit(failed != 0);
 }

@@ -38,7 +38,7 @@ int lab_finish(void)
     return tests.failed != 0 || tests.count == 0;
 }
 
-static int expect(int result, const char *what)
+int lab_expect(int result, const char *what)
 {
     if (result < 0) {
         printf("Bail out! %s: %s\n", what, carom_result_text(result));
@@ -47,7 +47,7 @@ static int expect(int result, const char *what)
     return result;
 }
 
-static void *need(size_t bytes)
+void *lab_need(size_t bytes)
 {
     void *memory = calloc(1, bytes);
 
@@ -79,7 +79,7 @@ carom_quat_q30 lab_turn(double x, double y, double z, double angle)
     return q;
 }
 
-static void quaternion(double out[4], const carom_quat_q30 *q)
+void lab_quaternion(double out[4], const carom_quat_q30 *q)
 {
     bool none = (q->c[0] | q->c[1] | q->c[2] | q->c[3]) == 0;
 
@@ -101,7 +101,7 @@ void lab_rotate(double out[3], const carom_quat_q30 *q, const double v[3])
     struct oracle_pose pose;
     double wxyz[4];
 
-    quaternion(wxyz, q);
+    lab_quaternion(wxyz, q);
     pose = oracle_pose_make(nowhere, wxyz, nowhere);
     turn(out, &pose.rotation, v);
 }
@@ -212,14 +212,15 @@ const struct carom_mesh_raw *lab_grid(void)
  * with corners 0, a, b, c and six times the volume d, the integral of x_i x_j is
  * d (sum_i sum_j + a_i a_j + b_i b_j + c_i c_j) / 120, sum = a + b + c.
  */
-static void weigh(struct lab *lab)
+struct oracle_body lab_weigh(const struct oracle_mesh *mesh, double centre[3])
 {
+    struct oracle_body body = {.mass = 0};
     double volume = 0, first[3] = {0}, second[3][3] = {{0}};
 
-    for (size_t f = 0; f < lab->body.face_count; f++) {
-        const double *a = lab->body.vertices[lab->body.faces[f][0]];
-        const double *b = lab->body.vertices[lab->body.faces[f][1]];
-        const double *c = lab->body.vertices[lab->body.faces[f][2]];
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        const double *a = mesh->vertices[mesh->faces[f][0]];
+        const double *b = mesh->vertices[mesh->faces[f][1]];
+        const double *c = mesh->vertices[mesh->faces[f][2]];
         double d = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                    a[2] * (b[0] * c[1] - b[1] * c[0]);
 
@@ -235,23 +236,24 @@ static void weigh(struct lab *lab)
             }
         }
     }
-    lab->mass = volume;
+    body.mass = volume;
     for (int i = 0; i < 3; i++) {
-        lab->centre[i] = first[i] / volume;
+        centre[i] = first[i] / volume;
     }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
 
-        lab->inertia[i] = (second[j][j] + second[k][k]) / volume - lab->centre[j] * lab->centre[j] -
-                          lab->centre[k] * lab->centre[k];
+        body.inertia[i] =
+            (second[j][j] + second[k][k]) / volume - centre[j] * centre[j] - centre[k] * centre[k];
         /* xy, yz, zx */
-        lab->inertia[3 + i] = lab->centre[i] * lab->centre[j] - second[i][j] / volume;
+        body.inertia[3 + i] = centre[i] * centre[j] - second[i][j] / volume;
     }
+    return body;
 }
 
 /* --------------------------------------------------------------------- worlds */
 
-static struct oracle_mesh doubles_of(const struct carom_mesh_raw *raw)
+struct oracle_mesh lab_doubles(const struct carom_mesh_raw *raw)
 {
     return oracle_mesh_make(raw->vertices, raw->vertex_count, raw->faces, raw->face_count,
                             raw->quantum_bits);
@@ -259,35 +261,39 @@ static struct oracle_mesh doubles_of(const struct carom_mesh_raw *raw)
 
 static void prepare(struct lab *lab)
 {
+    struct oracle_body weight;
+
     lab->config = scene_config();
-    lab->ground = doubles_of(&lab->scene.ground_mesh.raw);
-    lab->body = doubles_of(&lab->scene.body_mesh.raw);
+    lab->ground = lab_doubles(&lab->scene.ground_mesh.raw);
+    lab->body = lab_doubles(&lab->scene.body_mesh.raw);
     lab->skin = lab_double(lab->scene.body_mesh.radius_q22, 22) / 2048;
-    weigh(lab);
+    weight = lab_weigh(&lab->body, lab->centre);
+    lab->mass = weight.mass;
+    memcpy(lab->inertia, weight.inertia, sizeof lab->inertia);
 }
 
 struct lab *lab_load_scene(const char *name)
 {
-    struct lab *lab = need(sizeof *lab);
+    struct lab *lab = lab_need(sizeof *lab);
 
-    lab->mesh_block = need(SCENE_MESH_BYTES);
-    expect(scene_load(&lab->scene, name, NULL, lab->mesh_block, SCENE_MESH_BYTES), name);
+    lab->mesh_block = lab_need(SCENE_MESH_BYTES);
+    lab_expect(scene_load(&lab->scene, name, NULL, lab->mesh_block, SCENE_MESH_BYTES), name);
     prepare(lab);
     return lab;
 }
 
 struct lab *lab_load(const struct carom_mesh_raw *ground, const struct carom_mesh_raw *body)
 {
-    struct lab *lab = need(sizeof *lab);
+    struct lab *lab = lab_need(sizeof *lab);
     size_t ground_bytes = CAROM_MESH_BYTES(ground->vertex_count, ground->face_count);
     size_t body_bytes = CAROM_MESH_BYTES(body->vertex_count, body->face_count);
 
-    lab->mesh_block = need(ground_bytes + body_bytes);
-    expect(carom_mesh_build(&lab->scene.ground_mesh, ground, lab->mesh_block, ground_bytes),
-           "ground");
-    expect(carom_mesh_build(&lab->scene.body_mesh, body, (char *)lab->mesh_block + ground_bytes,
-                            body_bytes),
-           "body");
+    lab->mesh_block = lab_need(ground_bytes + body_bytes);
+    lab_expect(carom_mesh_build(&lab->scene.ground_mesh, ground, lab->mesh_block, ground_bytes),
+               "ground");
+    lab_expect(carom_mesh_build(&lab->scene.body_mesh, body, (char *)lab->mesh_block + ground_bytes,
+                                body_bytes),
+               "body");
     lab->scene.ground.mesh = &lab->scene.ground_mesh;
     lab->scene.ground.stationary = true;
     lab->scene.body.mesh = &lab->scene.body_mesh;
@@ -313,8 +319,9 @@ void lab_start(struct lab *lab)
                                      caps->entries, caps->candidates);
 
     free(lab->world_block);
-    lab->world_block = need(bytes);
-    expect(scene_make(&lab->scene, &lab->config, lab->world_block, bytes, &lab->world), "world");
+    lab->world_block = lab_need(bytes);
+    lab_expect(scene_make(&lab->scene, &lab->config, lab->world_block, bytes, &lab->world),
+               "world");
 }
 
 void lab_free(struct lab *lab)
@@ -326,31 +333,37 @@ void lab_free(struct lab *lab)
     free(lab);
 }
 
-static struct carom_body_state state_of(const struct lab *lab, int body)
+struct carom_body_state lab_state(const struct carom_world *world, int body)
 {
     struct carom_body_state state;
 
-    expect(carom_body_get(lab->world, body, &state), "body");
+    lab_expect(carom_body_get(world, body, &state), "body");
     return state;
 }
 
 bool lab_asleep(const struct lab *lab)
 {
-    return state_of(lab, SCENE_BODY).asleep;
+    return lab_state(lab->world, SCENE_BODY).asleep;
+}
+
+void lab_read(struct oracle_body *body, const struct carom_world *world, int number)
+{
+    struct carom_body_state state = lab_state(world, number);
+
+    lab_quaternion(body->quaternion, &state.rotation);
+    for (int k = 0; k < 3; k++) {
+        body->position[k] = lab_double(state.position.c[k], 32);
+        body->velocity[k] = lab_double(state.velocity.c[k], 40);
+        body->spin[k] = lab_double(state.spin.c[k], 40);
+    }
 }
 
 struct oracle_body lab_body(const struct lab *lab)
 {
-    struct carom_body_state state = state_of(lab, SCENE_BODY);
     struct oracle_body body = {.mass = lab->mass};
 
     memcpy(body.inertia, lab->inertia, sizeof body.inertia);
-    quaternion(body.quaternion, &state.rotation);
-    for (int k = 0; k < 3; k++) {
-        body.position[k] = lab_double(state.position.c[k], 32);
-        body.velocity[k] = lab_double(state.velocity.c[k], 40);
-        body.spin[k] = lab_double(state.spin.c[k], 40);
-    }
+    lab_read(&body, lab->world, SCENE_BODY);
     return body;
 }
 
@@ -371,21 +384,26 @@ double lab_energy(const struct lab *lab)
 }
 
 /*
- * The mesh's own centre is what its vertices are placed about: weigh() need not have the last bit.
+ * The mesh's own centre is what its vertices are placed about: lab_weigh need not have the last
+ * bit.
  */
-struct oracle_pose lab_pose(const struct lab *lab, int body)
+struct oracle_pose lab_pose_of(const struct carom_world *world, int body,
+                               const struct carom_mesh *mesh)
 {
-    struct carom_body_state state = state_of(lab, body);
-    const struct carom_mesh *mesh =
-        body == SCENE_BODY ? &lab->scene.body_mesh : &lab->scene.ground_mesh;
-    double position[3], centre[3], wxyz[4];
+    struct oracle_body at;
+    double centre[3];
 
-    quaternion(wxyz, &state.rotation);
+    lab_read(&at, world, body);
     for (int k = 0; k < 3; k++) {
-        position[k] = lab_double(state.position.c[k], 32);
         centre[k] = lab_double(mesh->mass.centre.c[k], 22);
     }
-    return oracle_pose_make(position, wxyz, centre);
+    return oracle_pose_make(at.position, at.quaternion, centre);
+}
+
+struct oracle_pose lab_pose(const struct lab *lab, int body)
+{
+    return lab_pose_of(lab->world, body,
+                       body == SCENE_BODY ? &lab->scene.body_mesh : &lab->scene.ground_mesh);
 }
 
 struct oracle_crossings lab_crossings(const struct lab *lab)
@@ -474,13 +492,13 @@ static void watch_energy(const struct lab *lab, struct lab_tally *tally, bool co
 
 int lab_step(struct lab *lab, struct lab_tally *tally)
 {
-    int status = expect(carom_world_step(lab->world), "step");
+    int status = lab_expect(carom_world_step(lab->world), "step");
     struct carom_stats stats;
 
     if (!tally) {
         return status;
     }
-    expect(carom_stats(lab->world, &stats), "stats");
+    lab_expect(carom_stats(lab->world, &stats), "stats");
     tally->frames++;
     tally->capped += (status & CAROM_SUBSTEP_CAP) != 0;
     tally->substeps[stats.substeps]++;

@@ -26,6 +26,11 @@ void lab_report(bool ok, const char *name, const char *format, ...)
 /* Print the plan; returns the exit status. */
 int lab_finish(void);
 
+/* The result, or the end of the program when it is an error. */
+int lab_expect(int result, const char *what);
+/* Memory, all zero. */
+void *lab_need(size_t bytes);
+
 /* ------------------------------------------------------------------- numbers */
 
 /* A fixed-point number as a double, and back to nearest. */
@@ -38,6 +43,8 @@ void lab_rotate(double out[3], const carom_quat_q30 *q, const double v[3]);
 /* Uniform in [low, high], the same numbers on every run. */
 double lab_random(uint64_t *state, double low, double high);
 carom_quat_q30 lab_random_turn(uint64_t *state);
+/* w, x, y, z in double; all zero means none. */
+void lab_quaternion(double out[4], const carom_quat_q30 *q);
 
 /* -------------------------------------------------------------------- meshes */
 
@@ -49,7 +56,17 @@ carom_quat_q30 lab_random_turn(uint64_t *state);
 extern const struct carom_mesh_raw lab_box, lab_tetrahedron, lab_l, lab_plate, lab_sheet;
 const struct carom_mesh_raw *lab_grid(void);
 
+/* A mesh in double, and what a solid weighs at density 1: mass and inertia, and its centre. */
+struct oracle_mesh lab_doubles(const struct carom_mesh_raw *raw);
+struct oracle_body lab_weigh(const struct oracle_mesh *mesh, double centre[3]);
+
 /* --------------------------------------------------------------------- worlds */
+
+/* A body of any world: its state; the same in double, mass and inertia left alone; its mesh. */
+struct carom_body_state lab_state(const struct carom_world *world, int body);
+void lab_read(struct oracle_body *body, const struct carom_world *world, int number);
+struct oracle_pose lab_pose_of(const struct carom_world *world, int body,
+                               const struct carom_mesh *mesh);
 
 struct lab {
     struct scene scene; /* the meshes, and how the bodies start */

@@ -42,21 +42,6 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
     }
 }
 
-uint64_t test_random_next(struct test_random *r)
-{
-    /* splitmix64 */
-    uint64_t z = (r->state += 0x9e3779b97f4a7c15u);
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-int64_t test_random_range(struct test_random *r, int64_t low, int64_t high)
-{
-    return low + (int64_t)(test_random_next(r) % ((uint64_t)(high - low) + 1));
-}
-
 int main(void)
 {
     unsigned passed = 0, failed = 0;

@@ -21,7 +21,7 @@ static void above(double x, double y, double z, bool ridge)
         shape_plane(&duo.shape[1], 9, 2, 8192);
     }
     shape_box(&duo.shape[0], 12, 4096, 2400, 1200);
-    duo_begin();
+    duo_begin(false);
     if (ridge) {
         /* an eighth of a turn about y: one edge along y is on top, at 1/sqrt 2 */
         duo.state[1].rotation = (carom_quat_q30){{992008094, 0, 410903207, 0}};
@@ -56,13 +56,16 @@ static bool first_of_all(int kind, struct boyse_hit *best)
             any = true;
         }
     }
+    if (any) {
+        boyse_touch(&duo.pair, &best->candidate, best->root_q30, &best->touch);
+    }
     return any;
 }
 
-/* Within two units of length at that speed. */
+/* Within the search's slack of four units of length and rounding, at that speed. */
 static void check_time(const struct boyse_hit *hit, double t, double speed)
 {
-    CHECK(real_abs(real(hit->t_q30, 30) - t) <= 3 * DUO_UNIT / speed + 1e-8);
+    CHECK(real_abs(real(hit->t_q30, 30) - t) <= 7 * DUO_UNIT / speed + 1e-8);
 }
 
 static uint32_t edge_between(const struct shape *s, uint16_t v, uint16_t w)
@@ -287,9 +290,9 @@ static void test_at_start(void)
     /* clear of the event gap: it goes on to that */
     CHECK(start_at(skin, -0.125, &hit));
     check_time(&hit, real(skin - skin / 2, 22) / 0.125, 0.125);
-    /* closer than that: to half of what there is */
+    /* closer than that: at once, or it would come nearer at every hit */
     CHECK(start_at(skin / 4, -0.125, &hit));
-    CHECK(hit.t_q30 > 0 && real(hit.t_q30, 30) * 0.125 <= real(skin / 4, 22));
+    CHECK(real(hit.t_q30, 30) * 0.125 <= 4 * DUO_UNIT);
     /* touching or overlapping: at once while it approaches, never while it leaves */
     CHECK(start_at(0, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == 0);
     CHECK(start_at(-skin / 4, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == -skin / 4);

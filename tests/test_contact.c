@@ -57,18 +57,6 @@ static bool in_order(void)
     return true;
 }
 
-/* Directions are three unit vectors, square to each other. */
-static void check_directions(const struct contact *c)
-{
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
-            int64_t dot = carom_dot(c->direction[i].c, c->direction[k].c) >> 30;
-
-            CHECK_NEAR(dot, i == k ? CAROM_ONE_Q30 : 0, 8);
-        }
-    }
-}
-
 /* A box of 1 x 0.6 x 0.3 over a plane of 2 x 2 squares of 4 units, its corners off the edges. */
 static void box_over_plane(int32_t gap_q22)
 {
@@ -94,10 +82,9 @@ static void check_four_corners(int32_t gap_q22)
         const struct contact *c = &contacts[i];
         uint32_t v = c->key.i;
 
-        check_directions(c);
         CHECK(c->key.kind == CANDIDATE_VERTEX_FACE && c->key.pair == 0);
-        CHECK(c->direction[0].c[0] == 0 && c->direction[0].c[1] == 0);
-        CHECK_EQ(c->direction[0].c[2], CAROM_ONE_Q30);
+        CHECK(c->normal.c[0] == 0 && c->normal.c[1] == 0);
+        CHECK_EQ(c->normal.c[2], CAROM_ONE_Q30);
         CHECK_EQ(c->gap_q22, gap_q22);
         CHECK_EQ(c->skin_q22, bodies[0].skin_q22);
         CHECK(c->side[0].body == &bodies[0] && c->side[1].body == NULL);
@@ -162,11 +149,9 @@ static void test_tilted(void)
         contact_merge(&list);
         CHECK_EQ(pool.used, 4);
         for (uint32_t i = 0; i < pool.used; i++) {
-            check_directions(&contacts[i]);
             CHECK_NEAR(contacts[i].gap_q22, gap, 4);
             for (int k = 0; k < 3; k++) {
-                CHECK_NEAR(contacts[i].direction[0].c[k], real_round(normal[k] * CAROM_ONE_Q30),
-                           16);
+                CHECK_NEAR(contacts[i].normal.c[k], real_round(normal[k] * CAROM_ONE_Q30), 16);
             }
         }
     }
@@ -194,7 +179,7 @@ static void test_edge_on_face(void)
                1 << 12);
     for (uint32_t i = 0; i < 2; i++) {
         CHECK_NEAR(contacts[i].gap_q22, 500, 2);
-        CHECK_EQ(contacts[i].direction[0].c[2], CAROM_ONE_Q30);
+        CHECK_EQ(contacts[i].normal.c[2], CAROM_ONE_Q30);
         CHECK_NEAR(contacts[i].point.c[1], (int64_t)3 << 29, (int64_t)1 << 31);
     }
 }
@@ -219,10 +204,9 @@ static void test_crossing_edges(void)
         CHECK_EQ(pool.used, 1);
         CHECK_EQ(contacts[0].key.kind, CANDIDATE_EDGE_EDGE);
         CHECK_NEAR(contacts[0].gap_q22, 700, 3);
-        CHECK_NEAR(contacts[0].direction[0].c[2], sign * CAROM_ONE_Q30, 4);
+        CHECK_NEAR(contacts[0].normal.c[2], sign * CAROM_ONE_Q30, 4);
         CHECK_NEAR(contacts[0].point.c[0], 0, 1 << 12);
         CHECK_NEAR(contacts[0].side[0].arm.c[0], -(1 << 20), 4);
-        check_directions(&contacts[0]);
     }
 }
 
@@ -325,55 +309,81 @@ static void test_full(void)
     CHECK(find(299, 0));
 }
 
-/* The hit that led here is among the contacts, once. */
+/* The edge of a shape whose ends have these coordinates along two axes, in quanta. */
+static uint32_t edge_at(const struct shape *s, int first, int at_first, int second, int at_second,
+                        uint32_t after)
+{
+    for (uint32_t i = after; i < s->mesh.edge_count; i++) {
+        const uint16_t *v = s->mesh.edges[i].vertex;
+
+        if (s->vertices[v[0]][first] == at_first && s->vertices[v[1]][first] == at_first &&
+            s->vertices[v[0]][second] == at_second && s->vertices[v[1]][second] == at_second) {
+            return i;
+        }
+    }
+    CHECK(false);
+    return 0;
+}
+
+/*
+ * The hit that led here is among the contacts, once. A lower edge of the box crosses the middle of
+ * the plane, where two edges of the plane end: two hits at one place.
+ */
 static void test_force(void)
 {
     struct boyse_hit hit;
-    carom_v3_q22 centre_a, centre_b;
+    const struct contact *c = &contacts[4];
     int32_t skin;
 
     box_over_plane(300);
+    states[0].position.c[0] = (int64_t)1 << 31;
+    states[0].position.c[1] = (int64_t)1 << 28;
+    place();
     skin = bodies[0].skin_q22;
     memset(&hit, 0, sizeof hit);
-    for (int k = 0; k < 3; k++) {
-        centre_a.c[k] = (int32_t)carom_round(bodies[0].path.start.x.c[k], 10);
-        centre_b.c[k] = pair.offset_q22[k];
-    }
-    /* a corner that was found already, by its key */
+    hit.touch.normal.c[2] = CAROM_ONE_Q30;
     CHECK(find(700, 0));
     contact_merge(&list);
+    CHECK_EQ(pool.used, 4);
+    /* a corner that was found already, by its key; the same on another face */
     hit.candidate = contacts[2].key;
-    boyse_touch(&pair, &hit.candidate, 0, &hit.touch);
-    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK(contact_force(&list, &pair, &hit));
+    hit.candidate.j ^= 1;
+    CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 4);
-    /* the same place and normal by other features */
-    hit.candidate.kind = CANDIDATE_EDGE_EDGE;
-    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
-    CHECK_EQ(pool.used, 4);
-    /* the same place with another normal */
-    hit.touch.normal = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
-    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    /* a new place: the box's centre is 1/2 and 1/16 from the crossing */
+    hit.candidate =
+        (struct candidate){0, CANDIDATE_EDGE_EDGE, edge_at(&shape_a, 0, -2048, 2, -600, 0),
+                           edge_at(&shape_b, 1, 0, 2, 0, 0)};
+    CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 5);
     CHECK(in_order());
-    CHECK_EQ(contacts[4].key.kind, CANDIDATE_EDGE_EDGE);
-    CHECK_EQ(contacts[4].direction[0].c[1], CAROM_ONE_Q30);
-    CHECK_EQ(contacts[4].gap_q22, skin / 2);
-    check_directions(&contacts[4]);
-    /* another place: none of the four corners is within twenty skins */
-    box_over_plane(300);
-    CHECK(find(700, 0));
-    boyse_touch(&pair, &contacts[0].key, 0, &hit.touch);
-    hit.candidate = contacts[0].key;
-    hit.candidate.kind = CANDIDATE_FACE_VERTEX;
-    hit.touch.on_a.c[0] += 21 * skin;
-    hit.touch.on_b.c[0] += 21 * skin;
-    CHECK(contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    CHECK_EQ(c->key.kind, CANDIDATE_EDGE_EDGE);
+    CHECK_EQ(c->gap_q22, skin / 2);
+    CHECK_EQ(c->side[0].arm.c[0], -(1 << 21));
+    CHECK_EQ(c->side[0].arm.c[1], -(1 << 18));
+    CHECK_NEAR(c->side[0].arm.c[2], -600 * 1024 - 150, 1);
+    /* the unit of length is 1, the power of two above the radius */
+    CHECK_EQ(bodies[0].unit_bits, 22);
+    CHECK_NEAR(c->side[0].arm_q30[0], -(1 << 29), 2);
+    CHECK_NEAR(c->side[0].arm_q30[1], -(1 << 26), 2);
+    CHECK_NEAR(c->side[0].arm_q30[2], -(600 * 1024 + 150) * 256, 2);
+    CHECK_NEAR(c->point.c[0], 0, 2);
+    CHECK_NEAR(c->point.c[1], 0, 2);
+    CHECK_NEAR(c->point.c[2], 150 * 1024, 2);
+    /* the same place and normal by other features */
+    hit.candidate.j = edge_at(&shape_b, 1, 0, 2, 0, hit.candidate.j + 1);
+    CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 5);
-    /* and it needs a place in the pool */
-    box_over_plane(300);
-    pool.size = 4;
-    CHECK(find(700, 0));
-    CHECK(!contact_force(&list, &pair, &hit, &centre_a, &centre_b));
+    /* the same place with another normal, for which there must be room */
+    hit.touch.normal = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
+    pool.size = 5;
+    CHECK(!contact_force(&list, &pair, &hit));
+    pool.size = CONTACTS;
+    CHECK(contact_force(&list, &pair, &hit));
+    CHECK_EQ(pool.used, 6);
+    CHECK(in_order());
+    CHECK(contacts[4].normal.c[1] == CAROM_ONE_Q30 || contacts[5].normal.c[1] == CAROM_ONE_Q30);
 }
 
 /* ------------------------------------------------------------- indeterminate */
@@ -414,12 +424,11 @@ static void check_normals(uint32_t vertex_a, int32_t reach)
         double n[3];
 
         for (int k = 0; k < 3; k++) {
-            n[k] = real(contacts[i].direction[0].c[k], 30);
+            n[k] = real(contacts[i].normal.c[k], 30);
             CHECK_NEAR(contacts[i].point.c[k], 0, (int64_t)reach << 10);
         }
         CHECK(n[2] > 0);
         CHECK(least_rise(&shape_a, &bodies[0], vertex_a, n) >= -0.03);
-        check_directions(&contacts[i]);
         CHECK_NEAR(contacts[i].gap_q22, 0, 8);
     }
 }
@@ -458,7 +467,7 @@ static void test_vertex_on_vertex(void)
         double back[3];
 
         for (int k = 0; k < 3; k++) {
-            back[k] = -real(contacts[i].direction[0].c[k], 30);
+            back[k] = -real(contacts[i].normal.c[k], 30);
         }
         CHECK(least_rise(&shape_b, &bodies[1], 4, back) >= -0.03);
     }
@@ -483,7 +492,7 @@ static void test_vertex_on_edge(void)
     check_normals(0, 300);
     CHECK_EQ(pool.used, 2); /* left and right of the ridge, and square to it */
     for (uint32_t i = 0; i < pool.used; i++) {
-        CHECK_NEAR(contacts[i].direction[0].c[1], 0, 4);
+        CHECK_NEAR(contacts[i].normal.c[1], 0, 4);
     }
 }
 

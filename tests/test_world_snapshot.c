@@ -20,17 +20,20 @@
 
 /* Places of a snapshot of a stationary body, a moving one and a free place. */
 enum {
-    AT_PLACES = 4,
-    AT_GROUND = 8,
-    BODY_BYTES = 92,
+    AT_GRAVITY = 4,
+    AT_PLACES = 28,
+    AT_GROUND = 32,
+    BODY_BYTES = 117,
     AT_BOX = AT_GROUND + BODY_BYTES,
     AT_POSITION = 1, /* of a body */
     AT_MOMENTUM = 25,
     AT_ANGULAR = 49,
-    AT_ROTATION = 73,
-    AT_ASLEEP = 89,
-    AT_OUT = 90,
-    AT_QUIET = 91,
+    AT_FORCE = 73,
+    AT_ROTATION = 97,
+    AT_ASLEEP = 113,
+    AT_OUT = 114,
+    AT_QUIET = 115,
+    AT_WOKEN = 116,
     AT_FREE = AT_BOX + BODY_BYTES,
     AT_WARM = AT_FREE + 1,
     WARM_BYTES = 60
@@ -334,7 +337,7 @@ static void test_altered_small(void)
     CHECK_EQ(carom_body_add(w, &box_def), 0);
     CHECK_EQ(carom_world_step(w), CAROM_OK);
     size = carom_snapshot_save(w, saved, sizeof saved);
-    CHECK_EQ(size, 8 + BODY_BYTES + 4 + 4 + 8);
+    CHECK_EQ(size, AT_GROUND + BODY_BYTES + 4 + 4 + 8);
     CHECK_EQ(carom_world_step(w), CAROM_OK);
     check_altered(w, size, 1);
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
@@ -401,7 +404,7 @@ static void test_implausible(void)
     touching = AT_WARM + 4 + WARM_BYTES * (int)number_at(saved + AT_WARM, 4);
     CHECK_EQ(number_at(saved + touching, 4), 1);
 
-    refuse_number(w, size, 0, 0x32534d43, 4);
+    refuse_number(w, size, 0, 0x31534d43, 4);
     refuse_number(w, size, AT_PLACES, 2, 4);
     refuse_number(w, size, AT_BOX, 1, 1);
     refuse_number(w, size, AT_BOX, 3, 1);
@@ -418,11 +421,22 @@ static void test_implausible(void)
         refuse_number(w, size, AT_BOX + AT_ANGULAR + 8 * k, INT64_MAX, 8);
         refuse_number(w, size, AT_GROUND + AT_MOMENTUM + 8 * k, 1, 8);
     }
+    for (int k = 0; k < 3; k++) {
+        refuse_number(w, size, AT_GRAVITY + 8 * k, (uint64_t)ONE + 1, 8);
+        refuse_number(w, size, AT_GRAVITY + 8 * k, (uint64_t)1 << 63, 8);
+        refuse_number(w, size, AT_GROUND + AT_FORCE + 8 * k, 1, 8);
+        /* by mass, 1.14 */
+        refuse_number(w, size, AT_BOX + AT_FORCE + 8 * k, (uint64_t)(ONE / 5 * 2), 8);
+        refuse_number(w, size, AT_BOX + AT_FORCE + 8 * k, (uint64_t)(-ONE / 5 * 2), 8);
+        refuse_number(w, size, AT_BOX + AT_FORCE + 8 * k, (uint64_t)1 << 63, 8);
+    }
     refuse_number(w, size, AT_BOX + AT_ROTATION, 0, 4);
     refuse_number(w, size, AT_BOX + AT_ROTATION, (uint32_t)INT32_MIN, 4);
     refuse_number(w, size, AT_GROUND + AT_ROTATION + 8, CAROM_ONE_Q30, 4);
     refuse_number(w, size, AT_BOX + AT_ASLEEP, 2, 1);
     refuse_number(w, size, AT_BOX + AT_OUT, 2, 1);
+    refuse_number(w, size, AT_BOX + AT_WOKEN, 2, 1);
+    refuse_number(w, size, AT_GROUND + AT_WOKEN, 1, 1);
     refuse_number(w, size, AT_GROUND + AT_ASLEEP, 1, 1);
     refuse_number(w, size, AT_WARM, 17, 4);
     for (int side = 0; side < 2; side++) {
@@ -487,14 +501,15 @@ static void check_bytes(int at, const uint8_t *expected, int n)
 /* Fixed places, byte by byte. */
 static void test_layout(void)
 {
-    static const uint8_t start[] = {'C', 'M', 'S', '1', 3, 0, 0, 0, 1};
+    static const uint8_t start[] = {'C', 'M', 'S', '2'}, places[] = {3, 0, 0, 0, 1};
     /* 0x123456789ab, -2, 7 << 32 */
     static const uint8_t position[] = {0xab, 0x89, 0x67, 0x45, 0x23, 0x01, 0,    0,
                                        0xfe, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
                                        0,    0,    0,    0,    7,    0,    0,    0};
     /* half a turn about z: (0, 0, 0, 1) */
     static const uint8_t rotation[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40};
-    static const uint8_t none[48] = {0};
+    static const uint8_t none[72] = {0};
+    const carom_v3_q40 gravity = {{-5, 0x123456789a, 7}}, force = {{0, -1, (int64_t)1 << 36}};
     struct carom_world *w;
     struct carom_body_state s;
     int size;
@@ -509,19 +524,28 @@ static void test_layout(void)
     CHECK_EQ(carom_body_set(w, 0, &s), CAROM_OK);
     s.velocity.c[1] = -3 * ONE;
     CHECK_EQ(carom_body_set(w, 1, &s), CAROM_OK);
+    CHECK_EQ(carom_world_set_gravity(w, &gravity), CAROM_OK);
+    CHECK_EQ(carom_body_set_force(w, 1, &force), CAROM_OK);
     size = save(w, saved);
     CHECK_EQ(size, AT_WARM + 4 + 4 + 8);
     check_bytes(0, start, sizeof start);
+    for (int k = 0; k < 3; k++) {
+        CHECK_EQ(number_at(saved + AT_GRAVITY + 8 * k, 8), gravity.c[k]);
+    }
+    check_bytes(AT_PLACES, places, sizeof places);
     check_bytes(AT_GROUND + AT_POSITION, position, sizeof position);
-    check_bytes(AT_GROUND + AT_MOMENTUM, none, 48);
+    check_bytes(AT_GROUND + AT_MOMENTUM, none, 72);
     check_bytes(AT_GROUND + AT_ROTATION, rotation, sizeof rotation);
-    check_bytes(AT_GROUND + AT_ASLEEP, none, 3);
+    check_bytes(AT_GROUND + AT_ASLEEP, none, 4);
     CHECK_EQ(saved[AT_BOX], 2);
     check_bytes(AT_BOX + AT_POSITION, position, sizeof position);
     CHECK_EQ(number_at(saved + AT_BOX + AT_MOMENTUM + 8, 8), -3 * ONE);
     check_bytes(AT_BOX + AT_ANGULAR, none, 24);
+    for (int k = 0; k < 3; k++) {
+        CHECK_EQ(number_at(saved + AT_BOX + AT_FORCE + 8 * k, 8), force.c[k]);
+    }
     check_bytes(AT_BOX + AT_ROTATION, rotation, sizeof rotation);
-    check_bytes(AT_BOX + AT_ASLEEP, none, 3);
+    check_bytes(AT_BOX + AT_ASLEEP, none, 4);
     CHECK_EQ(saved[AT_FREE], 0);
     check_bytes(AT_WARM, none, 8);
     CHECK(number_at(saved + size - 8, 8) == fnv(saved, size - 8));

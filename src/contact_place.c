@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The place of a contact to more digits than the collision test needs: an impulse is as good as its
+ * arms. Mesh coordinates are exact in q22; turned into the world they are rounded once, to q40.
+ */
+#include "contact.h"
+
+/* A point of a body's mesh about its centre, in world axes. */
+static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
+{
+    carom_v3_q40 p;
+
+    for (int k = 0; k < 3; k++) {
+        p.c[k] = carom_round(carom_dot(b->path.start.r.c[k], local.c), 12);
+    }
+    return p;
+}
+
+/* to + s d, s in q40 */
+static carom_v3_q40 along(carom_v3_q40 to, int64_t s_q40, const int32_t d_q30[3])
+{
+    for (int k = 0; k < 3; k++) {
+        to.c[k] += fix_mul(s_q40, d_q30[k], 30);
+    }
+    return to;
+}
+
+/* From b's centre to a's. */
+static carom_v3_q40 between(const struct boyse_pair *pair)
+{
+    const struct body_path *a = &pair->a->path, *b = &pair->b->path;
+    carom_v3_q40 d;
+
+    for (int k = 0; k < 3; k++) {
+        d.c[k] =
+            carom_shl(a->start.x.c[k] - b->start.x.c[k], 8) - carom_shl(pair->offset_q22[k], 18);
+    }
+    return d;
+}
+
+static int64_t part_along(const carom_v3_q40 *v, const int32_t d_q30[3])
+{
+    return fix_mul(v->c[0], d_q30[0], 30) + fix_mul(v->c[1], d_q30[1], 30) +
+           fix_mul(v->c[2], d_q30[2], 30);
+}
+
+/*
+ * How far along a's edge e it comes nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
+ * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits.
+ */
+static int64_t nearest_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3])
+{
+    int64_t w_q60[3], df_q40[3];
+    struct fix_scaled ratio;
+
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        w_q60[k] = (int64_t)e[i] * f[j] - (int64_t)e[j] * f[i];
+        df_q40[k] = fix_mul(d->c[i], f[j], 30) - fix_mul(d->c[j], f[i], 30);
+    }
+    ratio = fix_wide_ratio(fix_wide_dot(df_q40, w_q60), fix_wide_dot(w_q60, w_q60));
+    ratio.e -= 60; /* q100 over q120, to q40 */
+    return -fix_mul_scaled(1, ratio);
+}
+
+/* The point of a's edge; b's start is relative to b's centre. */
+static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candidate *c,
+                               carom_v3_q40 *start_b)
+{
+    const struct carom_edge *edge_a = &pair->a->mesh->edges[c->i];
+    const struct carom_edge *edge_b = &pair->b->mesh->edges[c->j];
+    carom_v3_q40 start_a = turned(pair->a, mesh_vertex(pair->a->mesh, edge_a->vertex[0]));
+    carom_v3_q40 d = between(pair);
+    int32_t e[3], f[3];
+
+    *start_b = turned(pair->b, mesh_vertex(pair->b->mesh, edge_b->vertex[0]));
+    carom_rotate(e, &pair->a->path.start.r, edge_a->direction.c);
+    carom_rotate(f, &pair->b->path.start.r, edge_b->direction.c);
+    for (int k = 0; k < 3; k++) {
+        d.c[k] += start_a.c[k] - start_b->c[k];
+    }
+    return along(start_a, nearest_q40(&d, e, f), e);
+}
+
+void contact_place(const struct boyse_pair *pair, const struct candidate *c,
+                   const carom_v3_q30 *normal, carom_v3_q40 arm[2])
+{
+    carom_v3_q40 apart = between(pair), on[2], gap;
+    int known = 0; /* the side whose point is known; of the other's, only the plane */
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        on[0] = edge_point(pair, c, &on[1]);
+    } else {
+        const struct body *of_vertex = c->kind == CANDIDATE_VERTEX_FACE ? pair->a : pair->b;
+        const struct body *of_face = c->kind == CANDIDATE_VERTEX_FACE ? pair->b : pair->a;
+
+        known = c->kind == CANDIDATE_VERTEX_FACE ? 0 : 1;
+        on[known] = turned(of_vertex, mesh_vertex(of_vertex->mesh, c->i));
+        on[1 - known] = turned(of_face, mesh_corner(of_face->mesh, c->j, 0));
+    }
+    for (int k = 0; k < 3; k++) {
+        gap.c[k] = on[0].c[k] + apart.c[k] - on[1].c[k];
+    }
+    arm[known] =
+        along(on[known], (known == 0 ? -1 : 1) * part_along(&gap, normal->c) / 2, normal->c);
+    for (int k = 0; k < 3; k++) {
+        arm[1 - known].c[k] = arm[known].c[k] + (known == 0 ? apart.c[k] : -apart.c[k]);
+    }
+}

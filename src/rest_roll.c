@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Rolling friction. Where bodies press on each other they touch over a patch, and the middle of
+ * the pressure can lie anywhere in it: besides an impulse the contact carries a moment of up to
+ * the patch's radius times the normal impulse, against the spin of one body relative to the other.
+ * Without it a body of many small faces rolls to and fro in a hollow for a long time.
+ */
+#include "rest_parts.h"
+
+/*
+ * The arm of that moment in skins, 1/64 of a body's radius. A body of radius r that lies one skin,
+ * r / 2048, deep in what gives way has a patch of radius r / 32; nothing springs back at rest, so
+ * it is carried by the half of the patch that it rolls into, whose middle is half as far out.
+ */
+#define ROLL_SKINS 32
+
+/* Whether contact n is of the pair of contact i. */
+static bool same_pair(const struct rest *r, uint32_t i, uint32_t n)
+{
+    return n < r->count && rest_contact(r, n)->key.pair == rest_contact(r, i)->key.pair;
+}
+
+/* Whether contact i is the first of its pair. */
+static bool leads(const struct rest *r, uint32_t i)
+{
+    return i == 0 || !same_pair(r, i, i - 1);
+}
+
+/*
+ * A body rolls over one contact or two. Where three or more carry it, they resist rolling by the
+ * width of what they span, and a moment besides would only make the solution ambiguous. Which carry
+ * it is known from the last frame.
+ */
+static bool may_roll(const struct rest *r, uint32_t i)
+{
+    uint32_t all = 0, pressed = 0;
+
+    for (uint32_t n = i; same_pair(r, i, n); n++) {
+        all++;
+        pressed += rest_contact(r, n)->normal_impulse > 0;
+    }
+    return all <= 2 || (pressed > 0 && pressed <= 2);
+}
+
+/* How many bits shorter the unit of length is than the body's. */
+static int finer(const struct contact *c, const struct body *b)
+{
+    return b->unit_bits - c->roll.unit_bits;
+}
+
+static int64_t scaled(int64_t v, int s)
+{
+    return s > 0 ? carom_round(v, s) : carom_shl(v, -s);
+}
+
+/* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
+static int64_t turning_q30(const struct contact_side *side)
+{
+    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const struct carom_sym3 *t = &side->body->turning;
+    int64_t largest = 0;
+
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0;
+
+        for (int k = 0; k < 3; k++) {
+            sum += carom_abs(t->m[entry[i][k]]);
+        }
+        largest = sum > largest ? sum : largest;
+    }
+    return scaled(fix_mul(largest, side->share_q30, 30), t->e - 30);
+}
+
+void rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
+{
+    struct contact *c = rest_contact(r, i);
+    struct contact_roll *roll = &c->roll;
+    const struct body *a = c->side[0].body, *b = c->side[1].body;
+
+    memset(roll, 0, sizeof *roll);
+    if (!leads(r, i) || !may_roll(r, i) || !sw->rolls || c->friction_q16 == 0 ||
+        rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
+        return;
+    }
+    roll->acts = true;
+    roll->unit_bits = a && b ? (a->unit_bits < b->unit_bits ? a->unit_bits : b->unit_bits)
+                             : (a ? a : b)->unit_bits;
+    roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
+    for (int s = 0; s < 2; s++) {
+        const struct contact_side *side = &c->side[s];
+
+        if (!side->body) {
+            continue;
+        }
+        roll->mass_q30 += turning_q30(side) >> (2 * finer(c, side->body));
+        for (int k = 0; k < 3; k++) {
+            int64_t spin = scaled(side->body->spin.c[k], sw->unit + 22 - roll->unit_bits);
+
+            roll->spin[k] += s == 0 ? spin : -spin;
+        }
+    }
+    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (roll->mass_q30 | 1));
+}
+
+/* Apply a moment to the bodies. */
+static void twist(struct contact *c, const int32_t moment[3])
+{
+    for (int s = 0; s < 2; s++) {
+        const struct contact_side *side = &c->side[s];
+        const struct carom_sym3 *t;
+        int32_t part[3];
+
+        if (!side->body) {
+            continue;
+        }
+        t = &side->body->turning;
+        for (int k = 0; k < 3; k++) {
+            int64_t m = carom_round((int64_t)moment[k] * side->share_q30, 30);
+
+            part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
+        }
+        for (int k = 0; k < 3; k++) {
+            side->body->dw[k] += scaled(rest_row(t->m, k, part), t->e);
+        }
+    }
+}
+
+int64_t rest_roll_sweep(struct rest *r, uint32_t i)
+{
+    struct contact *c = rest_contact(r, i);
+    struct contact_roll *roll = &c->roll;
+    int64_t pressure = 0, next[3], limit, most = 0;
+    int32_t change[3];
+
+    if (!roll->acts) {
+        return 0;
+    }
+    for (uint32_t n = i; same_pair(r, i, n); n++) {
+        pressure += rest_contact(r, n)->normal_impulse;
+    }
+    limit = rest_clamp(fix_mul(pressure, roll->arm_q30, 30));
+    for (int k = 0; k < 3; k++) {
+        int64_t spin = roll->spin[k];
+
+        for (int s = 0; s < 2; s++) {
+            const struct body *b = c->side[s].body;
+
+            if (b) {
+                int64_t dw = b->dw[k] >> finer(c, b);
+
+                spin += s == 0 ? dw : -dw;
+            }
+        }
+        next[k] = roll->moment[k] - fix_mul(spin, roll->step_q30, 30);
+    }
+    rest_cut(next, limit > 0 ? limit : 0);
+    for (int k = 0; k < 3; k++) {
+        change[k] = rest_clamp(next[k] - roll->moment[k]);
+        roll->moment[k] += change[k];
+        roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
+        most = carom_abs(change[k]) > most ? carom_abs(change[k]) : most;
+    }
+    twist(c, change);
+    return fix_mul(roll->mass_q30, (int32_t)most, 30);
+}
+
+void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
+{
+    struct fix_scaled unit = c->mass_unit;
+
+    unit.e -= sw->unit + c->roll.unit_bits - 22;
+    for (int k = 0; k < 3; k++) {
+        c->roll.moment_q40.c[k] = fix_mul_scaled(c->roll.moment[k], unit);
+    }
+}
+
+void rest_roll_accelerate(struct contact *c, int32_t part_q30)
+{
+    struct contact_roll *roll = &c->roll;
+    int32_t gain[3];
+
+    if (!roll->acts) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        gain[k] = carom_mul_q30(roll->way[k], part_q30);
+        roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);
+        roll->gain[k] = 0;
+        gain[k] = rest_clamp((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
+        roll->moment[k] += gain[k];
+    }
+    twist(c, gain);
+}

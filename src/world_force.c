@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: MIT */
+/* Gravity, lasting forces and pushes. */
+#include "world.h"
+
+bool world_each_within(const int64_t v[3], int64_t limit)
+{
+    for (int k = 0; k < 3; k++) {
+        if (v[k] > limit || v[k] < -limit) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool world_gravity_in_range(const carom_v3_q40 *gravity)
+{
+    return world_each_within(gravity->c, (int64_t)1 << 40);
+}
+
+bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
+                        const carom_v3_q40 *force, carom_v3_q40 *out)
+{
+    carom_v3_q40 sum = {{0, 0, 0}};
+
+    /* the largest mass is 2^10, so the limit is below 2^52 and what passes it can be divided */
+    if (b->moving && !world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->mass))) {
+        return false;
+    }
+    for (int k = 0; b->moving && k < 3; k++) {
+        sum.c[k] = gravity->c[k] + fix_mul_scaled(force->c[k], b->inverse_mass);
+    }
+    *out = sum;
+    return world_gravity_in_range(&sum);
+}
+
+int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
+{
+    carom_v3_q40 sum;
+
+    if (!w || !gravity) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_gravity_in_range(gravity)) {
+        return CAROM_ERR_RANGE;
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (!world_acceleration(&w->bodies[i], gravity, &world_now(w)->bodies[i].force, &sum)) {
+            return CAROM_ERR_RANGE;
+        }
+    }
+    if (memcmp(&world_now(w)->gravity, gravity, sizeof *gravity) != 0) {
+        world_now(w)->gravity = *gravity;
+        world_wake_all(w);
+    }
+    return CAROM_OK;
+}
+
+int carom_body_set_force(struct carom_world *w, int body, const carom_v3_q40 *force)
+{
+    struct body_state *s;
+    carom_v3_q40 sum;
+
+    if (!w || !force) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    if (!w->bodies[body].moving) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (!world_acceleration(&w->bodies[body], &world_now(w)->gravity, force, &sum)) {
+        return CAROM_ERR_RANGE;
+    }
+    s = &world_now(w)->bodies[body];
+    if (memcmp(&s->force, force, sizeof *force) != 0) {
+        s->force = *force;
+        world_wake_island(w, (uint32_t)body);
+    }
+    return CAROM_OK;
+}
+
+/* (a b - c d) / 2^32 to nearest; false when that has more than 61 bits. */
+static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q40, int64_t *out)
+{
+    struct fix_wide half = {0, (uint64_t)1 << 31};
+    struct fix_wide sum =
+        fix_wide_add(fix_wide_mul(a_q32, b_q40), fix_wide_neg(fix_wide_mul(c_q32, d_q40)));
+
+    if (fix_wide_bits(sum) > 32 + 61) {
+        return false;
+    }
+    *out = fix_wide_shift(fix_wide_add(sum, half), 32);
+    return true;
+}
+
+/*
+ * Whether J^-1 L / m can be worked out in 64 bits: about the axis of a thin body a moderate angular
+ * momentum is a spin that no format holds.
+ */
+static bool spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
+{
+    /* rows as places in xx, yy, zz, xy, yz, zx */
+    static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    int64_t l[3];
+
+    for (int k = 0; k < 3; k++) {
+        l[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    }
+    fix_rotate_back(l, r, l);
+    for (int i = 0; i < 3; i++) {
+        struct fix_wide sum = {0, 0};
+
+        for (int k = 0; k < 3; k++) {
+            int64_t entry = b->inverse_inertia.m[place[i][k]];
+
+            sum = fix_wide_add(sum, fix_wide_mul(carom_abs(entry), carom_abs(l[k])));
+        }
+        if (fix_wide_bits(sum) - b->inverse_inertia.e > 61) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Whether a moving body's momenta are those of a motion that could be given. */
+static bool momenta_in_range(const struct body *b, const struct body_state *s)
+{
+    /* |L| <= m r^2 |w| and r |w| < 64 */
+    int64_t most_q40 =
+        fix_mul_scaled(fix_mul((int64_t)BODY_SPEED_LIMIT << 40, b->radius_q22, 22), b->mass);
+    carom_v3_q40 v, w;
+    carom_m3_q30 r;
+
+    body_matrix(&r, &s->rotation);
+    if (!world_in_range(b, s) || fix_length(s->angular.c) > most_q40 || !spin_fits(b, s, &r)) {
+        return false;
+    }
+    body_velocity(b, s, &v);
+    body_spin(b, s, &r, &w);
+    return world_motion_in_range(b, &v, &w);
+}
+
+int carom_body_push(struct carom_world *w, int body, const carom_v3_q40 *impulse,
+                    const carom_v3_q32 *point)
+{
+    const struct body *b;
+    struct body_state pushed;
+    int64_t arm_q32[3];
+
+    if (!w || !impulse || !point) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    b = &w->bodies[body];
+    pushed = world_now(w)->bodies[body];
+    if (!b->moving || pushed.out) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    /* no more than turns a body's fastest motion around */
+    if (!world_each_within(point->c, (int64_t)BODY_WORLD_LIMIT << 32) ||
+        !world_each_within(impulse->c, fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41, b->mass))) {
+        return CAROM_ERR_RANGE;
+    }
+    for (int k = 0; k < 3; k++) {
+        arm_q32[k] = point->c[k] - pushed.position.c[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int64_t moment;
+
+        if (!moment_q40(arm_q32[i], impulse->c[j], arm_q32[j], impulse->c[i], &moment)) {
+            return CAROM_ERR_RANGE;
+        }
+        pushed.momentum.c[k] += impulse->c[k];
+        pushed.angular.c[k] += moment;
+    }
+    if (!momenta_in_range(b, &pushed)) {
+        return CAROM_ERR_RANGE;
+    }
+    world_now(w)->bodies[body] = pushed;
+    world_wake_island(w, (uint32_t)body);
+    return CAROM_OK;
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * meeting - two bodies whose motions are chosen such that two features of them meet squarely, and
+ * where these features truly are: on the path that the engine was given, worked out in the widest
+ * floating point there is.
+ *
+ * One or both bodies move; everything is turned anyhow and lies far out in the world.
+ */
+#ifndef CAROM_TESTS_MEETING_H
+#define CAROM_TESTS_MEETING_H
+
+#include "boyse.h"
+#include "shapes.h"
+
+#define MEETING_UNIT (1.0L / 4194304) /* a unit of the last place of q22 */
+
+/* What is asked for. */
+struct meeting_plan {
+    int kind;             /* of the candidate */
+    bool both;            /* b moves as well */
+    bool translate, turn; /* what the bodies that move do */
+};
+
+struct meeting {
+    struct shape shape[2]; /* a, b */
+    struct body body[2];
+    struct body_state state[2];
+    struct boyse_pair pair;
+    struct candidate candidate;
+    long double time;   /* the features meet then, perhaps not for the first time */
+    long double length; /* of the path of any point of a as seen from b, at most */
+};
+
+/* The features at one time; places are relative to the origin of a's path. */
+struct meeting_features {
+    long double x[2][3], r[2][3][3];          /* the bodies: centre and axes */
+    long double n[3];                         /* unit vector: the face's normal, or along e x f */
+    long double gap;                          /* signed distance along n */
+    long double sine;                         /* of the angle between the edges; 1 for a face */
+    long double p[3], corner[3][3];           /* vertex and face */
+    long double from[2][3], e[2][3], edge[2]; /* edges: start, direction, length */
+};
+
+/* Another pair of shapes of about a unit, `which` being any number. */
+void meeting_shapes(struct meeting *m, unsigned which, const struct meeting_plan *plan);
+
+/* Choose motions and features; sets the paths of both bodies and the pair. */
+void meeting_make(struct meeting *m, struct test_random *r, const struct meeting_plan *plan);
+
+void meeting_at(const struct meeting *m, long double t, struct meeting_features *f);
+
+/* The gap's rate of change, units a slice. */
+long double meeting_slope(const struct meeting *m, long double t);
+
+/* How far inside the face the vertex is, or how far inside their edges the nearest points are. */
+long double meeting_inside(const struct meeting *m, const struct meeting_features *f);
+
+/*
+ * How far within the normal cones sign * n is, a cosine: as N from b into a for edges, as the
+ * face's normal (sign is 1) for a face. Below 0: outside of one.
+ */
+long double meeting_in_cones(const struct meeting *m, const struct meeting_features *f, int sign);
+
+#endif

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What a collision test costs, in instructions where the board counts them: of the candidates of
+ * the head scene, which nearly all miss, and of features that are made to meet.
+ */
+#include "meeting.h"
+#include "port.h"
+#include "scene.h"
+#include "test.h"
+#include "world.h"
+
+#define FRAMES   240
+#define EVERY    4
+#define MEETINGS 48
+
+/* Instructions on average; held on boards that count them, at the usual optimisation. */
+#if defined __OPTIMIZE__ && !defined __OPTIMIZE_SIZE__ && !defined CAROM_DEBUG
+#define HELD 1
+#else
+#define HELD 0
+#endif
+static const uint32_t bar_miss[2] = {250, 350}, bar_hit[2] = {4800, 7600}; /* 1800, 2800 wanted */
+
+struct tally {
+    uint32_t count, worst;
+    uint64_t sum;
+};
+
+static void tally_add(struct tally *t, uint32_t cost)
+{
+    t->count++;
+    t->sum += cost;
+    t->worst = cost > t->worst ? cost : t->worst;
+}
+
+static void tally_end(const struct tally *t, const char *name, uint32_t bar)
+{
+    uint32_t mean = t->count > 0 ? (uint32_t)((t->sum + t->count / 2) / t->count) : 0;
+
+    if (t->sum > 0) {
+        port_print("# %s: mean %lu, worst %lu instructions, %lu candidates\n", name,
+                   (unsigned long)mean, (unsigned long)t->worst, (unsigned long)t->count);
+    }
+    CHECK(t->count > 0);
+    CHECK(!HELD || mean <= bar);
+}
+
+/* One test with its cost, the call itself included. */
+static bool timed_first(const struct boyse_pair *pair, const struct candidate *c,
+                        struct boyse_hit *hit, uint32_t *cost)
+{
+    uint32_t roots = 0, start, empty, ticks;
+    bool is_hit;
+
+    start = port_ticks();
+    empty = port_ticks() - start;
+    start = port_ticks();
+    is_hit = boyse_first(pair, c, hit, &roots);
+    ticks = port_ticks() - start;
+    *cost = port_instructions(ticks) - port_instructions(empty);
+    return is_hit;
+}
+
+/* ---------------------------------------------------------------------- misses */
+
+static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+
+/* The scene's bodies at the start of a frame, the falling one first. */
+struct fall {
+    struct candidate_visitor base;
+    struct body bodies[2];
+    struct body_state states[2];
+    struct boyse_pair pair;
+    struct tally misses[2];
+    uint32_t hits;
+};
+
+static void time_all(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct fall *fall = (struct fall *)self;
+
+    for (uint32_t k = 0; k < n; k++) {
+        uint32_t cost;
+        struct boyse_hit hit;
+
+        if (timed_first(&fall->pair, &c[k], &hit, &cost)) {
+            fall->hits++;
+        } else {
+            tally_add(&fall->misses[c[k].kind == CANDIDATE_EDGE_EDGE], cost);
+        }
+    }
+}
+
+/* Test what interfere hands over for the frame to come, with the reach that a step asks for. */
+static void time_frame(struct fall *fall, struct carom_world *world, const carom_v3_q40 *gravity)
+{
+    static const struct pair pairs[1] = {{0, 1}};
+    static const int numbers[2] = {SCENE_BODY, SCENE_GROUND};
+    struct body *a = &fall->bodies[0];
+    int32_t turn_q30, way_q22;
+
+    for (int s = 0; s < 2; s++) {
+        fall->bodies[s] = world->bodies[numbers[s]];
+        fall->states[s] = world_now(world)->bodies[numbers[s]];
+        fall->bodies[s].gathered_at = fall->states[s].position;
+        body_matrix(&fall->bodies[s].gathered_r, &fall->states[s].rotation);
+        fall->bodies[s].reach_q22 = fall->bodies[s].turn_q30 = 0;
+        body_predict(&fall->bodies[s], &fall->states[s], CAROM_ONE_Q30, gravity);
+    }
+    way_q22 = body_travel_q22(a, &fall->states[0], CAROM_ONE_Q30, gravity, &turn_q30);
+    a->reach_q22 = way_q22 + way_q22 / 10 * 3 + 20 * a->skin_q22;
+    a->turn_q30 = turn_q30 / 10 * 13 + CAROM_ONE_Q30 / 100;
+    boyse_pair_init(&fall->pair, &fall->bodies[0], &fall->bodies[1]);
+    interfere_begin(&world->interfere);
+    CHECK_EQ(interfere_visit(&world->interfere, fall->bodies, pairs, 1, &fall->base), CAROM_OK);
+}
+
+/* The head that falls on the field, bounces and slides. */
+static void test_misses(void)
+{
+    static struct fall fall;
+    struct carom_config config = scene_config();
+    struct carom_world *world;
+    struct scene scene;
+
+    memset(&fall, 0, sizeof fall);
+    fall.base.visit = time_all;
+    CHECK_EQ(scene_load(&scene, "head", NULL, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(scene_make(&scene, &config, world_block, sizeof world_block, &world), CAROM_OK);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        struct carom_stats stats;
+
+        CHECK(carom_world_step(world) >= 0);
+        carom_stats(world, &stats);
+        if (frame % EVERY == 0) {
+            /* a body in contact moves straight */
+            time_frame(&fall, world, stats.contacts > 0 ? NULL : &config.gravity);
+        }
+    }
+    CHECK(fall.hits > 0); /* it does come down */
+    tally_end(&fall.misses[0], "vertex and face that miss", bar_miss[0]);
+    tally_end(&fall.misses[1], "edges that miss", bar_miss[1]);
+}
+
+/* ------------------------------------------------------------------------ hits */
+
+static void test_hits(void)
+{
+    static struct meeting meeting;
+    static const uint8_t kinds[4] = {CANDIDATE_VERTEX_FACE, CANDIDATE_EDGE_EDGE,
+                                     CANDIDATE_FACE_VERTEX, CANDIDATE_EDGE_EDGE};
+    struct meeting_plan plan = {.translate = true, .turn = true};
+    struct test_random r = {17};
+    struct tally hits[2] = {{0, 0, 0}, {0, 0, 0}};
+
+    for (unsigned n = 0; n < MEETINGS; n++) {
+        struct boyse_hit hit;
+        uint32_t cost;
+
+        if (n % 8 == 0) {
+            meeting_shapes(&meeting, n / 8, &plan);
+        }
+        plan.kind = kinds[n % 4];
+        meeting_make(&meeting, &r, &plan);
+        CHECK(timed_first(&meeting.pair, &meeting.candidate, &hit, &cost));
+        CHECK((long double)hit.t_q30 <= meeting.time * CAROM_ONE_Q30);
+        tally_add(&hits[plan.kind == CANDIDATE_EDGE_EDGE], cost);
+    }
+    tally_end(&hits[0], "vertex and face that meet", bar_hit[0]);
+    tally_end(&hits[1], "edges that meet", bar_hit[1]);
+}
+
+const struct test tests_boyse_cost[] = {
+    {"boyse_cost/misses", test_misses},
+    {"boyse_cost/hits", test_hits},
+    {0},
+};
