@@ -163,7 +163,7 @@ struct gain {
 /* What ends all motion of the contact; false when that lies outside of the friction cone. */
 static bool stick(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
 {
-    int64_t all[3], tangent[3], limit;
+    int64_t all[3], tangent[3], limit, length;
     int32_t v[3], whole[3];
     int down;
 
@@ -190,7 +190,8 @@ static bool stick(const struct contact *c, int64_t error, const int64_t slip[3],
         g->across[k] = rest_clamp((int64_t)whole[k] - carom_mul_q30(g->along, c->normal.c[k]));
         tangent[k] = c->tangent_impulse[k] + g->across[k];
     }
-    return long_length(tangent, &down) <= limit >> down;
+    length = long_length(tangent, &down);
+    return length <= limit >> down;
 }
 
 /* Along N first, never pulling; then across towards no slip, within the friction cone. */
