@@ -295,13 +295,11 @@ static void set_wanted(struct opening *o, const struct boyse_pair *pair, int32_t
 
 /*
  * Of features that never open by the event gap: the time of half their largest opening, `far`, but no
- * nearer than they start while they close; 0 when they are never open.
+ * nearer than they start; 0 when they are never open.
  */
 static int32_t half_open(struct opening *o, int32_t from, struct sample far, struct sample root)
 {
-    /* what opens at first is not answered at the start, where nothing would be asked of it */
-    bool closes = from == 0 && o->sign * (int64_t)o->curve->a[1] < 0;
-    int64_t start = closes ? sample_at(o, 0).open : 0;
+    int64_t start = from == 0 ? sample_at(o, 0).open : 0;
 
     if (far.open <= 0) {
         return 0;

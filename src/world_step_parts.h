@@ -15,6 +15,7 @@ struct step {
     struct world_state *next;
     int32_t left_q30; /* of the frame */
     uint32_t substep_cap;
+    int standing; /* hits in a row that took no time to come to */
     struct boyse_hit hit;
 };
 
