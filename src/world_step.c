@@ -59,13 +59,10 @@ void step_begin(struct step *s, struct carom_world *w)
     }
 }
 
-/* Less than a thousandth of a frame is no time. */
-#define NO_TIME_Q30 (1 << 20)
-
 /* To the first hit and through it, or to the end of a slice without one. */
 static int substep(struct step *s)
 {
-    int32_t slice_q30, left_q30 = s->left_q30;
+    int32_t slice_q30;
     bool found = false;
     int result = CAROM_OK;
 
@@ -80,15 +77,13 @@ static int substep(struct step *s)
         result = step_first_hit(s, &found);
     }
     if (result == CAROM_OK && !found) {
-        s->standing = 0;
         step_advance(s, CAROM_ONE_Q30, slice_q30);
         return CAROM_OK;
     }
     if (result == CAROM_OK) {
-        result = step_go_to_hit(s, slice_q30);
-        s->standing = left_q30 - s->left_q30 < NO_TIME_Q30 ? s->standing + 1 : 0;
+        result = step_go_to_hit(s, slice_q30, &found);
     }
-    return result == CAROM_OK ? step_respond(s) : result;
+    return result == CAROM_OK && found ? step_respond(s) : result;
 }
 
 /* What a whole frame ends with. */
