@@ -353,7 +353,10 @@ static int32_t event_time(struct opening *o, const struct boyse_pair *pair,
 
 /* --------------------------------------------------------------------- first */
 
-/* The sign of a pair that touches or overlaps at the start; 0 for one that does not. */
+/*
+ * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
+ * or overlaps; 0 for one that does not.
+ */
 static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
                             int64_t gap_q40)
 {
@@ -365,7 +368,8 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
         return 0;
     }
     boyse_test(pair, c, 0, &touch);
-    return touch.valid && touch.gap_q22 <= 0 && touch.gap_q22 > -limit_q22 ? touch.sign : 0;
+    return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
+                                                                                        : 0;
 }
 
 /*
@@ -464,10 +468,46 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
     return false;
 }
 
+/*
+ * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
+ * event gap, however small the angle between edges is.
+ */
+static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
+                         const struct boyse_places *start)
+{
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most, largest = 0;
+
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        return level;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t part = carom_abs(start->w[k]);
+
+        largest = part > largest ? part : largest;
+    }
+    most = largest * (pair->skin_q22 / 4) >> 12;
+    return level < most ? level : most;
+}
+
+/*
+ * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then commit
+ * an overlap: look for the root of a surface a little nearer. What touches already must not get
+ * deeper. Returns what P is lowered by.
+ */
+static int64_t lower(int64_t gap_q40, int touching, int64_t level)
+{
+    int64_t size = carom_abs(gap_q40), shift;
+
+    if (touching != 0) {
+        return gap_q40 - touching * level;
+    }
+    shift = size > 2 * level ? level : size > level ? size - level : 0;
+    return gap_q40 > 0 ? shift : -shift;
+}
+
 bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
                  uint32_t *roots)
 {
-    const int64_t level_q40 = (int64_t)ROOT_LEVEL_Q22 << 18;
     struct boyse_places start;
     struct curve curve;
     int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
@@ -484,17 +524,8 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         hit->t_q30 = hit->root_q30 = 0;
         return true;
     }
-    /*
-     * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then
-     * commit an overlap: look for the root of a surface a little nearer. What overlaps already must
-     * not get deeper.
-     */
-    if (touching != 0) {
-        shift_q40 = a[0] - touching * level_q40;
-    } else if (a[0] > 2 * level_q40) {
-        shift_q40 = level_q40;
-    } else if (a[0] < -2 * level_q40 && c->kind == CANDIDATE_EDGE_EDGE) {
-        shift_q40 = -level_q40;
+    if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
+        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start));
     }
     a[0] -= shift_q40;
     if (!curve_init(&curve, a, degree)) {
