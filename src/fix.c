@@ -1,34 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 #include "fix.h"
 
-int fix_bits(uint64_t v)
+/*
+ * The root of v, 2^30 <= v, within half a unit and a hundredth. Newton's steps end above the root but
+ * for rounding; three are enough from (c + v / c) / 2 with c = 2^16, at most a quarter too large.
+ */
+static uint32_t sqrt_newton(uint32_t v)
 {
-    uint32_t half = (uint32_t)(v >> 32);
-    int bits = half ? 32 : 0;
+    uint32_t root = (v >> 17) + ((uint32_t)1 << 15);
 
-    half = half ? half : (uint32_t)v;
-    for (int step = 16; step > 0; step >>= 1) {
-        if (half >> step) {
-            half >>= step;
-            bits += step;
-        }
-    }
-    return bits + (half != 0);
+    root = (root + v / root + 1) >> 1;
+    root = (root + v / root + 1) >> 1;
+    return (root + v / root + 1) >> 1;
 }
 
-/* floor(sqrt(v)) digit by digit: two bits of v for one of the root. */
+/* floor(sqrt(v)), 2^30 <= v */
 static uint32_t sqrt32(uint32_t v)
 {
-    uint32_t root = 0;
+    uint32_t root = sqrt_newton(v);
 
-    for (uint32_t bit = (uint32_t)1 << 30; bit; bit >>= 2) {
-        uint32_t trial = root + bit;
-
-        root >>= 1;
-        if (v >= trial) {
-            v -= trial;
-            root += bit;
-        }
+    while (root > UINT16_MAX || root * root > v) {
+        root--;
     }
     return root;
 }
@@ -36,15 +28,18 @@ static uint32_t sqrt32(uint32_t v)
 uint32_t fix_sqrt(uint64_t v)
 {
     int shift = (64 - fix_bits(v)) & ~1;
-    uint64_t high, root;
+    uint64_t root;
+    uint32_t high;
 
-    if (v >> 32 == 0) {
-        return sqrt32((uint32_t)v);
+    if (v == 0) {
+        return 0;
     }
     /* 16 bits of the root from the upper half, the others by a step of Newton's from below it */
     v <<= shift;
-    high = (uint64_t)sqrt32((uint32_t)(v >> 32)) << 16;
-    root = high + (v - high * high) / (2 * high);
+    high = sqrt32((uint32_t)(v >> 32));
+    /* (v - high^2 2^32) / (2 high 2^16), of which 17 bits are shifted out before: less than 2^32 */
+    root = (uint32_t)((v - ((uint64_t)(high * high) << 32)) >> 17) / high;
+    root += (uint64_t)high << 16;
     /* which ends at most 2 above: half the square of the step over the root is at most 1 */
     while (root > UINT32_MAX || root * root > v) {
         root--;
@@ -54,13 +49,15 @@ uint32_t fix_sqrt(uint64_t v)
 
 int64_t fix_sqrt_above(uint64_t v)
 {
-    int shift = fix_bits(v) - 32;
+    int shift = (64 - fix_bits(v)) & ~1;
 
-    if (shift <= 0) {
-        return (int64_t)sqrt32((uint32_t)v) + 1;
+    if (v == 0) {
+        return 1;
     }
-    shift += shift & 1;
-    return ((int64_t)sqrt32((uint32_t)(v >> shift)) + 1) << (shift / 2);
+    /* the upper half of v, rounded down, is less than 1 short */
+    return (int64_t)(((uint64_t)sqrt_newton((uint32_t)(v << shift >> 32)) + 1) << 16 >>
+                     (shift / 2)) +
+           1;
 }
 
 int64_t fix_mul(int64_t a, int32_t b, int s)

@@ -36,8 +36,30 @@ struct fix_wide {
     uint64_t lo;
 };
 
-/* Number of bits of v: 0 for 0, 64 for 2^63. */
-int fix_bits(uint64_t v);
+/* Number of bits of v: 0 for 0, 32 for 2^31; 64 for 2^63. */
+static inline int fix_bits32(uint32_t v)
+{
+#if defined __GNUC__ && UINT_MAX == 0xffffffff
+    return v ? 32 - __builtin_clz(v) : 0;
+#else
+    int bits = 0;
+
+    for (int step = 16; step > 0; step >>= 1) {
+        if (v >> step) {
+            v >>= step;
+            bits += step;
+        }
+    }
+    return bits + (v != 0);
+#endif
+}
+
+static inline int fix_bits(uint64_t v)
+{
+    uint32_t high = (uint32_t)(v >> 32);
+
+    return high ? 32 + fix_bits32(high) : fix_bits32((uint32_t)v);
+}
 
 /* floor(sqrt(v)), exact for every v. */
 uint32_t fix_sqrt(uint64_t v);

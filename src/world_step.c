@@ -81,9 +81,9 @@ static int substep(struct step *s)
         return CAROM_OK;
     }
     if (result == CAROM_OK) {
-        result = step_go_to_hit(s, slice_q30);
+        result = step_go_to_hit(s, slice_q30, &found);
     }
-    return result == CAROM_OK ? step_respond(s) : result;
+    return result == CAROM_OK && found ? step_respond(s) : result;
 }
 
 /* What a whole frame ends with. */

@@ -3,6 +3,10 @@
 #include "world_step_parts.h"
 
 #define REFINEMENTS 8
+/* Less than a thousandth of a frame is no time to go on for. */
+#define SLICE_MIN_Q30 (1 << 20)
+/* What features open by at most through rounding. */
+#define OPENS_Q22 4
 
 void step_mark(struct carom_world *w, enum carom_stage stage)
 {
@@ -271,16 +275,60 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
     return longer_q30 < most_q30 ? (int32_t)longer_q30 : most_q30;
 }
 
-/*
- * Go to the hit. The turn of a shorter slice is not a part of the turn of the longer one, so the
- * path is set up again for the slice that ends at the hit until it no longer hits on the way: only
- * then does the rotation keep its energy. The last path may still stop short of its end.
- */
-int step_go_to_hit(struct step *s, int32_t slice_q30)
+/* Whether the features of a candidate end the paths farther apart than they start: not by rounding. */
+static bool opens(const struct step *s, const struct candidate *c)
 {
-    int32_t t_q30 = CAROM_ONE_Q30, most_q30 = slice_q30;
+    const struct carom_world *w = s->w;
+    const struct pair *p = &w->pairs[c->pair];
+    struct boyse_pair pair;
+    int32_t start;
 
-    slice_q30 = (int32_t)(((int64_t)slice_q30 * s->hit.t_q30) >> 30);
+    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
+    start = gap_at(&pair, c, 0);
+    return start < INT32_MAX && gap_at(&pair, c, CAROM_ONE_Q30) > start + OPENS_Q22;
+}
+
+/*
+ * A hit at the start of the paths. The turn of a path is that of its middle: features that open as
+ * the bodies move now may close at the start of a long path, and there is nothing to be solved then.
+ * Sets the paths of the longest of some shorter slices in which they open and nothing is hit.
+ */
+static int shorten(struct step *s, int32_t *slice_q30, bool *opened)
+{
+    const struct boyse_hit hit = s->hit;
+    int32_t shorter_q30 = *slice_q30 >> 2;
+    int result = CAROM_OK;
+
+    for (*opened = false; shorter_q30 > SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
+        bool found;
+
+        predict_all(s, shorter_q30);
+        if (!opens(s, &hit.candidate)) {
+            continue;
+        }
+        result = step_first_hit(s, &found);
+        s->w->stats.refinements++;
+        if (result == CAROM_OK && !found) {
+            *slice_q30 = shorter_q30;
+            *opened = true;
+            break;
+        }
+    }
+    s->hit = hit;
+    return result;
+}
+
+/*
+ * The paths that end at the hit, and the time to leave them. The turn of a shorter slice is not a
+ * part of the turn of the longer one, so the path is set up again for the slice that ends at the hit
+ * until it no longer hits on the way: only then does the rotation keep its energy. The last path may
+ * still have to be left short of its end.
+ */
+static int refine(struct step *s, int32_t *slice, int32_t *t)
+{
+    int32_t t_q30 = CAROM_ONE_Q30, most_q30 = *slice;
+    int32_t slice_q30 = (int32_t)(((int64_t)most_q30 * s->hit.t_q30) >> 30);
+
     for (int round = 0; round < REFINEMENTS; round++) {
         bool found;
         int result;
@@ -314,6 +362,29 @@ int step_go_to_hit(struct step *s, int32_t slice_q30)
             slice_q30 = (int32_t)(((int64_t)slice_q30 * t_q30) >> 30);
         }
     }
-    step_advance(s, t_q30, slice_q30);
+    *slice = slice_q30;
+    *t = t_q30;
     return CAROM_OK;
+}
+
+int step_go_to_hit(struct step *s, int32_t slice_q30, bool *met)
+{
+    int32_t t_q30, end_q30 = slice_q30;
+    bool opened = false;
+    int result = refine(s, &end_q30, &t_q30);
+
+    if (result == CAROM_OK && ((int64_t)end_q30 * t_q30) >> 30 < SLICE_MIN_Q30) {
+        result = shorten(s, &slice_q30, &opened);
+        if (opened) {
+            end_q30 = slice_q30;
+            t_q30 = CAROM_ONE_Q30;
+        } else {
+            predict_all(s, end_q30);
+        }
+    }
+    if (result == CAROM_OK) {
+        step_advance(s, t_q30, end_q30);
+        *met = !opened;
+    }
+    return result;
 }

@@ -57,8 +57,11 @@ int step_first_hit(struct step *s, bool *found);
 /* Go to t of the paths. */
 void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30);
 
-/* Go to the hit, on paths that end at it. */
-int step_go_to_hit(struct step *s, int32_t slice_q30);
+/*
+ * Go to the hit, on paths that end at it. `met` is false when it turns out to be one of a long path
+ * only: then the bodies went on a part of the slice in which nothing is hit.
+ */
+int step_go_to_hit(struct step *s, int32_t slice_q30, bool *met);
 
 /* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
 int step_start_contacts(struct step *s);

@@ -196,6 +196,7 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion, int
 {
     struct first_hit_track track[2];
     double allowed = 8 * UNIT + 1.01 * verdict->event_gap, n[3];
+    bool met;
 
     first_hit_read_tracks(track, s);
     for (int i = 0; i < 2; i++) {
@@ -204,7 +205,7 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion, int
         allowed += angle * angle / 8 * track[i].radius;
     }
     allowed += first_hit_speed(track) * ldexp(1, -29);
-    expect(step_go_to_hit(s, slice_q30), "go to hit");
+    expect(step_go_to_hit(s, slice_q30, &met), "go to hit");
     step_place_all(s);
     first_hit_read_tracks(track, s);
     verdict->crossed = first_hit_cross(motion, track, 0);
@@ -212,7 +213,7 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion, int
         n[k] = lab_double(s->hit.touch.normal.c[k], 30);
     }
     verdict->left = first_hit_features(motion, track, &s->hit.candidate, n, 0).gap;
-    verdict->early |= verdict->left > allowed;
+    verdict->early |= met && verdict->left > allowed;
 }
 
 void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_verdict *verdict)

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * boyse_curve - P(t) in 32 bits: its value and slope, its roots in order of time, and divisions that
+ * need no more than 32 bits.
+ */
+#ifndef CAROM_SRC_BOYSE_CURVE_H
+#define CAROM_SRC_BOYSE_CURVE_H
+
+#include "boyse.h"
+
+/* What a value of P is off by at most, in its units: the coefficients' rounding and Horner's. */
+#define CURVE_NOISE 12
+
+/* P; the sum of all |a_k| is below 2^29. Slopes and bends are kept in units of 8. */
+struct curve {
+    int32_t a[BOYSE_DEGREE + 1];
+    int degree;
+    int shift;     /* a = a_q40 / 2^shift, rounded down */
+    int32_t bend8; /* a bound of |P''| / 16 on [0, 1] */
+};
+
+/* v t / 2^30, rounded down; |v| < 2^29. */
+static inline int32_t curve_times(int32_t v, int32_t t_q30)
+{
+    return (int32_t)(uint32_t)((uint64_t)((int64_t)(v * 4) * t_q30) >> 32);
+}
+
+static inline int32_t curve_at(const struct curve *q, int32_t t_q30)
+{
+    int32_t v = q->a[q->degree];
+
+    for (int k = q->degree - 1; k >= 0; k--) {
+        v = curve_times(v, t_q30) + q->a[k];
+    }
+    return v;
+}
+
+/* A number of q40 in the units of a curve. */
+static inline int64_t curve_units(const struct curve *q, int64_t v_q40)
+{
+    return q->shift > 0 ? v_q40 >> q->shift : carom_shl(v_q40, -q->shift);
+}
+
+/*
+ * Scale the coefficients. False when P keeps its sign on [0, 1] because its constant term outweighs
+ * all others.
+ */
+bool curve_init(struct curve *q, const int64_t a_q40[BOYSE_DEGREE + 1], int degree);
+
+/* n 2^30 / d, rounded down, by less than one part in 2^14 and one; UINT32_MAX for more than that. */
+uint32_t curve_quotient_q30(uint32_t n, uint32_t d);
+
+/* A walk over the roots of P in order of time. */
+struct walk {
+    int32_t t_q30;
+    int32_t side;      /* sign of P before, 0 when it is not known */
+    int32_t stride;    /* least step over a root that is not a hit, q30 */
+    int32_t p, slope8; /* P and its slope where the walk stands */
+    int rounds;
+};
+
+void walk_begin(struct walk *w, const struct curve *q);
+/* Go on to the next root, or to within the rounding of one; false when there is none up to 1. */
+bool walk_next(struct walk *w, const struct curve *q);
+/* Step over a root that is not a hit. */
+void walk_over(struct walk *w, const struct curve *q);
+
+#endif
