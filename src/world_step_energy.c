@@ -60,74 +60,81 @@ static struct account audit(const struct step *s, uint32_t first)
     return sum;
 }
 
-/*
- * The velocity that an island has as a whole: it stays when energy is taken out, as nothing outside
- * acts on it. One that touches what stands still has none to keep.
- */
-static carom_v3_q40 common_velocity(const struct step *s, uint32_t first)
-{
-    const struct body *bodies = s->w->bodies;
-    carom_v3_q40 v = {{0, 0, 0}};
-
-    for (int k = 0; !bodies[first].grounded && k < 3; k++) {
-        struct fix_wide momentum_q40 = {0, 0}, mass_q32 = {0, 0};
-
-        for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
-            const struct body_state *state = &s->next->bodies[i];
-
-            if (broad_active(&bodies[i], state)) {
-                int64_t m_q32 = fix_mul_scaled((int64_t)1 << 32, bodies[i].mass);
-
-                momentum_q40 = fix_wide_add(momentum_q40, fix_wide_mul(state->momentum.c[k], 1));
-                mass_q32 = fix_wide_add(mass_q32, fix_wide_mul(m_q32, 1));
-            }
-        }
-        if (fix_wide_sign(mass_q32) > 0) {
-            v.c[k] = fix_mul_scaled((int64_t)1 << 32, fix_wide_ratio(momentum_q40, mass_q32));
-        }
-    }
-    return v;
-}
-
-/* Twice the kinetic energy of an island's bodies, if each moved with this velocity. */
-static struct fix_wide common_kinetic2(const struct step *s, uint32_t first, const carom_v3_q40 *v)
+/* Twice the kinetic energy of an island in its motion as one rigid body. */
+static struct fix_wide rigid_kinetic2(const struct step *s, const struct step_rigid *rigid)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
-        const struct body *b = &s->w->bodies[i];
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        struct body_state state = step_rigid_state(s, rigid, i);
 
-        for (int k = 0; broad_active(b, &s->next->bodies[i]) && k < 3; k++) {
-            sum = fix_wide_add(sum, fix_wide_mul(fix_mul_scaled(v->c[k], b->mass), v->c[k]));
-        }
+        sum = fix_wide_add(sum, kinetic2(&s->w->bodies[i], &state));
     }
     return sum;
 }
 
-/* Scale an island's motion about a velocity that all share; what rounding takes, one body gets. */
-static void scale_momenta(struct step *s, uint32_t first, const carom_v3_q40 *v, int32_t factor_q30)
+/* from + factor (to - from) in both momenta */
+static void scale_about(struct body_state *to, const struct body_state *from, int32_t factor_q30)
 {
-    struct body_state *any = NULL;
-    uint64_t taken[3] = {0, 0, 0}; /* differences cancel: modulo 2^64 is enough */
+    for (int k = 0; k < 3; k++) {
+        int64_t p = from->momentum.c[k], l = from->angular.c[k];
 
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
-        struct body_state *state = &s->next->bodies[i];
-
-        if (!broad_active(&s->w->bodies[i], state)) {
-            continue;
-        }
-        any = state;
-        for (int k = 0; k < 3; k++) {
-            int64_t was = state->momentum.c[k];
-            int64_t common = fix_mul_scaled(v->c[k], s->w->bodies[i].mass);
-
-            state->momentum.c[k] = common + fix_mul(was - common, factor_q30, 30);
-            state->angular.c[k] = fix_mul(state->angular.c[k], factor_q30, 30);
-            taken[k] += (uint64_t)was - (uint64_t)state->momentum.c[k];
-        }
+        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
+        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
     }
-    for (int k = 0; any && !s->w->bodies[first].grounded && k < 3; k++) {
-        any->momentum.c[k] += (int64_t)taken[k];
+}
+
+/* All of an island's momentum and angular momentum about its centre. */
+static void sum_momenta(const struct step *s, const struct step_rigid *rigid,
+                        uint64_t linear_q40[3], struct fix_wide angular_q72[3])
+{
+    memset(linear_q40, 0, 3 * sizeof linear_q40[0]);
+    memset(angular_q72, 0, 3 * sizeof angular_q72[0]);
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        for (int k = 0; k < 3; k++) {
+            /* only differences are used: modulo 2^64 is enough */
+            linear_q40[k] += (uint64_t)s->next->bodies[i].momentum.c[k];
+        }
+        step_add_angular(s, &rigid->centre, i, angular_q72);
+    }
+}
+
+/*
+ * Scale what an island moves by beside its rigid motion; nothing outside acts on it, so its momenta
+ * stay. What rounding takes of them a heavy body gets.
+ */
+static void scale_free(struct step *s, const struct step_rigid *rigid, int32_t factor_q30)
+{
+    struct body_state *heavy = &s->next->bodies[rigid->heavy];
+    uint64_t linear[3], linear_after[3];
+    struct fix_wide angular[3], angular_after[3];
+
+    sum_momenta(s, rigid, linear, angular);
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        struct body_state state = step_rigid_state(s, rigid, i);
+
+        scale_about(&s->next->bodies[i], &state, factor_q30);
+    }
+    sum_momenta(s, rigid, linear_after, angular_after);
+    for (int k = 0; k < 3; k++) {
+        heavy->momentum.c[k] += (int64_t)(linear[k] - linear_after[k]);
+    }
+    sum_momenta(s, rigid, linear_after, angular_after);
+    for (int k = 0; k < 3; k++) {
+        struct fix_wide taken_q72 = fix_wide_add(angular[k], fix_wide_neg(angular_after[k]));
+
+        heavy->angular.c[k] += carom_round(fix_wide_shift(taken_q72, 31), 1);
+    }
+}
+
+/* One that touches what stands still has no motion to keep. */
+static void scale_grounded(struct step *s, uint32_t island, int32_t factor_q30)
+{
+    const struct body_state none = {.momentum = {{0, 0, 0}}};
+
+    for (uint32_t i = step_island_first(s, island); i != REST_ISLAND_END;
+         i = step_island_next(s, i)) {
+        scale_about(&s->next->bodies[i], &none, factor_q30);
     }
 }
 
@@ -179,30 +186,42 @@ static void hold_still(struct step *s, uint32_t first)
     }
 }
 
+/* The factor for momenta that takes `excess` out of a kinetic energy; 0 when that is not enough. */
+static int32_t factor_q30(struct fix_wide kinetic, struct fix_wide excess)
+{
+    struct fix_wide kept = fix_wide_add(kinetic, fix_wide_neg(excess));
+    struct fix_scaled ratio;
+
+    if (fix_wide_sign(kept) <= 0) {
+        return 0;
+    }
+    ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
+    return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
+}
+
 static void limit_island(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
     struct fix_wide slack = {sum.kinetic.hi >> SLACK_BITS,
                              (uint64_t)fix_wide_shift(sum.kinetic, SLACK_BITS)};
-    struct fix_wide relative, kept;
-    int32_t factor_q30 = 0;
-    carom_v3_q40 v;
+    struct step_rigid rigid;
 
     if (fix_wide_sign(fix_wide_add(sum.excess, fix_wide_neg(slack))) <= 0) {
         return;
     }
-    v = common_velocity(s, first);
-    relative = fix_wide_add(sum.kinetic, fix_wide_neg(common_kinetic2(s, first, &v)));
-    kept = fix_wide_add(relative, fix_wide_neg(sum.excess));
-    if (fix_wide_sign(kept) > 0) {
-        struct fix_scaled ratio = fix_wide_ratio(kept, relative); /* below 1 */
+    if (s->w->bodies[first].grounded) {
+        int32_t factor = factor_q30(sum.kinetic, sum.excess);
 
-        factor_q30 = (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
-    } else if (s->w->bodies[first].grounded) {
-        hold_still(s, first); /* it climbed by more than it has to give */
-        return;
+        if (factor == 0) {
+            hold_still(s, first); /* it climbed by more than it has to give */
+        } else {
+            scale_grounded(s, first, factor);
+        }
+    } else if (step_rigid_motion(s, first, &rigid)) {
+        struct fix_wide beside = fix_wide_add(sum.kinetic, fix_wide_neg(rigid_kinetic2(s, &rigid)));
+
+        scale_free(s, &rigid, factor_q30(beside, sum.excess));
     }
-    scale_momenta(s, first, &v, factor_q30);
 }
 
 void step_limit_energy(struct step *s, bool cut_short)

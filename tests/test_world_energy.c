@@ -3,6 +3,7 @@
  * The energy of contact over a frame: what an island gained is taken out of its momenta, island by
  * island. States before and after are made by hand.
  */
+#include <math.h>
 #include <string.h>
 
 #include "real.h"
@@ -88,12 +89,32 @@ static bool unchanged(int body, const struct body_state *as)
     return memcmp(&step.next->bodies[body], as, sizeof *as) == 0;
 }
 
-/* Two bodies that touch nothing else: the gain goes, their momentum stays to the bit. */
+/* x x p + L of the two bodies, about the world's origin. */
+static void angular(double sum[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+
+        sum[k] = 0;
+        for (int i = LOW; i <= HIGH; i++) {
+            const struct body_state *s = &step.next->bodies[i];
+
+            sum[k] += real(s->position.c[m], 32) * real(s->momentum.c[n], 40);
+            sum[k] -= real(s->position.c[n], 32) * real(s->momentum.c[m], 40);
+            sum[k] += real(s->angular.c[k], 40);
+        }
+    }
+}
+
+/*
+ * Two bodies that touch nothing else: the gain goes, their momentum stays to the bit, and so does
+ * their angular momentum to what a place's last bit is worth.
+ */
 static void test_free(void)
 {
     struct body_state before[BODIES];
+    double now, turn_before[3], turn[3];
     int64_t sum[3];
-    double now;
 
     begin();
     touch(HIGH, LOW);
@@ -104,12 +125,17 @@ static void test_free(void)
         sum[k] = step.next->bodies[LOW].momentum.c[k] + step.next->bodies[HIGH].momentum.c[k];
     }
     memcpy(before, step.next->bodies, sizeof before);
+    angular(turn_before);
     step_limit_energy(&step, false); /* no one is in contact, and the frame is whole */
     CHECK(unchanged(LOW, &before[LOW]) && unchanged(HIGH, &before[HIGH]));
     step_limit_energy(&step, true);
     for (int k = 0; k < 3; k++) {
         CHECK_EQ(step.next->bodies[LOW].momentum.c[k] + step.next->bodies[HIGH].momentum.c[k],
                  sum[k]);
+    }
+    angular(turn);
+    for (int k = 0; k < 3; k++) {
+        CHECK(fabs(turn[k] - turn_before[k]) < 1e-11);
     }
     now = kinetic(step.next, LOW) + kinetic(step.next, HIGH);
     now /= kinetic(world_now(world), LOW) + kinetic(world_now(world), HIGH);
