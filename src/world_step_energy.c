@@ -224,6 +224,25 @@ static void limit_island(struct step *s, uint32_t first)
     }
 }
 
+/*
+ * Bodies in contact took the gravity of the whole frame before they moved. When the frame is cut
+ * short, those of an island in the air give back what belongs to the time that was dropped: the
+ * island then has the momentum that gravity gave it on its way, and to scale its motion about its
+ * common velocity takes out whatever it gained. On the ground the weight is answered by impulses
+ * that belong to it; there the audit alone decides.
+ */
+static void give_back_gravity(struct step *s, uint32_t first)
+{
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body *b = &s->w->bodies[i];
+
+        for (int k = 0; broad_active(b, &s->next->bodies[i]) && b->in_contact && k < 3; k++) {
+            s->next->bodies[i].momentum.c[k] -=
+                fix_mul_scaled(fix_mul(b->acceleration.c[k], s->left_q30, 30), b->mass);
+        }
+    }
+}
+
 void step_limit_energy(struct step *s, bool cut_short)
 {
     struct carom_world *w = s->w;
@@ -247,6 +266,9 @@ void step_limit_energy(struct step *s, bool cut_short)
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].island == i && w->bodies[i].touched) {
+            if (cut_short && !w->bodies[i].grounded) {
+                give_back_gravity(s, i);
+            }
             limit_island(s, i);
         }
     }
