@@ -271,12 +271,37 @@ static double deepest_edge(const struct placed *edges, const struct placed *face
     return depth;
 }
 
+/* Whether one face lies wholly on one side of the other's plane: no edge of either can pierce. */
+static bool on_one_side(const struct placed *one, const struct placed *other)
+{
+    double side[2][3], normal[3], from[3];
+    int above = 0, below = 0;
+
+    subtract(side[0], other->corner[1], other->corner[0]);
+    subtract(side[1], other->corner[2], other->corner[0]);
+    cross(normal, side[0], side[1]);
+    for (int i = 0; i < 3; i++) {
+        double height;
+
+        subtract(from, one->corner[i], other->corner[0]);
+        height = dot(normal, from);
+        above += height > 0;
+        below += height < 0;
+    }
+    return above == 3 || below == 3;
+}
+
 static void test_pair(struct oracle_crossings *out, const struct placed *a, const struct placed *b,
                       double tolerance)
 {
-    double depth_a = deepest_edge(a, b), depth_b = deepest_edge(b, a);
-    double depth = larger(depth_a, depth_b);
+    double depth_a, depth_b, depth;
 
+    if (on_one_side(a, b) || on_one_side(b, a)) {
+        return;
+    }
+    depth_a = deepest_edge(a, b);
+    depth_b = deepest_edge(b, a);
+    depth = larger(depth_a, depth_b);
     if (depth <= tolerance) {
         return;
     }
