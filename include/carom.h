@@ -207,7 +207,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1072
+#define CAROM_BODY_BYTES        1280
 #define CAROM_PAIR_BYTES        88
 #define CAROM_CONTACT_BYTES     832
 #define CAROM_FACE_BYTES        4
