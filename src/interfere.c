@@ -141,23 +141,17 @@ static bool place_leaf(struct interfere *w)
     return true;
 }
 
-/* Which corners each face has, and which vertices belong to one of them. */
-static void list_corners(struct interfere *w)
+/* Where the slab of the leaf is. */
+static void place_slab(struct interfere *w)
 {
-    const struct carom_mesh *ma = w->a->mesh;
     struct interfere_leaf *l = &w->leaf;
+    int32_t at, away, near = (l->near_q20 >> 2) + 4;
 
-    l->owned = l->busy = 0;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = ma->leaf_corners[l->leaf->first_face + i];
-        uint8_t own = ma->faces[ma->leaf_faces[l->leaf->first_face + i]].own;
-
-        l->corners[i] = 0;
-        for (int k = 0; k < 3; k++) {
-            l->corners[i] |= 1u << corner[k];
-            l->owned |= own & 1 << k ? 1u << corner[k] : 0;
-        }
-    }
+    carom_rotate(l->axis, &w->to_b, l->leaf->axis.c);
+    at = interfere_dot(l->axis, w->at.c);
+    away = interfere_dot(l->axis, l->shift.c);
+    l->slab_low = at + (l->leaf->low_q22 >> 4) + (away < 0 ? away : 0) - near;
+    l->slab_high = at + (l->leaf->high_q22 >> 4) + (away > 0 ? away : 0) + near;
 }
 
 /* Whether a face of b meets the box of the swept leaf. */
@@ -215,7 +209,9 @@ static void visit_leaf(struct interfere *w)
     if (!place_leaf(w)) {
         return;
     }
-    list_corners(w);
+    place_slab(w);
+    w->leaf.busy = 0;
+    w->leaf.listed = false;
     memset(w->seen, 0xff, sizeof w->seen); /* CAROM_NO_FACE */
     cells = cells_under(mb, w->leaf.quanta_low, w->leaf.quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {

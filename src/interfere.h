@@ -61,10 +61,12 @@ struct interfere_leaf {
     struct interfere_vec low, high;              /* of the vertices */
     struct interfere_vec swept_low, swept_high;  /* of their ways, grown by the tolerance */
     int32_t quanta_low[3], quanta_high[3];       /* the same in b's quanta, from its origin */
-    uint32_t corners[CAROM_LEAF_FACES];          /* of each face, a bit each */
-    uint32_t owned;                              /* vertices that are tested */
-    uint32_t busy;                               /* faces with candidates */
-    int32_t top;                                 /* highest z of b in the cells under it */
+    int32_t axis[3];                             /* of its slab */
+    int32_t slab_low, slab_high;                 /* along that, swept and grown, q18 */
+    bool listed;
+    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, a bit each; once listed */
+    uint32_t busy;                      /* faces with candidates */
+    int32_t top;                        /* highest z of b in the cells under it */
 };
 
 struct interfere {

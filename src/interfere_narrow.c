@@ -53,6 +53,17 @@ static struct interfere_vec opposite(const struct interfere_vec *a)
 
 /* ------------------------------------------------------------------- planes */
 
+/* Whether the leaf's slab, swept, has all of b's face on one side. */
+static bool beside_slab(const struct interfere *w, const struct target *t)
+{
+    const struct interfere_leaf *l = &w->leaf;
+    int32_t a = interfere_dot(l->axis, t->p[0].c), b = interfere_dot(l->axis, t->p[1].c),
+            c = interfere_dot(l->axis, t->p[2].c);
+
+    return (a > l->slab_high && b > l->slab_high && c > l->slab_high) ||
+           (a < l->slab_low && b < l->slab_low && c < l->slab_low);
+}
+
 /*
  * Which vertices of the leaf stay over the plane of b's face on their way, and which under it. False
  * when all do.
@@ -98,9 +109,26 @@ static void place_target(const struct interfere *w, struct target *t)
             t->p[k].c[i] = corner.c[i] >> 2;
         }
     }
+}
+
+static void bound_target(struct target *t)
+{
     for (int i = 0; i < 3; i++) {
         t->low.c[i] = least(t->p[0].c[i], least(t->p[1].c[i], t->p[2].c[i]));
         t->high.c[i] = most(t->p[0].c[i], most(t->p[1].c[i], t->p[2].c[i]));
+    }
+}
+
+/* Which corners each face of the leaf has. */
+static void list_corners(struct interfere *w)
+{
+    struct interfere_leaf *l = &w->leaf;
+
+    l->listed = true;
+    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+        const uint8_t *corner = w->a->mesh->leaf_corners[l->leaf->first_face + i];
+
+        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
     }
 }
 
@@ -173,7 +201,7 @@ static bool vertices_face(struct interfere *w, const struct target *t)
     const struct interfere_leaf *l = &w->leaf;
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
-    uint32_t left = l->owned & ~t->over & ~t->under;
+    uint32_t left = l->leaf->owned & ~t->over & ~t->under;
     int32_t n[3];
     bool any = false;
 
@@ -428,10 +456,14 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     struct target t = {.number = face_b, .face = &w->b->mesh->faces[face_b]};
     bool any;
 
-    if (!part_by_plane(w, &t)) {
+    place_target(w, &t);
+    if (beside_slab(w, &t) || !part_by_plane(w, &t)) {
         return;
     }
-    place_target(w, &t);
+    bound_target(&t);
+    if (!w->leaf.listed) {
+        list_corners(w);
+    }
     any = vertices_face(w, &t);
     any |= face_vertices(w, &t);
     any |= edges_edges(w, &t);
