@@ -377,8 +377,8 @@ static void place_at(struct test_random *r, int32_t t_q30)
     }
 }
 
-/* Both bodies on paths on which a point of one is near a point of the other at some time. */
-static void random_motion(struct test_random *r)
+/* Both bodies on paths on which a point of one is near a point of the other at the time returned. */
+static int32_t random_motion(struct test_random *r)
 {
     double on_a[3], on_b[3], n[3];
     int32_t t_q30 = (int32_t)test_random_range(r, 0, CAROM_ONE_Q30);
@@ -386,8 +386,9 @@ static void random_motion(struct test_random *r)
     for (int i = 0; i < 2; i++) {
         struct body *body = &bodies[i];
         int64_t speed = (int64_t)1 << test_random_range(r, 30, 40);
-        int64_t spin = ((int64_t)1 << 40) / test_random_range(r, 4, 400);
-        const carom_v3_q40 g = {{0, 0, -((int64_t)1 << 30)}};
+        int64_t spin =
+            ((int64_t)1 << 40) / test_random_range(r, 4, 40) * test_random_range(r, 0, 1);
+        const carom_v3_q40 g = {{0, 0, -((int64_t)1 << 37)}};
         carom_v3_q40 v, w;
 
         states[i].rotation = shape_random_turn(r);
@@ -397,7 +398,7 @@ static void random_motion(struct test_random *r)
             w.c[k] = test_random_range(r, -spin, spin);
         }
         body_set_motion(body, &states[i], &v, &w);
-        body_predict(body, &states[i], CAROM_ONE_Q30, test_random_range(r, 0, 1) ? &g : NULL);
+        body_predict(body, &states[i], CAROM_ONE_Q30, test_random_range(r, 0, 3) == 0 ? &g : NULL);
         body->region.room_q22 = 0;
     }
     place_at(r, t_q30);
@@ -413,8 +414,23 @@ static void random_motion(struct test_random *r)
         body_predict(&bodies[i], &states[i], CAROM_ONE_Q30, NULL);
         bodies[i].path.g = g;
         body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30,
-                          (int32_t)test_random_range(r, 64, bodies[i].skin_q22 * 20));
+                          (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
     }
+    return t_q30;
+}
+
+/* A sheet of many small leaves as body a, which moves as a box of its size does. */
+static void make_sheet(void)
+{
+    static struct shape box;
+    struct body *body = &bodies[0];
+
+    shape_box(&box, 12, FIELD * 256, FIELD * 256, 512);
+    shape_body(&box, true, body, &states[0]);
+    shape_field(&shape_a, 12, FIELD, 256, 200, 9);
+    body->mesh = &shape_a.mesh;
+    body->radius_q22 = shape_a.mesh.radius_q22;
+    solid_note_owned(&a);
 }
 
 /*
@@ -427,19 +443,22 @@ static void check_motion(uint64_t seed)
     double cone = real(INTERFERE_CONE_Q30, 30) - ANGLE_NOISE;
     uint32_t vertices = 0, edges = 0, handed = 0;
 
-    for (int which = 0; which < 3; which++) {
-        make(which);
+    for (int which = 0; which < 4; which++) {
+        make(which % 3);
+        if (which == 3) {
+            make_sheet();
+        }
         shape_body(&shape_b, true, &bodies[1], &states[1]);
         reach_q22 = 5 * (int64_t)(bodies[0].skin_q22 > bodies[1].skin_q22 ? bodies[0].skin_q22
                                                                           : bodies[1].skin_q22);
         for (int n = 0; n < POSES / 3; n++) {
             struct collector to;
+            int32_t t_q30 = random_motion(&r);
 
-            random_motion(&r);
             CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
             handed += to.count;
             for (int k = 0; k <= 8; k++) {
-                place_at(&r, CAROM_ONE_Q30 / 8 * k);
+                place_at(&r, k == 0 ? t_q30 : CAROM_ONE_Q30 / 8 * k);
                 vertices += try_vertices(&a, CANDIDATE_VERTEX_FACE, cone);
                 vertices += try_vertices(&a, CANDIDATE_FACE_VERTEX, cone);
                 edges += try_edges(&a, cone);
