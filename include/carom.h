@@ -113,8 +113,11 @@ struct carom_face {
 struct carom_leaf {
     carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */
     int32_t radius_q22;
-    uint32_t first_face;   /* into leaf_faces */
-    uint32_t first_vertex; /* into leaf_vertices */
+    carom_v3_q30 axis;         /* the mean normal of its faces, and how far it reaches */
+    int32_t low_q22, high_q22; /* along that from the centre of mass */
+    uint32_t owned;            /* its vertices that are tested for one of its faces, a bit each */
+    uint32_t first_face;       /* into leaf_faces */
+    uint32_t first_vertex;     /* into leaf_vertices */
     uint8_t face_count, vertex_count;
 };
 
@@ -150,7 +153,7 @@ struct carom_mesh {
  * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
  */
 #define CAROM_MESH_BYTES(vertices, faces)                                                          \
-    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)143 * (size_t)(faces) + 7) / 8 * 8)
+    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)146 * (size_t)(faces) + 7) / 8 * 8)
 
 /*
  * Whether a raw mesh can be built: what carom_mesh_build would return.
@@ -207,7 +210,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1072
+#define CAROM_BODY_BYTES        1280
 #define CAROM_PAIR_BYTES        88
 #define CAROM_CONTACT_BYTES     832
 #define CAROM_FACE_BYTES        4

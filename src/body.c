@@ -360,32 +360,6 @@ carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p)
     return out;
 }
 
-int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_t tau_q30,
-                        const carom_v3_q40 *gravity, int32_t *turn_q30)
-{
-    carom_v3_q40 v, w;
-    carom_m3_q30 r;
-    int64_t way_q40, turn_q40;
-
-    *turn_q30 = 0;
-    if (!b->moving || s->asleep || s->out) {
-        return 0;
-    }
-    body_matrix(&r, &s->rotation);
-    body_velocity(b, s, &v);
-    body_spin(b, s, &r, &w);
-    turn_q40 = fix_mul(fix_length(w.c), tau_q30, 30);
-    /* however often it turns, a point stays within a diameter of where it was */
-    way_q40 = fix_mul(turn_q40 < (int64_t)2 << 40 ? turn_q40 : (int64_t)2 << 40, b->radius_q22, 22);
-    way_q40 += fix_mul(fix_length(v.c), tau_q30, 30);
-    if (gravity) {
-        way_q40 += fix_length(gravity->c) >> 1;
-    }
-    *turn_q30 = turn_q40 >> 10 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)(turn_q40 >> 10) + 1;
-    way_q40 = (way_q40 >> 18) + 1;
-    return way_q40 > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)way_q40;
-}
-
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
 {
     const struct body_path *path = &b->path;

@@ -51,6 +51,27 @@ struct body_path {
     struct body_pose start, now; /* now: at the t last asked for */
 };
 
+/*
+ * What candidates were gathered for: the motion along a path, and all motions that stay near it.
+ * Every point of the body must be within `room` of where it is on that path at the same time.
+ */
+struct body_region {
+    carom_v3_q32 at; /* the pose at its start */
+    carom_m3_q30 r;
+    carom_v3_q40 way, bend; /* of the centre over its time: way t + bend t^2 */
+    carom_v3_q40 end;       /* the centre at its end, relative to `at` */
+    carom_m3_q30 end_r;
+    carom_v3_q30 turn;  /* 2 u of the path, in world axes */
+    int32_t u_q30;      /* |u|, rounded up */
+    int32_t length_q22; /* of the centre's way, rounded up */
+    int32_t bend_q22;   /* |bend|, rounded up */
+    int32_t time_q30;   /* of a frame */
+    int32_t room_q22;
+    /* used up */
+    int32_t elapsed_q30;
+    int64_t turned_off_q30; /* angle between the body and the path, at most */
+};
+
 struct body {
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
@@ -66,12 +87,10 @@ struct body {
     /* scratch of a step */
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
-    int32_t reach_q22; /* how far any point may move before candidates must be gathered again */
-    int32_t turn_q30;  /* and how far the body may turn, radians */
-    int64_t moved_q22, turned_q30; /* how much of that is used up */
     struct body_path path;
-    carom_v3_q32 gathered_at; /* the pose that candidates were gathered for */
-    carom_m3_q30 gathered_r;
+    struct body_region region;
+    int32_t reach_q22;               /* how far any point may go in the region */
+    int32_t turn_q30;                /* and how far the body may turn, radians */
     int64_t box_q22[2][3];           /* in world axes around it, grown by the reach */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
     uint16_t contacts;               /* where the island's contacts are listed */
@@ -141,10 +160,14 @@ carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p);
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
 
 /*
- * Bounds of the motion over the rest of a frame: how far the centre and the farthest point may go,
- * and how far the body may turn. Rounded up.
+ * Make the region that of the path, which takes time_q30 of a frame: reach_q22 and turn_q30 as well.
+ * What else a body does on the way must stay within room_q22 of it.
  */
-int32_t body_travel_q22(const struct body *b, const struct body_state *s, int32_t tau_q30,
-                        const carom_v3_q40 *gravity, int32_t *turn_q30);
+void body_region_begin(struct body *b, const struct body_state *s, int32_t time_q30,
+                       int32_t room_q22);
+/* Whether the present path, which takes time_q30, stays within the region. */
+bool body_region_holds(const struct body *b, int32_t time_q30);
+/* Go on by t of the present path. */
+void body_region_advance(struct body *b, int32_t t_q30, int32_t time_q30);
 
 #endif

@@ -1,254 +1,302 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which faces of two bodies are near each other: leaves, scan conversion, and the merge of lists.
+ * Which faces of two bodies are near each other on their way: leaves of a, swept, against b's
+ * z-lists.
+ *
+ * A point of a that meets a point of b at some t of the path started at x0, seen from b, and is then
+ * within `near` of x0 + t shift. So for any vector k, k.(x0 - y0) is within |k| near of -t k.shift,
+ * y0 being where b's point is in b's axes, always. All that is dropped here is dropped by that.
  */
 #include "interfere_narrow.h"
 
-/* ------------------------------------------------------------------- lists */
+/* Contacts are looked for within five skins. */
+#define MARGIN_SKINS 5
+/* What is cut off by carrying points into b's frame, q20. */
+#define PLACE_NOISE_Q20 8
 
-static void forget(struct interfere *w)
-{
-    for (uint32_t i = 0; i < INTERFERE_SEEN; i++) {
-        w->seen[i].leaf_faces = 0;
-    }
-}
-
-/* Whether a pair comes up for the first time, as far as is remembered. */
-static bool is_new(struct interfere *w, uint16_t leaf_face, uint16_t face_b)
-{
-    struct interfere_seen *seen = &w->seen[face_b % INTERFERE_SEEN];
-    uint16_t bit = (uint16_t)(1u << leaf_face);
-
-    if (seen->face_b != face_b) {
-        seen->face_b = face_b;
-        seen->leaf_faces = 0;
-    }
-    if (seen->leaf_faces & bit) {
-        return false;
-    }
-    seen->leaf_faces |= bit;
-    return true;
-}
-
-/* Merge the two z-lists of one cell: both run from the highest z1 down. */
-static void merge_cell(struct interfere *w, uint32_t cell)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    const struct carom_zref *first = &mb->zrefs[mb->cell_start[cell]];
-    const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
-
-    for (uint32_t e = w->lists.head[cell]; e != ZLIST_NONE; e = w->lists.entry[e].next) {
-        const struct zentry *entry = &w->lists.entry[e];
-
-        for (const struct carom_zref *r = first; r < end && r->z1 >= entry->z0; r++) {
-            if (r->z0 <= entry->z1 && is_new(w, entry->face, r->face)) {
-                interfere_narrow(w, entry->face, r->face);
-            }
-        }
-    }
-    w->lists.head[cell] = ZLIST_NONE;
-}
-
-static void merge_lists(struct interfere *w)
-{
-    for (int32_t row = w->cells[0][1]; row <= w->cells[1][1]; row++) {
-        for (int32_t col = w->cells[0][0]; col <= w->cells[1][0]; col++) {
-            merge_cell(w, (uint32_t)(row * w->b->mesh->grid_nx + col));
-        }
-    }
-    pool_clear(w->lists.pool);
-    w->cells[0][0] = w->cells[0][1] = INT32_MAX;
-    w->cells[1][0] = w->cells[1][1] = -1;
-}
-
-/* Enter a face in one cell; `lowest` is the least z of the grown face. */
-static void enter_cell(struct interfere *w, const struct zface *f, const struct scan_grid *grid,
-                       int32_t col, int32_t row, int32_t lowest, uint16_t face)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    uint32_t cell = (uint32_t)(row * grid->nx + col);
-    const struct carom_zref *top = &mb->zrefs[mb->cell_start[cell]];
-    int16_t z0, z1;
-
-    /* above all of b in this cell: by the whole face first, which costs nothing */
-    if (mb->cell_start[cell] == mb->cell_start[cell + 1] || top->z1 < lowest) {
-        return;
-    }
-    zface_interval(f, grid, col, row, &z0, &z1);
-    if (top->z1 < z0) {
-        return;
-    }
-    if (!zlist_enter(&w->lists, cell, z0, z1, face)) {
-        merge_lists(w); /* a chunk */
-        zlist_enter(&w->lists, cell, z0, z1, face);
-    }
-    w->cells[0][0] = col < w->cells[0][0] ? col : w->cells[0][0];
-    w->cells[1][0] = col > w->cells[1][0] ? col : w->cells[1][0];
-    w->cells[0][1] = row < w->cells[0][1] ? row : w->cells[0][1];
-    w->cells[1][1] = row > w->cells[1][1] ? row : w->cells[1][1];
-}
-
-/* Carry the faces of a leaf into b's frame. */
-static void place_leaf(struct interfere *w)
-{
-    const struct carom_mesh *ma = w->a->mesh;
-    const struct carom_leaf *leaf = w->leaf;
-    carom_v3_q22 vertices[CAROM_LEAF_VERTICES];
-
-    for (uint32_t i = 0; i < leaf->vertex_count; i++) {
-        carom_v3_q22 v = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
-
-        carom_rotate(v.c, &w->to_b, v.c);
-        for (int k = 0; k < 3; k++) {
-            vertices[i].c[k] = v.c[k] + w->offset_q22[k];
-        }
-    }
-    for (uint32_t i = 0; i < leaf->face_count; i++) {
-        const uint8_t *corner = ma->leaf_corners[leaf->first_face + i];
-        struct interfere_face *f = &w->leaf_faces[i];
-
-        f->number = ma->leaf_faces[leaf->first_face + i];
-        f->face = &ma->faces[f->number];
-        f->low = f->high = vertices[corner[0]];
-        for (int n = 0; n < 3; n++) {
-            f->p[n] = vertices[corner[n]];
-            for (int k = 0; k < 3; k++) {
-                f->low.c[k] = f->p[n].c[k] < f->low.c[k] ? f->p[n].c[k] : f->low.c[k];
-                f->high.c[k] = f->p[n].c[k] > f->high.c[k] ? f->p[n].c[k] : f->high.c[k];
-            }
-        }
-        for (int k = 0; k < 3; k++) {
-            f->low.c[k] -= w->reach_q22;
-            f->high.c[k] += w->reach_q22;
-        }
-    }
-}
-
-/*
- * Scan-convert one of the leaf's faces onto b's cells, with the reach and the rounding in `grow`.
- */
-static void scan_face(struct interfere *w, const struct scan_grid *grid, uint16_t leaf_face)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    const struct interfere_face *lf = &w->leaf_faces[leaf_face];
-    int shift = 22 - mb->raw.quantum_bits;
-    int32_t lowest = INT32_MAX, xy[3][2];
-    struct zface f;
-    struct scan_cells cells;
-    struct scan_run run;
-
-    f.grow = (w->reach_q22 >> shift) + 2;
-    for (int n = 0; n < 3; n++) {
-        for (int k = 0; k < 3; k++) {
-            f.p[n][k] = (lf->p[n].c[k] + mb->mass.centre.c[k]) >> shift;
-        }
-        xy[n][0] = f.p[n][0];
-        xy[n][1] = f.p[n][1];
-        lowest = f.p[n][2] - f.grow < lowest ? f.p[n][2] - f.grow : lowest;
-    }
-    if (lowest > w->leaf_top) {
-        return;
-    }
-    scan_cells_begin(&cells, grid, (const int32_t(*)[2])xy, 3, f.grow);
-    while (scan_cells_next(&cells, &run)) {
-        for (int32_t col = run.x0; col < run.x1; col++) {
-            enter_cell(w, &f, grid, col, run.y, lowest, leaf_face);
-        }
-    }
-}
-
-static void scan_leaf(struct interfere *w)
-{
-    struct scan_grid grid = mesh_grid(w->b->mesh);
-
-    place_leaf(w);
-    for (uint16_t i = 0; i < w->leaf->face_count; i++) {
-        scan_face(w, &grid, i);
-    }
-    merge_lists(w);
-}
+/* ------------------------------------------------------------------- leaves */
 
 /* Cell of a coordinate in quanta along one axis of a grid, clamped to it. */
-static int32_t clamp_cell(int64_t x, int32_t x0, int shift, int32_t n)
+static int32_t clamp_cell(int32_t x, int32_t x0, int shift, int32_t n)
 {
-    int64_t cell = (x - x0) >> shift;
+    int32_t cell = (x - x0) >> shift;
 
-    return cell < 0 ? 0 : cell >= n ? n - 1 : (int32_t)cell;
+    return cell < 0 ? 0 : cell >= n ? n - 1 : cell;
 }
 
-/* The highest z of b in the cells under a square, quanta. */
-static int32_t highest_under(const struct carom_mesh *mb, const int64_t low[3],
-                             const int64_t high[3])
+/* The cells under a box of quanta. */
+struct cells {
+    int32_t col[2], row[2];
+};
+
+static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3],
+                                const int32_t high[3])
 {
-    struct scan_grid grid = mesh_grid(mb);
-    int32_t col0 = clamp_cell(low[0], grid.x0, grid.shift, grid.nx);
-    int32_t col1 = clamp_cell(high[0], grid.x0, grid.shift, grid.nx);
-    int32_t row0 = clamp_cell(low[1], grid.y0, grid.shift, grid.ny);
-    int32_t row1 = clamp_cell(high[1], grid.y0, grid.shift, grid.ny);
+    int shift = mb->grid_shift;
+
+    return (struct cells){
+        {clamp_cell(low[0], mb->grid_x0, shift, mb->grid_nx),
+         clamp_cell(high[0], mb->grid_x0, shift, mb->grid_nx)},
+        {clamp_cell(low[1], mb->grid_y0, shift, mb->grid_ny),
+         clamp_cell(high[1], mb->grid_y0, shift, mb->grid_ny)},
+    };
+}
+
+/* The highest z of b in the cells under a box, quanta. */
+static int32_t highest_under(const struct carom_mesh *mb, const int32_t low[3],
+                             const int32_t high[3])
+{
+    struct cells cells = cells_under(mb, low, high);
     int32_t top = INT16_MIN;
 
-    for (int32_t row = row0; row <= row1; row++) {
-        for (int32_t col = col0; col <= col1; col++) {
-            uint32_t first = mb->cell_start[row * grid.nx + col];
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
+        const uint32_t *start = &mb->cell_start[row * mb->grid_nx];
 
-            if (first < mb->cell_start[row * grid.nx + col + 1] && mb->zrefs[first].z1 > top) {
-                top = mb->zrefs[first].z1;
+        for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
+            if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
+                top = mb->zrefs[start[col]].z1;
             }
         }
     }
     return top;
 }
 
+/* From b's frame to b's quanta along an axis. */
+static int32_t to_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
+{
+    return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
+}
+
 /*
- * Whether the sphere around a leaf, grown by the reach, meets the box of b and what lies under it.
+ * Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it.
  */
 static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
+    static const int order[3] = {2, 0, 1}; /* most end above b */
     const struct carom_mesh *mb = w->b->mesh;
-    int shift = 22 - mb->raw.quantum_bits;
-    int64_t radius = (int64_t)leaf->radius_q22 + w->reach_q22 + 4;
-    int64_t low[3], high[3];
-    carom_v3_q22 c;
+    struct interfere_leaf *l = &w->leaf;
+    int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30, 30);
+    int32_t radius, low[3], high[3];
 
-    carom_rotate(c.c, &w->to_b, leaf->centre.c);
-    for (int k = 0; k < 3; k++) {
-        int64_t x = (int64_t)c.c[k] + w->offset_q22[k] + mb->mass.centre.c[k];
+    l->leaf = leaf;
+    l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
+    radius = (leaf->radius_q22 >> 2) + 1 + l->near_q20;
+    for (int i = 0; i < 3; i++) {
+        int k = order[i];
+        int32_t x = interfere_dot(w->to_b.c[k], leaf->centre.c) + w->at.c[k];
+        int32_t shift = interfere_dot(w->change.c[k], leaf->centre.c) + w->moves.c[k];
 
-        low[k] = (x - radius) >> shift;
-        high[k] = (x + radius) >> shift;
+        l->shift.c[k] = shift;
+        low[k] = to_quanta(mb, x - radius + (shift < 0 ? shift : 0), k);
+        high[k] = to_quanta(mb, x + radius + (shift > 0 ? shift : 0), k) + 1;
         if (high[k] < mb->box[0][k] || low[k] > mb->box[1][k]) {
             return false;
         }
     }
-    w->leaf_top = highest_under(mb, low, high);
-    return low[2] <= w->leaf_top;
+    l->top = highest_under(mb, low, high);
+    return low[2] <= l->top;
+}
+
+/* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
+static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct interfere_leaf *l = &w->leaf;
+    const int32_t *row = w->to_b.c[k];
+    int32_t shift = l->shift.c[k], low = INT32_MAX, high = INT32_MIN;
+
+    for (uint32_t i = 0; i < l->leaf->vertex_count; i++) {
+        int32_t x = interfere_dot(row, local[i].c) + w->at.c[k];
+
+        l->p[i].c[k] = x;
+        low = x < low ? x : low;
+        high = x > high ? x : high;
+    }
+    l->low.c[k] = low;
+    l->high.c[k] = high;
+    low += (shift < 0 ? shift : 0) - l->near_q20;
+    high += (shift > 0 ? shift : 0) + l->near_q20;
+    l->swept_low.c[k] = low;
+    l->swept_high.c[k] = high;
+    l->quanta_low[k] = to_quanta(mb, low, k);
+    l->quanta_high[k] = to_quanta(mb, high, k) + 1;
+}
+
+/* False when the leaf's vertices are above all of b under it. */
+static bool place_leaf(struct interfere *w)
+{
+    const struct carom_mesh *ma = w->a->mesh;
+    const struct carom_leaf *leaf = w->leaf.leaf;
+    carom_v3_q22 local[CAROM_LEAF_VERTICES];
+
+    for (uint32_t i = 0; i < leaf->vertex_count; i++) {
+        local[i] = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
+    }
+    place_axis(w, local, 2);
+    if (w->leaf.quanta_low[2] > w->leaf.top) {
+        return false;
+    }
+    place_axis(w, local, 0);
+    place_axis(w, local, 1);
+    return true;
+}
+
+/* Where the slab of the leaf is. */
+static void place_slab(struct interfere *w)
+{
+    struct interfere_leaf *l = &w->leaf;
+    int32_t at, away, near = (l->near_q20 >> 2) + 4;
+
+    carom_rotate(l->axis, &w->to_b, l->leaf->axis.c);
+    at = interfere_dot(l->axis, w->at.c);
+    away = interfere_dot(l->axis, l->shift.c);
+    l->slab_low = at + (l->leaf->low_q22 >> 4) + (away < 0 ? away : 0) - near;
+    l->slab_high = at + (l->leaf->high_q22 >> 4) + (away > 0 ? away : 0) + near;
+}
+
+/* Whether a face of b meets the box of the swept leaf. */
+static bool face_near(const struct interfere *w, uint16_t face)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = &w->leaf;
+    const uint16_t *corner = mb->raw.faces[face];
+    const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
+                  *r = mb->raw.vertices[corner[2]];
+
+    for (int k = 2; k >= 0; k--) {
+        int32_t low = l->quanta_low[k], high = l->quanta_high[k];
+
+        if ((p[k] < low && q[k] < low && r[k] < low) ||
+            (p[k] > high && q[k] > high && r[k] > high)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Whether a face comes up for the first time, as far as is remembered. */
+static bool is_new(struct interfere *w, uint16_t face)
+{
+    uint16_t *seen = &w->seen[face % INTERFERE_SEEN];
+
+    if (*seen == face) {
+        return false;
+    }
+    *seen = face;
+    return true;
+}
+
+/* The faces of b in one cell, from the highest z1 down to the leaf. */
+static void visit_cell(struct interfere *w, uint32_t cell)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    int32_t low = w->leaf.quanta_low[2], high = w->leaf.quanta_high[2];
+    const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
+    const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
+
+    for (; r < end && r->z1 >= low; r++) {
+        if (r->z0 <= high && is_new(w, r->face) && face_near(w, r->face)) {
+            interfere_narrow(w, r->face);
+        }
+    }
+}
+
+static void visit_leaf(struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct cells cells;
+
+    if (!place_leaf(w)) {
+        return;
+    }
+    place_slab(w);
+    w->leaf.busy = 0;
+    w->leaf.listed = false;
+    memset(w->seen, 0xff, sizeof w->seen); /* CAROM_NO_FACE */
+    cells = cells_under(mb, w->leaf.quanta_low, w->leaf.quanta_high);
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
+        for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
+            visit_cell(w, (uint32_t)(row * mb->grid_nx + col));
+        }
+    }
+    for (uint32_t i = 0; w->leaf.busy >> i != 0; i++) {
+        if (w->leaf.busy >> i & 1) {
+            interfere_add_face(w, w->body_a, w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i]);
+        }
+    }
 }
 
 /* -------------------------------------------------------------------- pair */
 
-/* a's axes and centre in b's mesh frame; false when the bodies are too far apart to matter. */
-static bool relate(struct interfere *w)
+/* R_b^T R_a */
+static void relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
 {
-    int64_t d[3];
-
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            int64_t sum = 0;
-
-            for (int k = 0; k < 3; k++) {
-                sum += (int64_t)w->b->gathered_r.c[k][i] * w->a->gathered_r.c[k][j];
-            }
-            w->to_b.c[i][j] = (int32_t)carom_round(sum, 30);
+            out->c[i][j] = (int32_t)carom_round((int64_t)b->c[0][i] * a->c[0][j] +
+                                                    (int64_t)b->c[1][i] * a->c[1][j] +
+                                                    (int64_t)b->c[2][i] * a->c[2][j],
+                                                30);
         }
-        d[i] = carom_round(w->a->gathered_at.c[i] - w->b->gathered_at.c[i], 10);
     }
-    fix_rotate_back(d, &w->b->gathered_r, d);
+}
+
+/*
+ * How far a point may be off the straight way from its start to its end, as seen from b: an eighth
+ * of the second derivative. A turn with the Cayley vector u moves a point at r by at most 2 |u| r,
+ * and that by at most 4 |u|^2 (1 + |u|) r; in axes that turn so themselves there is twice the turn
+ * times the way on top.
+ */
+static int64_t sag_q22(const struct interfere *w, int64_t distance_q22)
+{
+    const struct body_region *a = &w->a->region, *b = &w->b->region;
+    int64_t bend = 2 * ((int64_t)a->bend_q22 + b->bend_q22);
+    int64_t way = (int64_t)a->length_q22 + b->length_q22;
+    int32_t twice_q30 = 2 * a->u_q30;
+
+    way += fix_mul(w->a->radius_q22, twice_q30, 30);
+    bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->u_q30, 30);
+    if (b->u_q30 > 0) {
+        twice_q30 = 2 * b->u_q30;
+        bend += 2 * fix_mul(way, twice_q30, 30);
+        bend += fix_mul(fix_mul(distance_q22 + w->a->radius_q22 + way, twice_q30, 30),
+                        twice_q30 + b->u_q30, 30);
+    }
+    return bend / 8 + 2;
+}
+
+/* Where a is as seen from b, and how it moves; false when they are too far apart to matter. */
+static bool set_motion(struct interfere *w)
+{
+    const struct body_region *a = &w->a->region, *b = &w->b->region;
+    const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
+    int64_t start[3], end[3], distance = 0;
+
     for (int k = 0; k < 3; k++) {
-        if (carom_abs(d[k]) > (int64_t)400 << 22) {
+        start[k] = a->at.c[k] - b->at.c[k];
+        end[k] = start[k] + ((a->end.c[k] - b->end.c[k]) >> 8);
+    }
+    fix_rotate_back(start, &b->r, start);
+    fix_rotate_back(end, &b->end_r, end);
+    for (int k = 0; k < 3; k++) {
+        if (carom_abs(start[k]) > (int64_t)400 << 32) {
             return false;
         }
-        w->offset_q22[k] = (int32_t)d[k];
+        w->at.c[k] = (int32_t)(start[k] >> 12);
+        w->moves.c[k] = (int32_t)(end[k] >> 12) - w->at.c[k];
+        distance += carom_abs(start[k]) >> 10;
     }
+    relate(&w->to_b, &b->r, &a->r);
+    memset(&w->change, 0, sizeof w->change);
+    if (a->u_q30 > 0 || b->u_q30 > 0) {
+        relate(&w->change, &b->end_r, &a->end_r);
+        for (int i = 0; i < 9; i++) {
+            w->change.c[i / 3][i % 3] -= w->to_b.c[i / 3][i % 3];
+        }
+    }
+    w->angle_q30 = 2 * (a->u_q30 + b->u_q30);
+    w->near_q22 =
+        MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 + sag_q22(w, distance);
     return true;
 }
 
@@ -256,32 +304,27 @@ static bool relate(struct interfere *w)
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
  * the fastest bodies do not.
  */
-static bool in_range(const struct interfere *w, int64_t reach_q22)
+static bool in_range(const struct body *a, const struct body *b)
 {
-    return 2 * (w->b->radius_q22 + w->a->radius_q22 + reach_q22) < INT32_MAX;
+    return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
 static void gather_pair(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
-    int64_t reach_q22, turn_q30;
+    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + w->a->turn_q30 + w->b->turn_q30;
 
-    if (!relate(w)) {
+    if (!set_motion(w)) {
         return;
     }
-    reach_q22 = (int64_t)w->a->reach_q22 + w->b->reach_q22;
-    turn_q30 = (int64_t)w->a->turn_q30 + w->b->turn_q30;
-    if (!in_range(w, reach_q22)) {
+    if (!in_range(w->a, w->b)) {
         w->error = CAROM_ERR_RANGE;
         return;
     }
-    w->reach_q22 = (int32_t)reach_q22;
-    w->turn_q30 = turn_q30 < INT32_MAX / 2 ? (int32_t)turn_q30 : INT32_MAX / 2;
+    w->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {
-            w->leaf = &ma->leaves[i];
-            forget(w);
-            scan_leaf(w);
+            visit_leaf(w);
         }
     }
 }
@@ -300,9 +343,6 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
         w->visitor = visitor;
         w->gathers++;
         pool_clear(w->candidate_pool);
-        zlist_clear(&w->lists);
-        w->cells[0][0] = w->cells[0][1] = INT32_MAX;
-        w->cells[1][0] = w->cells[1][1] = -1;
         for (uint32_t i = 0; i < pair_count && !w->error; i++) {
             w->pair = (uint16_t)i;
             w->body_a = pairs[i].a;

@@ -2,12 +2,13 @@
 /*
  * interfere - from pairs of bodies to interfering faces and candidates for the collision test.
  *
- * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready:
- * the faces of a that survive a sphere test are carried into that frame, grown by the motion of
- * both bodies, scan-converted onto b's cells, and the two lists of a cell are merged by z. Face
- * pairs whose intervals overlap are narrowed to the vertex/face and edge/edge pairs that can touch.
+ * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready. The
+ * leaves of a that survive a sphere test are carried into that frame and swept along their way; the
+ * z-lists of the cells under a swept leaf name the faces of b near it. What lies apart by planes is
+ * dropped, a bit for each vertex; the rest is narrowed to the vertex/face and edge/edge pairs that
+ * can touch.
  *
- * The result is conservative for every motion that stays within the bodies' reach: it may hold
+ * The result is conservative for every motion that stays within the bodies' regions: it may hold
  * pairs that do not touch and lacks none that do. So how it is cut into chunks, which duplicates
  * survive and what is culled early change the cost of a step, never its outcome.
  */
@@ -36,55 +37,67 @@ struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
 };
 
-/*
- * Which of the leaf's faces a face of b has come up with lately, a bit each: a pair shares many
- * cells. A slot that is taken by another face of b forgets, which is only work done twice.
- */
-#define INTERFERE_SEEN 256
-struct interfere_seen {
-    uint16_t face_b, leaf_faces;
-};
-
 /* Cosine tolerance of the normal cones in the collision test, 0.02. */
 #define INTERFERE_CONE_Q30 21474836
 
-/* A face in b's mesh frame, about b's centre of mass. */
-struct interfere_face {
-    uint16_t number;
-    const struct carom_face *face;
-    carom_v3_q22 p[3];
-    carom_v3_q30 normal;
-    carom_v3_q22 low, high; /* of its corners */
+/*
+ * Faces of b that a leaf has come up with lately: a face lies in several cells. One that takes the
+ * slot of another makes it forgotten, which is only work done twice.
+ */
+#define INTERFERE_SEEN 64
+
+/* A point or direction in b's mesh axes, from b's centre of mass. */
+struct interfere_vec {
+    int32_t c[3];
+};
+
+/* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are
+ * q20. */
+struct interfere_leaf {
+    const struct carom_leaf *leaf;
+    struct interfere_vec shift;
+    int32_t near_q20;                            /* the tolerance */
+    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices at the start */
+    struct interfere_vec low, high;              /* of the vertices */
+    struct interfere_vec swept_low, swept_high;  /* of their ways, grown by the tolerance */
+    int32_t quanta_low[3], quanta_high[3];       /* the same in b's quanta, from its origin */
+    int32_t axis[3];                             /* of its slab */
+    int32_t slab_low, slab_high;                 /* along that, swept and grown, q18 */
+    bool listed;
+    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, a bit each; once listed */
+    uint32_t busy;                      /* faces with candidates */
+    int32_t top;                        /* highest z of b in the cells under it */
 };
 
 struct interfere {
-    struct zlist lists;
     struct candidate *candidates;
     struct pool *candidate_pool;
     struct carom_face_ref *faces;
     struct pool *face_pool;
+    struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     int error;
     struct candidate_visitor *visitor;
 
-    /* the pair and leaf being worked on */
+    /* the pair being worked on */
     const struct body *a, *b;
     uint16_t pair, body_a, body_b;
-    carom_m3_q30 to_b;     /* rotation from a's mesh axes to b's */
-    int32_t offset_q22[3]; /* a's centre of mass in b's mesh frame, about b's centre of mass */
-    int32_t reach_q22, turn_q30;
-    const struct carom_leaf *leaf;
-    int32_t leaf_top;    /* highest z of b in the cells under the leaf, quanta */
-    int32_t cells[2][2]; /* columns and rows that hold entries: first and last */
-    struct interfere_face leaf_faces[CAROM_LEAF_FACES]; /* grown by the reach: low and high too */
-    struct interfere_seen seen[INTERFERE_SEEN];
+    carom_m3_q30 to_b;       /* rotation from a's mesh axes to b's at the start */
+    struct interfere_vec at; /* a's centre of mass in b's mesh frame then */
+    carom_m3_q30 change;     /* what is added to them until the end */
+    struct interfere_vec moves;
+    int64_t near_q22;  /* how far points may be off the straight way between both */
+    int32_t angle_q30; /* how far one body turns as seen from the other */
+    int32_t cone_q30;  /* cosine tolerance of normal cones */
+    struct interfere_leaf leaf;
+    uint16_t seen[INTERFERE_SEEN];
 };
 
 /*
  * Forget the candidates. Called at the start of a frame and whenever a body has used up its reach,
- * after reach, turn and the pose to gather for have been set in every body.
+ * after the region has been set in every body.
  */
 void interfere_begin(struct interfere *w);
 

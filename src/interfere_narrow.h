@@ -4,10 +4,19 @@
 
 #include "interfere.h"
 
+/* The upper word of a.b: q20 from a direction and a length of q22, q18 from one of q20. */
+static inline int32_t interfere_dot(const int32_t a[3], const int32_t b[3])
+{
+    return (int32_t)(carom_dot(a, b) >> 32);
+}
+
 /*
- * A face of the leaf at hand and a face of b whose intervals overlap in some cell: emit the
- * vertex/face and edge/edge pairs that can touch; if there are any, both faces interfere.
+ * The leaf at hand and a face of b that it may come near: emit the vertex/face and edge/edge pairs
+ * that can touch; the faces of any interfere.
  */
-void interfere_narrow(struct interfere *w, uint16_t leaf_face, uint16_t face_b);
+void interfere_narrow(struct interfere *w, uint16_t face_b);
+
+/* Note an interfering face; an error is left in w. */
+void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face);
 
 #endif

@@ -121,6 +121,35 @@ static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf,
     }
 }
 
+/* The slab in which a leaf lies, and its vertices that belong to its faces. */
+static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf,
+                     const struct leaf_builder *l)
+{
+    const uint16_t *vertices = &l->vertices[leaf->first_vertex];
+    int64_t sum[3] = {0, 0, 0};
+
+    for (uint32_t i = leaf->first_face; i < leaf->first_face + leaf->face_count; i++) {
+        const struct carom_face *face = &mesh->faces[l->faces[i]];
+
+        for (int k = 0; k < 3; k++) {
+            sum[k] += face->normal.c[k];
+            leaf->owned |= face->own & 1 << k ? 1u << l->corners[i][k] : 0;
+        }
+    }
+    if (!fix_normalise(&leaf->axis, sum)) {
+        leaf->axis = (carom_v3_q30){{0, 0, CAROM_ONE_Q30}};
+    }
+    leaf->low_q22 = INT32_MAX;
+    leaf->high_q22 = INT32_MIN;
+    for (int i = 0; i < leaf->vertex_count; i++) {
+        carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
+        int32_t height = (int32_t)carom_round(carom_dot(leaf->axis.c, p.c), 30);
+
+        leaf->low_q22 = height < leaf->low_q22 ? height : leaf->low_q22;
+        leaf->high_q22 = height > leaf->high_q22 ? height : leaf->high_q22;
+    }
+}
+
 /* Make leaves of n <= 16 neighbouring faces: one, or two where there are too many vertices for one,
  * since any ten faces fit. */
 static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
@@ -135,6 +164,7 @@ static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, ui
             i++;
         }
         bound_leaf(mesh, leaf, &l->vertices[leaf->first_vertex]);
+        set_slab(mesh, leaf, l);
         l->face_count += leaf->face_count;
         l->vertex_count += leaf->vertex_count;
     }

@@ -30,18 +30,6 @@ static int check(struct step *s)
     return step_visit(s, &v, visit_contacts);
 }
 
-/* Pairs have new numbers after they were gathered again; this one is still there. */
-static uint16_t pair_number(const struct carom_world *w, const struct pair *p)
-{
-    uint16_t n = 0;
-
-    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
-        n++;
-        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
-    }
-    return n;
-}
-
 /*
  * The contacts at the present poses, among them the hit that led here, if one did. What sleeps and
  * is touched wakes: then there are more bodies to gather for, and maybe more contacts.
@@ -76,7 +64,7 @@ static int gather_contacts(struct step *s, bool at_hit)
             return result;
         }
         if (at_hit) {
-            s->hit.candidate.pair = pair_number(w, &p);
+            s->hit.candidate.pair = step_pair_number(w, &p);
         }
     }
 }

@@ -70,39 +70,36 @@ static void predict_all(struct step *s, int32_t tau_q30)
     }
 }
 
-/* The region that the rest of the frame's motion stays in, before and after any impact. */
-static void set_reach(struct step *s)
+/*
+ * Candidates are gathered for the paths at hand, and for what differs from them by no more than some
+ * skins, the fall of a frame (whether contacts will take it up is not known yet) and a part of the
+ * way. A hit that turns a body aside by more asks for others.
+ */
+static void set_regions(struct step *s, int32_t slice_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
-        int32_t turn_q30;
-        int64_t way_q22;
+        int64_t way_q22, turn_q30, room_q22 = 0;
 
-        b->moved_q22 = b->turned_q30 = 0;
-        b->reach_q22 = b->turn_q30 = 0;
         if (!b->mesh) {
             continue;
         }
-        way_q22 = body_travel_q22(b, &s->next->bodies[i], s->left_q30, &b->acceleration, &turn_q30);
         if (broad_active(b, &s->next->bodies[i])) {
-            /* a third more than it is going to move, and room for four margins of five skins */
-            b->reach_q22 = (int32_t)(way_q22 + way_q22 / 10 * 3 + 20 * (int64_t)b->skin_q22);
-            b->turn_q30 = turn_q30 / 10 * 13 + CAROM_ONE_Q30 / 100;
+            body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+            room_q22 = 10 * (int64_t)b->skin_q22 + (b->acceleration_q40 >> 18) + way_q22 / 16;
         }
-        b->gathered_at = s->next->bodies[i].position;
-        body_matrix(&b->gathered_r, &s->next->bodies[i].rotation);
+        body_region_begin(b, &s->next->bodies[i], slice_q30, (int32_t)room_q22);
     }
 }
 
-/* Pairs, interfering faces and candidates for the rest of the frame. */
-int step_gather(struct step *s)
+/* Pairs, interfering faces and candidates for the paths at hand, which take slice_q30 of a frame. */
+static int gather(struct step *s, int32_t slice_q30)
 {
     struct carom_world *w = s->w;
     struct step_visitor v;
     int result;
 
-    step_place_all(s);
-    set_reach(s);
+    set_regions(s, slice_q30);
     step_mark(w, CAROM_STAGE_PREDICT);
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
@@ -116,19 +113,32 @@ int step_gather(struct step *s)
     return result;
 }
 
+int step_gather(struct step *s)
+{
+    int32_t slice_q30 = step_slice(s);
+
+    predict_all(s, slice_q30);
+    return gather(s, slice_q30);
+}
+
+uint16_t step_pair_number(const struct carom_world *w, const struct pair *p)
+{
+    uint16_t n = 0;
+
+    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
+        n++;
+        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
+    }
+    return n;
+}
+
 /* Whether a body may leave the region on its path. */
-static bool leaves_region(const struct step *s)
+static bool leaves_region(const struct step *s, int32_t slice_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30;
 
-        if (!broad_active(b, &s->next->bodies[i])) {
-            continue;
-        }
-        body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-        if (b->moved_q22 + way_q22 + 10 * (int64_t)b->skin_q22 > b->reach_q22 ||
-            b->turned_q30 + turn_q30 > b->turn_q30) {
+        if (broad_active(b, &s->next->bodies[i]) && !body_region_holds(b, slice_q30)) {
             return true;
         }
     }
@@ -153,9 +163,8 @@ int step_predict(struct step *s, int32_t *slice_q30)
 
     *slice_q30 = step_slice(s);
     predict_all(s, *slice_q30);
-    if (leaves_region(s)) {
+    if (leaves_region(s, *slice_q30)) {
         result = step_gather(s);
-        predict_all(s, *slice_q30);
     }
     step_mark(s->w, CAROM_STAGE_PREDICT);
     return result;
@@ -201,14 +210,11 @@ void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30;
 
         if (!broad_active(b, &s->next->bodies[i])) {
             continue;
         }
-        body_path_length(b, t_q30, &way_q22, &turn_q30);
-        b->moved_q22 += way_q22;
-        b->turned_q30 += turn_q30;
+        body_region_advance(b, t_q30, slice_q30);
         body_advance(b, &s->next->bodies[i], t_q30, slice_q30,
                      b->in_contact ? NULL : &b->acceleration);
     }
@@ -331,10 +337,20 @@ static int refine(struct step *s, int32_t *slice, int32_t *t)
 
     for (int round = 0; round < REFINEMENTS; round++) {
         bool found;
-        int result;
+        int result = CAROM_OK;
 
         predict_all(s, slice_q30);
-        result = step_first_hit(s, &found);
+        if (leaves_region(s, slice_q30)) {
+            const struct pair p = s->w->pairs[s->hit.candidate.pair];
+
+            result = gather(s, slice_q30);
+            if (result == CAROM_OK) {
+                s->hit.candidate.pair = step_pair_number(s->w, &p);
+            }
+        }
+        if (result == CAROM_OK) {
+            result = step_first_hit(s, &found);
+        }
         if (result < 0) {
             return result;
         }

@@ -42,8 +42,11 @@ void step_mark(struct carom_world *w, enum carom_stage stage);
 /* Give every body a path of no motion at its present pose. */
 void step_place_all(struct step *s);
 
-/* Pairs, interfering faces and candidates for the rest of the frame. */
+/* Set the paths of a slice, and gather pairs, interfering faces and candidates for them. */
 int step_gather(struct step *s);
+
+/* Pairs have new numbers after they were gathered again; this one is still there. */
+uint16_t step_pair_number(const struct carom_world *w, const struct pair *p);
 
 /* The longest slice of what is left that every body's turn allows. */
 int32_t step_slice(const struct step *s);

@@ -186,7 +186,6 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
         b->unit_bits = fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
     }
-    body_matrix(&b->gathered_r, &state->rotation);
     body_place(b, state);
 }
 

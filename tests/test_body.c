@@ -387,15 +387,12 @@ static void test_still(void)
     for (int n = 0; n < 3; n++) {
         struct body_state before;
         int64_t way_q22, turn_q30;
-        int32_t turn;
 
         random_state(&r, 1, 0.3);
         body.moving = n != 0;
         state.asleep = n == 1;
         state.out = n == 2;
         before = state;
-        CHECK_EQ(body_travel_q22(&body, &state, CAROM_ONE_Q30, &g, &turn), 0);
-        CHECK_EQ(turn, 0);
         body_predict(&body, &state, CAROM_ONE_Q30, &g);
         body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
         CHECK(memcmp(&before, &state, sizeof before) == 0);
@@ -451,14 +448,13 @@ static void test_path_length(void)
     make_box();
     for (int n = 0; n < CASES; n++) {
         int64_t way_q22, turn_q30;
-        int32_t tau_q30, turn;
-        double start[8][3], way, most = 0;
+        int32_t tau_q30;
+        double start[8][3], most = 0;
         carom_v3_q40 g;
 
         random_state(&r, n % 3 ? 0.2 : 40, n % 2 ? 0.49 : 3);
         random_vector(&r, n % 5 ? 0.01 : 1, g.c, 40);
         tau_q30 = body_slice(&body, &state, (int32_t)test_random_range(&r, 1 << 20, CAROM_ONE_Q30));
-        way = real(body_travel_q22(&body, &state, tau_q30, &g, &turn), 22);
         body_predict(&body, &state, tau_q30, &g);
         for (uint32_t v = 0; v < 8; v++) {
             vertex_at(start[v], v, 0);
@@ -486,14 +482,7 @@ static void test_path_length(void)
                     real(t_q30, 30) <=
                 real(turn_q30, 30));
         }
-        /*
-         * The bound for the frame goes by the spin at its start; within half a radian no spin of a
-         * body grows by more than an eighth, which the factor 1.3 of the step has room for.
-         */
-        CHECK(most <= 1.125 * way);
-        CHECK(turn_q30 <= real_round(1.125 * turn));
         CHECK(real(way_q22, 22) >= most); /* and is no wild guess */
-        CHECK(way <= 1.3 * real(way_q22, 22) + 0.9);
     }
 }
 

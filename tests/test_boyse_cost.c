@@ -91,25 +91,19 @@ static void time_all(struct candidate_visitor *self, const struct candidate *c, 
     }
 }
 
-/* Test what interfere hands over for the frame to come, with the reach that a step asks for. */
+/* Test what interfere hands over for the frame to come. */
 static void time_frame(struct fall *fall, struct carom_world *world, const carom_v3_q40 *gravity)
 {
     static const struct pair pairs[1] = {{0, 1}};
     static const int numbers[2] = {SCENE_BODY, SCENE_GROUND};
-    struct body *a = &fall->bodies[0];
-    int32_t turn_q30, way_q22;
 
     for (int s = 0; s < 2; s++) {
         fall->bodies[s] = world->bodies[numbers[s]];
         fall->states[s] = world_now(world)->bodies[numbers[s]];
-        fall->bodies[s].gathered_at = fall->states[s].position;
-        body_matrix(&fall->bodies[s].gathered_r, &fall->states[s].rotation);
-        fall->bodies[s].reach_q22 = fall->bodies[s].turn_q30 = 0;
         body_predict(&fall->bodies[s], &fall->states[s], CAROM_ONE_Q30, gravity);
+        body_region_begin(&fall->bodies[s], &fall->states[s], CAROM_ONE_Q30,
+                          s == 0 ? 20 * fall->bodies[s].skin_q22 : 0);
     }
-    way_q22 = body_travel_q22(a, &fall->states[0], CAROM_ONE_Q30, gravity, &turn_q30);
-    a->reach_q22 = way_q22 + way_q22 / 10 * 3 + 20 * a->skin_q22;
-    a->turn_q30 = turn_q30 / 10 * 13 + CAROM_ONE_Q30 / 100;
     boyse_pair_init(&fall->pair, &fall->bodies[0], &fall->bodies[1]);
     interfere_begin(&world->interfere);
     CHECK_EQ(interfere_visit(&world->interfere, fall->bodies, pairs, 1, &fall->base), CAROM_OK);

@@ -118,9 +118,12 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
 
 static void place(int i)
 {
+    int32_t turn_q30 = bodies[i].turn_q30;
+
+    body_place(&bodies[i], &states[i]);
+    body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, bodies[i].region.room_q22);
+    bodies[i].turn_q30 = turn_q30;
     solid_place(i == 0 ? &a : &b, &states[i]);
-    bodies[i].gathered_at = states[i].position;
-    body_matrix(&bodies[i].gathered_r, &states[i].rotation);
 }
 
 /* A point inside a face or on an edge, and a direction in which the surface looks there. */
@@ -179,7 +182,7 @@ static void random_scene(struct test_random *r, bool turn_b)
     double on_a[3], on_b[3], n[3];
 
     for (int i = 0; i < 2; i++) {
-        bodies[i].reach_q22 =
+        bodies[i].region.room_q22 =
             (int32_t)test_random_range(r, 64, (int64_t)1 << test_random_range(r, 8, 17));
         bodies[i].turn_q30 = (int32_t)test_random_range(r, 0, CAROM_ONE_Q30 / 10);
         states[i].rotation = (carom_quat_q30){{CAROM_ONE_Q30, 0, 0, 0}};
@@ -197,7 +200,7 @@ static void random_scene(struct test_random *r, bool turn_b)
     random_place(r, &b, on_b, n);
     lowest_place(r, &a, n, on_a);
     for (int k = 0; k < 3; k++) {
-        int64_t near_q22 = bodies[0].reach_q22 + bodies[1].reach_q22;
+        int64_t near_q22 = bodies[0].region.room_q22 + bodies[1].region.room_q22;
 
         states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
                                    test_random_range(r, -near_q22, near_q22) * 512;
@@ -277,7 +280,7 @@ static void check_faces(void)
 static void start(struct test_random *r, bool turn_b)
 {
     random_scene(r, turn_b);
-    reach_q22 = bodies[0].reach_q22 + bodies[1].reach_q22;
+    reach_q22 = bodies[0].region.room_q22 + bodies[1].region.room_q22;
     turn = real(bodies[0].turn_q30 + bodies[1].turn_q30, 30);
 }
 
@@ -353,6 +356,126 @@ static void check_recall(uint64_t seed)
     CHECK(vertices >= POSES / 4 && 20 * edges + 20 >= POSES); /* the oracle is not idle */
     /* and not everything is a candidate */
     CHECK(handed < 10 * (vertices + edges) + 40 * POSES);
+}
+
+/* ------------------------------------------------------------------- motion */
+
+/* The bodies at a time of their paths, off them by a part of what their regions allow. */
+static void place_at(struct test_random *r, int32_t t_q30)
+{
+    struct solid *solids[2] = {&a, &b};
+
+    for (int i = 0; i < 2; i++) {
+        struct body_state state = states[i];
+        int64_t off = bodies[i].region.room_q22 * 500; /* q32, by axis: 0.86 of the room */
+
+        body_advance(&bodies[i], &state, t_q30, CAROM_ONE_Q30, NULL);
+        for (int k = 0; k < 3; k++) {
+            state.position.c[k] += test_random_range(r, -off, off);
+        }
+        solid_place(solids[i], &state);
+    }
+}
+
+/* Both bodies on paths on which a point of one is near a point of the other at the time returned. */
+static int32_t random_motion(struct test_random *r)
+{
+    double on_a[3], on_b[3], n[3];
+    int32_t t_q30 = (int32_t)test_random_range(r, 0, CAROM_ONE_Q30);
+
+    for (int i = 0; i < 2; i++) {
+        struct body *body = &bodies[i];
+        int64_t speed = (int64_t)1 << test_random_range(r, 30, 40);
+        int64_t spin =
+            ((int64_t)1 << 40) / test_random_range(r, 4, 40) * test_random_range(r, 0, 1);
+        const carom_v3_q40 g = {{0, 0, -((int64_t)1 << 37)}};
+        carom_v3_q40 v, w;
+
+        states[i].rotation = shape_random_turn(r);
+        for (int k = 0; k < 3; k++) {
+            states[i].position.c[k] = 0;
+            v.c[k] = test_random_range(r, -speed, speed);
+            w.c[k] = test_random_range(r, -spin, spin);
+        }
+        body_set_motion(body, &states[i], &v, &w);
+        body_predict(body, &states[i], CAROM_ONE_Q30, test_random_range(r, 0, 3) == 0 ? &g : NULL);
+        body->region.room_q22 = 0;
+    }
+    place_at(r, t_q30);
+    random_place(r, &b, on_b, n);
+    lowest_place(r, &a, n, on_a);
+    for (int k = 0; k < 3; k++) {
+        states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
+                                   test_random_range(r, -1, 1) * bodies[0].skin_q22 * 2048;
+    }
+    for (int i = 0; i < 2; i++) {
+        const carom_v3_q40 g = bodies[i].path.g;
+
+        body_predict(&bodies[i], &states[i], CAROM_ONE_Q30, NULL);
+        bodies[i].path.g = g;
+        body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30,
+                          (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
+    }
+    return t_q30;
+}
+
+/* A sheet of many small leaves as body a, which moves as a box of its size does. */
+static void make_sheet(void)
+{
+    static struct shape box;
+    struct body *body = &bodies[0];
+
+    shape_box(&box, 12, FIELD * 256, FIELD * 256, 512);
+    shape_body(&box, true, body, &states[0]);
+    shape_field(&shape_a, 12, FIELD, 256, 200, 9);
+    body->mesh = &shape_a.mesh;
+    body->radius_q22 = shape_a.mesh.radius_q22;
+    solid_note_owned(&a);
+}
+
+/*
+ * Whatever is within the margin and faces the other body at some time of the motion, or of one that
+ * the regions allow, was a candidate from the start.
+ */
+static void check_motion(uint64_t seed)
+{
+    struct test_random r = {seed};
+    double cone = real(INTERFERE_CONE_Q30, 30) - ANGLE_NOISE;
+    uint32_t vertices = 0, edges = 0, handed = 0;
+
+    for (int which = 0; which < 4; which++) {
+        make(which % 3);
+        if (which == 3) {
+            make_sheet();
+        }
+        shape_body(&shape_b, true, &bodies[1], &states[1]);
+        reach_q22 = 5 * (int64_t)(bodies[0].skin_q22 > bodies[1].skin_q22 ? bodies[0].skin_q22
+                                                                          : bodies[1].skin_q22);
+        for (int n = 0; n < POSES / 3; n++) {
+            struct collector to;
+            int32_t t_q30 = random_motion(&r);
+
+            CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+            handed += to.count;
+            for (int k = 0; k <= 8; k++) {
+                place_at(&r, k == 0 ? t_q30 : CAROM_ONE_Q30 / 8 * k);
+                vertices += try_vertices(&a, CANDIDATE_VERTEX_FACE, cone);
+                vertices += try_vertices(&a, CANDIDATE_FACE_VERTEX, cone);
+                edges += try_edges(&a, cone);
+            }
+        }
+    }
+    CHECK(8 * vertices >= POSES && 8 * edges + 8 >= POSES); /* the oracle is not idle */
+    CHECK(handed < 10 * (vertices + edges) + 60 * POSES);
+}
+
+/* Fields and solids that move themselves. */
+static void test_motion(void)
+{
+    shape_l(&shape_b, 11, 1500);
+    check_motion(1);
+    shape_ball(&shape_b, 11, 2048);
+    check_motion(2);
 }
 
 static void test_plane(void)
@@ -473,23 +596,22 @@ static void test_nothing(void)
 
     shape_plane(&shape_b, 9, FIELD, 512);
     make(0);
-    bodies[0].gathered_at.c[2] = (int64_t)2 << 32;
-    bodies[0].reach_q22 = 1 << 21;
+    states[0].position.c[2] = (int64_t)2 << 32;
+    bodies[0].region.room_q22 = 1 << 21;
+    place(0);
+    place(1);
     CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
     CHECK(to.count == 0 && face_pool.used == 0);
-    bodies[0].gathered_at.c[2] = (int64_t)4000 << 32;
+    states[0].position.c[2] = (int64_t)4000 << 32;
+    place(0);
     CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
     CHECK(to.count == 0 && face_pool.used == 0);
 }
 
 const struct test tests_interfere[] = {
-    {"interfere/plane", test_plane},
-    {"interfere/field", test_field},
-    {"interfere/fine_field", test_fine_field},
-    {"interfere/solid", test_solid},
-    {"interfere/chunks", test_chunks},
-    {"interfere/faces_full", test_faces_full},
-    {"interfere/order", test_order},
-    {"interfere/nothing", test_nothing},
-    {0},
+    {"interfere/plane", test_plane},           {"interfere/field", test_field},
+    {"interfere/fine_field", test_fine_field}, {"interfere/solid", test_solid},
+    {"interfere/motion", test_motion},         {"interfere/chunks", test_chunks},
+    {"interfere/faces_full", test_faces_full}, {"interfere/order", test_order},
+    {"interfere/nothing", test_nothing},       {0},
 };
