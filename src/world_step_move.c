@@ -145,6 +145,22 @@ static bool leaves_region(const struct step *s, int32_t slice_q30)
     return false;
 }
 
+/* Set shorter paths than those of the region, which the hit at hand led to. */
+static int predict_hit(struct step *s, int32_t slice_q30)
+{
+    const struct pair p = s->w->pairs[s->hit.candidate.pair];
+    int result = CAROM_OK;
+
+    predict_all(s, slice_q30);
+    if (leaves_region(s, slice_q30)) {
+        result = gather(s, slice_q30);
+        if (result == CAROM_OK) {
+            s->hit.candidate.pair = step_pair_number(s->w, &p);
+        }
+    }
+    return result;
+}
+
 int32_t step_slice(const struct step *s)
 {
     int32_t slice_q30 = s->left_q30;
@@ -301,15 +317,17 @@ static bool opens(const struct step *s, const struct candidate *c)
  */
 static int shorten(struct step *s, int32_t *slice_q30, bool *opened)
 {
-    const struct boyse_hit hit = s->hit;
+    struct boyse_hit hit = s->hit;
     int32_t shorter_q30 = *slice_q30 >> 2;
     int result = CAROM_OK;
 
     for (*opened = false; shorter_q30 > SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
         bool found;
 
-        predict_all(s, shorter_q30);
-        if (!opens(s, &hit.candidate)) {
+        s->hit = hit;
+        result = predict_hit(s, shorter_q30);
+        hit = s->hit; /* its pair may have a new number */
+        if (result < 0 || !opens(s, &hit.candidate)) {
             continue;
         }
         result = step_first_hit(s, &found);
@@ -337,17 +355,8 @@ static int refine(struct step *s, int32_t *slice, int32_t *t)
 
     for (int round = 0; round < REFINEMENTS; round++) {
         bool found;
-        int result = CAROM_OK;
+        int result = predict_hit(s, slice_q30);
 
-        predict_all(s, slice_q30);
-        if (leaves_region(s, slice_q30)) {
-            const struct pair p = s->w->pairs[s->hit.candidate.pair];
-
-            result = gather(s, slice_q30);
-            if (result == CAROM_OK) {
-                s->hit.candidate.pair = step_pair_number(s->w, &p);
-            }
-        }
         if (result == CAROM_OK) {
             result = step_first_hit(s, &found);
         }
