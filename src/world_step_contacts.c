@@ -124,30 +124,14 @@ static void note_hits(struct step *s)
 /* Of shorter slices nothing is asked: less than a thousandth of a frame. */
 #define CHORD_SLICE_MIN_Q30 (1 << 20)
 
-/* The gap of a contact at a time of the present paths, q22, counted from one side of its plane. */
-static int64_t signed_gap(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                          int32_t sign)
-{
-    struct boyse_touch touch;
-
-    boyse_touch(pair, c, t_q30, &touch);
-    return touch.sign == sign ? touch.gap_q22 : -(int64_t)touch.gap_q22;
-}
-
-/*
- * By how much the gap of a contact opens on the present paths, q22: to their end, or by what it does
- * in their first eighth when that is less. A path turns by the mean spin of its slice, so it may
- * start downwards though V.N is not; both together hold up a path that bends either way.
- */
+/* By how much the gap of a contact changes on the present paths, q22. */
 static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c)
 {
-    struct boyse_touch from;
-    int64_t whole, first;
+    struct boyse_touch from, to;
 
     boyse_touch(pair, c, 0, &from);
-    whole = signed_gap(pair, c, CAROM_ONE_Q30, from.sign) - from.gap_q22;
-    first = signed_gap(pair, c, CAROM_ONE_Q30 / 8, from.sign) - from.gap_q22;
-    return whole < first * 8 ? whole : first * 8;
+    boyse_touch(pair, c, CAROM_ONE_Q30, &to);
+    return (int64_t)(to.sign == from.sign ? to.gap_q22 : -to.gap_q22) - from.gap_q22;
 }
 
 /*
