@@ -196,7 +196,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
  *   contacts    points within the margin, before neighbouring ones are merged
  *   faces       interfering faces of one frame
- *   entries     z-list entries; working: fewer cost time, not results
+ *   entries     of z-lists made within a step; rigid meshes bring theirs, so one will do
  *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
  *
  *   X(name, bytes for each, smallest allowed, largest allowed)
