@@ -63,7 +63,7 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
  */
 bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
 
-/* The coefficients of P, 40 fractional bits, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
+/* The coefficients of P up to the degree, q40, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
 

@@ -52,12 +52,18 @@ bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_
 
 /*
  * Below, directions are q30 and lengths have as many bits beyond q22 as fit 30 (view->fine): the
- * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are kept as
- * q40; their largest sum is below 8 x 3 x 2^8 units.
+ * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are summed
+ * up whole, for each power of t: below 2^62, as all lengths of a pair together are below 2^30, and
+ * the coefficients of a direction below 1, 0.7 and 0.3. They are kept as q40.
  */
+static int64_t sum_q40(int64_t sum, int fine)
+{
+    return carom_round(sum, 12 + fine);
+}
+
 static int64_t dot_q40(const int32_t direction[3], const int32_t length[3], int fine)
 {
-    return carom_round(carom_dot(direction, length), 12 + fine);
+    return sum_q40(carom_dot(direction, length), fine);
 }
 
 static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
@@ -81,7 +87,9 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
 {
     int32_t twice[3];
 
-    memcpy(q->c[0], r, sizeof q->c[0]);
+    q->c[0][0] = r[0];
+    q->c[0][1] = r[1];
+    q->c[0][2] = r[2];
     q->constant = !path->turns;
     if (q->constant) {
         return; /* c[1] and c[2] are not looked at */
@@ -93,14 +101,25 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     }
 }
 
-/* a += x.y for a direction x and lengths y. */
-static void add_product(int64_t *a, const struct quadratic *x, const struct quadratic *y, int fine)
+/* sum += x.y for a direction x and lengths y: by powers, up to 4. */
+static void add_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
     for (int i = 0; i < (x->constant ? 1 : 3); i++) {
         for (int j = 0; j < (y->constant ? 1 : 3); j++) {
-            a[i + j] += dot_q40(x->c[i], y->c[j], fine);
+            sum[i + j] += carom_dot(x->c[i], y->c[j]);
         }
     }
+}
+
+/* sum = x.y of two that turn or move. */
+static void set_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
+{
+    sum[0] = carom_dot(x->c[0], y->c[0]);
+    sum[1] = carom_dot(x->c[0], y->c[1]) + carom_dot(x->c[1], y->c[0]);
+    sum[2] =
+        carom_dot(x->c[0], y->c[2]) + carom_dot(x->c[1], y->c[1]) + carom_dot(x->c[2], y->c[0]);
+    sum[3] = carom_dot(x->c[1], y->c[2]) + carom_dot(x->c[2], y->c[1]);
+    sum[4] = carom_dot(x->c[2], y->c[2]);
 }
 
 /* v s^2, as fix_mul has it, which is called too often here: |v| < 2^52. */
@@ -109,18 +128,6 @@ static inline int64_t times_u2(int64_t v, const struct body_path *path)
     int64_t high = (v >> 32) * path->u2_q30, low = (int64_t)(uint32_t)v * path->u2_q30;
 
     return high * 4 + carom_round(low, 30);
-}
-
-/* a += sign v (1 + s^2 t^2) for a polynomial v of the given degree. */
-static void add_times_factor(int64_t *a, const int64_t *v, int degree, int sign,
-                             const struct body_path *path)
-{
-    for (int k = 0; k <= degree; k++) {
-        a[k] += sign * v[k];
-        if (path->u2_q30 != 0) {
-            a[k + 2] += sign * times_u2(v[k], path);
-        }
-    }
 }
 
 /*
@@ -148,6 +155,7 @@ static bool centre_way(struct quadratic *q, const struct boyse_view *view, const
 static int never(int64_t *a)
 {
     a[0] = (int64_t)1 << 40;
+    a[1] = a[2] = 0;
     return 2;
 }
 
@@ -195,8 +203,7 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
 {
     const struct body_path *from = &view->from->path, *to = &view->to->path;
     struct quadratic n, centre, arm;
-    int64_t along[BOYSE_DEGREE + 1] = {0}, plane[BOYSE_DEGREE + 1] = {0};
-    int64_t gap = a[0];
+    int64_t along[5], sum[5], plane = carom_shl(offset_q22, 18);
     int32_t r[3], at[3];
 
     for (int k = 0; k < 3; k++) {
@@ -206,21 +213,31 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
         return never(a);
     }
     turning(&n, start->n, to, &to->u);
-    add_product(along, &n, &centre, view->fine);
-    a[0] = 0;
-    add_times_factor(a, along, 4, 1, from);
-    if (from->turns) {
-        arm_of(r, view, start);
-        refine(r, r, view->fine);
-        turning(&arm, r, from, &view->u);
-        add_product(a, &n, &arm, view->fine);
+    set_product(along, &n, &centre);
+    for (int k = 1; k < 5; k++) {
+        along[k] = sum_q40(along[k], view->fine);
     }
-    plane[0] = carom_shl(offset_q22, 18);
-    memset(along, 0, sizeof along);
-    add_times_factor(along, plane, 0, 1, to);
-    add_times_factor(a, along, 2, -1, from);
-    a[0] = gap; /* the exact one; the sum above is it but for rounding */
-    return from->turns ? 6 : 4;
+    along[2] -= times_u2(plane, to);
+    for (int k = 1; k < 5; k++) {
+        a[k] = along[k];
+    }
+    if (!from->turns) {
+        return 4; /* a[0] is the exact one */
+    }
+    along[0] = sum_q40(along[0], view->fine) - plane;
+    for (int k = 0; k < 3; k++) {
+        a[k + 2] += times_u2(along[k], from);
+    }
+    a[5] = times_u2(along[3], from);
+    a[6] = times_u2(along[4], from);
+    arm_of(r, view, start);
+    refine(r, r, view->fine);
+    turning(&arm, r, from, &view->u);
+    set_product(sum, &n, &arm);
+    for (int k = 1; k < 5; k++) {
+        a[k] += sum_q40(sum[k], view->fine);
+    }
+    return 6;
 }
 
 /* out = x x y for a direction x and lengths y, collected by powers: degree 4. */
@@ -232,7 +249,9 @@ static void cross_product(int32_t out[5][3], const struct quadratic *x, const st
     if (x->constant) {
         return; /* degree 2 */
     }
-    memset(out[3], 0, 2 * sizeof out[0]);
+    for (int k = 0; k < 3; k++) {
+        out[3][k] = out[4][k] = 0;
+    }
     for (int i = 1; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             int32_t part[3];
@@ -259,7 +278,9 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
     const struct boyse_view *view = &pair->view[0];
     const struct body_path *path_a = &pair->a->path, *path_b = &pair->b->path;
     struct quadratic e, f, centre, k;
+    int64_t sum[BOYSE_DEGREE + 1];
     int32_t at[3], way[5][3], moment[3];
+    int degree;
 
     for (int i = 0; i < 3; i++) {
         at[i] = path_a->turns ? view->centre.c[i] : start->vertex.c[i];
@@ -279,25 +300,32 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
     turning(&e, start->e, path_a, &view->u);
     turning(&f, start->f, path_b, &path_b->u);
     cross_product(way, &f, &centre);
+    degree = (path_a->turns ? 2 : 0) + (path_b->turns ? 2 : 0) + 2;
+    for (int i = 0; i <= degree; i++) {
+        sum[i] = 0;
+    }
     for (int i = 0; i < (e.constant ? 1 : 3); i++) {
         for (int j = 0; j < (f.constant ? 3 : 5); j++) {
-            a[i + j] += dot_q40(e.c[i], way[j], view->fine);
+            sum[i + j] += carom_dot(e.c[i], way[j]);
         }
     }
     if (path_a->turns) {
         arm_of(moment, view, start);
         carom_cross(moment, moment, start->e, 30 - view->fine);
         turning(&k, moment, path_a, &view->u);
-        add_product(a, &f, &k, view->fine);
+        add_product(sum, &f, &k);
     }
     if (path_b->turns) {
         /* r_b x f takes care of the minus */
         carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
         turning(&k, moment, path_b, &path_b->u);
-        add_product(a, &e, &k, view->fine);
+        add_product(sum, &e, &k);
+    }
+    for (int i = 1; i <= degree; i++) {
+        a[i] = sum_q40(sum[i], view->fine);
     }
     a[0] = carom_round(carom_dot(start->w, start->d), 12);
-    return (path_a->turns ? 2 : 0) + (path_b->turns ? 2 : 0) + 2;
+    return degree;
 }
 
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
@@ -305,7 +333,6 @@ int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
 {
     const struct boyse_view *view = boyse_view(pair, c);
 
-    memset(a_q40, 0, (BOYSE_DEGREE + 1) * sizeof a_q40[0]);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         return edge_polynomial(pair, start, a_q40);
     }
