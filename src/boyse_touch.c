@@ -117,6 +117,18 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
 /* ------------------------------------------------------------------ places at t */
 
 /*
+ * 2^59 / d for 2^29 <= d <= 2^30, within 2 units: 15 bits of it by division, the others by a step of
+ * Newton's, y + y (2^45 - d y) / 2^45. What is in the brackets fits 32 bits, being less than 2 d.
+ */
+static int32_t inverse_q59(uint32_t d)
+{
+    uint32_t y = UINT32_MAX / (d >> 13);
+    int32_t rest = (int32_t)(0 - d * y);
+
+    return (int32_t)(y << 14) + (int32_t)((int64_t)rest * (int32_t)y >> 31);
+}
+
+/*
  * Cayley's turn at one time: r goes to r + k t u x r + k t^2 u x (u x r), k = 2 / (1 + s^2 t^2).
  * The turn back differs in the sign of the first.
  */
@@ -131,9 +143,9 @@ static struct turn turn_at(const struct body_path *path, const carom_v3_q30 *u, 
     struct turn turn = {{u->c[0], u->c[1], u->c[2]}, 0, 0};
 
     if (path->turns) {
-        /* s t < 0.31: the divisor is 1 to 1.1 in q30, the quotient at most 2^30 */
-        int32_t k_q29 = (int32_t)(((int64_t)1 << 60) /
-                                  (CAROM_ONE_Q30 + (int64_t)carom_mul_q30(path->u2_q30, t2_q30)));
+        /* s t < 0.31: the divisor is 1 to 1.1 */
+        int32_t k_q29 = inverse_q59(
+            ((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
 
         turn.once_q29 = carom_mul_q30(k_q29, t_q30);
         turn.twice_q29 = carom_mul_q30(k_q29, t2_q30);
@@ -170,7 +182,7 @@ struct moment {
     int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
 };
 
-static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_t t_q30)
 {
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
@@ -178,6 +190,13 @@ static void set_moment(struct moment *m, const struct boyse_view *view, int32_t 
     m->from = turn_at(&view->from->path, &view->u, t_q30, t2_q30);
     m->to = turn_at(&view->to->path, &view->to->path.u, t_q30, t2_q30);
     m->to_back = turn_back(m->to);
+    return t2_q30;
+}
+
+static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+{
+    int32_t t2_q30 = set_turns(m, view, t_q30);
+
     for (int k = 0; k < 3; k++) {
         /* q24 x q30 = q54: |v t + g t^2| < 2^8 units */
         int64_t way_q54 = (int64_t)view->v.c[k] * t_q30 + (int64_t)view->g.c[k] * t2_q30;
@@ -186,10 +205,12 @@ static void set_moment(struct moment *m, const struct boyse_view *view, int32_t 
     }
 }
 
-/* A direction of from's mesh in to's mesh axes, and back. */
-static void direction_to(const struct moment *m, const int32_t local[3], int32_t out[3])
+/* A direction of from's in to's mesh axes as it is at the start, and back to from's mesh. */
+static void direction_to(const struct moment *m, const int32_t start[3], int32_t out[3])
 {
-    carom_rotate(out, &m->view->r, local);
+    for (int k = 0; k < 3; k++) {
+        out[k] = start[k];
+    }
     apply(&m->from, out);
     apply(&m->to_back, out);
 }
@@ -198,18 +219,22 @@ static void direction_back(const struct moment *m, const int32_t n[3], int32_t o
 {
     const struct turn from_back = turn_back(m->from);
 
-    memcpy(out, n, 3 * sizeof out[0]);
+    for (int k = 0; k < 3; k++) {
+        out[k] = n[k];
+    }
     apply(&m->to, out);
     apply(&from_back, out);
     carom_rotate_back(out, &m->view->r, out);
 }
 
-/* A point of from's mesh in to's mesh axes, about to's centre. */
-static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *local)
+/* A point of from, in to's mesh axes and about to's centre as the start is. */
+static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
 {
     carom_v3_q22 p;
 
-    carom_rotate(p.c, &m->view->r, local->c);
+    for (int k = 0; k < 3; k++) {
+        p.c[k] = start->c[k] - m->view->centre.c[k];
+    }
     apply(&m->from, p.c);
     for (int k = 0; k < 3; k++) {
         p.c[k] += m->centre_q22[k];
@@ -242,25 +267,19 @@ static carom_v3_q22 point_to_world(const struct boyse_pair *pair, const struct m
 }
 
 /* The features of a candidate at one time. */
-static void place(const struct moment *m, const struct candidate *c, struct boyse_places *p)
+static void place(const struct moment *m, const struct candidate *c,
+                  const struct boyse_places *start, struct boyse_places *p)
 {
-    const struct carom_mesh *from = m->view->from->mesh, *to = m->view->to->mesh;
-    uint32_t v = c->i;
-
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        p->edge_a = &from->edges[c->i];
-        p->edge_b = &to->edges[c->j];
-        v = p->edge_a->vertex[0];
-    }
-    p->vertex = mesh_vertex(from, v);
-    p->vertex = point_to(m, &p->vertex);
+    p->vertex = point_to(m, &start->vertex);
     if (c->kind != CANDIDATE_EDGE_EDGE) {
-        p->n = to->faces[c->j].normal.c;
+        p->n = start->n;
         return;
     }
-    p->start_b = mesh_vertex(to, p->edge_b->vertex[0]);
-    p->f = p->edge_b->direction.c;
-    direction_to(m, p->edge_a->direction.c, p->e);
+    p->edge_a = start->edge_a;
+    p->edge_b = start->edge_b;
+    p->start_b = start->start_b;
+    p->f = start->f;
+    direction_to(m, start->e, p->e);
     boyse_complete_edges(p);
 }
 
@@ -282,18 +301,34 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
 
 /* ------------------------------------------------------------------ two edges */
 
-static int64_t divide_floor(int64_t n, int64_t d)
-{
-    int64_t q = n / d;
+/* 1 / |w| of edges as m 2^-(29 - up), for an angle of no less than the one that counts. */
+struct inverse {
+    int32_t m; /* 2^29 .. 2^30 */
+    int up;    /* 0 .. 6 */
+};
 
-    return q - (n % d != 0 && (n < 0) != (d < 0));
+static struct inverse inverse_of(int32_t sine_q30)
+{
+    uint32_t d = sine_q30 > BOYSE_PARALLEL_Q30 ? (uint32_t)sine_q30 : BOYSE_PARALLEL_Q30;
+    int up = 30 - fix_bits32(d);
+
+    /* a sine of 1, and a little more by rounding */
+    return up < 0 ? (struct inverse){1 << 29, 0} : (struct inverse){inverse_q59(d << up), up};
 }
 
-/* w.d is kept whole until it is divided by |w|: nearly parallel edges lose nothing. */
-static int32_t edge_gap(const struct boyse_places *p, int32_t sine_q30, int sign)
+/* v times the inverse, rounded down; |v| < 2^53. */
+static int64_t over_sine(int64_t v, struct inverse sine)
 {
-    int64_t gap = divide_floor(sign * carom_dot(p->w, p->d),
-                               sine_q30 > BOYSE_PARALLEL_Q30 ? sine_q30 : BOYSE_PARALLEL_Q30);
+    uint64_t wide = (uint64_t)v << (3 + sine.up);
+    uint32_t low = (uint32_t)((wide & 0xffffffffu) * (uint32_t)sine.m >> 32);
+
+    return (int64_t)(int32_t)(uint32_t)(wide >> 32) * sine.m + low;
+}
+
+/* w.d is kept to q32 until it is divided by |w|: nearly parallel edges lose nothing. */
+static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
+{
+    int64_t gap = over_sine(sign * wd_q52 >> 20, sine) >> 10;
 
     if (gap > INT32_MAX || gap < -INT32_MAX) {
         return gap > 0 ? INT32_MAX : -INT32_MAX; /* nearly parallel and far apart */
@@ -309,16 +344,20 @@ struct nearest {
     int64_t s_q22, q_q22;
 };
 
-static bool nearest_points(const struct boyse_places *p, int32_t sine_q30, struct nearest *at)
+/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22. */
+static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
+{
+    return over_sine(over_sine(a_q32 - fix_mul(c_q32, b_q30, 30), sine), sine) >> 10;
+}
+
+static bool nearest_points(const struct boyse_places *p, struct inverse sine, struct nearest *at)
 {
     int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
     int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
     int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
-    int64_t d_q30 = carom_round((int64_t)sine_q30 * sine_q30, 30); /* >= 1e-4 */
 
-    /* q32 numbers of at most 2^41 by q20: |d| <= 2^9 units */
-    at->s_q22 = divide_floor((fix_mul(df_q32, b_q30, 30) - de_q32) * ((int64_t)1 << 20), d_q30);
-    at->q_q22 = divide_floor((df_q32 - fix_mul(de_q32, b_q30, 30)) * ((int64_t)1 << 20), d_q30);
+    at->s_q22 = -along(de_q32, b_q30, df_q32, sine);
+    at->q_q22 = along(df_q32, b_q30, de_q32, sine);
     return at->s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
            at->s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
            at->q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
@@ -331,12 +370,10 @@ struct edge_normal {
 };
 
 static void set_normal(struct edge_normal *n, const struct moment *m, const struct boyse_places *p,
-                       int32_t sine_q30)
+                       struct inverse sine)
 {
-    int64_t inverse_q30 = ((int64_t)1 << 60) / sine_q30; /* 1 .. 100 */
-
     for (int k = 0; k < 3; k++) {
-        n->on_b[k] = (int32_t)fix_mul(inverse_q30, p->w[k], 30);
+        n->on_b[k] = (int32_t)carom_round((int64_t)p->w[k] * sine.m, 29 - sine.up);
     }
     direction_back(m, n->on_b, n->on_a);
 }
@@ -386,41 +423,39 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
 {
     int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
 
+    const struct inverse sine = inverse_of(sine_q30);
+    const int64_t wd_q52 = carom_dot(p->w, p->d);
+
     touch->valid = false;
     touch->sign = 1;
-    touch->gap_q22 = edge_gap(p, sine_q30, 1);
-    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine_q30, at)) {
-        set_normal(n, m, p, sine_q30);
+    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine, at)) {
+        set_normal(n, m, p, sine);
         touch->sign = (int8_t)facing_sign(m, p, n);
         touch->valid = normal_in_cones(m, p, n, touch->sign);
         if (!touch->valid) {
             touch->sign = (int8_t)-touch->sign;
             touch->valid = normal_in_cones(m, p, n, touch->sign);
         }
-        if (touch->sign < 0) {
-            touch->gap_q22 = edge_gap(p, sine_q30, -1);
-        }
     }
+    touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
     return sine_q30;
 }
 
 /* -------------------------------------------------------------- the exact test */
 
-int32_t boyse_scale(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30)
 {
     struct moment m;
-    struct boyse_places p;
+    int32_t e[3], w[3];
 
-    if (c->kind != CANDIDATE_EDGE_EDGE) {
-        return CAROM_ONE_Q30;
-    }
-    set_moment(&m, &pair->view[0], t_q30);
-    place(&m, c, &p);
-    return (int32_t)fix_sqrt((uint64_t)carom_dot(p.w, p.w));
+    set_turns(&m, &pair->view[0], t_q30);
+    direction_to(&m, start->e, e);
+    carom_cross(w, e, start->f, 30);
+    return (int32_t)fix_sqrt((uint64_t)carom_dot(w, w));
 }
 
-int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                   struct boyse_touch *touch)
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
+                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch)
 {
     struct moment m;
     struct boyse_places p;
@@ -428,7 +463,7 @@ int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int
     struct edge_normal n;
 
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, &p);
+    place(&m, c, start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         return test_edges(&m, &p, touch, &at, &n);
     }
@@ -464,12 +499,13 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
                  struct boyse_touch *touch)
 {
     struct moment m;
-    struct boyse_places p;
+    struct boyse_places start, p;
     struct nearest at;
     struct edge_normal n;
 
+    boyse_place_start(pair, c, &start);
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, &p);
+    place(&m, c, &start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         (void)test_edges(&m, &p, touch, &at, &n);
     } else {
