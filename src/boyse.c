@@ -37,20 +37,23 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
     walk_begin(&walk, curve);
     while (walk_next(&walk, curve)) {
-        struct boyse_touch touch = {.valid = false};
+        struct boyse_touch touch;
         int32_t scale_q30 = 0;
+
+        touch.valid = false;
 
         /* a vertex that comes out through the back of a face is no hit, wherever it does */
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
         if (touch.valid && touch.sign * walk.slope8 < 0) {
-            struct opening o = {.pair = pair,
-                                .edges = c->kind == CANDIDATE_EDGE_EDGE ? start : NULL,
-                                .curve = curve,
-                                .sign = touch.sign,
-                                .shift = curve_units(curve, touch.sign * shift_q40)};
+            struct opening o;
 
+            o.pair = pair;
+            o.edges = c->kind == CANDIDATE_EDGE_EDGE ? start : NULL;
+            o.curve = curve;
+            o.sign = touch.sign;
+            o.shift = curve_units(curve, touch.sign * shift_q40);
             hit->root_q30 = walk.t_q30;
             hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;

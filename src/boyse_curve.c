@@ -104,7 +104,8 @@ void walk_begin(struct walk *w, const struct curve *q)
 {
     int32_t size = size_of(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
 
-    *w = (struct walk){.stride = STRIDE_Q30};
+    w->t_q30 = w->side = w->rounds = 0;
+    w->stride = STRIDE_Q30;
     if (size > CURVE_NOISE) {
         w->side = q->a[0] < 0 ? -1 : 1;
         if (w->side < 0) {

@@ -75,7 +75,7 @@ static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
 
 /*
  * A vector that turns with a body, times 1 + s^2 t^2: c[0] + c[1] t + c[2] t^2. The formula is that
- * of Cayley: r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)).
+ * of Cayley: r + 2t u x r + t^2 (2 u (u.r) - s^2 r).
  */
 struct quadratic {
     int32_t c[3][3];
@@ -85,7 +85,7 @@ struct quadratic {
 static void turning(struct quadratic *q, const int32_t r[3], const struct body_path *path,
                     const carom_v3_q30 *u)
 {
-    int32_t twice[3];
+    int32_t along;
 
     q->c[0][0] = r[0];
     q->c[0][1] = r[1];
@@ -95,9 +95,10 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
         return; /* c[1] and c[2] are not looked at */
     }
     carom_cross(q->c[1], u->c, r, 29);
-    carom_cross(twice, u->c, q->c[1], 30);
+    along = (int32_t)carom_round(carom_dot(u->c, r), 29);
     for (int k = 0; k < 3; k++) {
-        q->c[2][k] = twice[k] + carom_mul_q30(path->u2_q30, r[k]);
+        q->c[2][k] =
+            (int32_t)carom_round((int64_t)u->c[k] * along - (int64_t)path->u2_q30 * r[k], 30);
     }
 }
 

@@ -129,56 +129,62 @@ static int32_t inverse_q59(uint32_t d)
 }
 
 /*
- * Cayley's turn at one time: r goes to r + k t u x r + k t^2 u x (u x r), k = 2 / (1 + s^2 t^2).
- * The turn back differs in the sign of the first.
+ * Cayley's turn at one time, 1 + k t [u] + k t^2 (u u^T - s^2), k = 2 / (1 + s^2 t^2); not set when
+ * the body does not turn.
  */
 struct turn {
-    int32_t u[3];
-    int32_t once_q29, twice_q29; /* k t and k t^2, at most 2; 0: no turn */
+    bool turns;
+    carom_m3_q30 r;
 };
 
-static struct turn turn_at(const struct body_path *path, const carom_v3_q30 *u, int32_t t_q30,
-                           int32_t t2_q30)
+static void turn_at(struct turn *turn, const struct body_path *path, const carom_v3_q30 *u,
+                    int32_t t_q30, int32_t t2_q30)
 {
-    struct turn turn = {{u->c[0], u->c[1], u->c[2]}, 0, 0};
+    int32_t k_q29, once[3], twice[3], xx, yy, zz, xy, yz, zx;
 
-    if (path->turns) {
-        /* s t < 0.31: the divisor is 1 to 1.1 */
-        int32_t k_q29 = inverse_q59(
-            ((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
-
-        turn.once_q29 = carom_mul_q30(k_q29, t_q30);
-        turn.twice_q29 = carom_mul_q30(k_q29, t2_q30);
-    }
-    return turn;
-}
-
-static struct turn turn_back(struct turn turn)
-{
-    turn.once_q29 = -turn.once_q29;
-    return turn;
-}
-
-/* v is turned in place, in any format; its length keeps it within int32. */
-static void apply(const struct turn *turn, int32_t v[3])
-{
-    int32_t once[3], twice[3];
-
-    if (turn->once_q29 == 0) {
+    turn->turns = path->turns;
+    if (!path->turns) {
         return;
     }
-    carom_cross(once, turn->u, v, 30);
-    carom_cross(twice, turn->u, once, 30);
-    for (int k = 0; k < 3; k++) {
-        v[k] += (int32_t)carom_round(
-            (int64_t)turn->once_q29 * once[k] + (int64_t)turn->twice_q29 * twice[k], 29);
+    /* s t < 0.31: the divisor is 1 to 1.1 */
+    k_q29 =
+        inverse_q59(((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
+    t_q30 = carom_mul_q30(k_q29, t_q30);
+    t2_q30 = carom_mul_q30(k_q29, t2_q30);
+    for (int i = 0; i < 3; i++) {
+        once[i] = (int32_t)carom_round((int64_t)t_q30 * u->c[i], 29);
+        twice[i] = (int32_t)carom_round((int64_t)t2_q30 * u->c[i], 29);
+    }
+    xx = carom_mul_q30(twice[0], u->c[0]);
+    yy = carom_mul_q30(twice[1], u->c[1]);
+    zz = carom_mul_q30(twice[2], u->c[2]);
+    xy = carom_mul_q30(twice[0], u->c[1]);
+    yz = carom_mul_q30(twice[1], u->c[2]);
+    zx = carom_mul_q30(twice[2], u->c[0]);
+    turn->r = (carom_m3_q30){{{CAROM_ONE_Q30 - yy - zz, xy - once[2], zx + once[1]},
+                              {xy + once[2], CAROM_ONE_Q30 - zz - xx, yz - once[0]},
+                              {zx - once[1], yz + once[0], CAROM_ONE_Q30 - xx - yy}}};
+}
+
+/* v in any format is turned in place; its length keeps it within int32. */
+static void apply(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate(v, &turn->r, v);
+    }
+}
+
+static void apply_back(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate_back(v, &turn->r, v);
     }
 }
 
 /* A view at one time. */
 struct moment {
     const struct boyse_view *view;
-    struct turn from, to, to_back;
+    struct turn from, to;
     int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
 };
 
@@ -187,9 +193,8 @@ static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
     m->view = view;
-    m->from = turn_at(&view->from->path, &view->u, t_q30, t2_q30);
-    m->to = turn_at(&view->to->path, &view->to->path.u, t_q30, t2_q30);
-    m->to_back = turn_back(m->to);
+    turn_at(&m->from, &view->from->path, &view->u, t_q30, t2_q30);
+    turn_at(&m->to, &view->to->path, &view->to->path.u, t_q30, t2_q30);
     return t2_q30;
 }
 
@@ -212,18 +217,16 @@ static void direction_to(const struct moment *m, const int32_t start[3], int32_t
         out[k] = start[k];
     }
     apply(&m->from, out);
-    apply(&m->to_back, out);
+    apply_back(&m->to, out);
 }
 
 static void direction_back(const struct moment *m, const int32_t n[3], int32_t out[3])
 {
-    const struct turn from_back = turn_back(m->from);
-
     for (int k = 0; k < 3; k++) {
         out[k] = n[k];
     }
     apply(&m->to, out);
-    apply(&from_back, out);
+    apply_back(&m->from, out);
     carom_rotate_back(out, &m->view->r, out);
 }
 
@@ -239,7 +242,7 @@ static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
     for (int k = 0; k < 3; k++) {
         p.c[k] += m->centre_q22[k];
     }
-    apply(&m->to_back, p.c);
+    apply_back(&m->to, p.c);
     return p;
 }
 
@@ -344,10 +347,18 @@ struct nearest {
     int64_t s_q22, q_q22;
 };
 
+/* a b, rounded down; |a| < 2^61 */
+static int64_t times_q30(int64_t a, int32_t b_q30)
+{
+    int64_t a4 = carom_shl(a, 2), low = (int64_t)(uint32_t)a4 * b_q30;
+
+    return (a4 >> 32) * b_q30 + (low >> 32);
+}
+
 /* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22. */
 static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
 {
-    return over_sine(over_sine(a_q32 - fix_mul(c_q32, b_q30, 30), sine), sine) >> 10;
+    return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
 }
 
 static bool nearest_points(const struct boyse_places *p, struct inverse sine, struct nearest *at)
