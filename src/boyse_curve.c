@@ -25,10 +25,14 @@ uint32_t curve_quotient_q30(uint32_t n, uint32_t d)
     return shift > -32 ? quotient >> -shift : 0;
 }
 
+static int32_t size_of(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
 bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
 {
     uint64_t first = (uint64_t)carom_abs(a[0]), reach = 0, sum;
-    int32_t bend = 0;
 
     for (int k = 1; k <= degree; k++) {
         reach += (uint64_t)carom_abs(a[k]);
@@ -39,15 +43,21 @@ bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
     sum = first + reach;
     q->degree = degree;
     q->shift = fix_bits(sum + (sum >> 20)) - CURVE_BITS; /* room for what is rounded away from 0 */
-    for (int k = 0; k <= degree; k++) {
-        q->a[k] = (int32_t)curve_units(q, a[k]);
-    }
-    for (int k = 2; k <= degree; k++) {
-        int32_t size = q->a[k] < 0 ? -q->a[k] : q->a[k];
+    if (q->shift > 0) {
+        for (int k = 0; k <= degree; k++) {
+            uint32_t low = (uint32_t)a[k] >> q->shift;
 
-        bend += k * (k - 1) / 2 * ((size >> 3) + 1);
+            q->a[k] = (int32_t)(low | (uint32_t)((uint64_t)a[k] >> 32) << (32 - q->shift));
+        }
+    } else {
+        for (int k = 0; k <= degree; k++) {
+            q->a[k] = (int32_t)carom_shl(a[k], -q->shift);
+        }
     }
-    q->bend8 = bend + 1;
+    q->bend8 = 1;
+    for (int k = 2; k <= degree; k++) {
+        q->bend8 += k * (k - 1) / 2 * ((size_of(q->a[k]) >> 3) + 1);
+    }
     return true;
 }
 
@@ -89,11 +99,6 @@ static void advance(struct walk *w, uint32_t step_q30)
 {
     w->t_q30 = step_q30 < (uint32_t)(CAROM_ONE_Q30 - w->t_q30) ? w->t_q30 + (int32_t)step_q30
                                                                : CAROM_ONE_Q30;
-}
-
-static int32_t size_of(int32_t v)
-{
-    return v < 0 ? -v : v;
 }
 
 /*

@@ -79,7 +79,6 @@ static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
  */
 struct quadratic {
     int32_t c[3][3];
-    bool constant; /* c[1] and c[2] stand for 0, and are not set; no factor */
 };
 
 static void turning(struct quadratic *q, const int32_t r[3], const struct body_path *path,
@@ -90,8 +89,7 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     q->c[0][0] = r[0];
     q->c[0][1] = r[1];
     q->c[0][2] = r[2];
-    q->constant = !path->turns;
-    if (q->constant) {
+    if (!path->turns) {
         return; /* c[1] and c[2] are not looked at */
     }
     carom_cross(q->c[1], u->c, r, 29);
@@ -102,20 +100,19 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     }
 }
 
-/* sum += x.y for a direction x and lengths y: by powers, up to 4. */
+/* sum += x.y for a direction x and lengths y, both of which turn: by powers, up to 4. */
 static void add_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
-    for (int i = 0; i < (x->constant ? 1 : 3); i++) {
-        for (int j = 0; j < (y->constant ? 1 : 3); j++) {
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
             sum[i + j] += carom_dot(x->c[i], y->c[j]);
         }
     }
 }
 
-/* sum = x.y of two that turn or move. */
+/* sum = x.y of two that turn or move, but for sum[0]. */
 static void set_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
-    sum[0] = carom_dot(x->c[0], y->c[0]);
     sum[1] = carom_dot(x->c[0], y->c[1]) + carom_dot(x->c[1], y->c[0]);
     sum[2] =
         carom_dot(x->c[0], y->c[2]) + carom_dot(x->c[1], y->c[1]) + carom_dot(x->c[2], y->c[0]);
@@ -139,15 +136,15 @@ static inline int64_t times_u2(int64_t v, const struct body_path *path)
 static bool centre_way(struct quadratic *q, const struct boyse_view *view, const int32_t at_q22[3])
 {
     const int32_t limit = (int32_t)1 << (30 - view->fine);
+    int up = view->fine - 2, down = up < 0 ? -up : 0;
 
-    q->constant = false;
     for (int k = 0; k < 3; k++) {
         if (at_q22[k] > limit || at_q22[k] < -limit) {
             return false;
         }
         q->c[0][k] = at_q22[k] * (1 << view->fine);
-        q->c[1][k] = (int32_t)((carom_shl(view->v.c[k], view->fine) + 2) >> 2);
-        q->c[2][k] = (int32_t)((carom_shl(view->g.c[k], view->fine) + 2) >> 2);
+        q->c[1][k] = up < 0 ? (view->v.c[k] + down) >> down : view->v.c[k] * (1 << up);
+        q->c[2][k] = up < 0 ? (view->g.c[k] + down) >> down : view->g.c[k] * (1 << up);
     }
     return true;
 }
@@ -225,7 +222,7 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
     if (!from->turns) {
         return 4; /* a[0] is the exact one */
     }
-    along[0] = sum_q40(along[0], view->fine) - plane;
+    along[0] = sum_q40(carom_dot(n.c[0], centre.c[0]), view->fine) - plane;
     for (int k = 0; k < 3; k++) {
         a[k + 2] += times_u2(along[k], from);
     }
@@ -241,17 +238,14 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
     return 6;
 }
 
-/* out = x x y for a direction x and lengths y, collected by powers: degree 4. */
+/* out = x x y for a direction x that turns and lengths y, collected by powers: degree 4. */
 static void cross_product(int32_t out[5][3], const struct quadratic *x, const struct quadratic *y)
 {
-    for (int j = 0; j < 3; j++) {
-        carom_cross(out[j], x->c[0], y->c[j], 30);
-    }
-    if (x->constant) {
-        return; /* degree 2 */
-    }
     for (int k = 0; k < 3; k++) {
         out[3][k] = out[4][k] = 0;
+    }
+    for (int j = 0; j < 3; j++) {
+        carom_cross(out[j], x->c[0], y->c[j], 30);
     }
     for (int i = 1; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -265,29 +259,17 @@ static void cross_product(int32_t out[5][3], const struct quadratic *x, const st
     }
 }
 
-/*
- * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
- *
- *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) - e.(f x r_b)
- *
- * where r_a x e turns with a, and f x r_b with b. A line that does not turn is referred to a point
- * on it, so that its r is 0.
- */
-static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
-                           int64_t *a)
+/* Where c is at the start: see edge_polynomial. */
+static void place_centres(int32_t at[3], const struct boyse_pair *pair,
+                          const struct boyse_places *start)
 {
-    const struct boyse_view *view = &pair->view[0];
-    const struct body_path *path_a = &pair->a->path, *path_b = &pair->b->path;
-    struct quadratic e, f, centre, k;
-    int64_t sum[BOYSE_DEGREE + 1];
-    int32_t at[3], way[5][3], moment[3];
-    int degree;
+    bool a_turns = pair->a->path.turns, b_turns = pair->b->path.turns;
 
     for (int i = 0; i < 3; i++) {
-        at[i] = path_a->turns ? view->centre.c[i] : start->vertex.c[i];
-        at[i] -= path_b->turns ? 0 : start->start_b.c[i];
+        at[i] = a_turns ? pair->view[0].centre.c[i] : start->vertex.c[i];
+        at[i] -= b_turns ? 0 : start->start_b.c[i];
     }
-    if (!path_b->turns) {
+    if (!b_turns) {
         /* of b's line, take the point that is nearest: it keeps long edges in range */
         int32_t along_q22 = (int32_t)carom_round(carom_dot(start->f, at), 30);
 
@@ -295,37 +277,108 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
             at[i] -= carom_mul_q30(along_q22, start->f[i]);
         }
     }
-    if (!centre_way(&centre, view, at)) {
-        return never(a);
+}
+
+/* The moment of a's line about a's centre, r_a x e, or of b's about b's, as it turns with its body. */
+static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
+                          const struct boyse_places *start, bool of_a)
+{
+    const struct boyse_view *view = &pair->view[0];
+    int32_t moment[3];
+
+    if (of_a) {
+        arm_of(moment, view, start);
+        carom_cross(moment, moment, start->e, 30 - view->fine);
+        turning(k, moment, &pair->a->path, &view->u);
+    } else {
+        carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
+        turning(k, moment, &pair->b->path, &pair->b->path.u);
     }
-    turning(&e, start->e, path_a, &view->u);
-    turning(&f, start->f, path_b, &path_b->u);
-    cross_product(way, &f, &centre);
-    degree = (path_a->turns ? 2 : 0) + (path_b->turns ? 2 : 0) + 2;
-    for (int i = 0; i <= degree; i++) {
+}
+
+/* Both bodies turn: degree 6. */
+static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                      const struct boyse_places *start, const struct quadratic *centre)
+{
+    struct quadratic e, f, k;
+    int32_t way[5][3];
+
+    turning(&e, start->e, &pair->a->path, &pair->view[0].u);
+    turning(&f, start->f, &pair->b->path, &pair->b->path.u);
+    cross_product(way, &f, centre);
+    for (int i = 0; i <= BOYSE_DEGREE; i++) {
         sum[i] = 0;
     }
-    for (int i = 0; i < (e.constant ? 1 : 3); i++) {
-        for (int j = 0; j < (f.constant ? 3 : 5); j++) {
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 5; j++) {
             sum[i + j] += carom_dot(e.c[i], way[j]);
         }
     }
-    if (path_a->turns) {
-        arm_of(moment, view, start);
-        carom_cross(moment, moment, start->e, 30 - view->fine);
-        turning(&k, moment, path_a, &view->u);
-        add_product(sum, &f, &k);
+    set_moment_of(&k, pair, start, true);
+    add_product(sum, &f, &k);
+    set_moment_of(&k, pair, start, false);
+    add_product(sum, &e, &k);
+}
+
+/*
+ * One body turns, with its edge x, or none: x.(y x c) + y.k with k the moment of x, in which y does
+ * not turn; the triple product changes its sign with the roles of the edges. Returns the degree.
+ */
+static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                     const struct boyse_places *start, const struct quadratic *centre)
+{
+    bool of_a = !pair->b->path.turns;
+    const struct body_path *path = of_a ? &pair->a->path : &pair->b->path;
+    const int32_t *y = of_a ? start->f : start->e;
+    struct quadratic x, way, k;
+
+    for (int j = 0; j < 3; j++) {
+        const int32_t *c = centre->c[j];
+
+        carom_cross(way.c[j], of_a ? y : c, of_a ? c : y, 30);
     }
-    if (path_b->turns) {
-        /* r_b x f takes care of the minus */
-        carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
-        turning(&k, moment, path_b, &path_b->u);
-        add_product(sum, &e, &k);
+    turning(&x, of_a ? start->e : start->f, path, of_a ? &pair->view[0].u : &path->u);
+    if (!path->turns) {
+        sum[1] = carom_dot(x.c[0], way.c[1]);
+        sum[2] = carom_dot(x.c[0], way.c[2]);
+        return 2;
     }
-    for (int i = 1; i <= degree; i++) {
-        a[i] = sum_q40(sum[i], view->fine);
+    set_product(sum, &x, &way);
+    set_moment_of(&k, pair, start, of_a);
+    sum[1] += carom_dot(y, k.c[1]);
+    sum[2] += carom_dot(y, k.c[2]);
+    return 4;
+}
+
+/*
+ * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
+ *
+ *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) + e.(r_b x f)
+ *
+ * where r_a x e turns with a, and r_b x f with b. A line that does not turn is referred to a point
+ * on it, so that its r is 0.
+ */
+static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
+                           int64_t *a)
+{
+    struct quadratic centre;
+    int64_t sum[BOYSE_DEGREE + 1];
+    int32_t at[3];
+    int degree = BOYSE_DEGREE;
+
+    place_centres(at, pair, start);
+    if (!centre_way(&centre, &pair->view[0], at)) {
+        return never(a);
+    }
+    if (pair->a->path.turns && pair->b->path.turns) {
+        both_turn(sum, pair, start, &centre);
+    } else {
+        degree = one_turns(sum, pair, start, &centre);
     }
     a[0] = carom_round(carom_dot(start->w, start->d), 12);
+    for (int i = 1; i <= degree; i++) {
+        a[i] = sum_q40(sum[i], pair->view[0].fine);
+    }
     return degree;
 }
 
