@@ -389,43 +389,62 @@ static void set_normal(struct edge_normal *n, const struct moment *m, const stru
     direction_back(m, n->on_b, n->on_a);
 }
 
-/* Whether sign * normal leaves b's edge outwards and enters a's: on neither side inside a face. */
-static bool normal_in_cones(const struct moment *m, const struct boyse_places *p,
-                            const struct edge_normal *n, int sign)
+/*
+ * What N = w / |w| makes of the faces of two edges, cosines. Out: by how much they look along N, out
+ * of b and against a. N leaves b's edge outwards and enters a's, on neither side inside a face, when
+ * `most` is not above 0, and -N when `least` is not below it.
+ */
+struct cones {
+    int32_t out, most, least;
+};
+
+static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
 {
-    int64_t limit_q60 = (int64_t)INTERFERE_CONE_Q30 << 30;
-
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_a = mesh_edge_inward(m->view->from->mesh, p->edge_a, side);
-        carom_v3_q30 in_b = mesh_edge_inward(m->view->to->mesh, p->edge_b, side);
-
-        if (sign * carom_dot(n->on_b, in_b.c) > limit_q60 ||
-            -sign * carom_dot(n->on_a, in_a.c) > limit_q60) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static int64_t along_normal(const struct carom_mesh *mesh, uint16_t face, const int32_t n[3])
-{
-    return face == CAROM_NO_FACE ? 0 : carom_dot(n, mesh->faces[face].normal.c);
+    return (int32_t)(carom_dot(a, b) >> 30);
 }
 
 /*
- * The sign of N by the way that the faces of both edges look: out of b and against a. Edges that
- * are nearly flat have both normals within the tolerance of their cones.
+ * Along the inward normal of a face with normal f at an edge of direction d, N is N.(f x d), which is
+ * f.(d x N); and the opposite at the other side of the edge.
  */
-static int facing_sign(const struct moment *m, const struct boyse_places *p,
-                       const struct edge_normal *n)
+static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
+                      const struct carom_edge *edge, const int32_t n[3], bool outwards)
 {
-    int64_t out = 0;
+    int32_t across[3];
 
+    carom_cross(across, edge->direction.c, n, 30);
     for (int side = 0; side < 2; side++) {
-        out += along_normal(m->view->to->mesh, p->edge_b->face[side], n->on_b) -
-               along_normal(m->view->from->mesh, p->edge_a->face[side], n->on_a);
+        if (edge->face[side] != CAROM_NO_FACE) {
+            const int32_t *face = mesh->faces[edge->face[side]].normal.c;
+            int32_t along = cosine_q30(face, n) / 4, inward = cosine_q30(face, across);
+
+            inward = (side == 0) == outwards ? inward : -inward;
+            cones->out += outwards ? along : -along;
+            cones->most = inward > cones->most ? inward : cones->most;
+            cones->least = inward < cones->least ? inward : cones->least;
+        }
     }
-    return out >= 0 ? 1 : -1;
+}
+
+/*
+ * The sign of N, by the way that the faces of both edges look: edges that are nearly flat have both
+ * normals within the tolerance of their cones. 0: neither is.
+ */
+static int sign_of(const struct moment *m, const struct boyse_places *p,
+                   const struct edge_normal *n)
+{
+    struct cones cones = {0, 0, 0};
+    int sign;
+
+    add_cones(&cones, m->view->to->mesh, p->edge_b, n->on_b, true);
+    add_cones(&cones, m->view->from->mesh, p->edge_a, n->on_a, false);
+    sign = cones.out >= 0 ? 1 : -1;
+    for (int turn = 0; turn < 2; turn++, sign = -sign) {
+        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30) {
+            return sign;
+        }
+    }
+    return 0;
 }
 
 /* Returns |w|; `at` and `n` are set when the touch is valid. */
@@ -440,13 +459,13 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
     touch->valid = false;
     touch->sign = 1;
     if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine, at)) {
+        int sign;
+
         set_normal(n, m, p, sine);
-        touch->sign = (int8_t)facing_sign(m, p, n);
-        touch->valid = normal_in_cones(m, p, n, touch->sign);
-        if (!touch->valid) {
-            touch->sign = (int8_t)-touch->sign;
-            touch->valid = normal_in_cones(m, p, n, touch->sign);
-        }
+        sign = sign_of(m, p, n);
+
+        touch->valid = sign != 0;
+        touch->sign = (int8_t)(sign < 0 ? -1 : 1);
     }
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
     return sine_q30;
