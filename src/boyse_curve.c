@@ -66,9 +66,11 @@ static void curve_slope(const struct curve *q, int32_t t_q30, int32_t *p, int32_
     int32_t v = q->a[q->degree], d = 0;
 
     /* |d| < 6 2^26 */
-    for (int k = q->degree - 1; k >= 0; k--) {
+    for (const int32_t *a = q->a + q->degree; a > q->a; a -= 2) {
         d = curve_times(d, t_q30) + (v >> 3);
-        v = curve_times(v, t_q30) + q->a[k];
+        v = curve_times(v, t_q30) + a[-1];
+        d = curve_times(d, t_q30) + (v >> 3);
+        v = curve_times(v, t_q30) + a[-2];
     }
     *p = v;
     *slope8 = d;
