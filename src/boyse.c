@@ -13,7 +13,7 @@
  * or overlaps; 0 for one that does not.
  */
 static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
-                            int64_t gap_q40)
+                            const struct boyse_places *start, int64_t gap_q40)
 {
     struct boyse_touch touch;
     int32_t limit_q22 = pair->skin_q22 / 2;
@@ -22,34 +22,38 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
     if (carom_abs(gap_q40) >> 18 >= limit_q22) {
         return 0;
     }
-    boyse_test(pair, c, 0, &touch);
+    boyse_test(pair, c, start, 0, &touch);
     return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
                                                                                         : 0;
 }
 
 /* Go through the roots until one is a hit. `shift`: what P is less than its true value, q40. */
 static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
-                      const struct curve *curve, int64_t shift_q40, struct boyse_hit *hit)
+                      const struct boyse_places *start, const struct curve *curve,
+                      int64_t shift_q40, struct boyse_hit *hit)
 {
     struct walk walk;
     int32_t last_root = 0;
 
     walk_begin(&walk, curve);
     while (walk_next(&walk, curve)) {
-        struct boyse_touch touch = {.valid = false};
+        struct boyse_touch touch;
         int32_t scale_q30 = 0;
+
+        touch.valid = false;
 
         /* a vertex that comes out through the back of a face is no hit, wherever it does */
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
-            scale_q30 = boyse_test(pair, c, walk.t_q30, &touch);
+            scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
         if (touch.valid && touch.sign * walk.slope8 < 0) {
-            struct opening o = {.pair = pair,
-                                .c = c,
-                                .curve = curve,
-                                .sign = touch.sign,
-                                .shift = curve_units(curve, touch.sign * shift_q40)};
+            struct opening o;
 
+            o.pair = pair;
+            o.edges = c->kind == CANDIDATE_EDGE_EDGE ? start : NULL;
+            o.curve = curve;
+            o.sign = touch.sign;
+            o.shift = curve_units(curve, touch.sign * shift_q40);
             hit->root_q30 = walk.t_q30;
             hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;
@@ -110,7 +114,7 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
     }
     boyse_place_start(pair, c, &start);
     degree = boyse_polynomial(pair, c, &start, a);
-    touching = touches_at_start(pair, c, a[0]);
+    touching = touches_at_start(pair, c, &start, a[0]);
     if (touching * a[1] < 0) {
         ++*roots;
         hit->t_q30 = hit->root_q30 = 0;
@@ -124,5 +128,5 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         return false;
     }
     ++*roots;
-    return first_hit(pair, c, &curve, shift_q40, hit);
+    return first_hit(pair, c, &start, &curve, shift_q40, hit);
 }

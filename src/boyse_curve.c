@@ -25,10 +25,14 @@ uint32_t curve_quotient_q30(uint32_t n, uint32_t d)
     return shift > -32 ? quotient >> -shift : 0;
 }
 
+static int32_t size_of(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
 bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
 {
     uint64_t first = (uint64_t)carom_abs(a[0]), reach = 0, sum;
-    int32_t bend = 0;
 
     for (int k = 1; k <= degree; k++) {
         reach += (uint64_t)carom_abs(a[k]);
@@ -39,15 +43,21 @@ bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
     sum = first + reach;
     q->degree = degree;
     q->shift = fix_bits(sum + (sum >> 20)) - CURVE_BITS; /* room for what is rounded away from 0 */
-    for (int k = 0; k <= degree; k++) {
-        q->a[k] = (int32_t)curve_units(q, a[k]);
-    }
-    for (int k = 2; k <= degree; k++) {
-        int32_t size = q->a[k] < 0 ? -q->a[k] : q->a[k];
+    if (q->shift > 0) {
+        for (int k = 0; k <= degree; k++) {
+            uint32_t low = (uint32_t)a[k] >> q->shift;
 
-        bend += k * (k - 1) / 2 * ((size >> 3) + 1);
+            q->a[k] = (int32_t)(low | (uint32_t)((uint64_t)a[k] >> 32) << (32 - q->shift));
+        }
+    } else {
+        for (int k = 0; k <= degree; k++) {
+            q->a[k] = (int32_t)carom_shl(a[k], -q->shift);
+        }
     }
-    q->bend8 = bend + 1;
+    q->bend8 = 1;
+    for (int k = 2; k <= degree; k++) {
+        q->bend8 += k * (k - 1) / 2 * ((size_of(q->a[k]) >> 3) + 1);
+    }
     return true;
 }
 
@@ -56,9 +66,11 @@ static void curve_slope(const struct curve *q, int32_t t_q30, int32_t *p, int32_
     int32_t v = q->a[q->degree], d = 0;
 
     /* |d| < 6 2^26 */
-    for (int k = q->degree - 1; k >= 0; k--) {
+    for (const int32_t *a = q->a + q->degree; a > q->a; a -= 2) {
         d = curve_times(d, t_q30) + (v >> 3);
-        v = curve_times(v, t_q30) + q->a[k];
+        v = curve_times(v, t_q30) + a[-1];
+        d = curve_times(d, t_q30) + (v >> 3);
+        v = curve_times(v, t_q30) + a[-2];
     }
     *p = v;
     *slope8 = d;
@@ -91,11 +103,6 @@ static void advance(struct walk *w, uint32_t step_q30)
                                                                : CAROM_ONE_Q30;
 }
 
-static int32_t size_of(int32_t v)
-{
-    return v < 0 ? -v : v;
-}
-
 /*
  * From the start all of P is known: |P| >= |a0| + d t + (a2 - rest) t^2, rest being the sum of the
  * higher coefficients.
@@ -104,7 +111,8 @@ void walk_begin(struct walk *w, const struct curve *q)
 {
     int32_t size = size_of(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
 
-    *w = (struct walk){.stride = STRIDE_Q30};
+    w->t_q30 = w->side = w->rounds = 0;
+    w->stride = STRIDE_Q30;
     if (size > CURVE_NOISE) {
         w->side = q->a[0] < 0 ? -1 : 1;
         if (w->side < 0) {

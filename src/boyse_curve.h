@@ -14,7 +14,7 @@
 /* P; the sum of all |a_k| is below 2^29. Slopes and bends are kept in units of 8. */
 struct curve {
     int32_t a[BOYSE_DEGREE + 1];
-    int degree;
+    int degree;    /* 2, 4 or 6 */
     int shift;     /* a = a_q40 / 2^shift, rounded down */
     int32_t bend8; /* a bound of |P''| / 16 on [0, 1] */
 };
@@ -29,8 +29,9 @@ static inline int32_t curve_at(const struct curve *q, int32_t t_q30)
 {
     int32_t v = q->a[q->degree];
 
-    for (int k = q->degree - 1; k >= 0; k--) {
-        v = curve_times(v, t_q30) + q->a[k];
+    for (const int32_t *a = q->a + q->degree; a > q->a; a -= 2) {
+        v = curve_times(v, t_q30) + a[-1];
+        v = curve_times(v, t_q30) + a[-2];
     }
     return v;
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "boyse_event.h"
 
-#include "boyse_place.h"
-
 /* The time of an event is found when the gap is within this of the wanted one. */
 #define EVENT_SLACK_Q22 4
 /* More than P can be. */
@@ -53,7 +51,7 @@ static void set_wanted(struct opening *o, int32_t t_q30, int32_t scale_q30)
 static struct sample sample_at(struct opening *o, int32_t t_q30)
 {
     if (o->by_angle) {
-        set_wanted(o, t_q30, boyse_scale(o->pair, o->c, t_q30));
+        set_wanted(o, t_q30, boyse_scale(o->pair, o->edges, t_q30));
     }
     return (struct sample){t_q30, open_at(o, t_q30) - o->wanted};
 }
@@ -141,7 +139,7 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
         int32_t open, time = widest(o, from, root.t_q30, &open);
 
         /* whether they open far enough goes by their angle there, not at the root */
-        o->by_angle = o->c->kind == CANDIDATE_EDGE_EDGE;
+        o->by_angle = o->edges != NULL;
         far = sample_at(o, time);
         near = root;
         if (far.excess < 0) {
@@ -178,8 +176,7 @@ int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root
     back =
         curve_quotient_q30((uint32_t)missing + (uint32_t)o->slack / 2, (uint32_t)steep8 + 1) >> 3;
     t_q30 = search(o, from, met, back < 64 ? 64 : back);
-    if (o->c->kind == CANDIDATE_EDGE_EDGE && !o->by_angle &&
-        angle_matters(o, scale_q30, root->t_q30 - t_q30)) {
+    if (o->edges && !o->by_angle && angle_matters(o, scale_q30, root->t_q30 - t_q30)) {
         o->by_angle = true;
         t_q30 = search(o, from, met, (uint32_t)(root->t_q30 - t_q30) + 64);
     }

@@ -4,6 +4,7 @@
 #define CAROM_SRC_BOYSE_EVENT_H
 
 #include "boyse_curve.h"
+#include "boyse_place.h"
 
 /*
  * How far features are open: P, with the sign that it has while they are, in the units of the
@@ -11,7 +12,7 @@
  */
 struct opening {
     const struct boyse_pair *pair;
-    const struct candidate *c;
+    const struct boyse_places *edges; /* where they start; NULL: a vertex and a face */
     const struct curve *curve;
     int sign;
     bool by_angle;

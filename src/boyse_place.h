@@ -63,18 +63,18 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
  */
 bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
 
-/* The coefficients of P, 40 fractional bits, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
+/* The coefficients of P up to the degree, q40, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
 
-/* |w| of two edges at a time, 1 of a vertex and a face: what the gap is multiplied by in P. */
-int32_t boyse_scale(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30);
+/* |w| of two edges at a time: what the gap is multiplied by in P. */
+int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30);
 
 /*
  * The exact test without the places in the world: fills in touch->gap_q22, valid and sign. Returns
- * boyse_scale of that time.
+ * |w| of two edges at that time, 1 for a vertex and a face.
  */
-int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                   struct boyse_touch *touch);
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
+                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch);
 
 #endif

@@ -52,12 +52,18 @@ bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_
 
 /*
  * Below, directions are q30 and lengths have as many bits beyond q22 as fit 30 (view->fine): the
- * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are kept as
- * q40; their largest sum is below 8 x 3 x 2^8 units.
+ * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are summed
+ * up whole, for each power of t: below 2^62, as all lengths of a pair together are below 2^30, and
+ * the coefficients of a direction below 1, 0.7 and 0.3. They are kept as q40.
  */
+static int64_t sum_q40(int64_t sum, int fine)
+{
+    return carom_round(sum, 12 + fine);
+}
+
 static int64_t dot_q40(const int32_t direction[3], const int32_t length[3], int fine)
 {
-    return carom_round(carom_dot(direction, length), 12 + fine);
+    return sum_q40(carom_dot(direction, length), fine);
 }
 
 static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
@@ -69,38 +75,49 @@ static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
 
 /*
  * A vector that turns with a body, times 1 + s^2 t^2: c[0] + c[1] t + c[2] t^2. The formula is that
- * of Cayley: r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)).
+ * of Cayley: r + 2t u x r + t^2 (2 u (u.r) - s^2 r).
  */
 struct quadratic {
     int32_t c[3][3];
-    bool constant; /* c[1] and c[2] stand for 0, and are not set; no factor */
 };
 
 static void turning(struct quadratic *q, const int32_t r[3], const struct body_path *path,
                     const carom_v3_q30 *u)
 {
-    int32_t twice[3];
+    int32_t along;
 
-    memcpy(q->c[0], r, sizeof q->c[0]);
-    q->constant = !path->turns;
-    if (q->constant) {
+    q->c[0][0] = r[0];
+    q->c[0][1] = r[1];
+    q->c[0][2] = r[2];
+    if (!path->turns) {
         return; /* c[1] and c[2] are not looked at */
     }
     carom_cross(q->c[1], u->c, r, 29);
-    carom_cross(twice, u->c, q->c[1], 30);
+    along = (int32_t)carom_round(carom_dot(u->c, r), 29);
     for (int k = 0; k < 3; k++) {
-        q->c[2][k] = twice[k] + carom_mul_q30(path->u2_q30, r[k]);
+        q->c[2][k] =
+            (int32_t)carom_round((int64_t)u->c[k] * along - (int64_t)path->u2_q30 * r[k], 30);
     }
 }
 
-/* a += x.y for a direction x and lengths y. */
-static void add_product(int64_t *a, const struct quadratic *x, const struct quadratic *y, int fine)
+/* sum += x.y for a direction x and lengths y, both of which turn: by powers, up to 4. */
+static void add_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
-    for (int i = 0; i < (x->constant ? 1 : 3); i++) {
-        for (int j = 0; j < (y->constant ? 1 : 3); j++) {
-            a[i + j] += dot_q40(x->c[i], y->c[j], fine);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            sum[i + j] += carom_dot(x->c[i], y->c[j]);
         }
     }
+}
+
+/* sum = x.y of two that turn or move, but for sum[0]. */
+static void set_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
+{
+    sum[1] = carom_dot(x->c[0], y->c[1]) + carom_dot(x->c[1], y->c[0]);
+    sum[2] =
+        carom_dot(x->c[0], y->c[2]) + carom_dot(x->c[1], y->c[1]) + carom_dot(x->c[2], y->c[0]);
+    sum[3] = carom_dot(x->c[1], y->c[2]) + carom_dot(x->c[2], y->c[1]);
+    sum[4] = carom_dot(x->c[2], y->c[2]);
 }
 
 /* v s^2, as fix_mul has it, which is called too often here: |v| < 2^52. */
@@ -111,18 +128,6 @@ static inline int64_t times_u2(int64_t v, const struct body_path *path)
     return high * 4 + carom_round(low, 30);
 }
 
-/* a += sign v (1 + s^2 t^2) for a polynomial v of the given degree. */
-static void add_times_factor(int64_t *a, const int64_t *v, int degree, int sign,
-                             const struct body_path *path)
-{
-    for (int k = 0; k <= degree; k++) {
-        a[k] += sign * v[k];
-        if (path->u2_q30 != 0) {
-            a[k + 2] += sign * times_u2(v[k], path);
-        }
-    }
-}
-
 /*
  * The way of from's centre. A point that does not turn is its own centre, which keeps the numbers
  * of large meshes small: `at` is where it starts from, about to's centre of reference. False when
@@ -131,15 +136,15 @@ static void add_times_factor(int64_t *a, const int64_t *v, int degree, int sign,
 static bool centre_way(struct quadratic *q, const struct boyse_view *view, const int32_t at_q22[3])
 {
     const int32_t limit = (int32_t)1 << (30 - view->fine);
+    int up = view->fine - 2, down = up < 0 ? -up : 0;
 
-    q->constant = false;
     for (int k = 0; k < 3; k++) {
         if (at_q22[k] > limit || at_q22[k] < -limit) {
             return false;
         }
         q->c[0][k] = at_q22[k] * (1 << view->fine);
-        q->c[1][k] = (int32_t)((carom_shl(view->v.c[k], view->fine) + 2) >> 2);
-        q->c[2][k] = (int32_t)((carom_shl(view->g.c[k], view->fine) + 2) >> 2);
+        q->c[1][k] = up < 0 ? (view->v.c[k] + down) >> down : view->v.c[k] * (1 << up);
+        q->c[2][k] = up < 0 ? (view->g.c[k] + down) >> down : view->g.c[k] * (1 << up);
     }
     return true;
 }
@@ -148,6 +153,7 @@ static bool centre_way(struct quadratic *q, const struct boyse_view *view, const
 static int never(int64_t *a)
 {
     a[0] = (int64_t)1 << 40;
+    a[1] = a[2] = 0;
     return 2;
 }
 
@@ -195,8 +201,7 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
 {
     const struct body_path *from = &view->from->path, *to = &view->to->path;
     struct quadratic n, centre, arm;
-    int64_t along[BOYSE_DEGREE + 1] = {0}, plane[BOYSE_DEGREE + 1] = {0};
-    int64_t gap = a[0];
+    int64_t along[5], sum[5], plane = carom_shl(offset_q22, 18);
     int32_t r[3], at[3];
 
     for (int k = 0; k < 3; k++) {
@@ -206,33 +211,42 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
         return never(a);
     }
     turning(&n, start->n, to, &to->u);
-    add_product(along, &n, &centre, view->fine);
-    a[0] = 0;
-    add_times_factor(a, along, 4, 1, from);
-    if (from->turns) {
-        arm_of(r, view, start);
-        refine(r, r, view->fine);
-        turning(&arm, r, from, &view->u);
-        add_product(a, &n, &arm, view->fine);
+    set_product(along, &n, &centre);
+    for (int k = 1; k < 5; k++) {
+        along[k] = sum_q40(along[k], view->fine);
     }
-    plane[0] = carom_shl(offset_q22, 18);
-    memset(along, 0, sizeof along);
-    add_times_factor(along, plane, 0, 1, to);
-    add_times_factor(a, along, 2, -1, from);
-    a[0] = gap; /* the exact one; the sum above is it but for rounding */
-    return from->turns ? 6 : 4;
+    along[2] -= times_u2(plane, to);
+    for (int k = 1; k < 5; k++) {
+        a[k] = along[k];
+    }
+    if (!from->turns) {
+        return 4; /* a[0] is the exact one */
+    }
+    along[0] = sum_q40(carom_dot(n.c[0], centre.c[0]), view->fine) - plane;
+    for (int k = 0; k < 3; k++) {
+        a[k + 2] += times_u2(along[k], from);
+    }
+    a[5] = times_u2(along[3], from);
+    a[6] = times_u2(along[4], from);
+    arm_of(r, view, start);
+    refine(r, r, view->fine);
+    turning(&arm, r, from, &view->u);
+    set_product(sum, &n, &arm);
+    for (int k = 1; k < 5; k++) {
+        a[k] += sum_q40(sum[k], view->fine);
+    }
+    return 6;
 }
 
-/* out = x x y for a direction x and lengths y, collected by powers: degree 4. */
+/* out = x x y for a direction x that turns and lengths y, collected by powers: degree 4. */
 static void cross_product(int32_t out[5][3], const struct quadratic *x, const struct quadratic *y)
 {
+    for (int k = 0; k < 3; k++) {
+        out[3][k] = out[4][k] = 0;
+    }
     for (int j = 0; j < 3; j++) {
         carom_cross(out[j], x->c[0], y->c[j], 30);
     }
-    if (x->constant) {
-        return; /* degree 2 */
-    }
-    memset(out[3], 0, 2 * sizeof out[0]);
     for (int i = 1; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             int32_t part[3];
@@ -245,27 +259,17 @@ static void cross_product(int32_t out[5][3], const struct quadratic *x, const st
     }
 }
 
-/*
- * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
- *
- *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) - e.(f x r_b)
- *
- * where r_a x e turns with a, and f x r_b with b. A line that does not turn is referred to a point
- * on it, so that its r is 0.
- */
-static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
-                           int64_t *a)
+/* Where c is at the start: see edge_polynomial. */
+static void place_centres(int32_t at[3], const struct boyse_pair *pair,
+                          const struct boyse_places *start)
 {
-    const struct boyse_view *view = &pair->view[0];
-    const struct body_path *path_a = &pair->a->path, *path_b = &pair->b->path;
-    struct quadratic e, f, centre, k;
-    int32_t at[3], way[5][3], moment[3];
+    bool a_turns = pair->a->path.turns, b_turns = pair->b->path.turns;
 
     for (int i = 0; i < 3; i++) {
-        at[i] = path_a->turns ? view->centre.c[i] : start->vertex.c[i];
-        at[i] -= path_b->turns ? 0 : start->start_b.c[i];
+        at[i] = a_turns ? pair->view[0].centre.c[i] : start->vertex.c[i];
+        at[i] -= b_turns ? 0 : start->start_b.c[i];
     }
-    if (!path_b->turns) {
+    if (!b_turns) {
         /* of b's line, take the point that is nearest: it keeps long edges in range */
         int32_t along_q22 = (int32_t)carom_round(carom_dot(start->f, at), 30);
 
@@ -273,31 +277,109 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
             at[i] -= carom_mul_q30(along_q22, start->f[i]);
         }
     }
-    if (!centre_way(&centre, view, at)) {
-        return never(a);
-    }
-    turning(&e, start->e, path_a, &view->u);
-    turning(&f, start->f, path_b, &path_b->u);
-    cross_product(way, &f, &centre);
-    for (int i = 0; i < (e.constant ? 1 : 3); i++) {
-        for (int j = 0; j < (f.constant ? 3 : 5); j++) {
-            a[i + j] += dot_q40(e.c[i], way[j], view->fine);
-        }
-    }
-    if (path_a->turns) {
+}
+
+/* The moment of a's line about a's centre, r_a x e, or of b's about b's, as it turns with its body. */
+static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
+                          const struct boyse_places *start, bool of_a)
+{
+    const struct boyse_view *view = &pair->view[0];
+    int32_t moment[3];
+
+    if (of_a) {
         arm_of(moment, view, start);
         carom_cross(moment, moment, start->e, 30 - view->fine);
-        turning(&k, moment, path_a, &view->u);
-        add_product(a, &f, &k, view->fine);
-    }
-    if (path_b->turns) {
-        /* r_b x f takes care of the minus */
+        turning(k, moment, &pair->a->path, &view->u);
+    } else {
         carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
-        turning(&k, moment, path_b, &path_b->u);
-        add_product(a, &e, &k, view->fine);
+        turning(k, moment, &pair->b->path, &pair->b->path.u);
+    }
+}
+
+/* Both bodies turn: degree 6. */
+static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                      const struct boyse_places *start, const struct quadratic *centre)
+{
+    struct quadratic e, f, k;
+    int32_t way[5][3];
+
+    turning(&e, start->e, &pair->a->path, &pair->view[0].u);
+    turning(&f, start->f, &pair->b->path, &pair->b->path.u);
+    cross_product(way, &f, centre);
+    for (int i = 0; i <= BOYSE_DEGREE; i++) {
+        sum[i] = 0;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 5; j++) {
+            sum[i + j] += carom_dot(e.c[i], way[j]);
+        }
+    }
+    set_moment_of(&k, pair, start, true);
+    add_product(sum, &f, &k);
+    set_moment_of(&k, pair, start, false);
+    add_product(sum, &e, &k);
+}
+
+/*
+ * One body turns, with its edge x, or none: x.(y x c) + y.k with k the moment of x, in which y does
+ * not turn; the triple product changes its sign with the roles of the edges. Returns the degree.
+ */
+static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                     const struct boyse_places *start, const struct quadratic *centre)
+{
+    bool of_a = !pair->b->path.turns;
+    const struct body_path *path = of_a ? &pair->a->path : &pair->b->path;
+    const int32_t *y = of_a ? start->f : start->e;
+    struct quadratic x, way, k;
+
+    for (int j = 0; j < 3; j++) {
+        const int32_t *c = centre->c[j];
+
+        carom_cross(way.c[j], of_a ? y : c, of_a ? c : y, 30);
+    }
+    turning(&x, of_a ? start->e : start->f, path, of_a ? &pair->view[0].u : &path->u);
+    if (!path->turns) {
+        sum[1] = carom_dot(x.c[0], way.c[1]);
+        sum[2] = carom_dot(x.c[0], way.c[2]);
+        return 2;
+    }
+    set_product(sum, &x, &way);
+    set_moment_of(&k, pair, start, of_a);
+    sum[1] += carom_dot(y, k.c[1]);
+    sum[2] += carom_dot(y, k.c[2]);
+    return 4;
+}
+
+/*
+ * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
+ *
+ *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) + e.(r_b x f)
+ *
+ * where r_a x e turns with a, and r_b x f with b. A line that does not turn is referred to a point
+ * on it, so that its r is 0.
+ */
+static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
+                           int64_t *a)
+{
+    struct quadratic centre;
+    int64_t sum[BOYSE_DEGREE + 1];
+    int32_t at[3];
+    int degree = BOYSE_DEGREE;
+
+    place_centres(at, pair, start);
+    if (!centre_way(&centre, &pair->view[0], at)) {
+        return never(a);
+    }
+    if (pair->a->path.turns && pair->b->path.turns) {
+        both_turn(sum, pair, start, &centre);
+    } else {
+        degree = one_turns(sum, pair, start, &centre);
     }
     a[0] = carom_round(carom_dot(start->w, start->d), 12);
-    return (path_a->turns ? 2 : 0) + (path_b->turns ? 2 : 0) + 2;
+    for (int i = 1; i <= degree; i++) {
+        a[i] = sum_q40(sum[i], pair->view[0].fine);
+    }
+    return degree;
 }
 
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
@@ -305,7 +387,6 @@ int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
 {
     const struct boyse_view *view = boyse_view(pair, c);
 
-    memset(a_q40, 0, (BOYSE_DEGREE + 1) * sizeof a_q40[0]);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         return edge_polynomial(pair, start, a_q40);
     }

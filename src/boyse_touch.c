@@ -2,182 +2,94 @@
 /* Features of a candidate at a given time: their places, their distance, and the exact test. */
 #include "boyse_place.h"
 
-/* ---------------------------------------------------------------------- pair */
-
-static int64_t length_q22(const int32_t v_q24[3])
-{
-    const int64_t v[3] = {v_q24[0], v_q24[1], v_q24[2]};
-
-    return (fix_length(v) >> 2) + 1;
-}
-
-static int32_t clamp(int64_t v)
-{
-    return v < INT32_MAX ? (int32_t)v : INT32_MAX;
-}
-
-/*
- * Bounds of the path. A point at r goes by at most 2 s |r|, and is at most
- * (2 s^2 + 2 s^3) |r| t^2 < 3 s^2 |r| t^2 from r + 2t u x r, as s < 0.31 (body.h). Seen from `to`,
- * which turns as well while the point goes D from a place within X of its centre, there are
- * 2 s (X + D) of way and 2 s D + 3 s^2 (X + D) of bend on top.
- */
-static void set_bounds(struct boyse_view *view)
-{
-    const struct body *from = view->from, *to = view->to;
-    const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
-    int64_t s_q30 = fix_sqrt((uint64_t)from->path.u2_q30 << 30) + 1;
-    int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
-
-    if (from->path.turns) {
-        way += fix_mul(2 * s_q30, from->radius_q22, 30) + 1;
-        bend += fix_mul(3 * (int64_t)from->radius_q22, from->path.u2_q30 + 1, 30) + 1;
-    }
-    view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
-    if (to->path.turns) {
-        s_q30 = fix_sqrt((uint64_t)to->path.u2_q30 << 30) + 1;
-        reach = fix_length(centre) + from->radius_q22 + way;
-        view->seen.way_q22 = clamp(way + fix_mul(2 * reach, (int32_t)s_q30, 30) + 1);
-        view->seen.bend_q22 = clamp(bend + fix_mul(2 * way, (int32_t)s_q30, 30) +
-                                    fix_mul(3 * reach, to->path.u2_q30 + 1, 30) + 2);
-        view->fixed.way_q22 = clamp(way + fix_mul(2 * s_q30, to->radius_q22, 30) + 1);
-        view->fixed.bend_q22 =
-            clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, to->path.u2_q30 + 1, 30) + 1);
-    }
-}
-
-/*
- * Two features that meet on the path start within its way of each other, and lie within the radius
- * of a body that turns; what does not turn is referred to the feature itself, of which an edge of
- * `from` has its start a diameter away. No length in P is above the sum of these.
- */
-static void set_fine(struct boyse_view *view)
-{
-    int64_t reach = view->fixed.way_q22 + (view->to->path.turns ? view->to->radius_q22 : 0) + 8 +
-                    (view->from->path.turns ? 1 : 2) * (int64_t)view->from->radius_q22;
-
-    view->fine = 30 - fix_bits((uint64_t)reach);
-    view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
-}
-
-/* How `to` sees `from`. */
-static void set_view(struct boyse_view *view, struct body *from, struct body *to)
-{
-    const carom_m3_q30 *from_r = &from->path.start.r, *to_r = &to->path.start.r;
-    int64_t centre_q32[3], v[3], g[3];
-    int32_t turning[3];
-
-    view->from = from;
-    view->to = to;
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            int64_t sum = (int64_t)to_r->c[0][k] * from_r->c[0][i] +
-                          (int64_t)to_r->c[1][k] * from_r->c[1][i] +
-                          (int64_t)to_r->c[2][k] * from_r->c[2][i];
-
-            view->r.c[k][i] = (int32_t)carom_round(sum, 30);
-        }
-        centre_q32[k] = carom_shl(from->path.origin_q22[k] - to->path.origin_q22[k], 10) +
-                        from->path.start.x.c[k] - to->path.start.x.c[k];
-        v[k] = from->path.v.c[k] - to->path.v.c[k];
-        g[k] = from->path.g.c[k] - to->path.g.c[k];
-    }
-    fix_rotate_back(centre_q32, to_r, centre_q32);
-    fix_rotate_back(v, to_r, v);
-    fix_rotate_back(g, to_r, g);
-    for (int k = 0; k < 3; k++) {
-        view->centre.c[k] = (int32_t)carom_round(centre_q32[k], 10);
-        view->v.c[k] = (int32_t)carom_round(v[k], 16);
-        view->g.c[k] = (int32_t)carom_round(g[k], 16);
-    }
-    carom_rotate(view->u.c, &view->r, from->path.u.c);
-    carom_cross(turning, view->u.c, view->centre.c, 29);
-    for (int k = 0; k < 3; k++) {
-        view->u_relative.c[k] = view->u.c[k] - to->path.u.c[k];
-        view->field.c[k] = (int32_t)carom_round(v[k], 18) - turning[k];
-    }
-    set_bounds(view);
-    set_fine(view);
-}
-
-void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
-{
-    pair->a = a;
-    pair->b = b;
-    pair->skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
-    for (int k = 0; k < 3; k++) {
-        pair->offset_q22[k] = (int32_t)(b->path.origin_q22[k] - a->path.origin_q22[k]);
-    }
-    pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)a->path.u2_q30 << 30) +
-                                   fix_sqrt((uint64_t)b->path.u2_q30 << 30));
-    set_view(&pair->view[0], a, b);
-    set_view(&pair->view[1], b, a);
-}
-
 /* ------------------------------------------------------------------ places at t */
 
 /*
- * Cayley's turn at one time: r goes to r + k t u x r + k t^2 u x (u x r), k = 2 / (1 + s^2 t^2).
- * The turn back differs in the sign of the first.
+ * 2^59 / d for 2^29 <= d <= 2^30, within 2 units: 15 bits of it by division, the others by a step of
+ * Newton's, y + y (2^45 - d y) / 2^45. What is in the brackets fits 32 bits, being less than 2 d.
+ */
+static int32_t inverse_q59(uint32_t d)
+{
+    uint32_t y = UINT32_MAX / (d >> 13);
+    int32_t rest = (int32_t)(0 - d * y);
+
+    return (int32_t)(y << 14) + (int32_t)((int64_t)rest * (int32_t)y >> 31);
+}
+
+/*
+ * Cayley's turn at one time, 1 + k t [u] + k t^2 (u u^T - s^2), k = 2 / (1 + s^2 t^2); not set when
+ * the body does not turn.
  */
 struct turn {
-    int32_t u[3];
-    int32_t once_q29, twice_q29; /* k t and k t^2, at most 2; 0: no turn */
+    bool turns;
+    carom_m3_q30 r;
 };
 
-static struct turn turn_at(const struct body_path *path, const carom_v3_q30 *u, int32_t t_q30,
-                           int32_t t2_q30)
+static void turn_at(struct turn *turn, const struct body_path *path, const carom_v3_q30 *u,
+                    int32_t t_q30, int32_t t2_q30)
 {
-    struct turn turn = {{u->c[0], u->c[1], u->c[2]}, 0, 0};
+    int32_t k_q29, once[3], twice[3], xx, yy, zz, xy, yz, zx;
 
-    if (path->turns) {
-        /* s t < 0.31: the divisor is 1 to 1.1 in q30, the quotient at most 2^30 */
-        int32_t k_q29 = (int32_t)(((int64_t)1 << 60) /
-                                  (CAROM_ONE_Q30 + (int64_t)carom_mul_q30(path->u2_q30, t2_q30)));
-
-        turn.once_q29 = carom_mul_q30(k_q29, t_q30);
-        turn.twice_q29 = carom_mul_q30(k_q29, t2_q30);
-    }
-    return turn;
-}
-
-static struct turn turn_back(struct turn turn)
-{
-    turn.once_q29 = -turn.once_q29;
-    return turn;
-}
-
-/* v is turned in place, in any format; its length keeps it within int32. */
-static void apply(const struct turn *turn, int32_t v[3])
-{
-    int32_t once[3], twice[3];
-
-    if (turn->once_q29 == 0) {
+    turn->turns = path->turns;
+    if (!path->turns) {
         return;
     }
-    carom_cross(once, turn->u, v, 30);
-    carom_cross(twice, turn->u, once, 30);
-    for (int k = 0; k < 3; k++) {
-        v[k] += (int32_t)carom_round(
-            (int64_t)turn->once_q29 * once[k] + (int64_t)turn->twice_q29 * twice[k], 29);
+    /* s t < 0.31: the divisor is 1 to 1.1 */
+    k_q29 =
+        inverse_q59(((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
+    t_q30 = carom_mul_q30(k_q29, t_q30);
+    t2_q30 = carom_mul_q30(k_q29, t2_q30);
+    for (int i = 0; i < 3; i++) {
+        once[i] = (int32_t)carom_round((int64_t)t_q30 * u->c[i], 29);
+        twice[i] = (int32_t)carom_round((int64_t)t2_q30 * u->c[i], 29);
+    }
+    xx = carom_mul_q30(twice[0], u->c[0]);
+    yy = carom_mul_q30(twice[1], u->c[1]);
+    zz = carom_mul_q30(twice[2], u->c[2]);
+    xy = carom_mul_q30(twice[0], u->c[1]);
+    yz = carom_mul_q30(twice[1], u->c[2]);
+    zx = carom_mul_q30(twice[2], u->c[0]);
+    turn->r = (carom_m3_q30){{{CAROM_ONE_Q30 - yy - zz, xy - once[2], zx + once[1]},
+                              {xy + once[2], CAROM_ONE_Q30 - zz - xx, yz - once[0]},
+                              {zx - once[1], yz + once[0], CAROM_ONE_Q30 - xx - yy}}};
+}
+
+/* v in any format is turned in place; its length keeps it within int32. */
+static void apply(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate(v, &turn->r, v);
+    }
+}
+
+static void apply_back(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate_back(v, &turn->r, v);
     }
 }
 
 /* A view at one time. */
 struct moment {
     const struct boyse_view *view;
-    struct turn from, to, to_back;
+    struct turn from, to;
     int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
 };
 
-static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_t t_q30)
 {
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
     m->view = view;
-    m->from = turn_at(&view->from->path, &view->u, t_q30, t2_q30);
-    m->to = turn_at(&view->to->path, &view->to->path.u, t_q30, t2_q30);
-    m->to_back = turn_back(m->to);
+    turn_at(&m->from, &view->from->path, &view->u, t_q30, t2_q30);
+    turn_at(&m->to, &view->to->path, &view->to->path.u, t_q30, t2_q30);
+    return t2_q30;
+}
+
+static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+{
+    int32_t t2_q30 = set_turns(m, view, t_q30);
+
     for (int k = 0; k < 3; k++) {
         /* q24 x q30 = q54: |v t + g t^2| < 2^8 units */
         int64_t way_q54 = (int64_t)view->v.c[k] * t_q30 + (int64_t)view->g.c[k] * t2_q30;
@@ -186,35 +98,39 @@ static void set_moment(struct moment *m, const struct boyse_view *view, int32_t 
     }
 }
 
-/* A direction of from's mesh in to's mesh axes, and back. */
-static void direction_to(const struct moment *m, const int32_t local[3], int32_t out[3])
+/* A direction of from's in to's mesh axes as it is at the start, and back to from's mesh. */
+static void direction_to(const struct moment *m, const int32_t start[3], int32_t out[3])
 {
-    carom_rotate(out, &m->view->r, local);
+    for (int k = 0; k < 3; k++) {
+        out[k] = start[k];
+    }
     apply(&m->from, out);
-    apply(&m->to_back, out);
+    apply_back(&m->to, out);
 }
 
 static void direction_back(const struct moment *m, const int32_t n[3], int32_t out[3])
 {
-    const struct turn from_back = turn_back(m->from);
-
-    memcpy(out, n, 3 * sizeof out[0]);
+    for (int k = 0; k < 3; k++) {
+        out[k] = n[k];
+    }
     apply(&m->to, out);
-    apply(&from_back, out);
+    apply_back(&m->from, out);
     carom_rotate_back(out, &m->view->r, out);
 }
 
-/* A point of from's mesh in to's mesh axes, about to's centre. */
-static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *local)
+/* A point of from, in to's mesh axes and about to's centre as the start is. */
+static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
 {
     carom_v3_q22 p;
 
-    carom_rotate(p.c, &m->view->r, local->c);
+    for (int k = 0; k < 3; k++) {
+        p.c[k] = start->c[k] - m->view->centre.c[k];
+    }
     apply(&m->from, p.c);
     for (int k = 0; k < 3; k++) {
         p.c[k] += m->centre_q22[k];
     }
-    apply(&m->to_back, p.c);
+    apply_back(&m->to, p.c);
     return p;
 }
 
@@ -242,25 +158,19 @@ static carom_v3_q22 point_to_world(const struct boyse_pair *pair, const struct m
 }
 
 /* The features of a candidate at one time. */
-static void place(const struct moment *m, const struct candidate *c, struct boyse_places *p)
+static void place(const struct moment *m, const struct candidate *c,
+                  const struct boyse_places *start, struct boyse_places *p)
 {
-    const struct carom_mesh *from = m->view->from->mesh, *to = m->view->to->mesh;
-    uint32_t v = c->i;
-
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        p->edge_a = &from->edges[c->i];
-        p->edge_b = &to->edges[c->j];
-        v = p->edge_a->vertex[0];
-    }
-    p->vertex = mesh_vertex(from, v);
-    p->vertex = point_to(m, &p->vertex);
+    p->vertex = point_to(m, &start->vertex);
     if (c->kind != CANDIDATE_EDGE_EDGE) {
-        p->n = to->faces[c->j].normal.c;
+        p->n = start->n;
         return;
     }
-    p->start_b = mesh_vertex(to, p->edge_b->vertex[0]);
-    p->f = p->edge_b->direction.c;
-    direction_to(m, p->edge_a->direction.c, p->e);
+    p->edge_a = start->edge_a;
+    p->edge_b = start->edge_b;
+    p->start_b = start->start_b;
+    p->f = start->f;
+    direction_to(m, start->e, p->e);
     boyse_complete_edges(p);
 }
 
@@ -282,18 +192,34 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
 
 /* ------------------------------------------------------------------ two edges */
 
-static int64_t divide_floor(int64_t n, int64_t d)
-{
-    int64_t q = n / d;
+/* 1 / |w| of edges as m 2^-(29 - up), for an angle of no less than the one that counts. */
+struct inverse {
+    int32_t m; /* 2^29 .. 2^30 */
+    int up;    /* 0 .. 6 */
+};
 
-    return q - (n % d != 0 && (n < 0) != (d < 0));
+static struct inverse inverse_of(int32_t sine_q30)
+{
+    uint32_t d = sine_q30 > BOYSE_PARALLEL_Q30 ? (uint32_t)sine_q30 : BOYSE_PARALLEL_Q30;
+    int up = 30 - fix_bits32(d);
+
+    /* a sine of 1, and a little more by rounding */
+    return up < 0 ? (struct inverse){1 << 29, 0} : (struct inverse){inverse_q59(d << up), up};
 }
 
-/* w.d is kept whole until it is divided by |w|: nearly parallel edges lose nothing. */
-static int32_t edge_gap(const struct boyse_places *p, int32_t sine_q30, int sign)
+/* v times the inverse, rounded down; |v| < 2^53. */
+static int64_t over_sine(int64_t v, struct inverse sine)
 {
-    int64_t gap = divide_floor(sign * carom_dot(p->w, p->d),
-                               sine_q30 > BOYSE_PARALLEL_Q30 ? sine_q30 : BOYSE_PARALLEL_Q30);
+    uint64_t wide = (uint64_t)v << (3 + sine.up);
+    uint32_t low = (uint32_t)((wide & 0xffffffffu) * (uint32_t)sine.m >> 32);
+
+    return (int64_t)(int32_t)(uint32_t)(wide >> 32) * sine.m + low;
+}
+
+/* w.d is kept to q32 until it is divided by |w|: nearly parallel edges lose nothing. */
+static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
+{
+    int64_t gap = over_sine(sign * wd_q52 >> 20, sine) >> 10;
 
     if (gap > INT32_MAX || gap < -INT32_MAX) {
         return gap > 0 ? INT32_MAX : -INT32_MAX; /* nearly parallel and far apart */
@@ -309,16 +235,28 @@ struct nearest {
     int64_t s_q22, q_q22;
 };
 
-static bool nearest_points(const struct boyse_places *p, int32_t sine_q30, struct nearest *at)
+/* a b, rounded down; |a| < 2^61 */
+static int64_t times_q30(int64_t a, int32_t b_q30)
+{
+    int64_t a4 = carom_shl(a, 2), low = (int64_t)(uint32_t)a4 * b_q30;
+
+    return (a4 >> 32) * b_q30 + (low >> 32);
+}
+
+/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22. */
+static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
+{
+    return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
+}
+
+static bool nearest_points(const struct boyse_places *p, struct inverse sine, struct nearest *at)
 {
     int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
     int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
     int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
-    int64_t d_q30 = carom_round((int64_t)sine_q30 * sine_q30, 30); /* >= 1e-4 */
 
-    /* q32 numbers of at most 2^41 by q20: |d| <= 2^9 units */
-    at->s_q22 = divide_floor((fix_mul(df_q32, b_q30, 30) - de_q32) * ((int64_t)1 << 20), d_q30);
-    at->q_q22 = divide_floor((df_q32 - fix_mul(de_q32, b_q30, 30)) * ((int64_t)1 << 20), d_q30);
+    at->s_q22 = -along(de_q32, b_q30, df_q32, sine);
+    at->q_q22 = along(df_q32, b_q30, de_q32, sine);
     return at->s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
            at->s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
            at->q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
@@ -331,53 +269,70 @@ struct edge_normal {
 };
 
 static void set_normal(struct edge_normal *n, const struct moment *m, const struct boyse_places *p,
-                       int32_t sine_q30)
+                       struct inverse sine)
 {
-    int64_t inverse_q30 = ((int64_t)1 << 60) / sine_q30; /* 1 .. 100 */
-
     for (int k = 0; k < 3; k++) {
-        n->on_b[k] = (int32_t)fix_mul(inverse_q30, p->w[k], 30);
+        n->on_b[k] = (int32_t)carom_round((int64_t)p->w[k] * sine.m, 29 - sine.up);
     }
     direction_back(m, n->on_b, n->on_a);
 }
 
-/* Whether sign * normal leaves b's edge outwards and enters a's: on neither side inside a face. */
-static bool normal_in_cones(const struct moment *m, const struct boyse_places *p,
-                            const struct edge_normal *n, int sign)
+/*
+ * What N = w / |w| makes of the faces of two edges, cosines. Out: by how much they look along N, out
+ * of b and against a. N leaves b's edge outwards and enters a's, on neither side inside a face, when
+ * `most` is not above 0, and -N when `least` is not below it.
+ */
+struct cones {
+    int32_t out, most, least;
+};
+
+static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
 {
-    int64_t limit_q60 = (int64_t)INTERFERE_CONE_Q30 << 30;
-
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_a = mesh_edge_inward(m->view->from->mesh, p->edge_a, side);
-        carom_v3_q30 in_b = mesh_edge_inward(m->view->to->mesh, p->edge_b, side);
-
-        if (sign * carom_dot(n->on_b, in_b.c) > limit_q60 ||
-            -sign * carom_dot(n->on_a, in_a.c) > limit_q60) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static int64_t along_normal(const struct carom_mesh *mesh, uint16_t face, const int32_t n[3])
-{
-    return face == CAROM_NO_FACE ? 0 : carom_dot(n, mesh->faces[face].normal.c);
+    return (int32_t)(carom_dot(a, b) >> 30);
 }
 
 /*
- * The sign of N by the way that the faces of both edges look: out of b and against a. Edges that
- * are nearly flat have both normals within the tolerance of their cones.
+ * Along the inward normal of a face with normal f at an edge of direction d, N is N.(f x d), which is
+ * f.(d x N); and the opposite at the other side of the edge.
  */
-static int facing_sign(const struct moment *m, const struct boyse_places *p,
-                       const struct edge_normal *n)
+static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
+                      const struct carom_edge *edge, const int32_t n[3], bool outwards)
 {
-    int64_t out = 0;
+    int32_t across[3];
 
+    carom_cross(across, edge->direction.c, n, 30);
     for (int side = 0; side < 2; side++) {
-        out += along_normal(m->view->to->mesh, p->edge_b->face[side], n->on_b) -
-               along_normal(m->view->from->mesh, p->edge_a->face[side], n->on_a);
+        if (edge->face[side] != CAROM_NO_FACE) {
+            const int32_t *face = mesh->faces[edge->face[side]].normal.c;
+            int32_t along = cosine_q30(face, n) / 4, inward = cosine_q30(face, across);
+
+            inward = (side == 0) == outwards ? inward : -inward;
+            cones->out += outwards ? along : -along;
+            cones->most = inward > cones->most ? inward : cones->most;
+            cones->least = inward < cones->least ? inward : cones->least;
+        }
     }
-    return out >= 0 ? 1 : -1;
+}
+
+/*
+ * The sign of N, by the way that the faces of both edges look: edges that are nearly flat have both
+ * normals within the tolerance of their cones. 0: neither is.
+ */
+static int sign_of(const struct moment *m, const struct boyse_places *p,
+                   const struct edge_normal *n)
+{
+    struct cones cones = {0, 0, 0};
+    int sign;
+
+    add_cones(&cones, m->view->to->mesh, p->edge_b, n->on_b, true);
+    add_cones(&cones, m->view->from->mesh, p->edge_a, n->on_a, false);
+    sign = cones.out >= 0 ? 1 : -1;
+    for (int turn = 0; turn < 2; turn++, sign = -sign) {
+        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30) {
+            return sign;
+        }
+    }
+    return 0;
 }
 
 /* Returns |w|; `at` and `n` are set when the touch is valid. */
@@ -386,41 +341,39 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
 {
     int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
 
+    const struct inverse sine = inverse_of(sine_q30);
+    const int64_t wd_q52 = carom_dot(p->w, p->d);
+
     touch->valid = false;
     touch->sign = 1;
-    touch->gap_q22 = edge_gap(p, sine_q30, 1);
-    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine_q30, at)) {
-        set_normal(n, m, p, sine_q30);
-        touch->sign = (int8_t)facing_sign(m, p, n);
-        touch->valid = normal_in_cones(m, p, n, touch->sign);
-        if (!touch->valid) {
-            touch->sign = (int8_t)-touch->sign;
-            touch->valid = normal_in_cones(m, p, n, touch->sign);
-        }
-        if (touch->sign < 0) {
-            touch->gap_q22 = edge_gap(p, sine_q30, -1);
-        }
+    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine, at)) {
+        int sign;
+
+        set_normal(n, m, p, sine);
+        sign = sign_of(m, p, n);
+
+        touch->valid = sign != 0;
+        touch->sign = (int8_t)(sign < 0 ? -1 : 1);
     }
+    touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
     return sine_q30;
 }
 
 /* -------------------------------------------------------------- the exact test */
 
-int32_t boyse_scale(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30)
 {
     struct moment m;
-    struct boyse_places p;
+    int32_t e[3], w[3];
 
-    if (c->kind != CANDIDATE_EDGE_EDGE) {
-        return CAROM_ONE_Q30;
-    }
-    set_moment(&m, &pair->view[0], t_q30);
-    place(&m, c, &p);
-    return (int32_t)fix_sqrt((uint64_t)carom_dot(p.w, p.w));
+    set_turns(&m, &pair->view[0], t_q30);
+    direction_to(&m, start->e, e);
+    carom_cross(w, e, start->f, 30);
+    return (int32_t)fix_sqrt((uint64_t)carom_dot(w, w));
 }
 
-int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
-                   struct boyse_touch *touch)
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
+                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch)
 {
     struct moment m;
     struct boyse_places p;
@@ -428,7 +381,7 @@ int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c, int
     struct edge_normal n;
 
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, &p);
+    place(&m, c, start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         return test_edges(&m, &p, touch, &at, &n);
     }
@@ -464,12 +417,13 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
                  struct boyse_touch *touch)
 {
     struct moment m;
-    struct boyse_places p;
+    struct boyse_places start, p;
     struct nearest at;
     struct edge_normal n;
 
+    boyse_place_start(pair, c, &start);
     set_moment(&m, boyse_view(pair, c), t_q30);
-    place(&m, c, &p);
+    place(&m, c, &start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         (void)test_edges(&m, &p, touch, &at, &n);
     } else {

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/* A pair of bodies on their paths: how each sees the other, and bounds of what moves. */
+#include "boyse.h"
+
+static int64_t length_q22(const int32_t v_q24[3])
+{
+    const int64_t v[3] = {v_q24[0], v_q24[1], v_q24[2]};
+
+    return (fix_length(v) >> 2) + 1;
+}
+
+static int32_t clamp(int64_t v)
+{
+    return v < INT32_MAX ? (int32_t)v : INT32_MAX;
+}
+
+/*
+ * Bounds of the path. A point at r goes by at most 2 s |r|, and is at most
+ * (2 s^2 + 2 s^3) |r| t^2 < 3 s^2 |r| t^2 from r + 2t u x r, as s < 0.31 (body.h). Seen from `to`,
+ * which turns as well while the point goes D from a place within X of its centre, there are
+ * 2 s (X + D) of way and 2 s D + 3 s^2 (X + D) of bend on top.
+ */
+static void set_bounds(struct boyse_view *view)
+{
+    const struct body *from = view->from, *to = view->to;
+    const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
+    int64_t s_q30 = fix_sqrt((uint64_t)from->path.u2_q30 << 30) + 1;
+    int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
+
+    if (from->path.turns) {
+        way += fix_mul(2 * s_q30, from->radius_q22, 30) + 1;
+        bend += fix_mul(3 * (int64_t)from->radius_q22, from->path.u2_q30 + 1, 30) + 1;
+    }
+    view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
+    if (to->path.turns) {
+        s_q30 = fix_sqrt((uint64_t)to->path.u2_q30 << 30) + 1;
+        reach = fix_length(centre) + from->radius_q22 + way;
+        view->seen.way_q22 = clamp(way + fix_mul(2 * reach, (int32_t)s_q30, 30) + 1);
+        view->seen.bend_q22 = clamp(bend + fix_mul(2 * way, (int32_t)s_q30, 30) +
+                                    fix_mul(3 * reach, to->path.u2_q30 + 1, 30) + 2);
+        view->fixed.way_q22 = clamp(way + fix_mul(2 * s_q30, to->radius_q22, 30) + 1);
+        view->fixed.bend_q22 =
+            clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, to->path.u2_q30 + 1, 30) + 1);
+    }
+}
+
+/*
+ * Two features that meet on the path start within its way of each other, and lie within the radius
+ * of a body that turns; what does not turn is referred to the feature itself, of which an edge of
+ * `from` has its start a diameter away. No length in P is above the sum of these.
+ */
+static void set_fine(struct boyse_view *view)
+{
+    int64_t reach = view->fixed.way_q22 + (view->to->path.turns ? view->to->radius_q22 : 0) + 8 +
+                    (view->from->path.turns ? 1 : 2) * (int64_t)view->from->radius_q22;
+
+    view->fine = 30 - fix_bits((uint64_t)reach);
+    view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
+}
+
+/* How `to` sees `from`. */
+static void set_view(struct boyse_view *view, struct body *from, struct body *to)
+{
+    const carom_m3_q30 *from_r = &from->path.start.r, *to_r = &to->path.start.r;
+    int64_t centre_q32[3], v[3], g[3];
+    int32_t turning[3];
+
+    view->from = from;
+    view->to = to;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            int64_t sum = (int64_t)to_r->c[0][k] * from_r->c[0][i] +
+                          (int64_t)to_r->c[1][k] * from_r->c[1][i] +
+                          (int64_t)to_r->c[2][k] * from_r->c[2][i];
+
+            view->r.c[k][i] = (int32_t)carom_round(sum, 30);
+        }
+        centre_q32[k] = carom_shl(from->path.origin_q22[k] - to->path.origin_q22[k], 10) +
+                        from->path.start.x.c[k] - to->path.start.x.c[k];
+        v[k] = from->path.v.c[k] - to->path.v.c[k];
+        g[k] = from->path.g.c[k] - to->path.g.c[k];
+    }
+    fix_rotate_back(centre_q32, to_r, centre_q32);
+    fix_rotate_back(v, to_r, v);
+    fix_rotate_back(g, to_r, g);
+    for (int k = 0; k < 3; k++) {
+        view->centre.c[k] = (int32_t)carom_round(centre_q32[k], 10);
+        view->v.c[k] = (int32_t)carom_round(v[k], 16);
+        view->g.c[k] = (int32_t)carom_round(g[k], 16);
+    }
+    carom_rotate(view->u.c, &view->r, from->path.u.c);
+    carom_cross(turning, view->u.c, view->centre.c, 29);
+    for (int k = 0; k < 3; k++) {
+        view->u_relative.c[k] = view->u.c[k] - to->path.u.c[k];
+        view->field.c[k] = (int32_t)carom_round(v[k], 18) - turning[k];
+    }
+    set_bounds(view);
+    set_fine(view);
+}
+
+void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
+{
+    pair->a = a;
+    pair->b = b;
+    pair->skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    for (int k = 0; k < 3; k++) {
+        pair->offset_q22[k] = (int32_t)(b->path.origin_q22[k] - a->path.origin_q22[k]);
+    }
+    pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)a->path.u2_q30 << 30) +
+                                   fix_sqrt((uint64_t)b->path.u2_q30 << 30));
+    set_view(&pair->view[0], a, b);
+    set_view(&pair->view[1], b, a);
+}
