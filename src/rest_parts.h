@@ -69,8 +69,8 @@ void rest_prepare_masses(struct contact *c);
 void rest_push(struct contact *c, const int32_t impulse[3]);
 /* What one push may change: v, or +-(2^30 - 1). */
 int32_t rest_clamp(int64_t v);
-/* v cut to a length of `limit`, which is at most 2^45. */
-void rest_cut(int64_t v[3], int64_t limit);
+/* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
+bool rest_cut(int64_t v[3], int64_t limit);
 
 /* Solver units. */
 static inline int64_t rest_to_units(int64_t v_q40, int unit)

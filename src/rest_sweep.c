@@ -124,16 +124,18 @@ static int64_t long_length(const int64_t v[3], int *down)
     return fix_sqrt(sum);
 }
 
-void rest_cut(int64_t v[3], int64_t limit)
+bool rest_cut(int64_t v[3], int64_t limit)
 {
     int down;
     int64_t whole = long_length(v, &down);
 
-    if (whole > limit >> down) {
-        for (int k = 0; k < 3; k++) {
-            v[k] = fix_mul(limit, (int32_t)((v[k] >> down) * CAROM_ONE_Q30 / whole), 30);
-        }
+    if (whole <= limit >> down) {
+        return false;
     }
+    for (int k = 0; k < 3; k++) {
+        v[k] = fix_mul(limit, (int32_t)((v[k] >> down) * CAROM_ONE_Q30 / whole), 30);
+    }
+    return true;
 }
 
 /* Friction is not against slip that closing a gap asks for. */
@@ -160,59 +162,115 @@ struct gain {
     int32_t along, across[3];
 };
 
+/*
+ * What one push takes of a change: all, or 2^-n of it, so that both its ways shrink alike. As it
+ * leads from one impulse in the friction cone to another, so does any part of it.
+ */
+static void take(struct gain *g, int64_t along, const int64_t across[3])
+{
+    uint64_t all = (uint64_t)(carom_abs(along) | carom_abs(across[0]) | carom_abs(across[1]) |
+                              carom_abs(across[2]));
+    int down = fix_bits(all) - 30;
+
+    down = down > 0 ? down : 0;
+    g->along = (int32_t)(along >> down);
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = (int32_t)(across[k] >> down);
+    }
+}
+
 /* What ends all motion of the contact; false when that lies outside of the friction cone. */
 static bool stick(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
 {
-    int64_t all[3], tangent[3], limit, length;
-    int32_t v[3], whole[3];
+    int64_t whole[3], tangent[3], along, limit, length;
+    int32_t v[3];
     int down;
 
     for (int k = 0; k < 3; k++) {
-        all[k] = slip[k] + fix_mul(error, c->normal.c[k], 30);
+        whole[k] = slip[k] + fix_mul(error, c->normal.c[k], 30);
     }
     /* fast slip fills more than 30 bits: the next visit finds what is left over */
-    down = fix_bits((uint64_t)(carom_abs(all[0]) | carom_abs(all[1]) | carom_abs(all[2]))) - 30;
-    down = down > 0 ? down : 0;
+    down = fix_bits((uint64_t)(carom_abs(whole[0]) | carom_abs(whole[1]) | carom_abs(whole[2])));
+    down = down > 30 ? down - 30 : 0;
     for (int k = 0; k < 3; k++) {
-        v[k] = (int32_t)(all[k] >> down);
+        v[k] = (int32_t)(whole[k] >> down);
     }
     for (int k = 0; k < 3; k++) {
         int64_t part = carom_round(rest_row(c->inverse, k, v), 30 - c->fine_bits);
 
-        whole[k] = rest_clamp(carom_shl(-part, down));
+        whole[k] = carom_shl(-part, down);
     }
-    g->along = rest_clamp(carom_round(carom_dot(c->normal.c, whole), 30));
-    limit = friction_limit(c, c->normal_impulse + g->along);
+    along = fix_mul(whole[0], c->normal.c[0], 30) + fix_mul(whole[1], c->normal.c[1], 30) +
+            fix_mul(whole[2], c->normal.c[2], 30);
+    limit = friction_limit(c, c->normal_impulse + along);
     if (limit < 0) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        g->across[k] = rest_clamp((int64_t)whole[k] - carom_mul_q30(g->along, c->normal.c[k]));
-        tangent[k] = c->tangent_impulse[k] + g->across[k];
+        whole[k] -= fix_mul(along, c->normal.c[k], 30);
+        tangent[k] = c->tangent_impulse[k] + whole[k];
     }
     length = long_length(tangent, &down);
+    take(g, along, whole);
     return length <= limit >> down;
 }
 
-/* Along N first, never pulling; then across towards no slip, within the friction cone. */
+/*
+ * How much longer a step along N is when friction at its limit follows it: N.K N over N.K (N + mu t),
+ * t being the unit vector along v. Where a contact nearly wedges, 8.
+ */
+static int32_t following_q27(const struct contact *c, const int64_t v[3])
+{
+    int down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 15;
+    int64_t square = 1, drag_q30 = 0, mass_q30;
+
+    /* 15 bits will do: this only sets the pace. |drag| is below 2^34, the sum below 2^51 */
+    for (int k = 0; k < 3; k++) {
+        int64_t part = down > 0 ? v[k] >> down : v[k];
+
+        square += part * part;
+        drag_q30 += part * c->drag_q30[k];
+    }
+    drag_q30 /= fix_sqrt((uint64_t)square);
+    mass_q30 = fix_mul(drag_q30, (int32_t)c->friction_q16, 16);
+    mass_q30 = CAROM_ONE_Q30 + fix_mul(mass_q30, c->step[0], 30 - c->fine_bits);
+    return (int32_t)(((int64_t)1 << 57) /
+                     (mass_q30 > CAROM_ONE_Q30 / 8 ? mass_q30 : CAROM_ONE_Q30 / 8));
+}
+
+/*
+ * A step along N, never pulling, and what it leaves of the slip across; `across` is what the slip so
+ * far asks for. Returns whether that is more than friction gives.
+ */
+static bool slide_by(const struct contact *c, int64_t step, const int64_t across[3], struct gain *g)
+{
+    int64_t along = step < c->normal_impulse ? -step : -c->normal_impulse, tangent[3];
+    bool limited;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t drag = fix_mul(c->drag_q30[k], rest_clamp(along), 30);
+
+        tangent[k] = across[k] - fix_mul(drag, c->step[1], 30 - c->fine_bits);
+    }
+    limited = rest_cut(tangent, friction_limit(c, c->normal_impulse + along));
+    for (int k = 0; k < 3; k++) {
+        tangent[k] -= c->tangent_impulse[k];
+    }
+    take(g, along, tangent);
+    return limited;
+}
+
+/* Along N first; then across towards no slip, within the friction cone. */
 static void slide(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
 {
-    int64_t next = c->normal_impulse - fix_mul(error, c->step[0], 30 - c->fine_bits);
-    int64_t tangent[3];
+    int64_t step = fix_mul(error, c->step[0], 30 - c->fine_bits), across[3];
 
-    g->along = rest_clamp((next > 0 ? next : 0) - c->normal_impulse);
-    memset(g->across, 0, sizeof g->across);
-    if (c->friction_q16 == 0) {
-        return;
-    }
     for (int k = 0; k < 3; k++) {
-        int64_t after = slip[k] + fix_mul(c->drag_q30[k], g->along, 30);
-
-        tangent[k] = c->tangent_impulse[k] - fix_mul(after, c->step[1], 30 - c->fine_bits);
+        across[k] = c->tangent_impulse[k] - fix_mul(slip[k], c->step[1], 30 - c->fine_bits);
     }
-    rest_cut(tangent, friction_limit(c, c->normal_impulse + g->along));
-    for (int k = 0; k < 3; k++) {
-        g->across[k] = rest_clamp(tangent[k] - c->tangent_impulse[k]);
+    if (c->friction_q16 == 0 ||
+        !slide_by(c, fix_mul(step, following_q27(c, across), 27), across, g)) {
+        slide_by(c, step, across, g);
     }
 }
 
@@ -229,7 +287,7 @@ static int32_t add(struct contact *c, const struct gain *g)
         most = carom_abs(whole[k]) > most ? (int32_t)carom_abs(whole[k]) : most;
     }
     rest_push(c, whole);
-    return most > 1 ? most : 0;
+    return most > 4 ? most : 0;
 }
 
 /* One contact; returns how much a velocity moved. */
@@ -265,6 +323,7 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
     part_q30 = (part_q30 * part_q30) >> 30;
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
+        int64_t along, across[3];
         int32_t gain[3];
         struct gain g;
 
@@ -272,16 +331,25 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
             gain[k] = carom_mul_q30(c->way[k], (int32_t)part_q30);
             c->way[k] = rest_clamp((int64_t)gain[k] + c->gain[k]);
         }
-        g.along = (int32_t)carom_round(carom_dot(c->normal.c, gain), 30);
+        along = carom_round(carom_dot(c->normal.c, gain), 30);
         for (int k = 0; k < 3; k++) {
-            g.across[k] =
-                c->friction_q16 == 0
-                    ? 0
-                    : rest_clamp((int64_t)gain[k] - carom_mul_q30(g.along, c->normal.c[k]));
+            across[k] = c->friction_q16 > 0 ? gain[k] - fix_mul(along, c->normal.c[k], 30) : 0;
         }
+        take(&g, along, across);
         add(c, &g);
         memset(c->gain, 0, sizeof c->gain);
         rest_roll_accelerate(c, (int32_t)part_q30);
+    }
+}
+
+/* When sweeps run out, a contact's last visit may not have gone all its way. */
+static void into_cones(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->normal_impulse = c->normal_impulse > 0 ? c->normal_impulse : 0;
+        rest_cut(c->tangent_impulse, friction_limit(c, c->normal_impulse));
     }
 }
 
@@ -306,12 +374,13 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         if (moved <= sw->residual) {
             return;
         }
-        if (round & 1 && round < REST_SWEEPS_MAX - 1) {
+        if (n > 1 && round & 1 && round < REST_SWEEPS_MAX - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
             accelerate(r, moved, before);
             before = moved;
         }
     }
+    into_cones(r);
 }
 
 /* Impulses in solver units to momentum, one rounding a component. */

@@ -483,7 +483,8 @@ static void check_cones(void)
         double across, along = pressure(&contacts[i], &across);
 
         largest = along > largest ? along : largest;
-        CHECK(across <= mu * along + 1e-6 * largest + 1e-9);
+        /* 1e-8 is five units of the last place in which the fastest impulses are counted */
+        CHECK(across <= mu * along + 1e-6 * largest + 1e-8);
     }
 }
 
@@ -502,8 +503,8 @@ static void test_impacts(void)
         double e0;
 
         begin(1 + n % 2, 1 / 2000.0);
-        set_surface(n % 3 ? real(test_random_range(&r, 0, 8), 3) : 0,
-                    n % 5 ? real(test_random_range(&r, 0, 8), 3) : 0);
+        set_surface(n % 3 ? real(test_random_range(&r, 0, 8), 3) : n % 2,
+                    n % 5 ? real(test_random_range(&r, 0, 12), 3) : 0);
         random_motion(&r, 1);
         if (n % 2) {
             random_motion(&r, 2);
@@ -522,10 +523,8 @@ static void test_impacts(void)
         if (rest.impacts > 0) {
             CHECK(energy() <= e0 * (1 + real_power2(-24)) + 1e-12);
         }
-        if (rest.energy_rules == 0) {
-            check_momenta(before);
-            check_cones();
-        }
+        check_momenta(before);
+        check_cones();
     }
     CHECK(impacts > CASES / 4);
     CHECK(rules > 0 && rules < CASES / 2);

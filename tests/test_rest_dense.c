@@ -9,7 +9,10 @@
  *   where the contact sticks
  *   where it slides on in the direction in which it slid: in a plane of symmetry of both bodies
  *
- * unless the energy rule changes the paper's impulse.
+ * unless the energy rule changes the paper's impulse; and that whether the sweeps end as those of
+ * impacts do or as those of resting contact.
+ *
+ * Two frictionless impacts at once are held against a solution in double precision.
  */
 #include "real.h"
 #include "rest_parts.h"
@@ -29,12 +32,13 @@ static struct shape ground, boxes[2];
 static struct body bodies[3];
 static struct body_state states[3];
 static const struct pair pairs[2] = {{1, 0}, {2, 1}};
-static struct contact contacts[1];
+static struct contact contacts[2];
 static struct rest_warm warm[1];
 static struct pool pool;
 static struct rest rest;
 static struct boyse_pair boyse;
-static double normal[3];
+static double normal[2][3];
+static double side[2][3]; /* of the boxes, units */
 
 static double uniform(struct test_random *r, double low, double high)
 {
@@ -44,12 +48,13 @@ static double uniform(struct test_random *r, double low, double high)
 static void make_shapes(struct test_random *r)
 {
     for (int i = 0; i < 2; i++) {
-        int side[3];
+        int sides[3];
 
         for (int k = 0; k < 3; k++) {
-            side[k] = (int)test_random_range(r, 800, 6400); /* 1/5 .. 1.6 units */
+            sides[k] = (int)test_random_range(r, 400, 3200) * 2; /* 1/5 .. 1.6 units */
+            side[i][k] = sides[k] / 4096.0;
         }
-        shape_box(&boxes[i], 12, side[0], side[1], side[2]);
+        shape_box(&boxes[i], 12, sides[0], sides[1], sides[2]);
     }
 }
 
@@ -130,10 +135,10 @@ static void set_motion(struct test_random *r, int i, struct axes *a, bool planar
     body_set_motion(&bodies[i], &states[i], &v_q40, &w_q40);
 }
 
-/* The contact of bodies a and b of the pair, at arms within them. */
-static void touch(struct test_random *r, uint16_t number, struct axes *a, bool planar)
+/* The n-th contact, of bodies a and b of the pair, at arms within them. */
+static void touch(struct test_random *r, uint32_t at, uint16_t number, struct axes *a, bool planar)
 {
-    const struct candidate key = {number, CANDIDATE_VERTEX_FACE, 0, 0};
+    const struct candidate key = {number, CANDIDATE_VERTEX_FACE, at, 0};
     const uint16_t of[2] = {pairs[number].a, pairs[number].b};
     carom_v3_q30 n_q30;
     carom_v3_q40 arm_q40[2];
@@ -149,18 +154,16 @@ static void touch(struct test_random *r, uint16_t number, struct axes *a, bool p
         random_vector(r, a, planar, real(bodies[of[s]].radius_q22, 22), arm);
         for (int k = 0; k < 3; k++) {
             arm_q40[s].c[k] = real_round(arm[k] * real_power2(40));
-            normal[k] = real(n_q30.c[k], 30);
+            normal[at][k] = real(n_q30.c[k], 30);
         }
     }
     boyse_pair_init(&boyse, &bodies[of[0]], &bodies[of[1]]);
     CHECK(contact_insert(&rest.list, &boyse, &key, &n_q30, 0, arm_q40));
 }
 
-/* V along N, or its part across N, from the momenta. */
-static void velocity(double v[3])
+/* V of a contact, from the momenta. */
+static void velocity(const struct contact *c, double v[3])
 {
-    const struct contact *c = &contacts[0];
-
     memset(v, 0, 3 * sizeof v[0]);
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
@@ -185,7 +188,7 @@ static void velocity(double v[3])
 
 static double along_normal(const double v[3])
 {
-    return real_dot(v, normal);
+    return real_dot(v, normal[0]);
 }
 
 static void across_normal(double v[3])
@@ -193,7 +196,7 @@ static void across_normal(double v[3])
     double along = along_normal(v);
 
     for (int k = 0; k < 3; k++) {
-        v[k] -= along * normal[k];
+        v[k] -= along * normal[0][k];
     }
 }
 
@@ -205,29 +208,37 @@ static void reverse(struct body_state *state)
     }
 }
 
-/* A contact that approaches. */
-static void random_contact(struct test_random *r, int movers, bool planar, double mu)
+/* The bodies, of one e and mu, moving anyhow. */
+static void random_bodies(struct test_random *r, struct axes *a, bool planar, double mu)
 {
-    double e = uniform(r, 0, 1), speed = uniform(r, 0.05, 0.5), v[3];
-    struct axes a;
+    double e = uniform(r, 0, 1), speed = uniform(r, 0.05, 0.5);
 
-    random_axes(r, &a, planar);
+    random_axes(r, a, planar);
     memset(&rest, 0, sizeof rest);
     for (int i = 0; i < 3; i++) {
-        place(r, i, &a, planar);
+        place(r, i, a, planar);
         bodies[i].restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
         bodies[i].friction_q16 = (uint32_t)real_round(mu * 65536);
-        set_motion(r, i, &a, planar, i > 0 ? speed : 0);
+        set_motion(r, i, a, planar, i > 0 ? speed : 0);
     }
-    pool = (struct pool){1, 0, 0, 0};
+    pool = (struct pool){2, 0, 0, 0};
     rest.list = (struct contact_list){contacts, &pool};
     rest.pairs = pairs;
     rest.bodies = bodies;
     rest.states = states;
     rest.body_count = 3;
     rest.warm = warm;
-    touch(r, movers == 2 ? 1 : 0, &a, planar);
-    velocity(v);
+}
+
+/* A contact that approaches. */
+static void random_contact(struct test_random *r, int movers, bool planar, double mu)
+{
+    struct axes a;
+    double v[3];
+
+    random_bodies(r, &a, planar, mu);
+    touch(r, 0, movers == 2 ? 1 : 0, &a, planar);
+    velocity(&contacts[0], v);
     if (along_normal(v) > 0) {
         reverse(&states[1]);
         reverse(&states[2]);
@@ -237,6 +248,7 @@ static void random_contact(struct test_random *r, int movers, bool planar, doubl
 struct outcome {
     bool same; /* both ways mean the same */
     bool slid;
+    double fast;  /* slip before, over the approach */
     double error; /* of the sweeps' impulse against the dense one's */
 };
 
@@ -247,18 +259,19 @@ static void impulse(double p[3])
     }
 }
 
-static void solve_both(struct outcome *out, double mu)
+static void solve_both(struct outcome *out, double mu, int32_t residual)
 {
-    struct rest_sweep sweep = {.residual = REST_RESIDUAL_IMPACT};
+    struct rest_sweep sweep = {.residual = residual};
     double before[3], after[3], dense[3], swept[3], push, across[3], speed, slip;
 
-    velocity(before);
+    velocity(&contacts[0], before);
     speed = real_abs(along_normal(before));
     across_normal(before);
+    out->fast = real_length(before) / speed;
     CHECK_EQ(rest_solve(&rest, CAROM_ONE_Q30, false), CAROM_OK);
     CHECK(rest.impacts == 1 && rest.sweeps == 0);
     impulse(dense);
-    velocity(after);
+    velocity(&contacts[0], after);
     across_normal(after);
     push = along_normal(dense);
     memcpy(across, dense, sizeof across);
@@ -280,23 +293,33 @@ static void solve_both(struct outcome *out, double mu)
     out->error = real_length(swept) / real_length(dense) - real_power2(-40) / real_length(dense);
 }
 
-static void agree(uint64_t seed, int movers, bool planar, double least_mu, double most_mu,
-                  bool slides)
+/* Sweeps follow changes of velocity up to 16 times the approach. */
+#define FASTEST 12
+
+struct agreement {
+    int movers;
+    bool planar, slides;
+    double least_mu, most_mu;
+    uint32_t coarse; /* one in so many may be off by more than 2e-7 */
+    double worst;
+};
+
+static void agree(uint64_t seed, const struct agreement *want)
 {
     struct test_random r = {seed};
     uint32_t compared = 0, coarse = 0;
     double worst = 0;
 
     for (int c = 0; c < CASES; c++) {
-        double mu = most_mu > 0 ? (int)(uniform(&r, least_mu, most_mu) * 65536) / 65536.0 : 0;
+        double mu = (int)(uniform(&r, want->least_mu, want->most_mu) * 65536) / 65536.0;
         struct outcome out;
 
         if (c % SAME_SHAPES == 0) {
             make_shapes(&r);
         }
-        random_contact(&r, movers, planar, mu);
-        solve_both(&out, mu);
-        if (!out.same || out.slid != slides) {
+        random_contact(&r, want->movers, want->planar, mu);
+        solve_both(&out, mu, c % 2 ? REST_RESIDUAL_IMPACT : REST_RESIDUAL_REST);
+        if (!out.same || out.slid != want->slides || out.fast > FASTEST) {
             continue;
         }
         compared++;
@@ -304,29 +327,145 @@ static void agree(uint64_t seed, int movers, bool planar, double least_mu, doubl
         worst = out.error > worst ? out.error : worst;
     }
     CHECK(compared > CASES / 16);
-    CHECK(coarse <= compared / 10000);
-    CHECK(worst <= 1e-6);
+    CHECK(coarse <= compared / want->coarse);
+    CHECK(worst <= want->worst);
 }
 
 static void frictionless(void)
 {
-    agree(1, 1, false, 0, 0, false);
-    agree(2, 2, false, 0, 0, false);
+    agree(1, &(struct agreement){1, false, false, 0, 0, 10000, 1e-6});
+    agree(2, &(struct agreement){2, false, false, 0, 0, 10000, 1e-6});
 }
 
 static void sticking(void)
 {
-    agree(3, 1, false, 0.3, 0.8, false);
-    agree(4, 2, false, 0.3, 0.8, false);
+    agree(3, &(struct agreement){1, false, false, 0.3, 0.8, 10000, 1e-6});
+    agree(4, &(struct agreement){2, false, false, 0.3, 0.8, 10000, 1e-6});
 }
 
 static void sliding(void)
 {
-    agree(5, 1, true, 0.02, 0.3, true);
-    agree(6, 2, true, 0.02, 0.3, true);
+    agree(5, &(struct agreement){1, true, true, 0.02, 0.3, 10000, 1e-6});
+    agree(6, &(struct agreement){2, true, true, 0.02, 0.3, 10000, 1e-6});
+}
+
+/* Where a contact nearly wedges sweeps may run out: 1 in 10,000 is off by an eighth. */
+static void sliding_roughly(void)
+{
+    agree(7, &(struct agreement){1, true, true, 0.3, 1.5, 2000, 0.2});
+    agree(8, &(struct agreement){2, true, true, 0.3, 1.5, 2000, 0.2});
+}
+
+/* ---------------------------------------------------------------- two contacts */
+
+/* What an impulse of 1 along N of contact j changes of V.N of contact i, by a box of density 1. */
+static double box_response(int box, int i, int j)
+{
+    const double *d = side[box];
+    double mass = d[0] * d[1] * d[2], q[4], r[3][3], turn[2][3], sum = 0;
+
+    for (int k = 0; k < 4; k++) {
+        q[k] = real(states[box + 1].rotation.c[k], 30);
+    }
+    real_matrix(r, q);
+    for (int n = 0; n < 2; n++) {
+        const struct contact *c = &contacts[n == 0 ? i : j];
+        const struct contact_side *of = &c->side[c->side[0].body == &bodies[box + 1] ? 0 : 1];
+        double arm[3], in_world[3];
+
+        for (int k = 0; k < 3; k++) {
+            arm[k] = real(of->arm_q30[k], contact_arm_bits(of->body));
+        }
+        real_cross(in_world, arm, normal[n == 0 ? i : j]);
+        for (int k = 0; k < 3; k++) {
+            turn[n][k] = r[0][k] * in_world[0] + r[1][k] * in_world[1] + r[2][k] * in_world[2];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        double inertia = mass / 12 * (real_dot(d, d) - d[k] * d[k]);
+
+        sum += normal[i][k] * normal[j][k] / mass + turn[0][k] * turn[1][k] / inertia;
+    }
+    return sum;
+}
+
+/* Impulses that push, and leave V.N - target = 0, or more where they do not push. */
+static void two_impulses(double k[2][2], const double wanted[2], double p[2])
+{
+    double det = k[0][0] * k[1][1] - k[0][1] * k[1][0];
+
+    p[0] = (wanted[0] * k[1][1] - wanted[1] * k[0][1]) / det;
+    p[1] = (wanted[1] * k[0][0] - wanted[0] * k[1][0]) / det;
+    for (int n = 0; n < 2; n++) {
+        if (p[n] < 0) {
+            p[n] = 0;
+            p[1 - n] = wanted[1 - n] / k[1 - n][1 - n];
+        }
+    }
+}
+
+/*
+ * Two contacts of one pair that approach. Returns whether they do, and are not nearly one: sweeps
+ * gain slowly on such.
+ */
+static bool random_two(struct test_random *r, int movers, double wanted[2], double k[2][2])
+{
+    struct axes a;
+    double v[3];
+
+    random_bodies(r, &a, false, 0);
+    for (uint32_t n = 0; n < 2; n++) {
+        touch(r, n, movers == 2 ? 1 : 0, &a, false);
+        velocity(&contacts[n], v);
+        wanted[n] = -real_dot(v, normal[n]) * (1 + real(bodies[1].restitution_q30, 30));
+        for (uint32_t m = 0; m <= n; m++) {
+            k[n][m] = k[m][n] = box_response(0, (int)n, (int)m) +
+                                (movers == 2 ? box_response(1, (int)n, (int)m) : 0);
+        }
+    }
+    return wanted[0] > 0 && wanted[1] > 0 &&
+           k[0][0] * k[1][1] - k[0][1] * k[1][0] > 0.3 * k[0][0] * k[1][1];
+}
+
+/* A pair that meets at two places without friction: there is one answer. */
+static void two(void)
+{
+    struct test_random r = {9};
+    uint32_t compared = 0, one = 0, coarse = 0;
+
+    for (int c = 0; c < CASES; c++) {
+        double wanted[2], k[2][2], p[2], length, error = 0;
+
+        if (c % SAME_SHAPES == 0) {
+            make_shapes(&r);
+        }
+        if (!random_two(&r, 1 + c % 2, wanted, k)) {
+            continue;
+        }
+        two_impulses(k, wanted, p);
+        length = real_abs(p[0]) + real_abs(p[1]);
+        CHECK_EQ(rest_solve(&rest, CAROM_ONE_Q30, false), CAROM_OK);
+        CHECK_EQ(rest.impacts, 2);
+        for (int n = 0; n < 2; n++) {
+            for (int i = 0; i < 3; i++) {
+                double d = real(contacts[n].impulse_q40.c[i], 40) - p[n] * normal[n][i];
+
+                error += d * d;
+            }
+        }
+        error = real_sqrt(error);
+        compared++;
+        one += p[0] == 0 || p[1] == 0;
+        coarse += error > 2e-7 * length + real_power2(-39);
+        CHECK(error <= 1e-6 * length + real_power2(-39));
+    }
+    CHECK(compared > CASES / 16 && one > compared / 100 && one < compared);
+    CHECK(coarse <= compared / 1000);
 }
 
 const struct test tests_rest_dense[] = {{"rest_dense/frictionless", frictionless},
                                         {"rest_dense/sticking", sticking},
                                         {"rest_dense/sliding", sliding},
+                                        {"rest_dense/sliding_roughly", sliding_roughly},
+                                        {"rest_dense/two", two},
                                         {0}};
