@@ -119,34 +119,58 @@ static int64_t distance_q22(const carom_v3_q22 *a, const carom_v3_q22 *b)
     return sum;
 }
 
-/* A vertex on coplanar faces: wherever the hit's path would have had it, it is here already. */
+/* A vertex on faces that are nearly coplanar: wherever the path would have had it, it is here. */
 static bool same_vertex(const struct candidate *p, const struct candidate *q)
 {
     return p->kind == q->kind && p->kind != CANDIDATE_EDGE_EDGE && p->i == q->i;
 }
 
+static void take_out(struct contact_list *list, uint32_t place)
+{
+    struct contact *c = &list->contacts[place];
+
+    list->pool->used--;
+    memmove(c, c + 1, (list->pool->used - place) * sizeof *c);
+}
+
+/*
+ * What hits takes the place of what its vertex touches now: the faces of a field may differ by less
+ * than what makes normals the same, and a body that slides from one onto the other runs into the
+ * other alone.
+ */
 bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
                    const struct boyse_hit *hit)
 {
     const carom_v3_q30 *normal = &hit->touch.normal;
+    int32_t gap_q22 = pair->skin_q22 / 2;
     carom_v3_q40 arm[2];
     carom_v3_q22 near;
+    bool taken = false, there = false;
+    uint32_t i = 0;
 
     contact_place(pair, &hit->candidate, normal, arm);
     for (int k = 0; k < 3; k++) {
         near.c[k] = (int32_t)carom_round(arm[0].c[k], 18);
     }
-    for (uint32_t i = 0; i < list->pool->used; i++) {
+    while (i < list->pool->used) {
         const struct contact *c = &list->contacts[i];
+        bool same =
+            c->key.pair == hit->candidate.pair && cosine_q30(&c->normal, normal) > SAME_NORMAL_Q30;
 
-        if (c->key.pair == hit->candidate.pair &&
-            (same_vertex(&c->key, &hit->candidate) ||
-             distance_q22(&c->side[0].arm, &near) < 20 * (int64_t)pair->skin_q22) &&
-            cosine_q30(&c->normal, normal) > SAME_NORMAL_Q30) {
-            return true;
+        if (same && same_vertex(&c->key, &hit->candidate)) {
+            gap_q22 = c->gap_q22 < gap_q22 ? c->gap_q22 : gap_q22;
+            take_out(list, i);
+            taken = true;
+            continue;
         }
+        there =
+            there || (same && distance_q22(&c->side[0].arm, &near) < 20 * (int64_t)pair->skin_q22);
+        i++;
     }
-    return contact_insert(list, pair, &hit->candidate, normal, pair->skin_q22 / 2, arm);
+    if (there && !taken) {
+        return true;
+    }
+    return contact_insert(list, pair, &hit->candidate, normal, gap_q22, arm);
 }
 
 void contact_merge(struct contact_list *list)

@@ -113,7 +113,8 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
 /*
  * Make sure that the pair of a hit is among the contacts, with the normal found at the root and the
  * place of its features in the placed poses; the surfaces may be farther apart than the margin along
- * another normal by now.
+ * another normal by now. It takes the place of contacts of the same vertex with nearly the same
+ * normal, and the least gap of them.
  */
 bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
                    const struct boyse_hit *hit);

@@ -2,14 +2,15 @@
 #include "rest_parts.h"
 
 /*
- * A gap this near the skin is as good as closed. A rigid body cannot follow targets that differ by
- * a hair at each of its contacts: nothing is asked for there, or the sweeps would shift its weight
- * from corner to corner without end.
+ * A gap from half a skin to this much more than a skin is as good as closed. A rigid body cannot
+ * follow targets that differ by a hair at each of its contacts: nothing is asked for there, or the
+ * sweeps would shift its weight from corner to corner without end, and each time it would slip a
+ * little downhill.
  */
 #define NEAR_DIVISOR 8
-/* Overlap of the skins is closed by 1/64 of a skin a frame, evenly for the same reason ... */
+/* What is nearer is opened by 1/64 of a skin a frame, evenly for the same reason ... */
 #define LIFT_DIVISOR 64
-/* ... and what overlaps by more than half a skin by a fifth of the rest besides. */
+/* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
@@ -96,7 +97,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         c->target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
     } else if (e_q30 == CAROM_ONE_Q30) {
         c->target_q40 = 0;
-    } else if (carom_abs(open_q22) <= c->skin_q22 / NEAR_DIVISOR) {
+    } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->target_q40 = 0;
     } else if (open_q22 > 0) {
         /* may come nearer until the skins touch; q22 to q40 over the time */
@@ -104,10 +105,8 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 
         c->target_q40 = tau_q30 > 0 ? -(open_q22 << 40) / (time_q30 >> 8) : 0;
     } else {
-        int64_t deep_q22 = -open_q22 - c->skin_q22 / 2;
-
         c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
-        c->target_q40 += deep_q22 > 0 ? (deep_q22 << 18) / RECOVERY_DIVISOR : 0;
+        c->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
     c->band_q40 = c->impact ? 0 : carom_abs(c->target_q40);
     /* what the path's bend takes back of V.N must be there to begin with */

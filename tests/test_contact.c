@@ -348,9 +348,17 @@ static void test_force(void)
     /* a corner that was found already, by its key; the same on another face */
     hit.candidate = contacts[2].key;
     CHECK(contact_force(&list, &pair, &hit));
+    CHECK_EQ(pool.used, 4);
+    /* which is nearly as steep: the contact is with that face then, and as near as it was */
     hit.candidate.j ^= 1;
+    hit.touch.normal.c[0] = CAROM_ONE_Q30 / 100;
     CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 4);
+    CHECK(in_order());
+    CHECK(candidate_compare(&contacts[2].key, &hit.candidate) == 0);
+    CHECK_EQ(contacts[2].normal.c[0], CAROM_ONE_Q30 / 100);
+    CHECK_EQ(contacts[2].gap_q22, contacts[3].gap_q22 < skin / 2 ? contacts[3].gap_q22 : skin / 2);
+    hit.touch.normal.c[0] = 0;
     /* a new place: the box's centre is 1/2 and 1/16 from the crossing */
     hit.candidate =
         (struct candidate){0, CANDIDATE_EDGE_EDGE, edge_at(&shape_a, 0, -2048, 2, -600, 0),
