@@ -90,8 +90,9 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
     for (const struct interfere_vec *p = &l->p[count]; p-- > l->p;) {
         int32_t height = interfere_dot(n, p->c);
 
-        over = over << 1 | (height > above);
-        under = under << 1 | (height < below);
+        /* the signs of differences: heights are below 2^30 */
+        over = over << 1 | (uint32_t)(above - height) >> 31;
+        under = under << 1 | (uint32_t)(height - below) >> 31;
     }
     t->over = over;
     t->under = under;
@@ -453,9 +454,11 @@ static bool edges_edges(struct interfere *w, const struct target *t)
 
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
-    struct target t = {.number = face_b, .face = &w->b->mesh->faces[face_b]};
+    struct target t; /* the rest of it is set by and by: nearly all end here */
     bool any;
 
+    t.number = face_b;
+    t.face = &w->b->mesh->faces[face_b];
     place_target(w, &t);
     if (beside_slab(w, &t) || !part_by_plane(w, &t)) {
         return;
