@@ -50,8 +50,8 @@ static void set_wanted(struct opening *o, int32_t t_q30, int32_t scale_q30)
 
 static struct sample sample_at(struct opening *o, int32_t t_q30)
 {
-    if (o->by_angle) {
-        set_wanted(o, t_q30, boyse_scale(o->pair, o->edges, t_q30));
+    if (o->by_time) {
+        set_wanted(o, t_q30, o->edges ? boyse_scale(o->pair, o->edges, t_q30) : CAROM_ONE_Q30);
     }
     return (struct sample){t_q30, open_at(o, t_q30) - o->wanted};
 }
@@ -116,7 +116,7 @@ static int32_t half_open(struct opening *o, int32_t from, int32_t far, int32_t o
     }
     o->wanted = open > o->shift ? limited((open - o->shift) / 2) : 0;
     o->wanted = o->wanted < start ? start : o->wanted;
-    o->by_angle = false;
+    o->by_time = false;
     return narrow_down(o, (struct sample){far, open - o->wanted},
                        (struct sample){root, o->wanted > 0 ? -o->wanted : -1});
 }
@@ -138,8 +138,8 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
     if (far.excess < 0) {
         int32_t open, time = widest(o, from, root.t_q30, &open);
 
-        /* whether they open far enough goes by their angle there, not at the root */
-        o->by_angle = o->edges != NULL;
+        /* whether they open far enough goes by what is wanted there, not at the root */
+        o->by_time = true;
         far = sample_at(o, time);
         near = root;
         if (far.excess < 0) {
@@ -150,13 +150,19 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
 }
 
 /*
- * Whether the turn in a time dt changes |w| so much that the event gap is off by half the slack: by
- * more than 2 (s_a + s_b) dt / |w| of itself.
+ * Whether what is wanted in P at t is so much other than at the root that the event gap is off by
+ * half the slack: the factor of P, and of edges |w|, which a turn in a time dt changes by up to
+ * 2 (s_a + s_b) dt.
  */
-static bool angle_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
+static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t root_q30,
+                         int32_t t_q30)
 {
-    int32_t change_q30 = carom_mul_q30(o->pair->turn_q30, dt_q30);
+    int32_t change_q30 =
+        factor_q30(o->pair, root_q30, scale_q30) - factor_q30(o->pair, t_q30, scale_q30);
 
+    if (o->edges) {
+        change_q30 += carom_mul_q30(o->pair->turn_q30, root_q30 - t_q30);
+    }
     return (int64_t)change_q30 * (o->pair->skin_q22 / 2) >
            (int64_t)scale_q30 * (EVENT_SLACK_Q22 / 2);
 }
@@ -167,7 +173,7 @@ int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root
     struct sample met = {root->t_q30, 0};
     uint32_t back;
 
-    o->by_angle = false;
+    o->by_time = false;
     set_wanted(o, root->t_q30, scale_q30);
     missing = o->wanted - (o->sign < 0 ? -root->p : root->p);
     missing = missing > 0 ? missing : 1;
@@ -176,8 +182,8 @@ int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root
     back =
         curve_quotient_q30((uint32_t)missing + (uint32_t)o->slack / 2, (uint32_t)steep8 + 1) >> 3;
     t_q30 = search(o, from, met, back < 64 ? 64 : back);
-    if (o->edges && !o->by_angle && angle_matters(o, scale_q30, root->t_q30 - t_q30)) {
-        o->by_angle = true;
+    if (o->pair->turn_q30 > 0 && !o->by_time && time_matters(o, scale_q30, root->t_q30, t_q30)) {
+        o->by_time = true;
         t_q30 = search(o, from, met, (uint32_t)(root->t_q30 - t_q30) + 64);
     }
     return t_q30;

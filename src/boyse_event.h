@@ -8,14 +8,14 @@
 
 /*
  * How far features are open: P, with the sign that it has while they are, in the units of the
- * curve. Wanted is what the event gap comes to in it, at one time or, by_angle, at each.
+ * curve. Wanted is what the event gap comes to in it, at one time or, by_time, at each.
  */
 struct opening {
     const struct boyse_pair *pair;
     const struct boyse_places *edges; /* where they start; NULL: a vertex and a face */
     const struct curve *curve;
     int sign;
-    bool by_angle;
+    bool by_time;
     int32_t wanted, slack;
     int64_t shift; /* by how much P is less than it should be */
 };
@@ -25,7 +25,7 @@ struct opening {
  * back no further than `from`, the root before. A pair that never opens that far in between gets
  * half of its largest opening; one that is never open gets 0.
  *
- *   o      in  all but wanted, slack and by_angle
+ *   o      in  all but wanted, slack and by_time
  *   scale  in  |w| of edges at the root, 1 of a vertex and a face
  */
 int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root,
