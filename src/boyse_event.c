@@ -150,18 +150,18 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
 }
 
 /*
- * Whether what is wanted in P at t is so much other than at the root that the event gap is off by
- * half the slack: the factor of P, and of edges |w|, which a turn in a time dt changes by up to
- * 2 (s_a + s_b) dt.
+ * Whether what is wanted in P a time dt before the root is so much other than there that the event
+ * gap is off by half the slack. The factor of P changes by up to 2 (s_a^2 + s_b^2) dt of itself, |w| by
+ * up to 2 (s_a + s_b) dt; of edges both are less by their sine.
  */
-static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t root_q30,
-                         int32_t t_q30)
+static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
 {
-    int32_t change_q30 =
-        factor_q30(o->pair, root_q30, scale_q30) - factor_q30(o->pair, t_q30, scale_q30);
+    int32_t squares_q30 = o->pair->a->path.u2_q30 + o->pair->b->path.u2_q30;
+    int32_t change_q30 = carom_mul_q30(2 * squares_q30, dt_q30);
 
     if (o->edges) {
-        change_q30 += carom_mul_q30(o->pair->turn_q30, root_q30 - t_q30);
+        change_q30 =
+            carom_mul_q30(change_q30, scale_q30) + carom_mul_q30(o->pair->turn_q30, dt_q30);
     }
     return (int64_t)change_q30 * (o->pair->skin_q22 / 2) >
            (int64_t)scale_q30 * (EVENT_SLACK_Q22 / 2);
@@ -182,7 +182,7 @@ int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root
     back =
         curve_quotient_q30((uint32_t)missing + (uint32_t)o->slack / 2, (uint32_t)steep8 + 1) >> 3;
     t_q30 = search(o, from, met, back < 64 ? 64 : back);
-    if (o->pair->turn_q30 > 0 && !o->by_time && time_matters(o, scale_q30, root->t_q30, t_q30)) {
+    if (!o->by_time && time_matters(o, scale_q30, root->t_q30 - t_q30)) {
         o->by_time = true;
         t_q30 = search(o, from, met, (uint32_t)(root->t_q30 - t_q30) + 64);
     }
