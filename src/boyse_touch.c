@@ -284,6 +284,7 @@ static void set_normal(struct edge_normal *n, const struct moment *m, const stru
  */
 struct cones {
     int32_t out, most, least;
+    bool border; /* one has a face on one side alone: there N may look away from it */
 };
 
 static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
@@ -310,25 +311,29 @@ static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
             cones->out += outwards ? along : -along;
             cones->most = inward > cones->most ? inward : cones->most;
             cones->least = inward < cones->least ? inward : cones->least;
+        } else {
+            cones->border = true;
         }
     }
 }
 
 /*
  * The sign of N, by the way that the faces of both edges look: edges that are nearly flat have both
- * normals within the tolerance of their cones. 0: neither is.
+ * normals within the tolerance of their cones. 0: neither is. The two faces of a convex edge look
+ * along any N between them, taken together, so a sign that nothing but the tolerance allows is none.
  */
 static int sign_of(const struct moment *m, const struct boyse_places *p,
                    const struct edge_normal *n)
 {
-    struct cones cones = {0, 0, 0};
+    struct cones cones = {0, 0, 0, false};
     int sign;
 
     add_cones(&cones, m->view->to->mesh, p->edge_b, n->on_b, true);
     add_cones(&cones, m->view->from->mesh, p->edge_a, n->on_a, false);
     sign = cones.out >= 0 ? 1 : -1;
     for (int turn = 0; turn < 2; turn++, sign = -sign) {
-        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30) {
+        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30 &&
+            (cones.border || sign * cones.out >= -INTERFERE_CONE_Q30)) {
             return sign;
         }
     }
