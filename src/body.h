@@ -81,7 +81,7 @@ struct body {
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22;  /* EPS: the gap that a resting contact keeps */
+    int32_t skin_q22;  /* EPS: a resting contact keeps half of this gap to all */
     int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
 
     /* scratch of a step */
