@@ -356,6 +356,8 @@ static void into_cones(struct rest *r)
 static void sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
+    /* a contact by itself is solved in a visit or a few */
+    bool coupled = n > 1 || rest_contact(r, 0)->roll.acts;
     int64_t before = 0;
 
     for (int round = 0; round < REST_SWEEPS_MAX; round++) {
@@ -374,7 +376,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         if (moved <= sw->residual) {
             return;
         }
-        if (n > 1 && round & 1 && round < REST_SWEEPS_MAX - 1) {
+        if (coupled && round & 1 && round < REST_SWEEPS_MAX - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
             accelerate(r, moved, before);
             before = moved;

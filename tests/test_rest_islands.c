@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT */
+/* Islands: what sleeps together, and what is solved apart. */
+#include "hand.h"
+
+static void frame_of_sleep(const struct pair *touching, uint32_t count)
+{
+    rest_sleep(hand.bodies, hand.states, hand.rest.body_count, touching, count);
+}
+
+static void test_sleep(void)
+{
+    const carom_v3_q40 zero = {{0, 0, 0}};
+    int frames = 0;
+
+    hand_make_cube();
+    hand_begin(1, 1 / 367.0);
+    hand.bodies[1].in_contact = true;
+    hand_set_motion(1, (double[3]){1e-5, 0, 0}, (double[3]){0, 1e-5, 0});
+    while (!hand.states[1].asleep && frames < 100) {
+        frame_of_sleep(hand_pairs, 1);
+        frames++;
+    }
+    CHECK_EQ(frames, 20);
+    CHECK(memcmp(&hand.states[1].momentum, &zero, sizeof zero) == 0);
+    CHECK(memcmp(&hand.states[1].angular, &zero, sizeof zero) == 0);
+    CHECK(!hand.states[0].asleep); /* what does not move need not sleep */
+
+    /* one frame that is too fast, or without a contact, starts the count again */
+    for (int n = 0; n < 3; n++) {
+        hand.states[1].asleep = hand.states[1].quiet = 0;
+        for (int frame = 0; frame < 19; frame++) {
+            frame_of_sleep(hand_pairs, 1);
+        }
+        CHECK_EQ(hand.states[1].quiet, 19);
+        hand.bodies[1].in_contact = n != 2;
+        hand_set_motion(1, (double[3]){n == 0 ? 1. / 367 / 7 : 0, 0, 0},
+                        (double[3]){0, 0, n == 1 ? 1. / 367 / 6 : 0});
+        frame_of_sleep(hand_pairs, 1);
+        CHECK(hand.states[1].quiet == 0 && !hand.states[1].asleep);
+        hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
+        hand.bodies[1].in_contact = true;
+    }
+}
+
+/*
+ * Bodies that touch fall asleep together, however long the chain; those that do not, each for
+ * itself.
+ */
+static void test_islands(void)
+{
+    static const struct pair chain[3] = {{1, 0}, {2, 1}, {3, 2}},
+                             apart[3] = {{1, 0}, {2, 0}, {3, 0}};
+
+    hand_make_cube();
+    for (int touching = 0; touching < 2; touching++) {
+        const struct pair *island = touching ? chain : apart;
+
+        hand_begin(3, 1 / 367.0);
+        hand.bodies[1].in_contact = hand.bodies[2].in_contact = hand.bodies[3].in_contact = true;
+        hand_set_motion(3, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
+        for (int frame = 0; frame < 30; frame++) {
+            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+        }
+        CHECK(hand.states[1].asleep == !touching && hand.states[2].asleep == !touching);
+        CHECK(!hand.states[3].asleep);
+        hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
+        for (int frame = 0; frame < 19; frame++) {
+            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+            CHECK(!hand.states[3].asleep);
+        }
+        for (int frame = 0; frame < 2; frame++) {
+            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+        }
+        CHECK(hand.states[1].asleep && hand.states[2].asleep && hand.states[3].asleep);
+    }
+}
+
+/*
+ * Two islands: 1 and 2, which touch each other and the ground, and 3, which has pairs between
+ * theirs. With a bit for each: which of them have contacts.
+ */
+enum { TWO = 1, ONE = 2 };
+
+static void begin_apart(int islands, double fall, double one_gap)
+{
+    static const int32_t on_top[3] = {1 << 18, 1 << 17, -(1 << 21)};
+
+    hand_begin(3, fall);
+    hand_set_surface(0.5, 0.5);
+    hand_set_motion(1, (double[3]){0.001, 0, -fall}, (double[3]){0, 0, 0.002});
+    hand_set_motion(2, (double[3]){0, -0.003, -fall}, (double[3]){0.001, 0, 0});
+    hand_set_motion(3, (double[3]){3, 1, -8}, (double[3]){0.5, -0.3, 0.1});
+    if (islands & TWO) {
+        hand_touch_corners_of(0, hand.bodies[1].skin_q22);
+        hand_touch(1, 9, on_top, hand_up, hand.bodies[1].skin_q22);
+        hand_touch_corners_of(3, hand.bodies[2].skin_q22);
+    }
+    if (islands & ONE) {
+        hand_touch_corners_of(2, (int32_t)(one_gap * hand.bodies[3].skin_q22));
+    }
+}
+
+static bool same_state(int body, const struct body_state *as)
+{
+    return memcmp(&hand.states[body], as, sizeof *as) == 0;
+}
+
+/* A fast impact of one island changes nothing in what another comes to, to the bit. */
+static void test_apart(void)
+{
+    struct body_state alone[HAND_BODIES], at_first[HAND_BODIES];
+
+    hand_make_box();
+    begin_apart(TWO, 1 / 367.0, 1);
+    CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+    memcpy(alone, hand.states, sizeof alone);
+    begin_apart(ONE, 1 / 367.0, 1);
+    memcpy(at_first, hand.states, sizeof at_first);
+    CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+    CHECK(!same_state(3, &at_first[3]) && !same_state(1, &alone[1]) && !same_state(2, &alone[2]));
+    alone[3] = hand.states[3];
+    begin_apart(TWO | ONE, 1 / 367.0, 1);
+    CHECK_EQ(hand.pool.used, 13);
+    CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+    CHECK(same_state(1, &alone[1]) && same_state(2, &alone[2]) && same_state(3, &alone[3]));
+}
+
+/* After a hit only islands that hit are solved: by pair, or since they are as near and as fast. */
+static void test_keep_hits(void)
+{
+    struct body_state before[HAND_BODIES];
+
+    hand_make_box();
+    for (int n = 0; n < 3; n++) {
+        /* the hit is of pair 2, of pair 0 while 3 is to hit later, and while 3 hits as well */
+        static const double gap[3] = {0.5, 1.5, 0.5};
+        bool two = n > 0, one = n != 1;
+
+        begin_apart(TWO | ONE, 1 / 367.0, gap[n]);
+        memcpy(before, hand.states, sizeof before);
+        rest_keep_hits(&hand.rest, two ? 0 : 2);
+        CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+        CHECK(same_state(1, &before[1]) == !two && same_state(2, &before[2]) == !two);
+        CHECK(same_state(3, &before[3]) == !one);
+        /* and what is left alone does not take gravity early */
+        CHECK_EQ(rest_enter_contact(&hand.rest, CAROM_ONE_Q30), two);
+        CHECK(hand.bodies[1].in_contact == two && hand.bodies[2].in_contact == two &&
+              !hand.bodies[3].in_contact);
+    }
+}
+
+/* Only the islands of bodies that newly took gravity are left to solve. */
+static void test_enter_apart(void)
+{
+    struct body_state before[HAND_BODIES];
+
+    hand_make_box();
+    begin_apart(TWO | ONE, 1 / 367.0, 1);
+    hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
+    hand.bodies[3].in_contact = true;
+    memcpy(before, hand.states, sizeof before);
+    CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+    CHECK(hand.bodies[1].in_contact && hand.bodies[2].in_contact);
+    CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
+    CHECK(!same_state(1, &before[1]) && !same_state(2, &before[2]) && same_state(3, &before[3]));
+    CHECK_EQ(hand.rest.warm_count, 9); /* of what was solved */
+}
+
+#define MANY 60
+
+/* Islands of random pairs, against colours that spread until nothing changes. */
+static void test_island_numbers(void)
+{
+    static struct body many[MANY];
+    static struct pair joined[MANY];
+    struct test_random r = {1};
+
+    for (int n = 0; n < 20; n++) {
+        int colour[MANY], count = (int)test_random_range(&r, 0, MANY);
+        bool again = true;
+
+        for (int i = 0; i < MANY; i++) {
+            many[i].moving = test_random_range(&r, 0, 9) > 0;
+            colour[i] = i;
+        }
+        rest_islands_begin(many, MANY);
+        for (int i = 0; i < count; i++) {
+            joined[i].a = (uint16_t)test_random_range(&r, 1, MANY - 1);
+            joined[i].b = (uint16_t)test_random_range(&r, 0, joined[i].a - 1);
+            rest_islands_join(many, &joined[i]);
+        }
+        rest_islands_end(many, MANY);
+        while (again) {
+            again = false;
+            for (int i = 0; i < count; i++) {
+                int a = joined[i].a, b = joined[i].b;
+
+                if (many[a].moving && many[b].moving && colour[a] != colour[b]) {
+                    colour[a] = colour[b] = colour[a] < colour[b] ? colour[a] : colour[b];
+                    again = true;
+                }
+            }
+        }
+        for (int i = 0; i < MANY; i++) {
+            int next = i + 1;
+
+            CHECK_EQ(many[i].island, colour[i]);
+            while (next < MANY && colour[next] != colour[i]) {
+                next++;
+            }
+            CHECK_EQ(many[i].next_in_island, next < MANY ? next : (int)REST_ISLAND_END);
+        }
+    }
+}
+
+const struct test tests_rest_islands[] = {
+    {"rest_islands/sleep", test_sleep},
+    {"rest_islands/islands", test_islands},
+    {"rest_islands/apart", test_apart},
+    {"rest_islands/keep_hits", test_keep_hits},
+    {"rest_islands/enter_apart", test_enter_apart},
+    {"rest_islands/island_numbers", test_island_numbers},
+    {0},
+};
