@@ -71,17 +71,18 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start)
 {
-    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most, largest = 0;
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
+    int32_t largest = 0;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
         return level;
     }
     for (int k = 0; k < 3; k++) {
-        int64_t part = carom_abs(start->w[k]);
+        int32_t part = start->w[k] < 0 ? -start->w[k] : start->w[k];
 
         largest = part > largest ? part : largest;
     }
-    most = largest * (pair->skin_q22 / 4) >> 12;
+    most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
     return level < most ? level : most;
 }
 

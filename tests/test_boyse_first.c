@@ -3,7 +3,7 @@
  * First hits against the true motion in double precision: the distance of two features is sampled
  * over the slice and every change of its sign is closed in on.
  */
-#include "boyse_place.h"
+#include "boyse_event.h"
 #include "duo.h"
 #include "real.h"
 #include "test.h"
@@ -365,10 +365,66 @@ static void test_polynomial(void)
     }
 }
 
+/* ---------------------------------------------------------------- divisions */
+
+/* Rounded down, by less than one part in 2^14 and one, of which steps are made that pass no root. */
+static void test_quotient(void)
+{
+    struct test_random r = {3};
+
+    for (int n = 0; n < 100 * CASES; n++) {
+        uint32_t top = (uint32_t)(test_random_next(&r) >> 32) >> n % 32;
+        uint32_t below = ((uint32_t)(test_random_next(&r) >> 32) >> n / 32 % 32) | 1;
+        uint64_t exact = ((uint64_t)top << 30) / below;
+        uint32_t found = curve_quotient_q30(top, below);
+
+        if (found == UINT32_MAX) {
+            CHECK(exact >= (uint64_t)1 << 31);
+        } else {
+            CHECK(found <= exact && exact - found <= (exact >> 14) + 1);
+        }
+    }
+    CHECK_EQ(curve_quotient_q30(0, 5), 0);
+    CHECK_EQ(curve_quotient_q30(5, 0), UINT32_MAX);
+}
+
+/* Horner's rule in 32 bits is within the noise of P, of coefficients at their largest. */
+static void test_curve_at(void)
+{
+    struct test_random r = {4};
+
+    for (int n = 0; n < CASES; n++) {
+        int64_t a_q40[BOYSE_DEGREE + 1] = {0};
+        int degree = 2 + 2 * (n % 3), bits = 6 + n % 45;
+        struct curve curve;
+
+        a_q40[0] = test_random_range(&r, -1, 1);
+        for (int k = 1; k <= degree; k++) {
+            a_q40[k] = test_random_range(&r, -((int64_t)1 << bits), (int64_t)1 << bits);
+        }
+        if (!curve_init(&curve, a_q40, degree)) {
+            continue;
+        }
+        for (int k = 0; k <= 8; k++) {
+            double t = k / 8.0, value = 0, unit = 1;
+
+            for (int i = degree; i >= 0; i--) {
+                value = value * t + (double)a_q40[i];
+            }
+            for (int i = 0; i < (curve.shift < 0 ? -curve.shift : curve.shift); i++) {
+                unit *= curve.shift < 0 ? 0.5 : 2;
+            }
+            CHECK(real_abs(curve_at(&curve, k << 27) - value / unit) <= CURVE_NOISE);
+        }
+    }
+}
+
 const struct test tests_boyse_first[] = {
     {"boyse_first/vertex_face", test_vertex_face},
     {"boyse_first/face_vertex", test_face_vertex},
     {"boyse_first/edge_edge", test_edge_edge},
     {"boyse_first/polynomial", test_polynomial},
+    {"boyse_first/quotient", test_quotient},
+    {"boyse_first/curve_at", test_curve_at},
     {0},
 };
