@@ -5,8 +5,8 @@
 #define REFINEMENTS 8
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
-/* What features open by at most through rounding. */
-#define OPENS_Q22 4
+/* What the gap of features changes by at most through rounding. */
+#define CHANGES_Q22 4
 
 void step_mark(struct carom_world *w, enum carom_stage stage)
 {
@@ -297,45 +297,69 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
     return longer_q30 < most_q30 ? (int32_t)longer_q30 : most_q30;
 }
 
-/* Whether the features of a candidate end the paths farther apart than they start: not by rounding. */
-static bool opens(const struct step *s, const struct candidate *c)
+/* How much the gap of a candidate's features changes on the first 1/2^bits of the paths. */
+static int64_t gap_change(const struct step *s, const struct candidate *c, int bits)
 {
     const struct carom_world *w = s->w;
     const struct pair *p = &w->pairs[c->pair];
     struct boyse_pair pair;
-    int32_t start;
+    int64_t start;
 
     boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
     start = gap_at(&pair, c, 0);
-    return start < INT32_MAX && gap_at(&pair, c, CAROM_ONE_Q30) > start + OPENS_Q22;
+    return gap_at(&pair, c, CAROM_ONE_Q30 >> bits) - start;
+}
+
+/*
+ * Whether the start of the paths closes the gap of the hit's features by more than twice as much as
+ * a path of its own does in that time, a 64th of the slice. Sets the paths of the slice.
+ */
+static int only_path_closes(struct step *s, int32_t slice_q30, bool *only)
+{
+    int result = predict_hit(s, slice_q30);
+    int64_t part = gap_change(s, &s->hit.candidate, 6);
+
+    *only = false;
+    if (result == CAROM_OK && part < -CHANGES_Q22) {
+        result = predict_hit(s, slice_q30 >> 6);
+        *only = 2 * gap_change(s, &s->hit.candidate, 0) > part;
+    }
+    return result;
+}
+
+/* Whether some time passes on the way to the hit. */
+static bool takes_time(int32_t slice_q30, int32_t t_q30)
+{
+    return ((int64_t)slice_q30 * t_q30) >> 30 >= SLICE_MIN_Q30;
 }
 
 /*
  * A hit at the start of the paths. The turn of a path is that of its middle: features that open as
  * the bodies move now may close at the start of a long path, and there is nothing to be solved then.
- * Sets the paths of the longest of some shorter slices in which they open and nothing is hit.
+ * Sets the paths of the longest of some shorter slices on which it is gone, if it is the path that
+ * closes, or they open there, and they do not come too near on the way. Then s->hit is the first hit on those paths, if there is one: found.
  */
-static int shorten(struct step *s, int32_t *slice_q30, bool *opened)
+static int shorten(struct step *s, int32_t *slice_q30, bool *gone, bool *found)
 {
-    struct boyse_hit hit = s->hit;
     int32_t shorter_q30 = *slice_q30 >> 2;
-    int result = CAROM_OK;
+    bool only;
+    int result = only_path_closes(s, *slice_q30, &only);
+    struct boyse_hit hit = s->hit;
 
-    for (*opened = false; shorter_q30 > SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
-        bool found;
-
+    for (*gone = false; shorter_q30 > SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
         s->hit = hit;
         result = predict_hit(s, shorter_q30);
         hit = s->hit; /* its pair may have a new number */
-        if (result < 0 || !opens(s, &hit.candidate)) {
+        if (result < 0 || leave_at(s) < CAROM_ONE_Q30 ||
+            !(only || gap_change(s, &hit.candidate, 0) > CHANGES_Q22)) {
             continue;
         }
-        result = step_first_hit(s, &found);
+        result = step_first_hit(s, found);
         s->w->stats.refinements++;
-        if (result == CAROM_OK && !found) {
+        if (result == CAROM_OK && (!*found || takes_time(shorter_q30, s->hit.t_q30))) {
             *slice_q30 = shorter_q30;
-            *opened = true;
-            break;
+            *gone = true;
+            return result;
         }
     }
     s->hit = hit;
@@ -395,21 +419,24 @@ static int refine(struct step *s, int32_t *slice, int32_t *t)
 int step_go_to_hit(struct step *s, int32_t slice_q30, bool *met)
 {
     int32_t t_q30, end_q30 = slice_q30;
-    bool opened = false;
     int result = refine(s, &end_q30, &t_q30);
 
-    if (result == CAROM_OK && ((int64_t)end_q30 * t_q30) >> 30 < SLICE_MIN_Q30) {
-        result = shorten(s, &slice_q30, &opened);
-        if (opened) {
+    *met = true;
+    if (result == CAROM_OK && !takes_time(end_q30, t_q30)) {
+        bool gone, found = false;
+
+        result = shorten(s, &slice_q30, &gone, &found);
+        *met = !gone || found;
+        if (result == CAROM_OK && gone) {
             end_q30 = slice_q30;
             t_q30 = CAROM_ONE_Q30;
+            result = found ? refine(s, &end_q30, &t_q30) : CAROM_OK;
         } else {
             predict_all(s, end_q30);
         }
     }
     if (result == CAROM_OK) {
         step_advance(s, t_q30, end_q30);
-        *met = !opened;
     }
     return result;
 }
