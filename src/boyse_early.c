@@ -14,8 +14,8 @@
  */
 #include "boyse_place.h"
 
-/* BOYSE_NEAR_Q22, and 5 units for what is cut off. */
-#define NEAR_Q20 (BOYSE_NEAR_Q22 / 4 + 5)
+/* BOYSE_NEAR_Q22, and 6 units for what is cut off. */
+#define NEAR_Q20 (BOYSE_NEAR_Q22 / 4 + 6)
 /* The same along edges: the exact test finds nearly parallel ones to meet only about where they do. */
 #define BESIDE_Q20 24
 /* What is cut off a bend and a rate. */
@@ -69,7 +69,9 @@ static bool vertex_stays_beside(const struct boyse_view *view, uint32_t face, co
         const struct carom_edge *edge = &mesh->edges[mesh->faces[face].edge[k]];
         carom_v3_q30 in = mesh_edge_inward(mesh, edge, edge->face[0] == face ? 0 : 1);
         carom_v3_q22 corner = mesh_corner(mesh, face, k);
-        int32_t beyond_q20 = dot(in.c, corner.c, 32) - dot(in.c, x->c, 30);
+        const struct vec to_corner = {{(corner.c[0] >> 2) - x->c[0], (corner.c[1] >> 2) - x->c[1],
+                                       (corner.c[2] >> 2) - x->c[2]}};
+        int32_t beyond_q20 = dot(in.c, to_corner.c, 30);
 
         if (stays_above(beyond_q20, -dot(in.c, velocity->c, 30), bend_q20, NEAR_Q20)) {
             return true;

@@ -305,7 +305,7 @@ static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
     for (int side = 0; side < 2; side++) {
         if (edge->face[side] != CAROM_NO_FACE) {
             const int32_t *face = mesh->faces[edge->face[side]].normal.c;
-            int32_t along = cosine_q30(face, n) / 4, inward = cosine_q30(face, across);
+            int32_t along = cosine_q30(face, n) >> 2, inward = cosine_q30(face, across);
 
             inward = (side == 0) == outwards ? inward : -inward;
             cones->out += outwards ? along : -along;
