@@ -24,7 +24,12 @@ bool step_retire(struct step *s)
         struct body_state *state = &s->next->bodies[i];
 
         if (broad_active(&w->bodies[i], state) && !world_in_range(&w->bodies[i], state)) {
-            *state = world_now(w)->bodies[i];
+            struct body_state last = world_now(w)->bodies[i];
+
+            /* where it came from another body may be by now */
+            last.position = state->position;
+            last.rotation = state->rotation;
+            *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
             state->out = 1;
             step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
             any = true;

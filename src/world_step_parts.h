@@ -119,8 +119,8 @@ void step_add_angular(const struct step *s, const carom_v3_q32 *about, uint32_t 
 void step_drop_warm(struct step *s);
 
 /*
- * Freeze bodies that left the range of the formats in the pose they began the frame with. Returns
- * whether any did.
+ * Freeze bodies that left the range of the formats: where they are, or when that place is out of
+ * range in the pose they began the frame with. Returns whether any did.
  */
 bool step_retire(struct step *s);
 
