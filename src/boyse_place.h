@@ -12,8 +12,8 @@
 #define BOYSE_POINT_NOISE_Q22 4
 /* Gaps that the early test looks at: rounding, and the nearer surface of boyse_first. */
 #define BOYSE_NEAR_Q22 12
-/* Sine of the angle below which edges count as parallel: 0.01. */
-#define BOYSE_PARALLEL_Q30 10737418
+/* Sine of the angle below which edges count as parallel: 0.002. */
+#define BOYSE_PARALLEL_Q30 2147484
 
 /* How `to` sees `from` in the role of a candidate: of a face the vertex, of b's edge a's. */
 static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,

@@ -195,7 +195,7 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
 /* 1 / |w| of edges as m 2^-(29 - up), for an angle of no less than the one that counts. */
 struct inverse {
     int32_t m; /* 2^29 .. 2^30 */
-    int up;    /* 0 .. 6 */
+    int up;    /* 0 .. 8 */
 };
 
 static struct inverse inverse_of(int32_t sine_q30)
@@ -207,7 +207,7 @@ static struct inverse inverse_of(int32_t sine_q30)
     return up < 0 ? (struct inverse){1 << 29, 0} : (struct inverse){inverse_q59(d << up), up};
 }
 
-/* v times the inverse, rounded down; |v| < 2^53. */
+/* v times the inverse, rounded down; |v| < 2^51. */
 static int64_t over_sine(int64_t v, struct inverse sine)
 {
     uint64_t wide = (uint64_t)v << (3 + sine.up);
@@ -243,7 +243,8 @@ static int64_t times_q30(int64_t a, int32_t b_q30)
     return (a4 >> 32) * b_q30 + (low >> 32);
 }
 
-/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22. */
+/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22: the difference is
+ * no more than the sine times such a length. */
 static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
 {
     return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
