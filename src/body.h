@@ -98,6 +98,7 @@ struct body {
     bool touched;                    /* had a contact in this step */
     bool grounded;                   /* and one with a body that stands still */
     bool entering;                   /* in_contact is new */
+    bool rewound;                    /* is back where the frame found it */
     bool woke;                       /* in the static check at hand */
     bool solving;                    /* has a contact in the solve at hand */
     carom_v3_q40 velocity, spin;     /* before a solve */

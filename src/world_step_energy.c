@@ -144,8 +144,26 @@ static bool moved(const struct body_state *from, const struct body_state *to)
            memcmp(&from->rotation, &to->rotation, sizeof from->rotation) != 0;
 }
 
-/* Whether a body of another island may have come to where a body was when the frame began. */
-static bool place_taken(const struct step *s, uint32_t body)
+/* The island goes back to where the frame found it; its momenta are what they were, or none. */
+static void rewind_island(struct step *s, uint32_t first, bool halt)
+{
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body_state *before = &world_now(s->w)->bodies[i];
+        struct body_state *state = &s->next->bodies[i];
+
+        if (!broad_active(&s->w->bodies[i], state)) {
+            continue;
+        }
+        s->w->bodies[i].rewound = true;
+        state->position = before->position;
+        state->rotation = before->rotation;
+        state->momentum = halt ? (carom_v3_q40){{0, 0, 0}} : before->momentum;
+        state->angular = halt ? (carom_v3_q40){{0, 0, 0}} : before->angular;
+    }
+}
+
+/* A body that moved and may now be where a body of another island was before; the end of islands: none. */
+static uint32_t intruder(const struct step *s, uint32_t body)
 {
     const struct world_state *before = world_now(s->w);
     const struct body *b = &s->w->bodies[body];
@@ -156,33 +174,31 @@ static bool place_taken(const struct step *s, uint32_t body)
         if (broad_active(other, &s->next->bodies[i]) && other->island != b->island &&
             moved(&before->bodies[i], &s->next->bodies[i]) &&
             broad_near(b, &before->bodies[body], other, &s->next->bodies[i], b->skin_q22)) {
-            return true;
+            return i;
         }
     }
-    return false;
+    return REST_ISLAND_END;
 }
 
-/* The island comes to a halt: where the frame found it, unless that place is taken by now. */
+/*
+ * The island comes to a halt where the frame found it. An island that went where it was before has
+ * this frame undone as well, and so on: as the frame found them no two bodies are in each other.
+ */
 static void hold_still(struct step *s, uint32_t first)
 {
-    const struct body *bodies = s->w->bodies;
-    bool back = true;
+    bool again = true;
 
-    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
-        back = back && !place_taken(s, i);
-    }
-    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
-        struct body_state *state = &s->next->bodies[i];
+    rewind_island(s, first, true);
+    while (again) {
+        again = false;
+        for (uint32_t i = 0; i < s->w->body_count; i++) {
+            uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : REST_ISLAND_END;
 
-        if (!broad_active(&bodies[i], state)) {
-            continue;
+            if (by != REST_ISLAND_END) {
+                rewind_island(s, s->w->bodies[by].island, false);
+                again = true;
+            }
         }
-        if (back) {
-            state->position = world_now(s->w)->bodies[i].position;
-            state->rotation = world_now(s->w)->bodies[i].rotation;
-        }
-        memset(&state->momentum, 0, sizeof state->momentum);
-        memset(&state->angular, 0, sizeof state->angular);
     }
 }
 
@@ -250,7 +266,7 @@ void step_limit_energy(struct step *s, bool cut_short)
     rest_islands_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].touched = w->bodies[i].in_contact;
-        w->bodies[i].grounded = false;
+        w->bodies[i].grounded = w->bodies[i].rewound = false;
     }
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
