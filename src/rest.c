@@ -12,6 +12,8 @@
 #define LIFT_DIVISOR 64
 /* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
+/* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
+#define TOO_NEAR_DIVISOR 16
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 /* What rounding may have made of a gap since the hit was found. */
@@ -86,6 +88,20 @@ static int64_t slow_q40(const struct rest *r, const struct contact *c)
     return 4 * largest_q40;
 }
 
+/*
+ * Newton's e. Where no gravity tells an impact from rest a body may come back again and again; what
+ * paths bend by would add up to an overlap, so a gap that is all but closed opens, by no more than
+ * the approach.
+ */
+static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
+{
+    int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
+    int64_t back_q40 = (int64_t)(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22) << 18;
+
+    back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
+    return target_q40 > back_q40 ? target_q40 : back_q40;
+}
+
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
@@ -94,7 +110,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
-        c->target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
+        c->target_q40 = impact_target_q40(c, e_q30);
     } else if (e_q30 == CAROM_ONE_Q30) {
         c->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {

@@ -17,7 +17,7 @@ static void test_particle(void)
         hand_begin(1, 1 / 1024.0);
         hand_set_surface(e, 0);
         hand_set_motion(1, (double[3]){0.0625, -0.03125, -0.25}, (double[3]){0, 0, 0});
-        hand_touch(0, 0, below, hand_up, 0);
+        hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
         CHECK(real_abs(v[2] - 0.25 * e) < 1e-9);
@@ -26,6 +26,28 @@ static void test_particle(void)
         CHECK(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.25 * (1 + e)) < 1e-9);
         CHECK(across < 1e-9);
         CHECK(hand.rest.impacts == 1 && hand.rest.sweeps == 0);
+    }
+}
+
+/* A gap that is all but closed opens by what it lacks to 1/16 of the skin, but no faster than it closed. */
+static void test_too_near(void)
+{
+    static const int32_t below[3] = {0, 0, -(1 << 21)};
+
+    hand_make_cube();
+    for (int n = 0; n < 3; n++) {
+        double speed = n == 0 ? 0.25 : 1e-6, v[3], w[3], lacks, gap;
+        int32_t skin = hand.bodies[1].skin_q22;
+
+        hand_begin(1, 0);
+        hand_set_surface(0, 0);
+        hand_set_motion(1, (double[3]){0, 0, -speed}, (double[3]){0, 0, 0});
+        hand_touch(0, 0, below, hand_up, n == 2 ? skin / 16 : -skin / 32);
+        CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
+        hand_velocity_of(1, v, w);
+        gap = real(hand.contacts[0].gap_q22, 22);
+        lacks = real(skin / 16, 22) - gap;
+        CHECK(real_abs(v[2] - (lacks < speed ? lacks : speed)) < 1e-9);
     }
 }
 
@@ -44,7 +66,7 @@ static void test_particle_friction(void)
         hand_begin(1, 1 / 1024.0);
         hand_set_surface(0.5, mu);
         hand_set_motion(1, (double[3]){0.25, 0, -0.25}, (double[3]){0, 0, 0});
-        hand_touch(0, 0, below, hand_up, 0);
+        hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
         CHECK(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.375) < 1e-8);
@@ -252,6 +274,7 @@ static void test_impact_warm(void)
 
 const struct test tests_rest[] = {
     {"rest/particle", test_particle},
+    {"rest/too_near", test_too_near},
     {"rest/particle_friction", test_particle_friction},
     {"rest/weight", test_weight},
     {"rest/warm", test_warm},

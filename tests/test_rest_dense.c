@@ -158,7 +158,7 @@ static void touch(struct test_random *r, uint32_t at, uint16_t number, struct ax
         }
     }
     boyse_pair_init(&boyse, &bodies[of[0]], &bodies[of[1]]);
-    CHECK(contact_insert(&rest.list, &boyse, &key, &n_q30, 0, arm_q40));
+    CHECK(contact_insert(&rest.list, &boyse, &key, &n_q30, boyse.skin_q22 / 2, arm_q40));
 }
 
 /* V of a contact, from the momenta. */
