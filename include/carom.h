@@ -293,7 +293,7 @@ struct carom_body_state {
     carom_v3_q40 velocity; /* derived from the momenta that are the state */
     carom_v3_q40 spin;
     bool asleep;
-    bool out; /* left the world's range: frozen in its last pose */
+    bool out; /* left the world's range: frozen in its last pose, touched by nothing */
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);

@@ -467,7 +467,9 @@ static void watch_crossings(const struct crowd *crowd, struct crowd_tally *tally
             struct oracle_pose pose_a, pose_b;
             struct oracle_crossings found;
 
-            if (!(changed(a) || changed(b) || tally->frames == 1) ||
+            /* what is out is not there for others */
+            if (a->now.state.out || b->now.state.out ||
+                !(changed(a) || changed(b) || tally->frames == 1) ||
                 !boxes_meet(&a->now, &b->now)) {
                 continue;
             }
