@@ -224,22 +224,6 @@ static void show(const struct crowd *crowd, const struct crowd_tally *t, int sta
     }
 }
 
-/*
- * Cases that run into the sub-step cap, or end their sweeps unfinished, and then gain energy: known,
- * not yet cured, and still held to everything else.
- */
-static bool is_known(int number)
-{
-    static const int known[] = {11316};
-
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        if (known[i] == number) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* from .. to: the frames to print */
 static void run(struct crowd *crowd, int number, struct grid_sum *sum, long from, long to)
 {
@@ -264,9 +248,6 @@ static void run(struct crowd *crowd, int number, struct grid_sum *sum, long from
         if (status >= 0 && tally.frames >= from && tally.frames <= to) {
             show(crowd, &tally, status);
         }
-    }
-    if (is_known(number)) {
-        tally.rise = 0;
     }
     bad = status < 0 || tally.crossed != 0 || tally.rise > 1;
     sum->runs++;
