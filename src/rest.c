@@ -96,7 +96,7 @@ static int64_t slow_q40(const struct rest *r, const struct contact *c)
 static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 {
     int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
-    int64_t back_q40 = (int64_t)(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22) << 18;
+    int64_t back_q40 = carom_shl(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22, 18);
 
     back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
     return target_q40 > back_q40 ? target_q40 : back_q40;
