@@ -16,8 +16,6 @@ static int64_t shift_parts(int64_t high, int64_t low, int s)
 
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
 {
-    /* rows as places in xx, yy, zz, xy, yz, zx */
-    static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     int32_t high[3], low[3];
 
     /* v = high 2^31 + low: sums of three products with |m| <= 2^30 are below 2^63 */
@@ -27,7 +25,8 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
         low[k] = (int32_t)(v[k] & INT32_MAX);
     }
     for (int i = 0; i < 3; i++) {
-        const int32_t row[3] = {m->m[place[i][0]], m->m[place[i][1]], m->m[place[i][2]]};
+        const int32_t row[3] = {m->m[fix_sym3_at[i][0]], m->m[fix_sym3_at[i][1]],
+                                m->m[fix_sym3_at[i][2]]};
 
         out[i] = shift_parts(carom_dot(row, high), carom_dot(row, low), m->e);
     }

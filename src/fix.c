@@ -298,3 +298,5 @@ void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
     }
     memcpy(out, r, sizeof r);
 }
+
+const uint8_t fix_sym3_at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};

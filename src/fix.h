@@ -114,4 +114,7 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 
+/* Where entry (i, k) of a symmetric matrix is among xx yy zz xy yz zx. */
+extern const uint8_t fix_sym3_at[3][3];
+
 #endif

@@ -4,9 +4,6 @@
 #define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
 #define SPEED_BITS   60 /* bits of V in q40 of the solver's unit, at most */
 
-/* Where J_kl is among xx, yy, zz, xy, yz, zx. */
-static const uint8_t inertia_entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-
 int64_t impact_shift(int64_t v, int s)
 {
     if (s >= 0) {
@@ -175,7 +172,7 @@ static void set_body_rows(const struct impact_problem *p)
             a[first + k][first + k] = CAROM_ONE_Q30;
             a[first + k][impulse + k] = (int32_t)impact_shift(-share, -p->arm_shift);
             for (int l = 0; l < 3; l++) {
-                a[first + 3 + k][first + 3 + l] = m->inertia_q30[inertia_entry[k][l]];
+                a[first + 3 + k][first + 3 + l] = m->inertia_q30[fix_sym3_at[k][l]];
             }
             /*
              * (arm x P)_j has arm_k P_i with a plus sign, (arm x P)_i has arm_k P_j with a minus.
@@ -310,7 +307,7 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
         out_q40[3 + k] =
             impact_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
         for (int l = 0; l < 3; l++) {
-            out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[inertia_entry[k][l]], 30);
+            out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[fix_sym3_at[k][l]], 30);
         }
     }
 }

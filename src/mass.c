@@ -242,7 +242,6 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
  */
 int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest)
 {
-    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
     struct fix_wide det = {0, 0};
     struct fix_scaled ratio[6];
@@ -250,7 +249,7 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
     uint64_t all = 0, size = 0;
 
     for (int n = 0; n < 6; n++) {
-        const uint8_t *a = entry[(row[n] + 1) % 3], *b = entry[(row[n] + 2) % 3];
+        const uint8_t *a = fix_sym3_at[(row[n] + 1) % 3], *b = fix_sym3_at[(row[n] + 2) % 3];
         int i = (col[n] + 1) % 3, j = (col[n] + 2) % 3;
 
         cofactor[n] = (int64_t)in->m[a[i]] * in->m[b[j]] - (int64_t)in->m[a[j]] * in->m[b[i]];
@@ -258,7 +257,8 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
         size |= (uint64_t)carom_abs(in->m[n]);
     }
     for (int k = 0; k < 3; k++) {
-        det = fix_wide_add(det, fix_wide_mul(in->m[entry[0][k]], cofactor[entry[0][k]]));
+        det =
+            fix_wide_add(det, fix_wide_mul(in->m[fix_sym3_at[0][k]], cofactor[fix_sym3_at[0][k]]));
     }
     if (fix_wide_sign(det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
         fix_wide_bits(det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
@@ -273,9 +273,9 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
         struct fix_wide left = fix_wide_mul(cofactor[n], (int64_t)1 << out->e);
 
         for (int k = 0; k < 3; k++) {
-            int64_t part = -(int64_t)out->m[n] * in->m[entry[0][k]];
+            int64_t part = -(int64_t)out->m[n] * in->m[fix_sym3_at[0][k]];
 
-            left = fix_wide_add(left, fix_wide_mul(part, cofactor[entry[0][k]]));
+            left = fix_wide_add(left, fix_wide_mul(part, cofactor[fix_sym3_at[0][k]]));
         }
         rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(left, det));
     }

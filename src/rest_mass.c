@@ -2,9 +2,6 @@
 /* What an impulse at a contact changes: K, and steps of the sweeps. */
 #include "rest_parts.h"
 
-/* Symmetric matrices are six numbers: xx yy zz xy yz zx. */
-static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-
 /* v 2^s */
 static int64_t shifted(int64_t v, int s)
 {
@@ -25,14 +22,14 @@ void rest_prepare_body(struct body *b)
             int32_t column[3];
 
             for (int j = 0; j < 3; j++) {
-                column[j] = b->inverse_inertia.m[entry[j][k]];
+                column[j] = b->inverse_inertia.m[fix_sym3_at[j][k]];
             }
             half[i][k] = (int32_t)carom_round(carom_dot(r->c[i], column), 30);
         }
     }
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
-            b->turning.m[entry[i][k]] = (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
+            b->turning.m[fix_sym3_at[i][k]] = (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
         }
     }
     b->turning.e = b->inverse_inertia.e - 2 - 2 * (b->unit_bits - 22);
@@ -88,11 +85,12 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
         int m = (i + 1) % 3, n = (i + 2) % 3;
 
         for (int k = 0; k <= i; k++) {
-            k_q30[entry[i][k]] += carom_round((int64_t)side->turn[m][k] * side->arm_q30[n] -
-                                                  (int64_t)side->turn[n][k] * side->arm_q30[m],
-                                              side->turn_bits);
+            k_q30[fix_sym3_at[i][k]] +=
+                carom_round((int64_t)side->turn[m][k] * side->arm_q30[n] -
+                                (int64_t)side->turn[n][k] * side->arm_q30[m],
+                            side->turn_bits);
         }
-        k_q30[entry[i][i]] += side->share_q30;
+        k_q30[fix_sym3_at[i][i]] += side->share_q30;
     }
 }
 

@@ -55,8 +55,7 @@ static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
 static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 {
-    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    const int32_t row[3] = {m[entry[i][0]], m[entry[i][1]], m[entry[i][2]]};
+    const int32_t row[3] = {m[fix_sym3_at[i][0]], m[fix_sym3_at[i][1]], m[fix_sym3_at[i][2]]};
 
     return carom_dot(row, v);
 }

@@ -56,7 +56,6 @@ static int64_t scaled(int64_t v, int s)
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct contact_side *side)
 {
-    static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const struct carom_sym3 *t = &side->body->turning;
     int64_t largest = 0;
 
@@ -64,7 +63,7 @@ static int64_t turning_q30(const struct contact_side *side)
         int64_t sum = 0;
 
         for (int k = 0; k < 3; k++) {
-            sum += carom_abs(t->m[entry[i][k]]);
+            sum += carom_abs(t->m[fix_sym3_at[i][k]]);
         }
         largest = sum > largest ? sum : largest;
     }

@@ -100,8 +100,6 @@ static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q4
  */
 static bool spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
 {
-    /* rows as places in xx, yy, zz, xy, yz, zx */
-    static const uint8_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     int64_t l[3];
 
     for (int k = 0; k < 3; k++) {
@@ -112,7 +110,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
         struct fix_wide sum = {0, 0};
 
         for (int k = 0; k < 3; k++) {
-            int64_t entry = b->inverse_inertia.m[place[i][k]];
+            int64_t entry = b->inverse_inertia.m[fix_sym3_at[i][k]];
 
             sum = fix_wide_add(sum, fix_wide_mul(carom_abs(entry), carom_abs(l[k])));
         }

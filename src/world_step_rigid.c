@@ -9,9 +9,6 @@
  */
 #include "world_step_parts.h"
 
-/* Where (i, k) is among xx, yy, zz, xy, yz, zx. */
-static const uint8_t entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-
 static int64_t shifted(int64_t v, int s)
 {
     return s > 0 ? carom_shl(v, s) : s < -62 ? 0 : s < 0 ? carom_round(v, -s) : v;
@@ -139,7 +136,7 @@ static void add_inertia(const struct step *s, const struct step_rigid *rigid, ui
     body_world_inertia(&s->w->bodies[i], &r, &own);
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n <= m; n++) {
-            int at = entry[m][n];
+            int at = fix_sym3_at[m][n];
             int64_t part = shifted(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
                            carom_mul_q30(arm[m], arm[n]);
 
@@ -174,7 +171,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
-            w->a[m][n] = (int32_t)shifted(inertia_q30[entry[m][n]], -down);
+            w->a[m][n] = (int32_t)shifted(inertia_q30[fix_sym3_at[m][n]], -down);
         }
         w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
     }
