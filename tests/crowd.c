@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "crowd.h"
+#include "real.h"
 
 /* Well above the rounding of coordinates, far below the skin. */
 #define CROSSING_TOLERANCE 1e-9
@@ -14,16 +15,6 @@
 
 /* bodies, pairs, contacts, faces, entries, candidates */
 #define CAPS CROWD_BODIES, CROWD_BODIES *(CROWD_BODIES - 1) / 2, 4096, 65535, 65535, 65535
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double length(const double a[3])
-{
-    return sqrt(dot(a, a));
-}
 
 static void gravity_of(const struct crowd *crowd, double gravity[3])
 {
@@ -242,7 +233,7 @@ static void look_at_box(struct crowd_seen *seen, const struct crowd *crowd, int 
         seen->low[k] = HUGE_VAL;
         seen->high[k] = -HUGE_VAL;
         for (size_t v = 0; v < mesh->solid.vertex_count; v++) {
-            double at = dot(pose.rotation.row[k], mesh->solid.vertices[v]) + pose.position[k];
+            double at = real_dot(pose.rotation.row[k], mesh->solid.vertices[v]) + pose.position[k];
 
             seen->low[k] = fmin(seen->low[k], at);
             seen->high[k] = fmax(seen->high[k], at);
@@ -264,12 +255,12 @@ static void look_at_angular(struct crowd_seen *seen)
         }
     }
     for (int k = 0; k < 3; k++) {
-        own[k] = seen->body.mass * dot(tensor[k], spin);
+        own[k] = seen->body.mass * real_dot(tensor[k], spin);
     }
     for (int k = 0; k < 3; k++) {
         int m = (k + 1) % 3, n = (k + 2) % 3;
 
-        seen->angular[k] = dot(pose.rotation.row[k], own) +
+        seen->angular[k] = real_dot(pose.rotation.row[k], own) +
                            seen->body.position[m] * seen->momentum[n] -
                            seen->body.position[n] * seen->momentum[m];
     }
@@ -289,7 +280,7 @@ static void look_at(struct crowd *crowd, int i)
     lab_read(&seen->body, crowd->world, i);
     look_at_box(seen, crowd, i);
     seen->kinetic = oracle_energy(&seen->body, none);
-    seen->potential = -seen->body.mass * dot(gravity, seen->body.position);
+    seen->potential = -seen->body.mass * real_dot(gravity, seen->body.position);
     for (int k = 0; k < 3; k++) {
         seen->momentum[k] = seen->body.mass * seen->body.velocity[k];
     }
@@ -360,13 +351,13 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
 static double noise(const struct crowd *crowd, const struct crowd_body *body)
 {
     const struct crowd_seen *seen = &body->now;
-    double v = length(seen->body.velocity), w = length(seen->body.spin), m = body->mass;
+    double v = real_length(seen->body.velocity), w = real_length(seen->body.spin), m = body->mass;
     double r = crowd->meshes[body->mesh].radius, gravity[3], k2;
 
     gravity_of(crowd, gravity);
     k2 = fmin(seen->body.inertia[0], fmin(seen->body.inertia[1], seen->body.inertia[2])) / 2;
     return 8 * ULP_Q40 * (v + w + m * (v + w + r * w)) +
-           64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * k2)) + 0x1p-31 * m * length(gravity);
+           64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * k2)) + 0x1p-31 * m * real_length(gravity);
 }
 
 /* ------------------------------------------------------------------------ watch */
@@ -388,7 +379,7 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
             body->now.kinetic - body->before.kinetic + body->now.potential - body->before.potential;
         rounding += noise(crowd, body);
         if (body->touching) {
-            weight += body->mass * length(gravity) * crowd->meshes[body->mesh].skin;
+            weight += body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin;
         }
     }
     rounding += IMPACT_ALLOWED * fmax(kinetic[0], kinetic[1]);
@@ -412,7 +403,7 @@ static void watch_momentum(const struct crowd *crowd, int island, struct crowd_t
     gravity_of(crowd, gravity);
     for (int i = island; i < crowd->body_count; i++) {
         const struct crowd_body *body = &crowd->bodies[i];
-        double from_origin = length(body->now.body.position);
+        double from_origin = real_length(body->now.body.position);
 
         if (body->island != island || !moves(crowd, i)) {
             continue;
@@ -424,16 +415,16 @@ static void watch_momentum(const struct crowd *crowd, int island, struct crowd_t
             change[k] += body->now.momentum[k] - body->before.momentum[k] - body->mass * gravity[k];
             turn[k] += body->now.angular[k] - body->before.angular[k];
         }
-        size += length(body->now.momentum) + body->mass * length(gravity);
-        turn_size += length(body->now.angular);
+        size += real_length(body->now.momentum) + body->mass * real_length(gravity);
+        turn_size += real_length(body->now.angular);
         rounding += 8 * ULP_Q40 * (1 + body->mass);
         moment += 8 * ULP_Q40 * (1 + body->mass) * (1 + from_origin);
     }
     if (size > 0) {
-        tally->momentum = fmax(tally->momentum, (length(change) - rounding) / size);
+        tally->momentum = fmax(tally->momentum, (real_length(change) - rounding) / size);
     }
-    if (turn_size > 0 && length(gravity) == 0) {
-        tally->angular = fmax(tally->angular, (length(turn) - moment) / turn_size);
+    if (turn_size > 0 && real_length(gravity) == 0) {
+        tally->angular = fmax(tally->angular, (real_length(turn) - moment) / turn_size);
     }
 }
 
@@ -497,11 +488,11 @@ static void count_resting(const struct crowd *crowd, struct crowd_tally *tally)
     tally->asleep = tally->slow = 0;
     for (int i = 0; i < crowd->body_count; i++) {
         const struct crowd_seen *now = &crowd->bodies[i].now;
-        double speed = length(now->body.velocity) +
-                       crowd->meshes[crowd->bodies[i].mesh].radius * length(now->body.spin);
+        double speed = real_length(now->body.velocity) +
+                       crowd->meshes[crowd->bodies[i].mesh].radius * real_length(now->body.spin);
 
         tally->asleep += moves(crowd, i) && now->state.asleep;
-        tally->slow += moves(crowd, i) && (now->state.asleep || speed < length(gravity) / 8);
+        tally->slow += moves(crowd, i) && (now->state.asleep || speed < real_length(gravity) / 8);
     }
 }
 

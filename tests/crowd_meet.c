@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "crowd.h"
+#include "real.h"
 
 #define TRIES 4000
 /* What else of a body lies behind the meeting feature, in radii: many skins. */
@@ -21,23 +22,9 @@ struct feature {
     double on_a[3], on_b[3], normal[3]; /* N from b into a */
 };
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
-
 static double normalise(double v[3])
 {
-    double length = sqrt(dot(v, v));
+    double length = sqrt(real_dot(v, v));
 
     for (int k = 0; k < 3 && length > 0; k++) {
         v[k] /= length;
@@ -63,7 +50,7 @@ static struct placed placed(const struct crowd *crowd, int body)
 static void vertex(double out[3], const struct placed *p, size_t v)
 {
     for (int k = 0; k < 3; k++) {
-        out[k] = dot(p->pose.rotation.row[k], p->mesh->vertices[v]) + p->pose.position[k];
+        out[k] = real_dot(p->pose.rotation.row[k], p->mesh->vertices[v]) + p->pose.position[k];
     }
 }
 
@@ -85,7 +72,7 @@ static void face_of(const struct placed *p, size_t face, double corner[3][3], do
         side[0][k] = corner[1][k] - corner[0][k];
         side[1][k] = corner[2][k] - corner[0][k];
     }
-    cross(normal, side[0], side[1]);
+    real_cross(normal, side[0], side[1]);
     normalise(normal);
 }
 
@@ -103,8 +90,8 @@ static int farthest(const struct placed *p, const double direction[3], double *b
         double at[3];
 
         vertex(at, p, v);
-        if (dot(at, direction) > *best) {
-            *best = dot(at, direction);
+        if (real_dot(at, direction) > *best) {
+            *best = real_dot(at, direction);
             *which = v;
         }
     }
@@ -112,7 +99,7 @@ static int farthest(const struct placed *p, const double direction[3], double *b
         double at[3], behind;
 
         vertex(at, p, v);
-        behind = *best - dot(at, direction);
+        behind = *best - real_dot(at, direction);
         count += behind < 1e-6 * p->radius;
         if (behind >= 1e-6 * p->radius && behind < CLEAR * p->radius) {
             return -1;
@@ -129,7 +116,8 @@ static bool ends_at(const struct placed *p, const double point[3], const double 
     size_t which;
     int count = farthest(p, direction, &reach, &which);
 
-    return count >= least && count <= most && reach <= dot(point, direction) + 1e-6 * p->radius;
+    return count >= least && count <= most &&
+           reach <= real_dot(point, direction) + 1e-6 * p->radius;
 }
 
 static void opposite(double out[3], const double v[3])
@@ -184,7 +172,7 @@ static bool meet_edge(struct feature *out, const struct placed *a, const struct 
 
     edge_of(a, ends[0], along[0], random);
     edge_of(b, ends[1], along[1], random);
-    cross(out->normal, along[0], along[1]);
+    real_cross(out->normal, along[0], along[1]);
     if (normalise(out->normal) < 0.3) {
         return false;
     }
@@ -192,7 +180,7 @@ static bool meet_edge(struct feature *out, const struct placed *a, const struct 
         out->on_a[k] = ends[0][0][k] + share[0] * (ends[0][1][k] - ends[0][0][k]);
         out->on_b[k] = ends[1][0][k] + share[1] * (ends[1][1][k] - ends[1][0][k]);
     }
-    if (dot(out->on_b, out->normal) < 0) {
+    if (real_dot(out->on_b, out->normal) < 0) {
         opposite(out->normal, out->normal);
     }
     opposite(down, out->normal);
@@ -202,10 +190,10 @@ static bool meet_edge(struct feature *out, const struct placed *a, const struct 
 /* The turn that takes the unit vector `from` to `to`. */
 static carom_quat_q30 turn_between(const double from[3], const double to[3])
 {
-    double axis[3], angle = acos(fmax(-1, fmin(1, dot(from, to))));
+    double axis[3], angle = acos(fmax(-1, fmin(1, real_dot(from, to))));
 
-    cross(axis, from, to);
-    if (dot(axis, axis) < 1e-12) { /* any axis across it */
+    real_cross(axis, from, to);
+    if (real_dot(axis, axis) < 1e-12) { /* any axis across it */
         axis[0] = from[1] - from[2];
         axis[1] = from[2] - from[0];
         axis[2] = from[0] - from[1];
@@ -258,7 +246,7 @@ static void any_across(double out[3], const double normal[3], uint64_t *random)
         for (int k = 0; k < 3; k++) {
             other[k] = lab_random(random, -1, 1);
         }
-        cross(out, normal, other);
+        real_cross(out, normal, other);
     } while (normalise(out) < 0.1);
 }
 

@@ -13,27 +13,9 @@
 #include <string.h>
 
 #include "crowd.h"
+#include "real.h"
 
 static const double restitutions[] = {0, 0.5, 1};
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double length(const double a[3])
-{
-    return sqrt(dot(a, a));
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
 
 static const struct oracle_body *now(const struct crowd *crowd, int body)
 {
@@ -91,8 +73,8 @@ static void test_head_on(void)
             for (int k = 0; k < 3; k++) {
                 gone[k] = now(crowd, i)->velocity[k] - after[i] * along[k];
             }
-            worst = fmax(worst, length(gone) / (speed[0] - speed[1]));
-            worst_spin = fmax(worst_spin, length(now(crowd, i)->spin) / (speed[0] - speed[1]));
+            worst = fmax(worst, real_length(gone) / (speed[0] - speed[1]));
+            worst_spin = fmax(worst_spin, real_length(now(crowd, i)->spin) / (speed[0] - speed[1]));
         }
         missed += tally.hits == 0;
         crossed += tally.crossed;
@@ -123,15 +105,15 @@ static void invert_inertia(struct side *side, const struct oracle_body *body)
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) {
             for (int c = 0; c < 3; c++) {
-                world[a][b] +=
-                    body->mass * pose.rotation.row[a][c] * dot(tensor[c], pose.rotation.row[b]);
+                world[a][b] += body->mass * pose.rotation.row[a][c] *
+                               real_dot(tensor[c], pose.rotation.row[b]);
             }
         }
     }
     for (int a = 0; a < 3; a++) {
-        cross(across[a], world[(a + 1) % 3], world[(a + 2) % 3]);
+        real_cross(across[a], world[(a + 1) % 3], world[(a + 2) % 3]);
     }
-    determinant = dot(world[0], across[0]);
+    determinant = real_dot(world[0], across[0]);
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) {
             side->inverse[b][a] = across[a][b] / determinant;
@@ -145,9 +127,9 @@ static void turn_by(double out[3], const struct side *side, const double impulse
 {
     double moment[3];
 
-    cross(moment, side->arm, impulse);
+    real_cross(moment, side->arm, impulse);
     for (int k = 0; k < 3; k++) {
-        out[k] = dot(side->inverse[k], moment);
+        out[k] = real_dot(side->inverse[k], moment);
     }
 }
 
@@ -172,15 +154,16 @@ static void expect_after(const struct crowd *crowd, const double normal[3], doub
             side[i].arm[k] = on_b[k] - body->position[k];
         }
         turn_by(turned, &side[i], normal);
-        cross(lifted, turned, side[i].arm);
-        unit += 1 / body->mass + dot(lifted, normal);
+        real_cross(lifted, turned, side[i].arm);
+        unit += 1 / body->mass + real_dot(lifted, normal);
     }
     for (int k = 0; k < 3; k++) {
         relative[k] = now(crowd, 1)->velocity[k] - now(crowd, 0)->velocity[k];
     }
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++) {
-            impulse[k] = (i == 1 ? -1 : 1) * (1 + e) * dot(relative, normal) / unit * normal[k];
+            impulse[k] =
+                (i == 1 ? -1 : 1) * (1 + e) * real_dot(relative, normal) / unit * normal[k];
             velocity[i][k] = now(crowd, i)->velocity[k] + impulse[k] / side[i].mass;
         }
         turn_by(spin[i], &side[i], impulse);
@@ -201,9 +184,9 @@ static void spin_momentum(double out[3], const struct oracle_body *body, const d
 
     invert_inertia(&side, body);
     for (int a = 0; a < 3; a++) {
-        cross(across[a], side.inverse[(a + 1) % 3], side.inverse[(a + 2) % 3]);
+        real_cross(across[a], side.inverse[(a + 1) % 3], side.inverse[(a + 2) % 3]);
     }
-    determinant = dot(side.inverse[0], across[0]);
+    determinant = real_dot(side.inverse[0], across[0]);
     for (int k = 0; k < 3; k++) {
         out[k] = 0;
         for (int a = 0; a < 3; a++) {
@@ -253,7 +236,7 @@ static void collide(struct crowd *crowd, const int mesh[2], const double mass[2]
         for (int k = 0; k < 3; k++) {
             wrong[k] = now(crowd, i)->velocity[k] - velocity[i][k];
         }
-        error = length(wrong) / speed;
+        error = real_length(wrong) / speed;
         sum->velocity = fmax(sum->velocity, error);
         /* an uneven body's spin wanders after the hit, its angular momentum does not */
         spin_momentum(wanted, &before[i], spin[i]);
@@ -261,7 +244,7 @@ static void collide(struct crowd *crowd, const int mesh[2], const double mass[2]
         for (int k = 0; k < 3; k++) {
             wrong[k] = found[k] - wanted[k];
         }
-        sum->spin = fmax(sum->spin, length(wrong) / length(wanted));
+        sum->spin = fmax(sum->spin, real_length(wrong) / real_length(wanted));
     }
     sum->crossed += tally.crossed;
     sum->runs++;
@@ -332,8 +315,8 @@ static void cradle(int mesh, struct crowd *crowd, uint8_t cap, const char *name)
         for (int k = 0; k < 3; k++) {
             wrong[k] = now(crowd, i)->velocity[k] - (i == 4 ? velocity[k] : 0);
         }
-        worst = fmax(worst, length(wrong) / speed);
-        worst = fmax(worst, length(now(crowd, i)->spin) / speed);
+        worst = fmax(worst, real_length(wrong) / speed);
+        worst = fmax(worst, real_length(now(crowd, i)->spin) / speed);
     }
     lab_report(worst <= 1e-5 && tally.crossed == 0 && tally.rise <= 1 && tally.hits == 4 &&
                    tally.out == 0,
@@ -402,7 +385,7 @@ static void test_stack(const struct stack *how, const char *name)
             moved[k] =
                 now(crowd, i)->position[k] - lab_double(crowd->bodies[i].def.position.c[k], 32);
         }
-        drift = fmax(drift, length(moved));
+        drift = fmax(drift, real_length(moved));
     }
     lab_report(drift <= how->drift && tally.crossed == 0 && tally.rise <= 1 && tally.out == 0 &&
                    (!how->sleep || tally.asleep == how->boxes),

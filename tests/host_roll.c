@@ -10,14 +10,10 @@
 #include <string.h>
 
 #include "lab.h"
+#include "real.h"
 
 #define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static void set_q32(carom_v3_q32 *out, const double v[3])
 {
@@ -72,17 +68,17 @@ static void stop(double mu, double speed, bool sleeps, const char *name)
     while (tally.frames < 400) {
         lab_step(lab, &tally);
         now = lab_body(lab);
-        if (dot(now.velocity, velocity) > 1e-3 * dot(velocity, velocity)) {
+        if (real_dot(now.velocity, velocity) > 1e-3 * real_dot(velocity, velocity)) {
             last = tally.frames;
         }
     }
     for (int k = 0; k < 3; k++) {
         way[k] = now.position[k] - from[k];
     }
-    lab_report(fabs(sqrt(dot(way, way)) / wanted - 1) <= 0.01 && last >= 200 &&
+    lab_report(fabs(sqrt(real_dot(way, way)) / wanted - 1) <= 0.01 && last >= 200 &&
                    tally.crossed == 0 && tally.capped == 0,
-               name, "%.4f units, analytic %.4f, after %ld frames", sqrt(dot(way, way)), wanted,
-               last);
+               name, "%.4f units, analytic %.4f, after %ld frames", sqrt(real_dot(way, way)),
+               wanted, last);
     lab_free(lab);
 }
 
@@ -102,7 +98,7 @@ static struct carom_mesh_raw ball = {
 /* The vertex of the ball in a direction, made if it is not there yet. */
 static uint16_t vertex_along(const double direction[3])
 {
-    double length = sqrt(dot(direction, direction));
+    double length = sqrt(real_dot(direction, direction));
     int16_t v[3];
 
     for (int k = 0; k < 3; k++) {
@@ -170,8 +166,8 @@ static void make_ball(void)
                 const uint16_t face[3] = {a, b, c};
 
                 /* a.b is the golden ratio for neighbours and below 0 for others; each face once */
-                if (a < b && a < c && dot(p, q) > 1 && dot(q, r) > 1 && dot(r, p) > 1 &&
-                    volume > 0.1) {
+                if (a < b && a < c && real_dot(p, q) > 1 && real_dot(q, r) > 1 &&
+                    real_dot(r, p) > 1 && volume > 0.1) {
                     memcpy(ball_faces[ball.face_count++], face, sizeof face);
                 }
             }
@@ -198,7 +194,7 @@ struct mean {
 /* How fast the ball's lowest point moves downhill. */
 static double slip_of(const struct oracle_body *b, const double downhill[3], const double normal[3])
 {
-    double slip = dot(b->velocity, downhill);
+    double slip = real_dot(b->velocity, downhill);
 
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -248,7 +244,7 @@ static struct mean roll(double slope, double mu)
             lab_step(lab, &tally);
         }
         now = lab_body(lab);
-        speed = dot(now.velocity, downhill);
+        speed = real_dot(now.velocity, downhill);
         slip = slip_of(&now, downhill, normal);
         mean.acceleration += speed / unit;
         mean.slip_acceleration += slip / unit;

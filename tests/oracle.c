@@ -6,22 +6,9 @@
 #include <string.h>
 
 #include "oracle.h"
+#include "real.h"
 
 /* ------------------------------------------------------------------- vectors */
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
 
 static void subtract(double out[3], const double a[3], const double b[3])
 {
@@ -32,7 +19,7 @@ static void subtract(double out[3], const double a[3], const double b[3])
 
 static bool normalise(double v[3])
 {
-    double length = sqrt(dot(v, v));
+    double length = sqrt(real_dot(v, v));
 
     for (int k = 0; k < 3; k++) {
         v[k] /= length;
@@ -43,7 +30,7 @@ static bool normalise(double v[3])
 static void rotate(double out[3], const struct oracle_matrix *m, const double v[3])
 {
     for (int k = 0; k < 3; k++) {
-        out[k] = dot(m->row[k], v);
+        out[k] = real_dot(m->row[k], v);
     }
 }
 
@@ -115,8 +102,8 @@ static struct oracle_matrix matrix_of(const double quaternion[4])
     for (int k = 0; k < 3; k++) {
         double axis[3] = {k == 0, k == 1, k == 2}, once[3], twice[3];
 
-        cross(once, u, axis);
-        cross(twice, u, once);
+        real_cross(once, u, axis);
+        real_cross(twice, u, once);
         for (int i = 0; i < 3; i++) {
             m.row[i][k] = axis[i] + 2 * w * once[i] + 2 * twice[i];
         }
@@ -147,14 +134,14 @@ double oracle_piercing(const double p[3], const double q[3], const double a[3], 
     for (int k = 0; k < 3; k++) {
         subtract(side[k], corner[(k + 1) % 3], corner[k]);
     }
-    cross(normal, side[0], side[1]);
+    real_cross(normal, side[0], side[1]);
     if (!normalise(normal)) {
         return 0;
     }
     subtract(to_p, p, a);
     subtract(to_q, q, a);
-    above_p = dot(normal, to_p);
-    above_q = dot(normal, to_q);
+    above_p = real_dot(normal, to_p);
+    above_q = real_dot(normal, to_q);
     if ((above_p > 0) == (above_q > 0)) {
         return 0;
     }
@@ -165,12 +152,12 @@ double oracle_piercing(const double p[3], const double q[3], const double a[3], 
     for (int k = 0; k < 3; k++) {
         double inwards[3], from[3];
 
-        cross(inwards, normal, side[k]);
+        real_cross(inwards, normal, side[k]);
         if (!normalise(inwards)) {
             return 0;
         }
         subtract(from, point, corner[k]);
-        depth = smaller(depth, dot(inwards, from));
+        depth = smaller(depth, real_dot(inwards, from));
     }
     return depth;
 }
@@ -279,12 +266,12 @@ static bool on_one_side(const struct placed *one, const struct placed *other)
 
     subtract(side[0], other->corner[1], other->corner[0]);
     subtract(side[1], other->corner[2], other->corner[0]);
-    cross(normal, side[0], side[1]);
+    real_cross(normal, side[0], side[1]);
     for (int i = 0; i < 3; i++) {
         double height;
 
         subtract(from, one->corner[i], other->corner[0]);
-        height = dot(normal, from);
+        height = real_dot(normal, from);
         above += height > 0;
         below += height < 0;
     }
@@ -372,6 +359,6 @@ double oracle_energy(const struct oracle_body *body, const double gravity[3])
         }
     }
     rotate(momentum, &tensor, spin);
-    return body->mass * (dot(body->velocity, body->velocity) / 2 + dot(spin, momentum) / 2 -
-                         dot(gravity, body->position));
+    return body->mass * (real_dot(body->velocity, body->velocity) / 2 +
+                         real_dot(spin, momentum) / 2 - real_dot(gravity, body->position));
 }
