@@ -21,6 +21,7 @@
 #define BODY_RADIUS_MAX_Q22 (32 << 22) /* of a moving body */
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
 #define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
+#define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
 
 /* What a step changes: all of it is hashed and saved. */
 struct body_state {
@@ -89,7 +90,7 @@ struct body {
     int64_t acceleration_q40;  /* its length */
     struct body_path path;
     struct body_region region;
-    int32_t reach_q22;               /* how far any point may go in the region */
+    int32_t reach_q22;               /* how far any point may go in the region, and the margin */
     int32_t turn_q30;                /* and how far the body may turn, radians */
     int64_t box_q22[2][3];           /* in world axes around it, grown by the reach */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */

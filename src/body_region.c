@@ -47,8 +47,8 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t time_
     region->bend_q22 = (int32_t)(length_bound(path->g.c) >> 18) + 1;
     region->length_q22 = (int32_t)(length_bound(path->v.c) >> 18) + 1 + region->bend_q22;
     turn_q30 = 2 * (int64_t)region->u_q30;
-    b->reach_q22 =
-        region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 + room_q22;
+    b->reach_q22 = region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 +
+                   room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
     turn_q30 += ((int64_t)room_q22 << 30) / b->radius_q22 + 1;
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }

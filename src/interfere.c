@@ -9,8 +9,6 @@
  */
 #include "interfere_narrow.h"
 
-/* Contacts are looked for within five skins. */
-#define MARGIN_SKINS 5
 /* What is cut off by carrying points into b's frame, q20. */
 #define PLACE_NOISE_Q20 8
 
@@ -145,13 +143,13 @@ static bool place_leaf(struct interfere *w)
 static void place_slab(struct interfere *w)
 {
     struct interfere_leaf *l = &w->leaf;
-    int32_t at, away, near = (l->near_q20 >> 2) + 4;
+    int32_t at_q18, away_q18, near_q18 = (l->near_q20 >> 2) + 4;
 
-    carom_rotate(l->axis, &w->to_b, l->leaf->axis.c);
-    at = interfere_dot(l->axis, w->at.c);
-    away = interfere_dot(l->axis, l->shift.c);
-    l->slab_low = at + (l->leaf->low_q22 >> 4) + (away < 0 ? away : 0) - near;
-    l->slab_high = at + (l->leaf->high_q22 >> 4) + (away > 0 ? away : 0) + near;
+    carom_rotate(l->axis_q30, &w->to_b, l->leaf->axis.c);
+    at_q18 = interfere_dot(l->axis_q30, w->at.c);
+    away_q18 = interfere_dot(l->axis_q30, l->shift.c);
+    l->slab_low_q18 = at_q18 + (l->leaf->low_q22 >> 4) + (away_q18 < 0 ? away_q18 : 0) - near_q18;
+    l->slab_high_q18 = at_q18 + (l->leaf->high_q22 >> 4) + (away_q18 > 0 ? away_q18 : 0) + near_q18;
 }
 
 /* Whether a face of b meets the box of the swept leaf. */
@@ -295,8 +293,8 @@ static bool set_motion(struct interfere *w)
         }
     }
     w->angle_q30 = 2 * (a->u_q30 + b->u_q30);
-    w->near_q22 =
-        MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 + sag_q22(w, distance);
+    w->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 +
+                  sag_q22(w, distance);
     return true;
 }
 

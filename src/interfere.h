@@ -61,8 +61,8 @@ struct interfere_leaf {
     struct interfere_vec low, high;              /* of the vertices */
     struct interfere_vec swept_low, swept_high;  /* of their ways, grown by the tolerance */
     int32_t quanta_low[3], quanta_high[3];       /* the same in b's quanta, from its origin */
-    int32_t axis[3];                             /* of its slab */
-    int32_t slab_low, slab_high;                 /* along that, swept and grown, q18 */
+    int32_t axis_q30[3];                         /* of its slab */
+    int32_t slab_low_q18, slab_high_q18;         /* along that, swept and grown, q18 */
     bool listed;
     uint32_t corners[CAROM_LEAF_FACES]; /* of each face, a bit each; once listed */
     uint32_t busy;                      /* faces with candidates */
@@ -96,7 +96,7 @@ struct interfere {
 };
 
 /*
- * Forget the candidates. Called at the start of a frame and whenever a body has used up its reach,
+ * Forget the candidates. Called at the start of a frame and whenever a body may leave its region,
  * after the region has been set in every body.
  */
 void interfere_begin(struct interfere *w);

@@ -57,11 +57,11 @@ static struct interfere_vec opposite(const struct interfere_vec *a)
 static bool beside_slab(const struct interfere *w, const struct target *t)
 {
     const struct interfere_leaf *l = &w->leaf;
-    int32_t a = interfere_dot(l->axis, t->p[0].c), b = interfere_dot(l->axis, t->p[1].c),
-            c = interfere_dot(l->axis, t->p[2].c);
+    int32_t a = interfere_dot(l->axis_q30, t->p[0].c), b = interfere_dot(l->axis_q30, t->p[1].c),
+            c = interfere_dot(l->axis_q30, t->p[2].c);
 
-    return (a > l->slab_high && b > l->slab_high && c > l->slab_high) ||
-           (a < l->slab_low && b < l->slab_low && c < l->slab_low);
+    return (a > l->slab_high_q18 && b > l->slab_high_q18 && c > l->slab_high_q18) ||
+           (a < l->slab_low_q18 && b < l->slab_low_q18 && c < l->slab_low_q18);
 }
 
 /*
@@ -72,10 +72,11 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
 {
     const struct interfere_leaf *l = &w->leaf;
     const int32_t *n = t->face->normal.c;
-    /* q18; one unit for each cut */
-    int32_t offset = t->face->offset_q22 >> 4, away = interfere_dot(n, l->shift.c);
-    int32_t near = (l->near_q20 >> 2) + 4;
-    int32_t above = offset + near - least(away, 0), below = offset - near - most(away, 0);
+    /* one unit for each cut */
+    int32_t offset_q18 = t->face->offset_q22 >> 4, away_q18 = interfere_dot(n, l->shift.c);
+    int32_t near_q18 = (l->near_q20 >> 2) + 4;
+    int32_t above_q18 = offset_q18 + near_q18 - least(away_q18, 0),
+            below_q18 = offset_q18 - near_q18 - most(away_q18, 0);
     uint32_t count = l->leaf->vertex_count, all = 0xffffffffu >> (32 - count);
     uint32_t over = 0, under = 0;
     int32_t top[3], bottom[3];
@@ -84,15 +85,15 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
         top[k] = n[k] > 0 ? l->high.c[k] : l->low.c[k];
         bottom[k] = n[k] > 0 ? l->low.c[k] : l->high.c[k];
     }
-    if (interfere_dot(n, bottom) > above || interfere_dot(n, top) < below) {
+    if (interfere_dot(n, bottom) > above_q18 || interfere_dot(n, top) < below_q18) {
         return false;
     }
     for (const struct interfere_vec *p = &l->p[count]; p-- > l->p;) {
-        int32_t height = interfere_dot(n, p->c);
+        int32_t height_q18 = interfere_dot(n, p->c);
 
         /* the signs of differences: heights are below 2^30 */
-        over = over << 1 | (uint32_t)(above - height) >> 31;
-        under = under << 1 | (uint32_t)(height - below) >> 31;
+        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
+        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
     }
     t->over = over;
     t->under = under;
@@ -234,7 +235,7 @@ static bool face_may_touch(const struct interfere *w, uint32_t i, uint32_t v,
     const uint8_t *corner = ma->leaf_corners[l->leaf->first_face + i];
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     struct interfere_vec low, high, d;
-    int32_t n[3], height, closes, near = (l->near_q20 >> 2) + 4;
+    int32_t n[3], height_q18, closes_q18, near_q18 = (l->near_q20 >> 2) + 4;
 
     for (int k = 0; k < 3; k++) {
         low.c[k] = least(p[0]->c[k], least(p[1]->c[k], p[2]->c[k]));
@@ -245,9 +246,10 @@ static bool face_may_touch(const struct interfere *w, uint32_t i, uint32_t v,
     }
     carom_rotate(n, &w->to_b, ma->faces[ma->leaf_faces[l->leaf->first_face + i]].normal.c);
     d = difference(y, p[0]);
-    height = interfere_dot(n, d.c);
-    closes = interfere_dot(n, back->c);
-    return height + least(closes, 0) <= near && height + most(closes, 0) >= -near &&
+    height_q18 = interfere_dot(n, d.c);
+    closes_q18 = interfere_dot(n, back->c);
+    return height_q18 + least(closes_q18, 0) <= near_q18 &&
+           height_q18 + most(closes_q18, 0) >= -near_q18 &&
            !stays_beside(y, p, n, back, l->near_q20) &&
            mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30);
 }

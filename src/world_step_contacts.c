@@ -12,8 +12,8 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 
         step_select_pair(v, c[i].pair);
         /* bodies that bounce for ever must not be held by their margin */
-        margin =
-            v->pair.skin_q22 * (rest_restitution(v->pair.a, v->pair.b) == CAROM_ONE_Q30 ? 2 : 5);
+        margin = v->pair.skin_q22 *
+                 (rest_restitution(v->pair.a, v->pair.b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
         if (!contact_add(&w->rest.list, &v->pair, &c[i], margin)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }

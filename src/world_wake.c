@@ -68,7 +68,8 @@ void world_wake_around(struct carom_world *w, uint32_t body)
         int32_t skin_q22 = b->skin_q22 > other->skin_q22 ? b->skin_q22 : other->skin_q22;
 
         if (sleeps(other, &now->bodies[i]) &&
-            broad_near(b, &now->bodies[body], other, &now->bodies[i], 5 * skin_q22)) {
+            broad_near(b, &now->bodies[body], other, &now->bodies[i],
+                       BODY_MARGIN_SKINS * skin_q22)) {
             wake_island(w, now->bodies, i);
         }
     }
