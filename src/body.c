@@ -302,6 +302,14 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     return (int32_t)((((int64_t)BODY_TURN_MAX_Q30 << 30)) / (rate_q40 >> 10));
 }
 
+void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r)
+{
+    carom_quat_q30 q;
+
+    turn(&q, &b->path.start.q, u);
+    body_matrix(r, &q);
+}
+
 const struct body_pose *body_pose_at(struct body *b, int32_t t_q30)
 {
     struct body_path *path = &b->path;

@@ -22,6 +22,7 @@
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
 #define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 #define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
+#define BODY_REGION_FRAMES  8
 
 /* What a step changes: all of it is hashed and saved. */
 struct body_state {
@@ -66,10 +67,11 @@ struct body_region {
     int32_t u_q30;      /* |u|, rounded up */
     int32_t length_q22; /* of the centre's way, rounded up */
     int32_t bend_q22;   /* |bend|, rounded up */
-    int32_t time_q30;   /* of a frame */
+    int64_t time_q30;   /* frames, at most BODY_REGION_FRAMES */
     int32_t room_q22;
+    bool active; /* whether the body was to move */
     /* used up */
-    int32_t elapsed_q30;
+    int64_t elapsed_q30;
     int64_t turned_off_q30; /* angle between the body and the path, at most */
 };
 
@@ -151,6 +153,8 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
 
 /* The pose at t of the path; remembered, so that asking again is free. */
 const struct body_pose *body_pose_at(struct body *b, int32_t t_q30);
+/* The pose's rotation at the end of a path with another Cayley vector, |u| <= 0.31. */
+void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r);
 /* Take the pose at t as the new state, with the momentum that gravity gave over it. */
 void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
@@ -162,11 +166,12 @@ carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p);
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
 
 /*
- * Make the region that of the path, which takes time_q30 of a frame: reach_q22 and turn_q30 as well.
- * What else a body does on the way must stay within room_q22 of it.
+ * Make the region that of the path, which takes slice_q30 of a frame, gone on with until time_q30:
+ * reach_q22 and turn_q30 as well. What else a body does on the way must stay within room_q22 of it.
+ * |u| time / slice is to be at most BODY_TURN_MAX_Q30 / 2 when time is longer than the slice.
  */
-void body_region_begin(struct body *b, const struct body_state *s, int32_t time_q30,
-                       int32_t room_q22);
+void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
+                       int64_t time_q30, int32_t room_q22);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
 /* Go on by t of the present path. */

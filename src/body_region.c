@@ -13,39 +13,53 @@ static int64_t length_bound(const int64_t v[3])
     return most + (x + y + z - most + 1) / 2;
 }
 
-static void set_turn(struct body_region *region, const struct body_path *path)
+static void set_turn(struct body *b, int32_t longer_q16)
 {
-    carom_rotate(region->turn.c, &path->start.r, path->u.c);
+    struct body_region *region = &b->region;
+    int32_t u[3];
+    int64_t u2_q60 = 0;
+
+    memset(&region->turn, 0, sizeof region->turn);
+    region->u_q30 = 0;
+    region->end_r = region->r;
+    if (!b->path.turns) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        u[k] = (int32_t)fix_mul(b->path.u.c[k], longer_q16, 16);
+        u2_q60 += (int64_t)u[k] * u[k];
+    }
+    carom_rotate(region->turn.c, &region->r, u);
     for (int k = 0; k < 3; k++) {
         region->turn.c[k] *= 2;
     }
-    region->u_q30 = path->turns ? (int32_t)fix_sqrt((uint64_t)path->u2_q30 << 30) + 1 : 0;
+    region->u_q30 = (int32_t)fix_sqrt((uint64_t)u2_q60) + 1;
+    body_turned(b, u, &region->end_r);
 }
 
-void body_region_begin(struct body *b, const struct body_state *s, int32_t time_q30,
-                       int32_t room_q22)
+void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
+                       int64_t time_q30, int32_t room_q22)
 {
     struct body_region *region = &b->region;
     const struct body_path *path = &b->path;
     int64_t turn_q30;
+    /* 8 frames over the shortest slice, 2^-11 of a frame: below 2^31 */
+    int32_t longer_q16 = (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
-    region->r = region->end_r = path->start.r;
-    region->way = path->v;
-    region->bend = path->g;
+    region->r = path->start.r;
     region->time_q30 = time_q30;
     region->room_q22 = room_q22;
     region->elapsed_q30 = 0;
     region->turned_off_q30 = 0;
     for (int k = 0; k < 3; k++) {
-        region->end.c[k] = path->v.c[k] + path->g.c[k];
+        region->way.c[k] = fix_mul(path->v.c[k], longer_q16, 16);
+        region->bend.c[k] = fix_mul(fix_mul(path->g.c[k], longer_q16, 16), longer_q16, 16);
+        region->end.c[k] = region->way.c[k] + region->bend.c[k];
     }
-    set_turn(region, path);
-    if (path->turns) {
-        region->end_r = body_pose_at(b, CAROM_ONE_Q30)->r;
-    }
-    region->bend_q22 = (int32_t)(length_bound(path->g.c) >> 18) + 1;
-    region->length_q22 = (int32_t)(length_bound(path->v.c) >> 18) + 1 + region->bend_q22;
+    set_turn(b, longer_q16);
+    region->bend_q22 = (int32_t)(length_bound(region->bend.c) >> 18) + 1;
+    region->length_q22 = (int32_t)(length_bound(region->way.c) >> 18) + 1 + region->bend_q22;
     turn_q30 = 2 * (int64_t)region->u_q30;
     b->reach_q22 = region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 +
                    room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
@@ -53,14 +67,23 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t time_
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }
 
+/*
+ * A part of a region's time, which is at most 8 frames and so below 2^33: three bits are cut off to
+ * divide in 64 bits.
+ */
+static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
+{
+    if (elapsed_q30 == region->time_q30) {
+        return CAROM_ONE_Q30;
+    }
+    return (int32_t)(((elapsed_q30 >> 3) << 30) / (region->time_q30 >> 3));
+}
+
 /* How far the centre is off the region's path at a time, x_q32 being where it is. */
 static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
-                       int32_t elapsed_q30)
+                       int64_t elapsed_q30)
 {
-    /* the region's own time, in [0, 1] */
-    int32_t t_q30 = elapsed_q30 == region->time_q30
-                        ? CAROM_ONE_Q30
-                        : (int32_t)(((int64_t)elapsed_q30 << 30) / region->time_q30);
+    int32_t t_q30 = part_of(region, elapsed_q30); /* the region's own time, in [0, 1] */
     int64_t d[3];
 
     for (int k = 0; k < 3; k++) {
@@ -69,7 +92,8 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
 
         d[k] = x_q32[k] - region->at.c[k] - (way_q40 >> 8);
     }
-    return (length_bound(d) >> 10) + 1;
+    /* the time is off by 2^-26 at most */
+    return (length_bound(d) >> 10) + (region->length_q22 >> 25) + 1;
 }
 
 /*
@@ -87,14 +111,16 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
     if (!path->turns && region->u_q30 == 0) {
         return 0;
     }
-    part_q30 = (int32_t)(((int64_t)time_q30 << 30) / region->time_q30);
+    part_q30 = part_of(region, time_q30);
     carom_rotate(turn, &path->start.r, path->u.c);
     for (int k = 0; k < 3; k++) {
         d[k] = 2 * (int64_t)turn[k] - carom_mul_q30(region->turn.c[k], part_q30);
         turn[k] = (int32_t)carom_abs(turn[k]);
     }
     cubes_q30 = fix_mul((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30, 30);
-    cubes_q30 += carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30);
+    /* the region's rate of turn falls by its square on the way */
+    cubes_q30 += fix_mul(carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30),
+                         part_q30, 30);
     return length_bound(d) + 2 * cubes_q30 + 4;
 }
 
@@ -103,7 +129,8 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     const struct body_region *region = &b->region;
     const struct body_path *path = &b->path;
     int64_t start[3], end[3], off, at_end;
-    int32_t until_q30 = region->elapsed_q30 + time_q30;
+    int64_t until_q30 = region->elapsed_q30 + time_q30;
+    int32_t part_q30;
 
     if (until_q30 > region->time_q30) {
         return false;
@@ -116,7 +143,9 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     at_end = off_q22(region, end, until_q30);
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by an eighth of their second derivatives */
-    off += (length_bound(path->g.c) + length_bound(region->bend.c)) >> 20;
+    part_q30 = part_of(region, time_q30);
+    off += ((length_bound(path->g.c) >> 18) +
+            fix_mul(fix_mul(region->bend_q22, part_q30, 30), part_q30, 30)) / 4 + 1;
     off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;
 }
@@ -127,5 +156,5 @@ void body_region_advance(struct body *b, int32_t t_q30, int32_t time_q30)
 
     /* the path turns evenly but for cubes */
     region->turned_off_q30 += turns_off_q30(b, time_q30);
-    region->elapsed_q30 += (int32_t)(((int64_t)time_q30 * t_q30) >> 30);
+    region->elapsed_q30 += ((int64_t)time_q30 * t_q30) >> 30;
 }

@@ -3,9 +3,10 @@
  * Which faces of two bodies are near each other on their way: leaves of a, swept, against b's
  * z-lists.
  *
- * A point of a that meets a point of b at some t of the path started at x0, seen from b, and is then
- * within `near` of x0 + t shift. So for any vector k, k.(x0 - y0) is within |k| near of -t k.shift,
- * y0 being where b's point is in b's axes, always. All that is dropped here is dropped by that.
+ * A point of a goes from start to end, seen from b, within `near` of the straight way from x - shift
+ * / 2 to x + shift / 2, x being the mean of both. If it meets a point y of b on it then for any
+ * vector k, |k.(x - y)| <= |k| near + |k.shift| / 2. All that is dropped here is dropped by that. Of
+ * a whole leaf the shift is its centre's: from the middle, others differ by half of their turn.
  */
 #include "interfere_narrow.h"
 
@@ -73,20 +74,20 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
     static const int order[3] = {2, 0, 1}; /* most end above b */
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = &w->leaf;
-    int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30, 30);
-    int32_t radius, low[3], high[3];
+    int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
+    int32_t radius = (leaf->radius_q22 >> 2) + 1, low[3], high[3];
 
     l->leaf = leaf;
     l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
-    radius = (leaf->radius_q22 >> 2) + 1 + l->near_q20;
     for (int i = 0; i < 3; i++) {
         int k = order[i];
         int32_t x = interfere_dot(w->to_b.c[k], leaf->centre.c) + w->at.c[k];
         int32_t shift = interfere_dot(w->change.c[k], leaf->centre.c) + w->moves.c[k];
 
         l->shift.c[k] = shift;
-        low[k] = to_quanta(mb, x - radius + (shift < 0 ? shift : 0), k);
-        high[k] = to_quanta(mb, x + radius + (shift > 0 ? shift : 0), k) + 1;
+        l->reach.c[k] = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
+        low[k] = to_quanta(mb, x - radius - l->reach.c[k], k);
+        high[k] = to_quanta(mb, x + radius + l->reach.c[k], k) + 1;
         if (high[k] < mb->box[0][k] || low[k] > mb->box[1][k]) {
             return false;
         }
@@ -101,7 +102,7 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = &w->leaf;
     const int32_t *row = w->to_b.c[k];
-    int32_t shift = l->shift.c[k], low = INT32_MAX, high = INT32_MIN;
+    int32_t low = INT32_MAX, high = INT32_MIN;
 
     for (uint32_t i = 0; i < l->leaf->vertex_count; i++) {
         int32_t x = interfere_dot(row, local[i].c) + w->at.c[k];
@@ -110,14 +111,8 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
         low = x < low ? x : low;
         high = x > high ? x : high;
     }
-    l->low.c[k] = low;
-    l->high.c[k] = high;
-    low += (shift < 0 ? shift : 0) - l->near_q20;
-    high += (shift > 0 ? shift : 0) + l->near_q20;
-    l->swept_low.c[k] = low;
-    l->swept_high.c[k] = high;
-    l->quanta_low[k] = to_quanta(mb, low, k);
-    l->quanta_high[k] = to_quanta(mb, high, k) + 1;
+    l->quanta_low[k] = to_quanta(mb, low - l->reach.c[k], k);
+    l->quanta_high[k] = to_quanta(mb, high + l->reach.c[k], k) + 1;
 }
 
 /* False when the leaf's vertices are above all of b under it. */
@@ -143,13 +138,15 @@ static bool place_leaf(struct interfere *w)
 static void place_slab(struct interfere *w)
 {
     struct interfere_leaf *l = &w->leaf;
-    int32_t at_q18, away_q18, near_q18 = (l->near_q20 >> 2) + 4;
+    int32_t at_q18, reach_q18;
 
     carom_rotate(l->axis_q30, &w->to_b, l->leaf->axis.c);
     at_q18 = interfere_dot(l->axis_q30, w->at.c);
-    away_q18 = interfere_dot(l->axis_q30, l->shift.c);
-    l->slab_low_q18 = at_q18 + (l->leaf->low_q22 >> 4) + (away_q18 < 0 ? away_q18 : 0) - near_q18;
-    l->slab_high_q18 = at_q18 + (l->leaf->high_q22 >> 4) + (away_q18 > 0 ? away_q18 : 0) + near_q18;
+    /* low and high are those of a's own axes: to_b has them but for its skew */
+    reach_q18 = interfere_reach_q18(l, l->axis_q30) +
+                (int32_t)(fix_mul(w->a->radius_q22, w->skew_q30, 30) >> 4) + 1;
+    l->slab_low_q18 = at_q18 + (l->leaf->low_q22 >> 4) - reach_q18;
+    l->slab_high_q18 = at_q18 + (l->leaf->high_q22 >> 4) + reach_q18;
 }
 
 /* Whether a face of b meets the box of the swept leaf. */
@@ -280,8 +277,8 @@ static bool set_motion(struct interfere *w)
         if (carom_abs(start[k]) > (int64_t)400 << 32) {
             return false;
         }
-        w->at.c[k] = (int32_t)(start[k] >> 12);
-        w->moves.c[k] = (int32_t)(end[k] >> 12) - w->at.c[k];
+        w->moves.c[k] = (int32_t)((end[k] - start[k]) >> 12);
+        w->at.c[k] = (int32_t)(start[k] >> 12) + w->moves.c[k] / 2;
         distance += carom_abs(start[k]) >> 10;
     }
     relate(&w->to_b, &b->r, &a->r);
@@ -290,9 +287,12 @@ static bool set_motion(struct interfere *w)
         relate(&w->change, &b->end_r, &a->end_r);
         for (int i = 0; i < 9; i++) {
             w->change.c[i / 3][i % 3] -= w->to_b.c[i / 3][i % 3];
+            w->to_b.c[i / 3][i % 3] += w->change.c[i / 3][i % 3] / 2;
         }
     }
     w->angle_q30 = 2 * (a->u_q30 + b->u_q30);
+    /* 1 - cos^2 of half of the angle, at most a quarter of its square */
+    w->skew_q30 = carom_mul_q30(w->angle_q30, w->angle_q30) / 4 + 1;
     w->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 +
                   sag_q22(w, distance);
     return true;
@@ -329,7 +329,7 @@ static void gather_pair(struct interfere *w)
 
 void interfere_begin(struct interfere *w)
 {
-    w->whole = false;
+    w->whole = w->stale = false;
     w->error = CAROM_OK;
 }
 

@@ -57,14 +57,17 @@ struct interfere_leaf {
     const struct carom_leaf *leaf;
     struct interfere_vec shift;
     int32_t near_q20;                            /* the tolerance */
-    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices at the start */
-    struct interfere_vec low, high;              /* of the vertices */
-    struct interfere_vec swept_low, swept_high;  /* of their ways, grown by the tolerance */
-    int32_t quanta_low[3], quanta_high[3];       /* the same in b's quanta, from its origin */
+    struct interfere_vec reach;                  /* it and half of the shift, along each axis */
+    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices in the middle of their ways */
+    int32_t quanta_low[3], quanta_high[3];       /* around the ways, in b's quanta from its origin */
     int32_t axis_q30[3];                         /* of its slab */
     int32_t slab_low_q18, slab_high_q18;         /* along that, swept and grown, q18 */
     bool listed;
-    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, a bit each; once listed */
+    /* of each face, once listed: its corners, a bit each, and the box around its way */
+    uint32_t corners[CAROM_LEAF_FACES];
+    struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
+    uint32_t turned; /* faces whose normal is there, in b's axes */
+    struct interfere_vec normal[CAROM_LEAF_FACES];
     uint32_t busy;                      /* faces with candidates */
     int32_t top;                        /* highest z of b in the cells under it */
 };
@@ -78,18 +81,20 @@ struct interfere {
     uint32_t gathers, candidate_count; /* for the statistics */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
+    bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
     int error;
     struct candidate_visitor *visitor;
 
     /* the pair being worked on */
     const struct body *a, *b;
     uint16_t pair, body_a, body_b;
-    carom_m3_q30 to_b;       /* rotation from a's mesh axes to b's at the start */
-    struct interfere_vec at; /* a's centre of mass in b's mesh frame then */
-    carom_m3_q30 change;     /* what is added to them until the end */
+    carom_m3_q30 to_b;       /* from a's mesh axes to b's: the mean of start and end */
+    struct interfere_vec at; /* a's centre of mass in b's mesh frame, likewise */
+    carom_m3_q30 change;     /* from start to end */
     struct interfere_vec moves;
     int64_t near_q22;  /* how far points may be off the straight way between both */
     int32_t angle_q30; /* how far one body turns as seen from the other */
+    int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
     int32_t cone_q30;  /* cosine tolerance of normal cones */
     struct interfere_leaf leaf;
     uint16_t seen[INTERFERE_SEEN];

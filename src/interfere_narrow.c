@@ -23,12 +23,14 @@ static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     w->candidate_count++;
 }
 
-/* A face of b, in b's mesh axes. */
+/* A face of b, in b's mesh axes, and how it stands to the leaf and to one of its faces. */
 struct target {
     uint16_t number;
     const struct carom_face *face;
     struct interfere_vec p[3], low, high;
     uint32_t over, under; /* vertices of the leaf that stay on one side of its plane */
+    /* its corners over the plane of the leaf's face, and how far off they may be to meet it */
+    int32_t height_q18[3], reach_q18;
 };
 
 static inline int32_t least(int32_t a, int32_t b)
@@ -46,9 +48,79 @@ static struct interfere_vec difference(const struct interfere_vec *a, const stru
     return (struct interfere_vec){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
 }
 
-static struct interfere_vec opposite(const struct interfere_vec *a)
+/* The face of a that is number i of the leaf. */
+static uint32_t face_of(const struct interfere *w, uint32_t i)
 {
-    return (struct interfere_vec){{-a->c[0], -a->c[1], -a->c[2]}};
+    return w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i];
+}
+
+static const uint8_t *corners_of(const struct interfere *w, uint32_t i)
+{
+    return w->a->mesh->leaf_corners[w->leaf.leaf->first_face + i];
+}
+
+/* -------------------------------------------------------------------- boxes */
+
+static void place_target(const struct interfere *w, struct target *t)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+
+    for (int k = 0; k < 3; k++) {
+        carom_v3_q22 corner = mesh_corner(mb, t->number, k);
+
+        for (int i = 0; i < 3; i++) {
+            t->p[k].c[i] = corner.c[i] >> 2;
+        }
+    }
+}
+
+static void bound(const struct interfere_vec *const p[3], struct interfere_vec *low,
+                  struct interfere_vec *high)
+{
+    for (int i = 0; i < 3; i++) {
+        low->c[i] = least(p[0]->c[i], least(p[1]->c[i], p[2]->c[i]));
+        high->c[i] = most(p[0]->c[i], most(p[1]->c[i], p[2]->c[i]));
+    }
+}
+
+/* Corners of the leaf's faces, and the boxes around their ways. */
+static void list_faces(struct interfere *w)
+{
+    struct interfere_leaf *l = &w->leaf;
+
+    l->listed = true;
+    l->turned = 0;
+    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+        const uint8_t *corner = corners_of(w, i);
+        const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]],
+                                                  &l->p[corner[2]]};
+
+        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
+        bound(p, &l->face_low[i], &l->face_high[i]);
+        for (int k = 0; k < 3; k++) {
+            l->face_low[i].c[k] -= l->reach.c[k];
+            l->face_high[i].c[k] += l->reach.c[k];
+        }
+    }
+}
+
+/* The leaf's faces whose ways' boxes meet that of b's face, a bit each, and their vertices. */
+static uint32_t faces_near(const struct interfere *w, const struct target *t, uint32_t *vertices)
+{
+    const struct interfere_leaf *l = &w->leaf;
+    uint32_t near = 0;
+
+    *vertices = 0;
+    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+        const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
+
+        if (low[2] <= t->high.c[2] && high[2] >= t->low.c[2] && low[0] <= t->high.c[0] &&
+            high[0] >= t->low.c[0] && low[1] <= t->high.c[1] && high[1] >= t->low.c[1]) {
+            near |= 1u << i;
+            *vertices |= l->corners[i];
+        }
+    }
+    return near;
 }
 
 /* ------------------------------------------------------------------- planes */
@@ -64,84 +136,73 @@ static bool beside_slab(const struct interfere *w, const struct target *t)
            (a < l->slab_low_q18 && b < l->slab_low_q18 && c < l->slab_low_q18);
 }
 
-/*
- * Which vertices of the leaf stay over the plane of b's face on their way, and which under it. False
- * when all do.
- */
-static bool part_by_plane(const struct interfere *w, struct target *t)
+/* Which of these vertices of the leaf stay over the plane of b's face on their way, or under it. */
+static void part_by_plane(const struct interfere *w, struct target *t, uint32_t vertices)
 {
     const struct interfere_leaf *l = &w->leaf;
     const int32_t *n = t->face->normal.c;
-    /* one unit for each cut */
-    int32_t offset_q18 = t->face->offset_q22 >> 4, away_q18 = interfere_dot(n, l->shift.c);
-    int32_t near_q18 = (l->near_q20 >> 2) + 4;
-    int32_t above_q18 = offset_q18 + near_q18 - least(away_q18, 0),
-            below_q18 = offset_q18 - near_q18 - most(away_q18, 0);
-    uint32_t count = l->leaf->vertex_count, all = 0xffffffffu >> (32 - count);
-    uint32_t over = 0, under = 0;
-    int32_t top[3], bottom[3];
+    int32_t offset_q18 = t->face->offset_q22 >> 4, reach_q18 = interfere_reach_q18(l, n);
+    int32_t above_q18 = offset_q18 + reach_q18, below_q18 = offset_q18 - reach_q18;
 
-    for (int k = 0; k < 3; k++) {
-        top[k] = n[k] > 0 ? l->high.c[k] : l->low.c[k];
-        bottom[k] = n[k] > 0 ? l->low.c[k] : l->high.c[k];
-    }
-    if (interfere_dot(n, bottom) > above_q18 || interfere_dot(n, top) < below_q18) {
-        return false;
-    }
-    for (const struct interfere_vec *p = &l->p[count]; p-- > l->p;) {
-        int32_t height_q18 = interfere_dot(n, p->c);
+    t->over = t->under = 0;
+    for (uint32_t i = 0; vertices >> i != 0; i++) {
+        if (vertices >> i & 1) {
+            int32_t height_q18 = interfere_dot(n, l->p[i].c);
 
-        /* the signs of differences: heights are below 2^30 */
-        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
-        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
-    }
-    t->over = over;
-    t->under = under;
-    return over != all && under != all;
-}
-
-static void place_target(const struct interfere *w, struct target *t)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-
-    for (int k = 0; k < 3; k++) {
-        carom_v3_q22 corner = mesh_corner(mb, t->number, k);
-
-        for (int i = 0; i < 3; i++) {
-            t->p[k].c[i] = corner.c[i] >> 2;
+            t->over |= (uint32_t)(height_q18 > above_q18) << i;
+            t->under |= (uint32_t)(height_q18 < below_q18) << i;
         }
     }
 }
 
-static void bound_target(struct target *t)
+/* The normal of a face of the leaf, in b's axes. */
+static const int32_t *normal_of(struct interfere *w, uint32_t i)
 {
-    for (int i = 0; i < 3; i++) {
-        t->low.c[i] = least(t->p[0].c[i], least(t->p[1].c[i], t->p[2].c[i]));
-        t->high.c[i] = most(t->p[0].c[i], most(t->p[1].c[i], t->p[2].c[i]));
+    int32_t *n = w->leaf.normal[i].c;
+
+    if (!(w->leaf.turned >> i & 1)) {
+        w->leaf.turned |= 1u << i;
+        carom_rotate(n, &w->to_b, w->a->mesh->faces[face_of(w, i)].normal.c);
     }
+    return n;
 }
 
-/* Which corners each face of the leaf has. */
-static void list_corners(struct interfere *w)
+/* Whether a corner of b's face stays on one side of the plane of the leaf's face. */
+static bool stays_over(const struct target *t, int k)
 {
-    struct interfere_leaf *l = &w->leaf;
+    return t->height_q18[k] > t->reach_q18;
+}
 
-    l->listed = true;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = w->a->mesh->leaf_corners[l->leaf->first_face + i];
+static bool stays_under(const struct target *t, int k)
+{
+    return t->height_q18[k] < -t->reach_q18;
+}
 
-        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
+/* Whether face i of the leaf and b's face may meet as far as their planes tell. */
+static bool planes_meet(struct interfere *w, struct target *t, uint32_t i)
+{
+    const struct interfere_leaf *l = &w->leaf;
+    const int32_t *n;
+    int32_t from_q18;
+
+    if ((l->corners[i] & ~t->over) == 0 || (l->corners[i] & ~t->under) == 0) {
+        return false;
     }
+    n = normal_of(w, i);
+    from_q18 = interfere_dot(n, l->p[corners_of(w, i)[0]].c);
+    t->reach_q18 = interfere_reach_q18(l, n);
+    for (int k = 0; k < 3; k++) {
+        t->height_q18[k] = interfere_dot(n, t->p[k].c) - from_q18;
+    }
+    return !(stays_over(t, 0) && stays_over(t, 1) && stays_over(t, 2)) &&
+           !(stays_under(t, 0) && stays_under(t, 1) && stays_under(t, 2));
 }
 
 /* ---------------------------------------------------------- vertices, faces */
 
-/*
- * Whether a point that moves by `shift`, or by a part of it, stays beside a triangle with normal n:
- * seen along the axis that n is most along.
- */
-static bool stays_beside(const struct interfere_vec *p, const struct interfere_vec *const t[3],
-                         const int32_t n[3], const struct interfere_vec *shift, int32_t near)
+/* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
+static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
+                         const struct interfere_vec *const t[3], const int32_t n[3])
 {
     int64_t x = carom_abs(n[0]), y = carom_abs(n[1]), z = carom_abs(n[2]);
     int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
@@ -151,129 +212,78 @@ static bool stays_beside(const struct interfere_vec *p, const struct interfere_v
         const int32_t *from = t[k]->c, *to = t[k == 2 ? 0 : k + 1]->c;
         int32_t ex = to[i] - from[i], ey = to[j] - from[j];
         int64_t inside = (int64_t)ex * (p->c[j] - from[j]) - (int64_t)ey * (p->c[i] - from[i]);
-        int64_t gain = (int64_t)ex * shift->c[j] - (int64_t)ey * shift->c[i];
-        int64_t size = carom_abs(ex) + carom_abs(ey);
 
         if (n[axis] < 0) {
             inside = -inside;
-            gain = -gain;
         }
-        if (inside + (gain > 0 ? gain : 0) < -size * near) {
+        if (inside < -(carom_abs(ex) * l->reach.c[j] + carom_abs(ey) * l->reach.c[i])) {
             return true;
         }
     }
     return false;
 }
 
-/* Whether a point that moves by `shift` stays clear of a box, by `near`. */
-static bool stays_clear(const struct interfere_vec *p, const struct interfere_vec *low,
-                        const struct interfere_vec *high, const struct interfere_vec *shift,
-                        int32_t near)
+/* Whether a point is outside a box grown by `reach`. */
+static bool outside(const struct interfere_vec *p, const struct interfere_vec *low,
+                    const struct interfere_vec *high, const struct interfere_vec *reach)
 {
     for (int k = 2; k >= 0; k--) {
-        if (p->c[k] + most(shift->c[k], 0) + near < low->c[k] ||
-            p->c[k] + least(shift->c[k], 0) - near > high->c[k]) {
+        if (p->c[k] + reach->c[k] < low->c[k] || p->c[k] - reach->c[k] > high->c[k]) {
             return true;
         }
     }
     return false;
 }
 
-/* The face of the leaf that a vertex belongs to interferes. */
-static void note_owner(struct interfere *w, uint32_t vertex)
-{
-    const struct carom_mesh *ma = w->a->mesh;
-    const struct carom_leaf *leaf = w->leaf.leaf;
-
-    for (uint32_t i = 0; i < leaf->face_count; i++) {
-        const uint8_t *corner = ma->leaf_corners[leaf->first_face + i];
-        uint8_t own = ma->faces[ma->leaf_faces[leaf->first_face + i]].own;
-
-        for (int k = 0; k < 3; k++) {
-            if (corner[k] == vertex && own & 1 << k) {
-                w->leaf.busy |= 1u << i;
-            }
-        }
-    }
-}
-
-/* Vertices of the leaf against the face. */
-static bool vertices_face(struct interfere *w, const struct target *t)
+/* The corners that face i of the leaf owns against b's face. */
+static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = &w->leaf;
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
-    uint32_t left = l->leaf->owned & ~t->over & ~t->under;
-    int32_t n[3];
+    uint8_t own = ma->faces[face_of(w, i)].own;
     bool any = false;
 
-    for (uint32_t i = 0; left >> i != 0; i++) {
-        const struct interfere_vec *p = &l->p[i];
+    for (int k = 0; k < 3; k++) {
+        uint32_t at = corners_of(w, i)[k];
+        const struct interfere_vec *p = &l->p[at];
+        int32_t n[3];
         uint32_t v;
 
-        if (!(left >> i & 1) || stays_clear(p, &t->low, &t->high, &l->shift, l->near_q20) ||
-            stays_beside(p, corners, t->face->normal.c, &l->shift, l->near_q20)) {
+        if (!(own & 1 << k) || ((t->over | t->under) >> at & 1) ||
+            outside(p, &t->low, &t->high, &l->reach) ||
+            stays_beside(l, p, corners, t->face->normal.c)) {
             continue;
         }
         carom_rotate_back(n, &w->to_b, t->face->normal.c);
-        v = ma->leaf_vertices[l->leaf->first_vertex + i];
+        v = ma->leaf_vertices[l->leaf->first_vertex + at];
         if (mesh_vertex_cone(ma, v, n, w->cone_q30)) {
             emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
-            note_owner(w, i);
             any = true;
         }
     }
     return any;
 }
 
-/* Whether vertex v of b, at y, may touch face i of the leaf. */
-static bool face_may_touch(const struct interfere *w, uint32_t i, uint32_t v,
-                           const struct interfere_vec *y, const struct interfere_vec *back)
+/* The corners that b's face owns against face i of the leaf. */
+static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = &w->leaf;
-    const struct carom_mesh *ma = w->a->mesh;
-    const uint8_t *corner = ma->leaf_corners[l->leaf->first_face + i];
+    const uint8_t *corner = corners_of(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
-    struct interfere_vec low, high, d;
-    int32_t n[3], height_q18, closes_q18, near_q18 = (l->near_q20 >> 2) + 4;
-
-    for (int k = 0; k < 3; k++) {
-        low.c[k] = least(p[0]->c[k], least(p[1]->c[k], p[2]->c[k]));
-        high.c[k] = most(p[0]->c[k], most(p[1]->c[k], p[2]->c[k]));
-    }
-    if (stays_clear(y, &low, &high, back, l->near_q20)) {
-        return false;
-    }
-    carom_rotate(n, &w->to_b, ma->faces[ma->leaf_faces[l->leaf->first_face + i]].normal.c);
-    d = difference(y, p[0]);
-    height_q18 = interfere_dot(n, d.c);
-    closes_q18 = interfere_dot(n, back->c);
-    return height_q18 + least(closes_q18, 0) <= near_q18 &&
-           height_q18 + most(closes_q18, 0) >= -near_q18 &&
-           !stays_beside(y, p, n, back, l->near_q20) &&
-           mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30);
-}
-
-/* Vertices of the face against those of the leaf's faces that its plane does not keep apart. */
-static bool face_vertices(struct interfere *w, const struct target *t)
-{
-    const struct interfere_leaf *l = &w->leaf;
-    const struct interfere_vec none = {{0, 0, 0}}, back = opposite(&l->shift);
+    const struct interfere_vec none = {{0, 0, 0}}; /* the box of face i has it */
+    const int32_t *n = l->normal[i].c;
     bool any = false;
 
     for (int k = 0; k < 3; k++) {
         uint32_t v = w->b->mesh->raw.faces[t->number][k];
 
-        if (!(t->face->own & 1 << k) ||
-            stays_clear(&t->p[k], &l->swept_low, &l->swept_high, &none, 0)) {
-            continue;
-        }
-        for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-            if ((l->corners[i] & ~t->over) != 0 && (l->corners[i] & ~t->under) != 0 &&
-                face_may_touch(w, i, v, &t->p[k], &back)) {
-                emit(w, CANDIDATE_FACE_VERTEX, v, w->a->mesh->leaf_faces[l->leaf->first_face + i]);
-                any = true;
-            }
+        if ((t->face->own & 1 << k) && !stays_over(t, k) && !stays_under(t, k) &&
+            !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
+            !stays_beside(l, &t->p[k], p, n) &&
+            mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
+            emit(w, CANDIDATE_FACE_VERTEX, v, face_of(w, i));
+            any = true;
         }
     }
     return any;
@@ -281,7 +291,7 @@ static bool face_vertices(struct interfere *w, const struct target *t)
 
 /* -------------------------------------------------------------------- edges */
 
-/* Two edges at the start, in b's mesh axes. */
+/* Two edges in the middle of the way, in b's mesh axes. */
 struct lines {
     const struct carom_edge *a, *b;
     const struct interfere_vec *start_a, *start_b;
@@ -328,31 +338,28 @@ static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t
 
 /*
  * Whether an edge stays beside the line of the other one, seen along w: what begins at `start` from
- * the line, runs along `other`, and moves by `shift`.
+ * the line and runs along `other`.
  */
 static bool passes_by(const struct interfere *in, const int32_t w[3], const int32_t line[3],
-                      const struct interfere_vec *start, const int32_t other[3], int32_t length_q22,
-                      const struct interfere_vec *shift)
+                      const struct interfere_vec *start, const int32_t other[3], int32_t length_q22)
 {
     int32_t axis[3];
-    int64_t from, run, gain, limit;
+    int64_t from, run, limit;
 
     carom_cross(axis, w, line, 30);
     from = carom_dot(axis, start->c);
     run = (carom_dot(axis, other) >> 30) * (length_q22 >> 2);
-    gain = carom_dot(axis, shift->c);
-    limit = (size_of(axis) + 4) * (in->leaf.near_q20 + 4) + length_q22;
-    return from + (run < 0 ? run : 0) + (gain < 0 ? gain : 0) > limit ||
-           from + (run > 0 ? run : 0) + (gain > 0 ? gain : 0) < -limit;
+    limit = (size_of(axis) + 4) * (in->leaf.near_q20 + 4) + length_q22 +
+            carom_abs(carom_dot(axis, in->leaf.shift.c)) / 2;
+    return from + (run < 0 ? run : 0) > limit || from + (run > 0 ? run : 0) < -limit;
 }
 
 /* Whether two edges of which neither box keeps them apart can touch. */
 static bool edges_may_touch(const struct interfere *in, struct lines *l)
 {
-    const struct interfere_vec *shift = &in->leaf.shift;
     const int32_t *f = l->b->direction.c;
-    struct interfere_vec d, d_back, back;
-    int64_t sine_q30, gap, gain, limit;
+    struct interfere_vec d, d_back;
+    int64_t sine_q30, limit;
     int32_t largest;
 
     carom_rotate(l->e, &in->to_b, l->a->direction.c);
@@ -364,44 +371,42 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     }
     sine_q30 = size_of(l->w) + 4; /* at least */
     d = difference(l->start_a, l->start_b);
-    gap = carom_dot(l->w, d.c);
-    gain = carom_dot(l->w, shift->c);
-    limit = sine_q30 * (in->leaf.near_q20 + 4);
-    if (gap + (gain < 0 ? gain : 0) > limit || gap + (gain > 0 ? gain : 0) < -limit ||
-        !arcs_meet(in, l, sine_q30)) {
+    limit = sine_q30 * (in->leaf.near_q20 + 4) +
+            carom_abs(carom_dot(l->w, in->leaf.shift.c)) / 2;
+    if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
         return false;
     }
     d_back = difference(l->start_b, l->start_a);
-    back = opposite(shift);
-    return !passes_by(in, l->w, f, &d, l->e, l->a->length_q22, shift) &&
-           !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22, &back);
+    return !passes_by(in, l->w, f, &d, l->e, l->a->length_q22) &&
+           !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
 }
 
-/* The box in which an edge of the leaf must start or end to reach an edge of b. */
-struct reach {
-    struct interfere_vec low, high;
-};
-
-static bool misses(const struct reach *r, const struct interfere_vec *p,
-                   const struct interfere_vec *q)
+/* Whether the way of an edge of the leaf, between p and q, keeps clear of one between c and d. */
+static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
+                       const struct interfere_vec *q, const struct interfere_vec *c,
+                       const struct interfere_vec *d)
 {
+    const struct interfere_leaf *l = &w->leaf;
+
     for (int k = 2; k >= 0; k--) {
-        if ((p->c[k] < r->low.c[k] && q->c[k] < r->low.c[k]) ||
-            (p->c[k] > r->high.c[k] && q->c[k] > r->high.c[k])) {
+        int32_t reach = l->reach.c[k];
+
+        if (most(p->c[k], q->c[k]) + reach < least(c->c[k], d->c[k]) ||
+            least(p->c[k], q->c[k]) - reach > most(c->c[k], d->c[k])) {
             return true;
         }
     }
     return false;
 }
 
-/* Edge j of the face against the edges of one of the leaf's faces. */
-static bool edge_edges(struct interfere *w, const struct target *t, int j,
-                       const struct reach *reach, uint32_t i)
+/* The edges that face i of the leaf owns against edge j of b's face. */
+static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, int j)
 {
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_leaf *l = &w->leaf;
-    const struct carom_face *face = &ma->faces[ma->leaf_faces[l->leaf->first_face + i]];
-    const uint8_t *corner = ma->leaf_corners[l->leaf->first_face + i];
+    const struct carom_face *face = &ma->faces[face_of(w, i)];
+    const uint8_t *corner = corners_of(w, i);
+    const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
     bool any = false;
 
     for (int k = 0; k < 3; k++) {
@@ -409,46 +414,32 @@ static bool edge_edges(struct interfere *w, const struct target *t, int j,
         struct lines lines;
 
         if (!(face->own & 8 << k) || (t->over & both) == both || (t->under & both) == both ||
-            misses(reach, &l->p[p], &l->p[q])) {
+            boxes_miss(w, &l->p[p], &l->p[q], c, d)) {
             continue;
         }
         /* an owned edge runs with its face */
         lines.a = &ma->edges[face->edge[k]];
         lines.b = &w->b->mesh->edges[t->face->edge[j]];
         lines.start_a = &l->p[p];
-        lines.start_b = &t->p[j];
+        lines.start_b = c;
         if (edges_may_touch(w, &lines)) {
             emit(w, CANDIDATE_EDGE_EDGE, face->edge[k], t->face->edge[j]);
-            w->leaf.busy |= 1u << i;
             any = true;
         }
     }
     return any;
 }
 
-static bool edges_edges(struct interfere *w, const struct target *t)
+static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = &w->leaf;
     bool any = false;
 
     for (int j = 0; j < 3; j++) {
-        const struct interfere_vec *p = &t->p[j], *q = &t->p[j == 2 ? 0 : j + 1];
-        const struct reach whole = {l->swept_low, l->swept_high};
-        struct reach reach;
+        int next = j == 2 ? 0 : j + 1;
 
-        if (!(t->face->own & 8 << j) || misses(&whole, p, q)) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            int32_t shift = l->shift.c[k];
-
-            reach.low.c[k] = least(p->c[k], q->c[k]) - l->near_q20 - most(shift, 0);
-            reach.high.c[k] = most(p->c[k], q->c[k]) + l->near_q20 - least(shift, 0);
-        }
-        for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-            if ((l->corners[i] & ~t->over) != 0 && (l->corners[i] & ~t->under) != 0) {
-                any |= edge_edges(w, t, j, &reach, i);
-            }
+        if ((t->face->own & 8 << j) && !(stays_over(t, j) && stays_over(t, next)) &&
+            !(stays_under(t, j) && stays_under(t, next))) {
+            any |= edges_edge(w, t, i, j);
         }
     }
     return any;
@@ -457,22 +448,36 @@ static bool edges_edges(struct interfere *w, const struct target *t)
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    bool any;
+    const struct interfere_vec *const p[3] = {&t.p[0], &t.p[1], &t.p[2]};
+    uint32_t near, vertices;
+    bool touched = false;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
     place_target(w, &t);
-    if (beside_slab(w, &t) || !part_by_plane(w, &t)) {
+    if (beside_slab(w, &t)) {
         return;
     }
-    bound_target(&t);
     if (!w->leaf.listed) {
-        list_corners(w);
+        list_faces(w);
     }
-    any = vertices_face(w, &t);
-    any |= face_vertices(w, &t);
-    any |= edges_edges(w, &t);
-    if (any) {
+    bound(p, &t.low, &t.high);
+    near = faces_near(w, &t, &vertices);
+    if (near == 0) {
+        return;
+    }
+    part_by_plane(w, &t, vertices);
+    for (uint32_t i = 0; near >> i != 0; i++) {
+        if ((near >> i & 1) && planes_meet(w, &t, i)) {
+            bool any = vertices_face(w, &t, i);
+
+            any |= face_vertices(w, &t, i);
+            any |= edges_edges(w, &t, i);
+            w->leaf.busy |= (uint32_t)any << i;
+            touched |= any;
+        }
+    }
+    if (touched) {
         interfere_add_face(w, w->body_b, face_b);
     }
 }

@@ -268,6 +268,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     if (s.failed || s.at != bytes || !plausible(w, next)) {
         return CAROM_ERR_FORMAT;
     }
+    w->interfere.stale = true;
     w->now = 1 - w->now;
     return CAROM_OK;
 }

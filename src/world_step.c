@@ -44,8 +44,6 @@ void step_begin(struct step *s, struct carom_world *w)
     w->interfere.gathers = w->interfere.candidate_count = 0;
     memset(&w->stats, 0, sizeof w->stats);
     w->event_count = 0;
-    pool_clear(&w->pools[CAROM_POOL_pairs]);
-    pool_clear(&w->pools[CAROM_POOL_faces]);
     pool_clear(&w->pools[CAROM_POOL_contacts]);
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
@@ -105,6 +103,7 @@ static int finish(struct step *s, bool cut_short)
 static int fail(struct carom_world *w, int error)
 {
     w->event_count = 0;
+    w->interfere.stale = true;
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);
     pool_clear(&w->pools[CAROM_POOL_contacts]);
@@ -121,7 +120,7 @@ int carom_world_step(struct carom_world *w)
         return CAROM_ERR_NULL;
     }
     step_begin(&s, w);
-    result = step_gather(&s);
+    result = step_gather_first(&s);
     if (result == CAROM_OK) {
         result = step_start_contacts(&s);
     }

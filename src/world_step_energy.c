@@ -188,6 +188,7 @@ static void hold_still(struct step *s, uint32_t first)
 {
     bool again = true;
 
+    s->w->interfere.stale = true;
     rewind_island(s, first, true);
     while (again) {
         again = false;

@@ -32,7 +32,7 @@ bool step_retire(struct step *s)
             *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
             state->out = 1;
             step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
-            any = true;
+            any = w->interfere.stale = true;
         }
     }
     return any;

@@ -5,6 +5,10 @@
 #define REFINEMENTS 8
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
+#ifndef REGION_WAY
+#define REGION_WAY 7
+#define REGION_TURN_Q30 (CAROM_ONE_Q30 / 7)
+#endif
 /* What the gap of features changes by at most through rounding. */
 #define CHANGES_Q22 4
 
@@ -75,7 +79,7 @@ static void predict_all(struct step *s, int32_t tau_q30)
  * skins, the fall of a frame (whether contacts will take it up is not known yet) and a part of the
  * way. A hit that turns a body aside by more asks for others.
  */
-static void set_regions(struct step *s, int32_t slice_q30)
+static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
@@ -88,18 +92,19 @@ static void set_regions(struct step *s, int32_t slice_q30)
             body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
             room_q22 = 10 * (int64_t)b->skin_q22 + (b->acceleration_q40 >> 18) + way_q22 / 16;
         }
-        body_region_begin(b, &s->next->bodies[i], slice_q30, (int32_t)room_q22);
+        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
+        b->region.active = broad_active(b, &s->next->bodies[i]);
     }
 }
 
 /* Pairs, interfering faces and candidates for the paths at hand, which take slice_q30 of a frame. */
-static int gather(struct step *s, int32_t slice_q30)
+static int gather(struct step *s, int32_t slice_q30, int64_t time_q30)
 {
     struct carom_world *w = s->w;
     struct step_visitor v;
     int result;
 
-    set_regions(s, slice_q30);
+    set_regions(s, slice_q30, time_q30);
     step_mark(w, CAROM_STAGE_PREDICT);
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
@@ -107,10 +112,52 @@ static int gather(struct step *s, int32_t slice_q30)
     if (result < 0) {
         return result;
     }
+    if (w->interfere.gathers == 0) {
+        pool_clear(&w->pools[CAROM_POOL_faces]);
+    }
     interfere_begin(&w->interfere);
     result = step_visit(s, &v, visit_nothing);
     step_mark(w, CAROM_STAGE_INTERFERE);
     return result;
+}
+
+/*
+ * For how long to gather: frames at a time while nothing moves fast, for what is swept grows with
+ * the time. As long as the last regions held, and twice that when they held all their time.
+ */
+static int64_t gather_time(const struct step *s, int32_t slice_q30)
+{
+    int64_t frames = 1, held_q30 = 0;
+
+    if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30) {
+        return slice_q30;
+    }
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body_region *region = &s->w->bodies[i].region;
+
+        if (region->active && region->elapsed_q30 > held_q30) {
+            held_q30 = region->elapsed_q30;
+            frames = (held_q30 >> 30) + (region->time_q30 - held_q30 < CAROM_ONE_Q30 ? (held_q30 >> 30) + 1 : 0);
+        }
+    }
+    if (frames < 1) frames = 1;
+    if (frames > BODY_REGION_FRAMES) frames = BODY_REGION_FRAMES;
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *b = &s->w->bodies[i];
+        int64_t way_q22, turn_q30;
+
+        if (!broad_active(b, &s->next->bodies[i])) {
+            continue;
+        }
+        body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+        way_q22 = (way_q22 << 30) / slice_q30;
+        turn_q30 = (turn_q30 << 30) / slice_q30;
+        while (frames > 1 &&
+               (frames * turn_q30 > REGION_TURN_Q30 || frames * way_q22 > b->radius_q22 / REGION_WAY)) {
+            frames--;
+        }
+    }
+    return s->left_q30 + ((frames - 1) << 30);
 }
 
 int step_gather(struct step *s)
@@ -118,7 +165,7 @@ int step_gather(struct step *s)
     int32_t slice_q30 = step_slice(s);
 
     predict_all(s, slice_q30);
-    return gather(s, slice_q30);
+    return gather(s, slice_q30, gather_time(s, slice_q30));
 }
 
 uint16_t step_pair_number(const struct carom_world *w, const struct pair *p)
@@ -138,7 +185,8 @@ static bool leaves_region(const struct step *s, int32_t slice_q30)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
 
-        if (broad_active(b, &s->next->bodies[i]) && !body_region_holds(b, slice_q30)) {
+        if (b->region.active != broad_active(b, &s->next->bodies[i]) ||
+            (b->region.active && !body_region_holds(b, slice_q30))) {
             return true;
         }
     }
@@ -153,12 +201,26 @@ static int predict_hit(struct step *s, int32_t slice_q30)
 
     predict_all(s, slice_q30);
     if (leaves_region(s, slice_q30)) {
-        result = gather(s, slice_q30);
+        result = gather(s, slice_q30, slice_q30);
         if (result == CAROM_OK) {
             s->hit.candidate.pair = step_pair_number(s->w, &p);
         }
     }
     return result;
+}
+
+int step_gather_first(struct step *s)
+{
+    struct interfere *in = &s->w->interfere;
+
+    if (!in->stale && in->whole) {
+        step_place_all(s);
+        if (!leaves_region(s, 0)) {
+            in->candidate_count = in->candidate_pool->used;
+            return CAROM_OK;
+        }
+    }
+    return step_gather(s);
 }
 
 int32_t step_slice(const struct step *s)

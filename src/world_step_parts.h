@@ -45,6 +45,9 @@ void step_place_all(struct step *s);
 /* Set the paths of a slice, and gather pairs, interfering faces and candidates for them. */
 int step_gather(struct step *s);
 
+/* The same at the start of a frame, unless the last frame's still hold. */
+int step_gather_first(struct step *s);
+
 /* Pairs have new numbers after they were gathered again; this one is still there. */
 uint16_t step_pair_number(const struct carom_world *w, const struct pair *p);
 

@@ -55,6 +55,7 @@ void world_wake_around(struct carom_world *w, uint32_t body)
     struct world_state *now = world_now(w);
     const struct body *b = &w->bodies[body];
 
+    w->interfere.stale = true;
     world_wake_island(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {
         const struct pair *p = &now->touching[i];

@@ -115,7 +115,7 @@ static void time_frame(struct fall *fall, struct carom_world *world, const carom
         body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
         room_q22 = b->moving ? way_q22 + way_q22 / 10 * 3 + 20 * b->skin_q22 : 0;
         body_place(b, state);
-        body_region_begin(b, state, CAROM_ONE_Q30, (int32_t)room_q22);
+        body_region_begin(b, state, CAROM_ONE_Q30, CAROM_ONE_Q30, (int32_t)room_q22);
         body_predict(b, state, CAROM_ONE_Q30, gravity);
     }
     boyse_pair_init(&fall->pair, &fall->bodies[0], &fall->bodies[1]);

@@ -121,7 +121,8 @@ static void place(int i)
     int32_t turn_q30 = bodies[i].turn_q30;
 
     body_place(&bodies[i], &states[i]);
-    body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, bodies[i].region.room_q22);
+    body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
+                      bodies[i].region.room_q22);
     bodies[i].turn_q30 = turn_q30;
     solid_place(i == 0 ? &a : &b, &states[i]);
 }
@@ -413,7 +414,7 @@ static int32_t random_motion(struct test_random *r)
 
         body_predict(&bodies[i], &states[i], CAROM_ONE_Q30, NULL);
         bodies[i].path.g = g;
-        body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30,
+        body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
                           (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
     }
     return t_q30;
