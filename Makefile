@@ -41,13 +41,13 @@ ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
 EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
-SCENES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
+SCENE_FILES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_% tests/accuracy_%,\
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
 SHELL_TESTS := $(wildcard tests/*.sh)
 
@@ -66,7 +66,7 @@ NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
 
-.PHONY: help run test accuracy oracle check size build clean force
+.PHONY: help run test accuracy oracle bench check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -104,6 +104,12 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
+
+bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= selects, BASELINE=1 keeps
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
+	@$(SUBMAKE) BOARD=host build/host/bench.elf
+	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
+	@tools/bench.py --scenes '$(SCENES)' $(if $(BASELINE),--baseline)
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
@@ -153,7 +159,7 @@ $(B)/lib%.a:
 	$(TARGET_AR) rcs $@ $^
 
 link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)
-PROGRAM := $(SUPPORT) $(SCENES) $(B)/libcarom.a | $(ALSO)
+PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
