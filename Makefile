@@ -41,7 +41,10 @@ ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
 EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
-SCENE_FILES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
+# what the generators make, by the number of faces; without one, that of the paper
+HEADS := head head48 head80 head450 head836
+FIELDS := field field386 field512 field12012 field49928
+SCENE_FILES := $(call objects,examples/scene.c $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
@@ -174,18 +177,17 @@ $(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
 	$(link)
 
 # Meshes: a generator prints OBJ, the converter makes it a C array.
-build/gen/%.obj: tools/gen_%
+build/gen/head%: GENERATOR := tools/gen_head
+build/gen/field%: GENERATOR := tools/gen_field
+build/gen/%.obj: tools/gen_head tools/gen_field
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
-	tools/gen_$* > $@
+	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@
 
-build/gen/head_mesh.c: build/gen/head.obj build/tools/carom-mesh
+build/gen/field%: CONVERT := --surface
+build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
-	build/tools/carom-mesh --name head_mesh -o $@ $<
-
-build/gen/field_mesh.c: build/gen/field.obj build/tools/carom-mesh
-	@echo '  mesh  $@'
-	build/tools/carom-mesh --surface --name field_mesh -o $@ $<
+	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
 
 build/tools/carom-mesh: tools/mesh_convert.cpp
 	@mkdir -p $(@D)

@@ -16,7 +16,7 @@
 enum { SIZES = 2 };
 static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES];
+static _Alignas(8) uint8_t mesh_block[SCENE_LARGE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(512, 512)];
 static uint32_t pixels[512 * 512];
