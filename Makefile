@@ -69,7 +69,7 @@ NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
 
-.PHONY: help run test accuracy oracle bench check size build clean force
+.PHONY: help run test accuracy oracle bench figures check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -108,11 +108,17 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
 
-bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= selects, BASELINE=1 keeps
+bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
-	@tools/bench.py --scenes '$(SCENES)' $(if $(BASELINE),--baseline)
+	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
+	    --scenes '$(SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
+
+figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
+	@tools/need python3 gnuplot
+	@test -e out/bench.csv || $(MAKE) bench
+	@tools/figures.py out/figures
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format

@@ -35,16 +35,21 @@ static int number(const char *name, int otherwise)
     return port_option(name) ? atoi(port_option(name)) : otherwise;
 }
 
-static void read_caps(struct carom_caps *caps)
+/* The capacities that the caller wants; returns the bytes of their world. */
+static size_t world_bytes(struct carom_caps *caps)
 {
     uint32_t *const all[] = {&caps->bodies, &caps->pairs,   &caps->contacts,
                              &caps->faces,  &caps->entries, &caps->candidates};
-    char *at = (char *)port_option("caps");
+    const char *at = port_option("caps");
 
     for (int i = 0; at && i < 6; i++) {
-        *all[i] = (uint32_t)strtoul(at, &at, 10);
-        at += *at == ',';
+        char *end;
+
+        *all[i] = (uint32_t)strtoul(at, &end, 10);
+        at = end + (*end == ',');
     }
+    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
+                             caps->candidates);
 }
 
 static bool all_asleep(const struct carom_world *world, int bodies)
@@ -131,6 +136,7 @@ int main(void)
     struct carom_config config = scene_config();
     struct carom_world *world;
     uint64_t hash;
+    size_t bytes;
     int frames, first, draw;
 
     port_init();
@@ -140,12 +146,11 @@ int main(void)
     config.ticks = port_ticks;
     config.sleep = number("awake", 0) == 0;
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
-    read_caps(&config.caps);
-    if (port_option("caps")) {
-        scene.caps = config.caps;
-    }
-    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
+    bytes = world_bytes(&scene.caps);
+    config.caps = scene.caps;
+    expect(scene_make(&scene, &config, world_block, bytes, &world), "world");
 
+    port_print("world %lu\n", (unsigned long)bytes);
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         bool slept = all_asleep(world, 2 + scene.other_count);
