@@ -56,7 +56,7 @@ PAPER_RATE = 16e6
 
 
 def run(image, options):
-    """The exit status of a scene, the columns and rows that it prints, and its last state."""
+    """Run a scene: its process, a row a frame by column, and what it said by the word before it."""
     done = subprocess.run(run_board.command(image, options), stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, text=True, timeout=TIMEOUT)
     words = [line.partition(" ") for line in done.stdout.splitlines()]
