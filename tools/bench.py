@@ -142,12 +142,13 @@ def print_totals(found, baseline):
 
 
 def print_paper(figures):
-    print("\n%-16s %12s %14s %14s"
-          % ("in contact, drawn", "paper, s", "instructions", "here, whole"))
-    for scene, seconds in PAPER.items():
-        if (scene, "contact", "whole") in figures:
-            print("%-16s %13.2f %14d %14d" % (scene, seconds, seconds * PAPER_RATE,
-                                              figures[scene, "contact", "whole"][0]))
+    measured = [scene for scene in PAPER if (scene, "contact", "whole") in figures]
+    if measured:
+        print("\n%-16s %12s %14s %14s"
+              % ("in contact, drawn", "paper, s", "instructions", "here, whole"))
+    for scene in measured:
+        print("%-16s %13.2f %14d %14d" % (scene, PAPER[scene], PAPER[scene] * PAPER_RATE,
+                                          figures[scene, "contact", "whole"][0]))
 
 
 def head_ram(entry, host):
@@ -175,12 +176,16 @@ def deepest_stack():
     return int(re.search(r"^pass: .* (\d+) bytes of stack", said, re.M).group(1))
 
 
-def memory_bars(entries, host):
-    """(bar, limit, measured) of RAM and code."""
+def memory_bars(entries, host, board):
+    """(bar, limit, measured) of RAM, with what a frame takes in so little of it, and code."""
     entry = next(e for e in entries if e["scene"] == "head")
     block, caps = head_ram(entry, host)
     stack = deepest_stack()
     yield "head, world of %s: %d bytes, and stack: %d" % (caps, block, stack), RAM, block + stack
+    _, rows, _ = run(board, options_of(entry, "draw=") + ["caps=" + caps])
+    totals = [int(row["total"]) for row in rows]
+    yield "head in that world, mean", None, round(sum(totals) / len(totals))
+    yield "head in that world, worst", None, max(totals)
     for level in ["-Os", "-O2"]:
         made = gate.objects("bench" + level, "arm-none-eabi-gcc",
                             ["-mcpu=cortex-m3", "-mthumb", level])
@@ -259,7 +264,7 @@ def main():
     if arguments.gate:
         gate.finish(list(grown(figures, baseline)), "no worst frame has grown by more than 1 %")
     print_paper(figures)
-    print_bars([*cost_bars(figures), *memory_bars(entries, arguments.host)])
+    print_bars([*cost_bars(figures), *memory_bars(entries, arguments.host, arguments.board)])
 
 
 if __name__ == "__main__":

@@ -39,7 +39,8 @@ set key outside right top Left reverse spacing 1.3
 
 def plot(path, text):
     """Draw one PNG."""
-    done = subprocess.run(["gnuplot"], input=STYLE + "set output '%s'\n%s" % (path, text), text=True)
+    script = STYLE + "set output '%s'\n%s" % (path, text)
+    done = subprocess.run(["gnuplot"], input=script, text=True)
     if done.returncode:
         sys.exit("gnuplot: status %d" % done.returncode)
     print(path)
