@@ -5,6 +5,7 @@ BOARD ?= versatilepb
 SCENE ?= $(if $(MESH),user,head)
 FRAMES ?= 600
 OPT ?= -O2
+LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
@@ -41,13 +42,16 @@ ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
 EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
-SCENES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
+# what the generators make, by the number of faces; without one, that of the paper
+HEADS := head head48 head80 head450 head836
+FIELDS := field field386 field512 field12012 field49928
+SCENE_FILES := $(call objects,examples/scene.c $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/host_% tests/accuracy_%,\
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
 SHELL_TESTS := $(wildcard tests/*.sh)
 
@@ -66,14 +70,14 @@ NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
 
-.PHONY: help run test accuracy oracle check size build clean force
+.PHONY: help run test accuracy oracle bench figures check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
+run: ## a scene on a board; BOARD= SCENE=head|box|pile|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
@@ -104,6 +108,18 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
+
+bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
+	@$(SUBMAKE) BOARD=host build/host/bench.elf
+	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
+	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
+	    --scenes '$(SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
+
+figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
+	@tools/need python3 gnuplot
+	@test -e out/bench.csv || $(MAKE) bench
+	@tools/figures.py out/figures
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
@@ -153,7 +169,7 @@ $(B)/lib%.a:
 	$(TARGET_AR) rcs $@ $^
 
 link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)
-PROGRAM := $(SUPPORT) $(SCENES) $(B)/libcarom.a | $(ALSO)
+PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
@@ -168,18 +184,17 @@ $(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
 	$(link)
 
 # Meshes: a generator prints OBJ, the converter makes it a C array.
-build/gen/%.obj: tools/gen_%
+build/gen/head%: GENERATOR := tools/gen_head
+build/gen/field%: GENERATOR := tools/gen_field
+build/gen/%.obj: tools/gen_head tools/gen_field
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
-	tools/gen_$* > $@
+	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@
 
-build/gen/head_mesh.c: build/gen/head.obj build/tools/carom-mesh
+build/gen/field%: CONVERT := --surface
+build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
-	build/tools/carom-mesh --name head_mesh -o $@ $<
-
-build/gen/field_mesh.c: build/gen/field.obj build/tools/carom-mesh
-	@echo '  mesh  $@'
-	build/tools/carom-mesh --surface --name field_mesh -o $@ $<
+	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
 
 build/tools/carom-mesh: tools/mesh_convert.cpp
 	@mkdir -p $(@D)

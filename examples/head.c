@@ -2,7 +2,7 @@
 /*
  * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
  *
- * Options: scene=head|box|pile|user  frames=600  mesh=file (scene user)  awake=1 (no sleep)
+ * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  */
 #include <stdlib.h>
 
@@ -15,13 +15,16 @@
 #define USER_VERTICES 24000
 #endif
 #define USER_FACES (2 * USER_VERTICES)
+#define USER_MESH_BYTES                                                                            \
+    (CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +                                                 \
+     CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
 
 /* Rows of the picture whose depth is kept at once. */
 #define DEPTH_ROWS 512
 #define WIDTH_MAX  512
 
-static _Alignas(8) uint8_t mesh_block[CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +
-                                      CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
+static _Alignas(8) uint8_t
+    mesh_block[USER_MESH_BYTES > SCENE_LARGE_MESH_BYTES ? USER_MESH_BYTES : SCENE_LARGE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(WIDTH_MAX, DEPTH_ROWS)];
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];

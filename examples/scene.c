@@ -34,6 +34,26 @@ static const struct carom_body_def head_start = {
     .restitution_q30 = RESTITUTION_Q30,
     .friction_q16 = FRICTION_Q16,
 };
+/* Thrown at 4 units/s, turning by 8 rad/s. */
+#define THROW(x, y, z, vx, vy, vz, wx, wy, wz)                                                     \
+    {                                                                                              \
+        .position = POSITION(x, y, z), .velocity = VELOCITY(vx, vy, vz), .spin = SPIN(wx, wy, wz), \
+        .restitution_q30 = RESTITUTION_Q30, .friction_q16 = FRICTION_Q16,                          \
+    }
+static const struct carom_body_def spin_starts[] = {
+    THROW(-2600, 1300, 2400, 3200, -2400, 0, 4800, -6400, 0),
+    THROW(900, -600, 2700, -1600, 1200, -3464, 0, 0, 8000),
+    THROW(-300, 1900, 2100, 0, -3200, -2400, -6400, 0, 4800),
+    THROW(1500, 1500, 3200, -1600, -1200, 3464, 4619, 4619, -4619),
+};
+/* Some 3 mm over the fields of 512, 3034, 12012 and 49928 faces. */
+#define PUT(z)                                                                                     \
+    {                                                                                              \
+        .position = POSITION(-600, 200, z), .velocity = VELOCITY(300, -100, 0),                    \
+        .friction_q16 = FRICTION_Q16,                                                              \
+    }
+static const struct carom_body_def growth_starts[] = {PUT(1006), PUT(1015), PUT(1019), PUT(1019)};
+static const struct carom_body_def far_start = {.position = POSITION(0, 0, 1000000)};
 static const struct carom_body_def box_start = {
     .position = POSITION(-900, -300, 2200),
     .velocity = VELOCITY(900, 300, 0),
@@ -69,7 +89,7 @@ static const struct carom_mesh_raw box_mesh = {
     box_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
-/* A tetrahedron and an L of three cubes, for the pile; all smaller by half than the box. */
+/* A tetrahedron and an L of three cubes, for piles; all smaller by half than the box. */
 #define PILE_BITS 13
 #define TIP       1900
 static const int16_t tetrahedron_vertices[4][3] = {
@@ -92,6 +112,9 @@ static const uint16_t l_faces[20][3] = {
 static const struct carom_mesh_raw l_mesh = {
     l_vertices, l_faces, 12, 20, PILE_BITS, CAROM_SOLID,
 };
+
+/* 12 to 80 faces each. */
+#define SMALL_BODIES &box_mesh, &l_mesh, &head48_mesh, &head80_mesh
 
 /* A plane of 8 x 8 units. */
 #define PLANE 16384
@@ -152,65 +175,141 @@ static int build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, uint
     return result;
 }
 
-/* Layers of four, each turned and shifted against the one below, falling close together. */
-static void pour(struct scene *scene)
+/* Layers of side x side bodies, each turned and shifted against the one below, close together. */
+static void pour(struct scene *scene, int side, int z_mm, int up_mm_s)
 {
-    for (int i = 0; i < SCENE_OTHERS + 1; i++) {
+    for (int i = 0; i <= scene->other_count; i++) {
         struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
-        int column = i % 4, layer = i / 4;
+        int cell = i % (side * side), layer = i / (side * side), column = i % 4;
 
-        *def = head_start;
-        def->mesh = i % 3 == 0 ? &scene->body_mesh : &scene->other_mesh[i % 3 - 1];
-        def->position.c[0] = CAROM_POSITION_MM(-700 + 750 * (column % 2) + 90 * layer);
-        def->position.c[1] = CAROM_POSITION_MM(-500 + 750 * (column / 2) - 70 * layer);
-        def->position.c[2] = CAROM_POSITION_MM(1900 + 800 * layer + 60 * column);
+        def->position.c[0] = CAROM_POSITION_MM(50 - 375 * side + 750 * (cell % side) + 90 * layer);
+        def->position.c[1] = CAROM_POSITION_MM(250 - 375 * side + 750 * (cell / side) - 70 * layer);
+        def->position.c[2] = CAROM_POSITION_MM(z_mm + 800 * layer + 60 * column);
         def->velocity.c[0] = CAROM_VELOCITY_MM_S(100 * (2 - column), FPS);
         def->velocity.c[1] = CAROM_VELOCITY_MM_S(150 - 100 * layer, FPS);
+        def->velocity.c[2] = CAROM_VELOCITY_MM_S(up_mm_s, FPS);
         def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 400 * column, FPS);
         def->spin.c[1] = CAROM_SPIN_MRAD_S(300 * layer, FPS);
         def->spin.c[2] = CAROM_SPIN_MRAD_S(250 * (i % 5), FPS);
     }
-    scene->other_count = SCENE_OTHERS;
-    scene->caps = (struct carom_caps){SCENE_PILE_CAPS};
+}
+
+static void pile(struct scene *scene)
+{
+    pour(scene, scene->other_count < 16 ? 2 : 3, 1900, 0);
+}
+
+/* Thrown up from just above the field. */
+static void fly(struct scene *scene)
+{
+    pour(scene, 6, 1000, 1500);
+}
+
+/* In two rows on the plane. */
+static void lay(struct scene *scene)
+{
+    for (int i = 0; i <= scene->other_count; i++) {
+        struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
+
+        def->position.c[0] = CAROM_POSITION_MM(-3000 + 1500 * (i % 5));
+        def->position.c[1] = CAROM_POSITION_MM(-1000 + 2000 * (i / 5));
+        def->position.c[2] = CAROM_POSITION_MM(252);
+        def->spin = (carom_v3_q40){{0, 0, 0}};
+        def->velocity = def->spin;
+    }
+}
+
+/* What a scene is made of. */
+static const struct recipe {
+    const char *name;
+    const struct carom_mesh_raw *ground, *bodies[SCENE_MESHES]; /* the bodies take them in turn */
+    const struct carom_body_def *start;
+    void (*arrange)(struct scene *); /* where further bodies are */
+    uint8_t others;                  /* bodies but the first */
+    uint8_t quantum_bits;            /* of the bodies; 0: as they have */
+} recipes[] = {
+    {"head", &field_mesh, {&head_mesh}, &head_start, NULL, 0, 0},
+    {"head-spin", &field_mesh, {&head_mesh}, &spin_starts[0], NULL, 0, 0},
+    {"head-spin2", &field_mesh, {&head_mesh}, &spin_starts[1], NULL, 0, 0},
+    {"head-spin3", &field_mesh, {&head_mesh}, &spin_starts[2], NULL, 0, 0},
+    {"head-spin4", &field_mesh, {&head_mesh}, &spin_starts[3], NULL, 0, 0},
+    {"head450", &field386_mesh, {&head450_mesh}, &head_start, NULL, 0, 0},
+    {"head836", &field512_mesh, {&head836_mesh}, &head_start, NULL, 0, 0},
+    {"apart", &field_mesh, {&head_mesh}, &far_start, NULL, 0, 0},
+    {"box", &plane_mesh, {&box_mesh}, &box_start, NULL, 0, 0},
+    {"boxes10", &plane_mesh, {&box_mesh}, &box_start, lay, 9, 0},
+    {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, &head_start, pile, 15, 13},
+    {"pile32", &field_mesh, {SMALL_BODIES}, &head_start, pile, 31, 13},
+    {"flight32", &field_mesh, {SMALL_BODIES}, &head_start, fly, 31, 13},
+    {"growth-512", &field512_mesh, {&head_mesh}, &growth_starts[0], NULL, 0, 0},
+    {"growth-3034", &field_mesh, {&head_mesh}, &growth_starts[1], NULL, 0, 0},
+    {"growth-12012", &field12012_mesh, {&head_mesh}, &growth_starts[2], NULL, 0, 0},
+    {"growth-49928", &field49928_mesh, {&head_mesh}, &growth_starts[3], NULL, 0, 0},
+    {"user", &field_mesh, {NULL}, &head_start, NULL, 0, 0},
+};
+
+static const struct recipe *find(const char *name)
+{
+    for (size_t i = 0; i < sizeof recipes / sizeof recipes[0]; i++) {
+        if (strcmp(name, recipes[i].name) == 0) {
+            return &recipes[i];
+        }
+    }
+    return NULL;
+}
+
+static struct carom_mesh *mesh_of(struct scene *scene, int number)
+{
+    return number == 0 ? &scene->body_mesh : &scene->other_mesh[number - 1];
+}
+
+/* Build the meshes and hand them to the bodies in turn. */
+static int build_bodies(struct scene *scene, const struct recipe *recipe,
+                        const struct carom_mesh_raw *user, uint8_t **mem, size_t *bytes)
+{
+    int count = 0, result = CAROM_OK;
+
+    while (count < SCENE_MESHES && result >= 0 &&
+           (user ? count == 0 : recipe->bodies[count] != NULL)) {
+        struct carom_mesh_raw raw = user ? scaled(user) : *recipe->bodies[count];
+
+        raw.quantum_bits = recipe->quantum_bits ? recipe->quantum_bits : raw.quantum_bits;
+        result = build(mesh_of(scene, count++), &raw, mem, bytes);
+    }
+    scene->body = *recipe->start;
+    scene->body.mesh = &scene->body_mesh;
+    scene->other_count = recipe->others;
+    for (int i = 0; i < scene->other_count; i++) {
+        scene->others[i] = scene->body;
+        scene->others[i].mesh = mesh_of(scene, (i + 1) % count);
+    }
+    return result;
 }
 
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes)
 {
-    bool box = strcmp(name, "box") == 0, pile = strcmp(name, "pile") == 0;
-    struct carom_mesh_raw ground = box ? plane_mesh : field_mesh;
-    struct carom_mesh_raw body = box || pile ? box_mesh : head_mesh;
+    const struct recipe *recipe = find(name);
     uint8_t *next = mem;
     int result;
 
-    if (strcmp(name, "user") == 0 && user) {
-        body = scaled(user);
-    } else if (!box && !pile && strcmp(name, "head") != 0) {
+    if (!recipe || (recipe->bodies[0] == NULL) != (user != NULL)) {
         return CAROM_ERR_ARGUMENT;
     }
     memset(scene, 0, sizeof *scene);
-    if (pile) {
-        body.quantum_bits = PILE_BITS;
-    }
-    result = build(&scene->ground_mesh, &ground, &next, &bytes);
-    if (result >= 0) {
-        result = build(&scene->body_mesh, &body, &next, &bytes);
-    }
-    if (result >= 0 && pile) {
-        result = build(&scene->other_mesh[0], &tetrahedron_mesh, &next, &bytes);
-    }
-    if (result >= 0 && pile) {
-        result = build(&scene->other_mesh[1], &l_mesh, &next, &bytes);
-    }
     scene->ground = ground_start;
     scene->ground.mesh = &scene->ground_mesh;
-    scene->body = box ? box_start : head_start;
-    scene->body.mesh = &scene->body_mesh;
     scene->camera = camera;
-    scene->caps = (struct carom_caps){SCENE_CAPS};
-    if (pile) {
-        pour(scene);
+    result = build(&scene->ground_mesh, recipe->ground, &next, &bytes);
+    if (result >= 0) {
+        result = build_bodies(scene, recipe, user, &next, &bytes);
     }
+    if (recipe->arrange) {
+        recipe->arrange(scene);
+    }
+    scene->caps = recipe->others == 0   ? (struct carom_caps){SCENE_CAPS}
+                  : recipe->others < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
+                                        : (struct carom_caps){SCENE_LARGE_CAPS};
     return result;
 }
 

@@ -2,10 +2,18 @@
 /*
  * scene.h - the scenes of the examples and tests: bodies that move over one that does not.
  *
- *   head  the paper's: a bumpy head of 1876 faces, dropped with spin on a height field of 3034
- *   box   a box of three different sides, dropped on a plane
- *   pile  16 boxes, tetrahedra and L-shapes, poured on the field
- *   user  a mesh of the caller's in place of the head
+ *   head        the paper's: a bumpy head of 1876 faces, dropped with spin on a field of 3034
+ *   head450     the same with 450 faces on a field of 386
+ *   head836     with 836 on 512
+ *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; other ways: head-spin2 .. 4
+ *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces
+ *   apart       the head a thousand units above the field
+ *   box         a box of three different sides, dropped on a plane
+ *   boxes10     ten of them, put on the plane
+ *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
+ *   pile32      32 bodies of 12 to 80 faces, poured on the field
+ *   flight32    the same, thrown up from just above the field
+ *   user        a mesh of the caller's in place of the head
  *
  * A frame is 1/60 s and a unit 1 m.
  *
@@ -25,33 +33,41 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
-#define SCENE_OTHERS 15
+#define SCENE_OTHERS 31
+#define SCENE_MESHES 4 /* of bodies, in one scene */
 
 struct scene {
-    struct carom_mesh ground_mesh, body_mesh, other_mesh[2];
+    struct carom_mesh ground_mesh, body_mesh, other_mesh[SCENE_MESHES - 1];
     struct carom_body_def ground, body; /* refer to the meshes: a scene stays where it was loaded */
-    struct carom_body_def others[SCENE_OTHERS]; /* of a pile */
+    struct carom_body_def others[SCENE_OTHERS]; /* of a scene of many */
     int other_count;
     struct carom_camera camera;
     struct carom_caps caps;
 };
 
-/* Memory for the meshes of any scene but `user`, and for a world of scene_config's capacities. */
+/*
+ * Memory for the meshes of any scene but `user` and the growth of the field, and for those too; for
+ * a world of any scene.
+ */
 #define SCENE_MESH_BYTES                                                                           \
     (CAROM_MESH_BYTES(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                     \
      CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
+#define SCENE_LARGE_MESH_BYTES                                                                     \
+    (CAROM_MESH_BYTES(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) + CAROM_MESH_BYTES(25281, 49928))
 #define SCENE_HEAD_VERTICES  940
 #define SCENE_HEAD_FACES     1876
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
 
-/* bodies, pairs, contacts, faces, entries, candidates: of one body, and of a pile */
+/* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32 bodies */
 #define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
 #define SCENE_PILE_CAPS   17, 128, 384, 2048, 256, 2048
-#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#define SCENE_LARGE_CAPS  33, 256, 768, 4096, 1, 4096
+#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
 
-/* The raw meshes of the head scene, generated. */
-extern const struct carom_mesh_raw head_mesh, field_mesh;
+/* The raw meshes, generated; a number is that of the faces. */
+extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head450_mesh, head836_mesh,
+    field_mesh, field386_mesh, field512_mesh, field12012_mesh, field49928_mesh;
 
 /* SCENE_CAPS, gravity, sleep on, no timing; scene_make takes a pile's own. */
 struct carom_config scene_config(void);

@@ -69,6 +69,17 @@ def objects(folder, compiler, flags):
     return pairs
 
 
+def sections(made):
+    """Bytes of text, rodata, data and bss of objects for Arm, all together."""
+    total = dict.fromkeys([".text", ".rodata", ".data", ".bss"], 0)
+    for path in made:
+        for name, size in re.findall(r"^(\.\w+)\S*\s+(\d+)",
+                                     output(["arm-none-eabi-size", "-A", path]), re.M):
+            if name in total:
+                total[name] += int(size)
+    return total.values()
+
+
 def stage(path):
     """The stage of a source or header: the longest that its name begins with, or None."""
     name = os.path.basename(path).rsplit(".", 1)[0]

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What the frames of a scene cost, by stage, on a board that counts instructions: a row a frame to
+ * the console. tools/bench.py runs it, and says what the rows mean.
+ *
+ * Options: scene=NAME  frames=600  first=1 (the first frame that has a row)  awake=1 (no sleep)
+ *          draw=N (every N-th of those frames is drawn as well, in both sizes)
+ *          caps=B,P,C,F,E,N (capacities of the world)
+ */
+#include <stdlib.h>
+
+#include "carom.h"
+#include "port.h"
+#include "scene.h"
+
+enum { SIZES = 2 };
+static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
+
+static _Alignas(8) uint8_t mesh_block[SCENE_LARGE_MESH_BYTES];
+static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(512, 512)];
+static uint32_t pixels[512 * 512];
+
+static int expect(int result, const char *what)
+{
+    if (result < 0) {
+        port_print("%s: %s\n", what, carom_result_text(result));
+        port_exit(1);
+    }
+    return result;
+}
+
+static int number(const char *name, int otherwise)
+{
+    return port_option(name) ? atoi(port_option(name)) : otherwise;
+}
+
+/* The capacities that the caller wants; returns the bytes of their world. */
+static size_t world_bytes(struct carom_caps *caps)
+{
+    uint32_t *const all[] = {&caps->bodies, &caps->pairs,   &caps->contacts,
+                             &caps->faces,  &caps->entries, &caps->candidates};
+    const char *at = port_option("caps");
+
+    for (int i = 0; at && i < 6; i++) {
+        char *end;
+
+        *all[i] = (uint32_t)strtoul(at, &end, 10);
+        at = end + (*end == ',');
+    }
+    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
+                             caps->candidates);
+}
+
+static bool all_asleep(const struct carom_world *world, int bodies)
+{
+    for (int body = 0; body < bodies; body++) {
+        struct carom_body_state state;
+
+        expect(carom_body_get(world, body, &state), "state");
+        if (body != SCENE_GROUND && !state.asleep) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What the last step was about: all slept, bodies touched, boxes of two bodies met, or none did. */
+static const char *phase(const struct carom_world *world, bool slept,
+                         const struct carom_stats *stats)
+{
+    struct carom_usage usage[CAROM_POOL_COUNT];
+
+    expect(carom_usage(world, usage), "usage");
+    return slept                                    ? "asleep"
+           : stats->contacts > 0 || stats->hits > 0 ? "contact"
+           : usage[CAROM_POOL_pairs].used > 0       ? "near"
+                                                    : "apart";
+}
+
+static void print_columns(void)
+{
+    port_print("columns phase,candidates");
+    for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
+        port_print(",%s", carom_stage_name(stage));
+    }
+    port_print(",total");
+    for (int i = 0; i < SIZES; i++) {
+        port_print(",draw-%dx%d", (int)sizes[i][0], (int)sizes[i][1]);
+    }
+    port_print("\n");
+}
+
+static void print_ticks(uint32_t ticks)
+{
+    port_print(",%lu", (unsigned long)port_instructions(ticks));
+}
+
+static void print_draw(const struct carom_world *world, const struct carom_camera *camera,
+                       const int32_t size[2])
+{
+    const struct carom_picture picture = {.pixels = pixels,
+                                          .width = size[0],
+                                          .height = size[1],
+                                          .stride = size[0] * 4,
+                                          .format = CAROM_XRGB8888,
+                                          .workspace = depth_block,
+                                          .workspace_bytes = sizeof depth_block};
+    uint32_t start = port_ticks();
+
+    expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
+    print_ticks(port_ticks() - start);
+}
+
+static void print_frame(const struct carom_world *world, const struct carom_camera *camera,
+                        bool slept, bool drawn)
+{
+    struct carom_stats stats;
+
+    expect(carom_stats(world, &stats), "stats");
+    port_print("frame %s,%lu", phase(world, slept, &stats), (unsigned long)stats.candidates);
+    for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
+        print_ticks(stats.ticks[stage]);
+    }
+    print_ticks(stats.total_ticks);
+    for (int i = 0; drawn && i < SIZES; i++) {
+        print_draw(world, camera, sizes[i]);
+    }
+    port_print("\n");
+}
+
+int main(void)
+{
+    static struct scene scene;
+    const char *name = port_option("scene") ? port_option("scene") : "head";
+    struct carom_config config = scene_config();
+    struct carom_world *world;
+    uint64_t hash;
+    size_t bytes;
+    int frames, first, draw;
+
+    port_init();
+    frames = number("frames", 600);
+    first = number("first", 1);
+    draw = number("draw", 0);
+    config.ticks = port_ticks;
+    config.sleep = number("awake", 0) == 0;
+    expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
+    bytes = world_bytes(&scene.caps);
+    config.caps = scene.caps;
+    expect(scene_make(&scene, &config, world_block, bytes, &world), "world");
+
+    port_print("world %lu\n", (unsigned long)bytes);
+    print_columns();
+    for (int frame = 1; frame <= frames; frame++) {
+        bool slept = all_asleep(world, 2 + scene.other_count);
+
+        expect(carom_world_step(world), "step");
+        if (frame >= first) {
+            print_frame(world, &scene.camera, slept, draw > 0 && frame % draw == 0);
+        }
+    }
+    hash = carom_world_hash(world);
+    /* in two halves: the small printf of newlib has no 64-bit formats */
+    port_print("hash %08lx%08lx\n", (unsigned long)(hash >> 32),
+               (unsigned long)(hash & 0xffffffff));
+    port_exit(0);
+}

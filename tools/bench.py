@@ -1,0 +1,271 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""Instructions by stage of the scenes of tests/bench_scenes.csv, on a board that counts them.
+
+Every scene must end in its committed state, on the host and on the board, before its figures are
+used. They go to out/bench.csv (scene, phase, stage, mean, max of a frame); rows of scenes that do
+not run stay there. Phases: apart, the broad boxes of no two bodies overlap; near, they do but
+nothing touches; contact, bodies touch; asleep, all of them; all. Beside the stages: total;
+draw-WxH of the frames that are drawn; whole, total and the larger picture of the same frame;
+candidates, pairs of features handed to the collision test.
+"""
+import argparse
+import csv
+import os
+import re
+import subprocess
+import sys
+
+import gate
+import run_board
+
+OUT = "out/bench.csv"
+BARS_OUT = "out/bench_bars.csv"
+BASELINE = "tests/bench_baseline.csv"
+SCENES = "tests/bench_scenes.csv"
+PHASES = ["apart", "near", "contact", "asleep", "all"]
+DISPLAY = "draw-512x512"
+TIMEOUT = 900  # seconds a run
+
+# scene, phase, stage, mean or worst, at most
+BARS = [
+    ("head", "near", "total", "mean", 110000),
+    ("head", "contact", "total", "mean", 267000),
+    ("head", "all", "total", "worst", 800000),
+    ("head-spin", "all", "total", "worst", 800000),
+    ("head450", "contact", "total", "mean", 150000),
+    ("head836", "contact", "total", "mean", 180000),
+    ("apart", "apart", "total", "worst", 3000),
+    ("head", "asleep", "total", "worst", 500),
+    ("asleep", "asleep", "total", "worst", 500),
+    ("flight32", "all", "total", "mean", 1200000),
+    ("pile32", "all", "total", "mean", 5000000),
+    ("boxes10", "all", "total", "mean", 600000),
+    ("head", "contact", "draw-320x240", "mean", 1300000),
+    ("head", "contact", "draw-512x512", "mean", 2200000),
+    ("head", "contact", "whole", "mean", 2600000),
+]
+GROWTH = "growth-512", "growth-49928", 5  # the last below so many times the first, in contact
+RAM = 16384  # a world that just holds the head scene, and the stack
+CODE = {"without draw": 24 * 1024, "with draw": 30 * 1024}  # at -Os
+GROWN = 1.01  # the gate's: a worst frame may cost so much of the committed one
+
+# The paper's table: seconds a frame on a machine of so many instructions a second
+PAPER = {"head": 0.24, "head450": 0.35, "head836": 0.53}
+PAPER_RATE = 16e6
+
+
+def run(image, options):
+    """Run a scene: its process, a row a frame by column, and what it said by the word before it."""
+    done = subprocess.run(run_board.command(image, options), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, text=True, timeout=TIMEOUT)
+    words = [line.partition(" ") for line in done.stdout.splitlines()]
+    said = {word: rest for word, _, rest in words}
+    columns = said.get("columns", "").split(",")
+    rows = [dict(zip(columns, rest.split(","))) for word, _, rest in words if word == "frame"]
+    return done, rows, said
+
+
+def options_of(entry, *without):
+    every = ["scene=" + entry["scene"], "frames=" + entry["frames"]] + entry["options"].split()
+    return [option for option in every if not option.startswith(without)]
+
+
+def measure(entry, host, board):
+    """The rows of an entry of SCENES, from the board; the state must be as committed."""
+    for image, options in [(host, options_of(entry, "draw=")), (board, options_of(entry, "-"))]:
+        done, rows, said = run(image, options)
+        if done.returncode or "hash" not in said:
+            sys.exit("%s: %s ended with status %d\n%s" % (entry["scene"], image, done.returncode,
+                                                         done.stdout[-300:]))
+        if said["hash"] != entry["hash"]:
+            sys.exit("%s: the state after %s frames of %s is %s; %s has %s. No figures."
+                     % (entry["scene"], entry["frames"], image, said["hash"], SCENES,
+                        entry["hash"] or "none"))
+    for row in rows:
+        row.update((name, int(text)) for name, text in row.items() if name != "phase")
+        if DISPLAY in row:
+            row["whole"] = row["total"] + row[DISPLAY]
+    return rows
+
+
+def summary(label, rows):
+    """(scene, phase, stage): (frames, mean, worst)."""
+    found = {}
+    for phase in PHASES:
+        chosen = [row for row in rows if phase in ("all", row["phase"])]
+        stages = dict.fromkeys(name for row in chosen for name in row if name != "phase")
+        for stage in stages:
+            values = [row[stage] for row in chosen if stage in row]
+            found[label, phase, stage] = len(values), sum(values) / len(values), max(values)
+    return found
+
+
+def read_csv(path):
+    """(scene, phase, stage): (mean, worst), in order; nothing when there is no such file."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, newline="") as file:
+        return {(row["scene"], row["phase"], row["stage"]):
+                (int(row["instructions_mean"]), int(row["instructions_max"]))
+                for row in csv.DictReader(file)}
+
+
+def write_csv(path, found):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "phase", "stage", "instructions_mean", "instructions_max"])
+        for key, (mean, worst) in found.items():
+            writer.writerow([*key, mean, worst])
+
+
+def merged(old, new):
+    """The new figures in place of all old ones of the same scenes."""
+    scenes = {key[0] for key in new}
+    return {**{key: value for key, value in old.items() if key[0] not in scenes}, **new}
+
+
+def change(now, before):
+    return "%+.1f %%" % (100 * (now - before) / before) if before else "new"
+
+
+def print_totals(found, baseline):
+    print("\n%-16s %-8s %-13s %6s %10s %9s %10s %9s"
+          % ("instructions", "phase", "", "frames", "mean", "change", "worst", "change"))
+    for (scene, phase, stage), (frames, mean, worst) in found.items():
+        if stage == "total" or phase == "all" and (stage == "whole" or stage.startswith("draw-")):
+            before = baseline.get((scene, phase, stage), (0, 0))
+            print("%-16s %-8s %-13s %6d %10d %9s %10d %9s"
+                  % (scene, phase, stage, frames, round(mean), change(round(mean), before[0]),
+                     worst, change(worst, before[1])))
+
+
+def print_paper(figures):
+    measured = [scene for scene in PAPER if (scene, "contact", "whole") in figures]
+    if measured:
+        print("\n%-16s %12s %14s %14s"
+              % ("in contact, drawn", "paper, s", "instructions", "here, whole"))
+    for scene in measured:
+        print("%-16s %13.2f %14d %14d" % (scene, PAPER[scene], PAPER[scene] * PAPER_RATE,
+                                          figures[scene, "contact", "whole"][0]))
+
+
+def head_ram(entry, host):
+    """Bytes of the smallest world that takes the head scene to the same state, and its pools."""
+    def world(contacts, faces):
+        done, _, said = run(host, options_of(entry, "draw=") +
+                            ["caps=2,1,%d,%d,1,1" % (contacts, faces)])
+        same = done.returncode == 0 and said.get("hash") == entry["hash"]
+        return int(said["world"]) if same else None
+
+    def least(fits, most):
+        low, high = 0, most  # it does not, it does
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if fits(middle) else (middle, high)
+        return high
+
+    contacts = least(lambda n: world(n, 1024), 64)
+    faces = least(lambda n: world(contacts, n), 1024)
+    return world(contacts, faces), "2,1,%d,%d,1,1" % (contacts, faces)
+
+
+def deepest_stack():
+    said = gate.output(["tools/check_stack"])
+    return int(re.search(r"^pass: .* (\d+) bytes of stack", said, re.M).group(1))
+
+
+def memory_bars(entries, host, board):
+    """(bar, limit, measured) of RAM, with what a frame takes in so little of it, and code."""
+    entry = next(e for e in entries if e["scene"] == "head")
+    block, caps = head_ram(entry, host)
+    stack = deepest_stack()
+    yield "head, world of %s: %d bytes, and stack: %d" % (caps, block, stack), RAM, block + stack
+    _, rows, _ = run(board, options_of(entry, "draw=") + ["caps=" + caps])
+    totals = [int(row["total"]) for row in rows]
+    yield "head in that world, mean", None, round(sum(totals) / len(totals))
+    yield "head in that world, worst", None, max(totals)
+    for level in ["-Os", "-O2"]:
+        made = gate.objects("bench" + level, "arm-none-eabi-gcc",
+                            ["-mcpu=cortex-m3", "-mthumb", level])
+        for what, limit in CODE.items():
+            kept = [m for path, m in made if what == "with draw" or gate.stage(path) != "draw"]
+            text, rodata, data, _ = gate.sections(kept)
+            yield ("code %s, %s" % (what, level), limit if level == "-Os" else None,
+                   text + rodata + data)
+
+
+def cost_bars(figures):
+    """(bar, limit, measured) of instructions."""
+    for scene, phase, stage, which, limit in BARS:
+        if (scene, phase, stage) in figures:
+            value = figures[scene, phase, stage][which == "worst"]
+            yield "%s %s %s, %s" % (scene, phase, stage, which), limit, value
+    first, last = [figures.get((scene, "contact", "total")) for scene in GROWTH[:2]]
+    if first and last:
+        yield "%s by %s, contact, mean" % (GROWTH[1], GROWTH[0]), GROWTH[2], \
+            round(last[0] / first[0], 2)
+
+
+def print_bars(bars):
+    print("\n%-60s %8s %9s" % ("bar", "limit", "measured"))
+    with open(BARS_OUT, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["bar", "limit", "measured", "ok"])
+        for name, limit, value in bars:
+            verdict = "" if limit is None else "ok" if value <= limit else "over"
+            print("%-60s %8s %9s  %s" % (name, limit or "", value, verdict))
+            writer.writerow([name, limit or "", value, verdict])
+
+
+def grown(figures, baseline):
+    """What the gate complains of: worst frames that cost more than the committed ones."""
+    for key, (_, worst) in figures.items():
+        if key[1] == "all" and (key[2] == "total" or key[2].startswith("draw-")):
+            before = baseline.get(key)
+            if not before or worst > GROWN * before[1]:
+                yield "%s %s: the worst frame takes %d instructions; %s has %s" % (
+                    key[0], key[2], worst, BASELINE, before[1] if before else "none")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("host", help="tests/bench.c for the host")
+    parser.add_argument("board", help="and for a board that counts instructions")
+    parser.add_argument("--scenes", help="labels of %s, with commas; else all" % SCENES)
+    parser.add_argument("--label", default="", help="what is measured: scenes become NAME-LABEL")
+    parser.add_argument("--baseline", action="store_true", help="write " + BASELINE)
+    parser.add_argument("--gate", action="store_true",
+                        help="only fail when a worst frame has grown by more than 1 %%")
+    arguments = parser.parse_args()
+    with open(SCENES, newline="") as file:
+        entries = list(csv.DictReader(file))
+    labels = dict.fromkeys(entry["label"] for entry in entries)
+    wanted = arguments.scenes.split(",") if arguments.scenes else labels
+    if not set(wanted) <= set(labels):
+        sys.exit("scenes are: " + ",".join(labels))
+
+    found = {}
+    for label in wanted:
+        print(label, flush=True)
+        rows = []
+        for entry in entries:
+            if entry["label"] == label:
+                rows += measure(entry, arguments.host, arguments.board)
+        name = "-".join(filter(None, [label, arguments.label]))
+        found.update(summary(name, rows))
+    figures = {key: (round(mean), worst) for key, (_, mean, worst) in found.items()}
+    baseline = read_csv(BASELINE)
+    write_csv(OUT, merged(read_csv(OUT), figures))
+    if arguments.baseline:
+        write_csv(BASELINE, merged(baseline, figures))
+    print_totals(found, baseline)
+    if arguments.gate:
+        gate.finish(list(grown(figures, baseline)), "no worst frame has grown by more than 1 %")
+    print_paper(figures)
+    print_bars([*cost_bars(figures), *memory_bars(entries, arguments.host, arguments.board)])
+
+
+if __name__ == "__main__":
+    main()
