@@ -223,9 +223,15 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         w->body_count++;
     }
     w->bodies[place] = made;
-    world_now(w)->bodies[place] = state;
+    world_put(w, place, &state);
     world_wake_around(w, place);
     return (int)place;
+}
+
+void world_put(struct carom_world *w, uint32_t body, const struct body_state *state)
+{
+    w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
+    world_accelerate(w, body);
 }
 
 bool world_has_body(const struct carom_world *w, int body)
@@ -247,7 +253,9 @@ int carom_body_remove(struct carom_world *w, int body)
     s = world_now(w);
     world_wake_around(w, (uint32_t)body);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    memset(&s->bodies[body], 0, sizeof s->bodies[body]);
+    for (int i = 0; i < 2; i++) {
+        memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
+    }
     for (uint32_t i = 0; i < s->warm_count; i++) {
         if (s->warm[i].a != body && s->warm[i].b != body) {
             s->warm[kept++] = s->warm[i];
@@ -289,7 +297,7 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
 
 int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)
 {
-    struct body_state *s;
+    struct body_state state;
     carom_quat_q30 q;
 
     if (!w || !in) {
@@ -307,17 +315,19 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
          !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
     }
-    s = &world_now(w)->bodies[body];
-    if (!w->bodies[body].moving && memcmp(&s->position, &in->position, sizeof s->position) == 0 &&
-        memcmp(&s->rotation, &q, sizeof q) == 0) {
+    state = world_now(w)->bodies[body];
+    if (!w->bodies[body].moving &&
+        memcmp(&state.position, &in->position, sizeof state.position) == 0 &&
+        memcmp(&state.rotation, &q, sizeof q) == 0) {
         return CAROM_OK; /* nothing moved: nothing wakes */
     }
-    s->position = in->position;
-    s->rotation = q;
-    s->out = 0;
+    state.position = in->position;
+    state.rotation = q;
+    state.out = 0;
     if (w->bodies[body].moving) {
-        body_set_motion(&w->bodies[body], s, &in->velocity, &in->spin);
+        body_set_motion(&w->bodies[body], &state, &in->velocity, &in->spin);
     }
+    world_put(w, (uint32_t)body, &state);
     world_wake_around(w, (uint32_t)body);
     return CAROM_OK;
 }
