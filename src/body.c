@@ -47,10 +47,42 @@ static void inverse_mul(const struct body *b, int e, int64_t out[3], const int64
     }
 }
 
+/*
+ * |w| <= |L| n / m, n being the largest sum of a row of J^-1: an L below m / 2n turns by less than
+ * half a radian. The sums have 32 bits at most, and 2^-20 is taken off for roundings.
+ */
+static uint64_t calm_angular_q40(const struct body *b)
+{
+    const struct carom_sym3 *inverse = &b->inverse_inertia;
+    int64_t most = 1, quotient;
+    int shift;
+
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 2;
+
+        for (int k = 0; k < 3; k++) {
+            sum += carom_abs(inverse->m[fix_sym3_at[i][k]]);
+        }
+        most = sum > most ? sum : most;
+    }
+    /* m / 2n = quotient 2^-32 2^(n.e - m.e - 1), in q40 */
+    quotient = ((int64_t)b->mass.m << 32) / most;
+    quotient -= quotient >> 20;
+    shift = inverse->e - b->mass.e - 1 - 32 + 40;
+    if (shift > 60 - fix_bits((uint64_t)quotient)) {
+        return (uint64_t)1 << 60;
+    }
+    return shift > -62 ? (uint64_t)fix_shift(quotient, shift) : 0;
+}
+
 void body_set_mass(struct body *b, struct fix_scaled mass)
 {
     b->mass = mass;
     b->inverse_mass = fix_scaled_inverse(mass);
+    /* |v| <= |p| / m, a 64th off for roundings */
+    b->calm_momentum_q40 =
+        (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
+    b->calm_angular_q40 = calm_angular_q40(b);
 }
 
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
@@ -249,14 +281,16 @@ void body_place(struct body *b, const struct body_state *s)
 {
     struct body_path *path = &b->path;
 
-    memset(path, 0, sizeof *path);
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
-        path->start.x.c[k] = s->position.c[k] - carom_shl(path->origin_q22[k], 10);
+        path->start.x.c[k] = (int32_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+        path->v.c[k] = path->g.c[k] = 0;
+        path->u.c[k] = 0;
     }
+    path->u2_q30 = 0;
+    path->turns = false;
     path->start.q = s->rotation;
     body_matrix(&path->start.r, &s->rotation);
-    path->now = path->start;
 }
 
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
@@ -272,17 +306,17 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     }
     body_velocity(b, s, &v);
     for (int k = 0; k < 3; k++) {
-        path->v.c[k] = fix_mul(v.c[k], tau_q30, 30);
+        path->v.c[k] = fix_mul_q30(v.c[k], tau_q30);
         if (gravity) {
-            path->g.c[k] = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), tau_q30, 31);
+            path->g.c[k] = fix_mul(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
         }
-        path->v_q24.c[k] = (int32_t)carom_round(path->v.c[k], 16);
-        path->g_q24.c[k] = (int32_t)carom_round(path->g.c[k], 16);
     }
-    angular_in_body(b, s, &path->start.r, l);
-    cayley(b, l, tau_q30, &path->u);
-    path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
-    path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    if ((s->angular.c[0] | s->angular.c[1] | s->angular.c[2]) != 0) {
+        angular_in_body(b, s, &path->start.r, l);
+        cayley(b, l, tau_q30, &path->u);
+        path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+        path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    }
 }
 
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30)
@@ -291,10 +325,13 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     carom_v3_q40 w;
     int64_t rate_q40, turn_q40;
 
+    if (body_calm(b, s)) {
+        return tau_q30;
+    }
     body_matrix(&r, &s->rotation);
     body_spin(b, s, &r, &w);
     rate_q40 = fix_length(w.c);
-    turn_q40 = fix_mul(rate_q40, tau_q30, 30);
+    turn_q40 = fix_mul_q30(rate_q40, tau_q30);
     if (turn_q40 <= (int64_t)BODY_TURN_MAX_Q30 << 10) {
         return tau_q30;
     }
@@ -302,70 +339,56 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     return (int32_t)((((int64_t)BODY_TURN_MAX_Q30 << 30)) / (rate_q40 >> 10));
 }
 
-const struct body_pose *body_pose_at(struct body *b, int32_t t_q30)
+carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
 {
-    struct body_path *path = &b->path;
+    const struct body_path *path = &b->path;
+    carom_v3_q32 way;
+
+    for (int k = 0; k < 3; k++) {
+        way.c[k] = carom_round(
+            fix_mul_q30(path->v.c[k] + fix_mul_q30(path->g.c[k], t_q30), t_q30), 8);
+    }
+    return way;
+}
+
+carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
+{
+    const struct body_path *path = &b->path;
+    carom_quat_q30 q = path->start.q;
     int32_t u[3];
 
-    if (path->now.t_q30 == t_q30) {
-        return &path->now;
-    }
-    if (t_q30 == 0) {
-        path->now = path->start;
-        return &path->now;
-    }
-    path->now.t_q30 = t_q30;
-    for (int k = 0; k < 3; k++) {
-        int64_t d_q40 = fix_mul(path->v.c[k] + fix_mul(path->g.c[k], t_q30, 30), t_q30, 30);
-
-        path->now.x.c[k] = path->start.x.c[k] + carom_round(d_q40, 8);
-    }
-    if (path->turns) {
+    if (path->turns && t_q30 > 0) {
         for (int k = 0; k < 3; k++) {
             u[k] = carom_mul_q30(path->u.c[k], t_q30);
         }
-        turn(&path->now.q, &path->start.q, u);
-        body_matrix(&path->now.r, &path->now.q);
+        turn(&q, &path->start.q, u);
     }
-    return &path->now;
+    return q;
 }
 
-void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity)
 {
-    const struct body_pose *pose = body_pose_at(b, t_q30);
+    carom_v3_q32 way = body_way_at(b, t_q30);
 
     for (int k = 0; k < 3; k++) {
-        s->position.c[k] = carom_shl(b->path.origin_q22[k], 10) + pose->x.c[k];
-        if (gravity) {
-            int64_t dv_q40 = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), t_q30, 30);
+        s->position.c[k] += way.c[k];
+        if (gravity && gravity->c[k]) {
+            int64_t dv_q40 = fix_mul_q30(fix_mul_q30(gravity->c[k], tau_q30), t_q30);
 
             s->momentum.c[k] += fix_mul_scaled(dv_q40, b->mass);
         }
     }
-    s->rotation = pose->q;
-}
-
-carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p)
-{
-    carom_v3_q22 out;
-
-    for (int k = 0; k < 3; k++) {
-        /* q30 x q22 = q52: |r.p| <= 2^9 2^52 and |x| <= 2^7 2^52 */
-        int64_t sum_q52 = carom_dot(pose->r.c[k], p->c) + carom_shl(pose->x.c[k], 20);
-
-        out.c[k] = (int32_t)carom_round(sum_q52, 30);
-    }
-    return out;
+    s->rotation = body_rotation_at(b, t_q30);
 }
 
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
 {
     const struct body_path *path = &b->path;
-    int64_t way_q40 = fix_length(path->v.c) + fix_length(path->g.c);
-    const int64_t u_q30[3] = {path->u.c[0], path->u.c[1], path->u.c[2]};
+    int64_t way_q40 = fix_length_bound(path->v.c) + fix_length_bound(path->g.c);
+    int64_t u_q30 = path->turns ? fix_sqrt_above((uint64_t)(path->u2_q30 + 1) << 30) : 0;
 
     /* turned: 2 atan |u| <= 2 |u| */
-    *turn_q30 = fix_mul(2 * fix_length(u_q30), t_q30, 30) + 1;
-    *way_q22 = (fix_mul(way_q40, t_q30, 30) >> 18) + fix_mul(*turn_q30, b->radius_q22, 30) + 2;
+    *turn_q30 = fix_mul_q30(2 * u_q30, t_q30) + 1;
+    *way_q22 = (fix_mul_q30(way_q40, t_q30) >> 18) + fix_mul_q30(*turn_q30, b->radius_q22) + 2;
 }

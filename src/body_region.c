@@ -2,24 +2,13 @@
 /* The region of motion that candidates are gathered for. */
 #include "body.h"
 
-/* At least |v|, at most 1.16 of it. */
-static int64_t length_bound(const int64_t v[3])
-{
-    int64_t x = carom_abs(v[0]), y = carom_abs(v[1]), z = carom_abs(v[2]);
-    int64_t most = x > y ? x : y;
-
-    most = most > z ? most : z;
-    /* with m the largest: (m + (a + b) / 2)^2 >= m^2 + m (a + b) >= m^2 + a^2 + b^2 */
-    return most + (x + y + z - most + 1) / 2;
-}
-
 static void set_turn(struct body_region *region, const struct body_path *path)
 {
     carom_rotate(region->turn.c, &path->start.r, path->u.c);
     for (int k = 0; k < 3; k++) {
         region->turn.c[k] *= 2;
     }
-    region->u_q30 = path->turns ? (int32_t)fix_sqrt((uint64_t)path->u2_q30 << 30) + 1 : 0;
+    region->u_q30 = path->turns ? (int32_t)fix_sqrt((uint64_t)(path->u2_q30 + 1) << 30) + 1 : 0;
 }
 
 void body_region_begin(struct body *b, const struct body_state *s, int32_t time_q30,
@@ -42,10 +31,12 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t time_
     }
     set_turn(region, path);
     if (path->turns) {
-        region->end_r = body_pose_at(b, CAROM_ONE_Q30)->r;
+        carom_quat_q30 end = body_rotation_at(b, CAROM_ONE_Q30);
+
+        body_matrix(&region->end_r, &end);
     }
-    region->bend_q22 = (int32_t)(length_bound(path->g.c) >> 18) + 1;
-    region->length_q22 = (int32_t)(length_bound(path->v.c) >> 18) + 1 + region->bend_q22;
+    region->bend_q22 = (int32_t)(fix_length_bound(path->g.c) >> 18) + 1;
+    region->length_q22 = (int32_t)(fix_length_bound(path->v.c) >> 18) + 1 + region->bend_q22;
     turn_q30 = 2 * (int64_t)region->u_q30;
     b->reach_q22 = region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 +
                    room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
@@ -69,7 +60,7 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
 
         d[k] = x_q32[k] - region->at.c[k] - (way_q40 >> 8);
     }
-    return (length_bound(d) >> 10) + 1;
+    return (fix_length_bound(d) >> 10) + 1;
 }
 
 /*
@@ -95,7 +86,7 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
     }
     cubes_q30 = fix_mul((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30, 30);
     cubes_q30 += carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30);
-    return length_bound(d) + 2 * cubes_q30 + 4;
+    return fix_length_bound(d) + 2 * cubes_q30 + 4;
 }
 
 bool body_region_holds(const struct body *b, int32_t time_q30)
@@ -116,7 +107,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     at_end = off_q22(region, end, until_q30);
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by an eighth of their second derivatives */
-    off += (length_bound(path->g.c) + length_bound(region->bend.c)) >> 20;
+    off += (fix_length_bound(path->g.c) + fix_length_bound(region->bend.c)) >> 20;
     off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;
 }

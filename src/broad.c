@@ -22,9 +22,22 @@ static void bounds(const struct body *b, const struct body_state *s, int32_t rea
         int64_t h = reach_q22 + 8; /* 8: the roundings of this function */
 
         for (int j = 0; j < 3; j++) {
-            m += fix_mul(middle[j], r.c[k][j], 30);
-            h += fix_mul(half[j], (int32_t)carom_abs(r.c[k][j]), 30);
+            m += fix_mul_q30(middle[j], r.c[k][j]);
+            h += fix_mul_q30(half[j], (int32_t)carom_abs(r.c[k][j]));
         }
+        box_q22[0][k] = m - h;
+        box_q22[1][k] = m + h;
+    }
+}
+
+/* A larger box that costs little: that of the sphere around the body. */
+static void bounds_of_sphere(const struct body *b, const struct body_state *s, int64_t box_q22[2][3])
+{
+    int64_t h = (int64_t)b->radius_q22 + b->reach_q22 + 1;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t m = carom_round(s->position.c[k], 10);
+
         box_q22[0][k] = m - h;
         box_q22[1][k] = m + h;
     }
@@ -50,13 +63,41 @@ bool broad_near(const struct body *a, const struct body_state *state_a, const st
     return overlap(box_a, box_b);
 }
 
+/* Whether two boxes overlap; those of spheres are only trusted when they do not. */
+static bool boxes_overlap(struct body *bodies, const struct body_state *states, uint32_t a,
+                          uint32_t b)
+{
+    const uint32_t both[2] = {a, b};
+
+    if (!overlap(bodies[a].box_q22, bodies[b].box_q22)) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        struct body *body = &bodies[both[i]];
+
+        if (!body->boxed) {
+            bounds(body, &states[both[i]], body->reach_q22, body->box_q22);
+            body->boxed = true;
+        }
+    }
+    return overlap(bodies[a].box_q22, bodies[b].box_q22);
+}
+
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
                 const struct body_state *states, uint32_t body_count)
 {
     pool_clear(pool);
     for (uint32_t i = 0; i < body_count; i++) {
-        if (bodies[i].mesh) {
-            bounds(&bodies[i], &states[i], bodies[i].reach_q22, bodies[i].box_q22);
+        struct body *b = &bodies[i];
+
+        /* the box of what stands still is worked out once */
+        if (b->mesh && !b->standing) {
+            b->boxed = !broad_active(b, &states[i]);
+            if (b->boxed) {
+                bounds(b, &states[i], b->reach_q22, b->box_q22);
+            } else {
+                bounds_of_sphere(b, &states[i], b->box_q22);
+            }
         }
     }
     for (uint32_t a = 0; a < body_count; a++) {
@@ -70,7 +111,7 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
 
             if (!bodies[b].mesh || (bodies[b].moving && b >= a) || states[b].out ||
                 !(active || broad_active(&bodies[b], &states[b])) ||
-                !overlap(bodies[a].box_q22, bodies[b].box_q22)) {
+                !boxes_overlap(bodies, states, a, b)) {
                 continue;
             }
             place = pool_take(pool);

@@ -277,13 +277,23 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
     return true;
 }
 
+int64_t fix_length_bound(const int64_t v[3])
+{
+    int64_t x = carom_abs(v[0]), y = carom_abs(v[1]), z = carom_abs(v[2]);
+    int64_t most = x > y ? x : y;
+
+    most = most > z ? most : z;
+    /* with m the largest: (m + (a + b) / 2)^2 >= m^2 + m (a + b) >= m^2 + a^2 + b^2 */
+    return most + (x + y + z - most + 1) / 2;
+}
+
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
 {
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = fix_mul(v[0], m->c[k][0], 30) + fix_mul(v[1], m->c[k][1], 30) +
-               fix_mul(v[2], m->c[k][2], 30);
+        r[k] = fix_mul_q30(v[0], m->c[k][0]) + fix_mul_q30(v[1], m->c[k][1]) +
+               fix_mul_q30(v[2], m->c[k][2]);
     }
     memcpy(out, r, sizeof r);
 }
@@ -293,8 +303,8 @@ void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = fix_mul(v[0], m->c[0][k], 30) + fix_mul(v[1], m->c[1][k], 30) +
-               fix_mul(v[2], m->c[2][k], 30);
+        r[k] = fix_mul_q30(v[0], m->c[0][k]) + fix_mul_q30(v[1], m->c[1][k]) +
+               fix_mul_q30(v[2], m->c[2][k]);
     }
     memcpy(out, r, sizeof r);
 }

@@ -15,11 +15,13 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
+    if (!b->in_contact) {
+        return false;
+    }
     body_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);
-    return b->in_contact &&
-           fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
+    return fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
 }
 
 /* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */

@@ -152,10 +152,12 @@ static int set_mass(struct body *b, const struct carom_body_def *def)
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
-    body_set_mass(b, fix_scale(mass_q32, 32));
     b->inertia = def->mesh->mass.inertia;
-    return mass_invert(&b->inertia, &b->inverse_inertia, &b->inverse_rest) < 0 ? CAROM_ERR_RANGE
-                                                                               : CAROM_OK;
+    if (mass_invert(&b->inertia, &b->inverse_inertia, &b->inverse_rest) < 0) {
+        return CAROM_ERR_RANGE;
+    }
+    body_set_mass(b, fix_scale(mass_q32, 32));
+    return CAROM_OK;
 }
 
 /* Everything about a body that its definition settles. */
@@ -231,6 +233,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
 void world_put(struct carom_world *w, uint32_t body, const struct body_state *state)
 {
     w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
+    w->bodies[body].standing = false;
     world_accelerate(w, body);
 }
 

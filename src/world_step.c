@@ -55,6 +55,7 @@ void step_begin(struct step *s, struct carom_world *w)
     s->w = w;
     s->next = next;
     s->left_q30 = CAROM_ONE_Q30;
+    s->path_q30 = 0;
     /* 8 sub-steps a frame and 2 for each body that is awake, unless the caller says otherwise */
     s->substep_cap = w->config.substep_cap > 0 ? w->config.substep_cap : 8 + 2 * active;
     next->gravity = now->gravity;
