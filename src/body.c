@@ -307,8 +307,8 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     body_velocity(b, s, &v);
     for (int k = 0; k < 3; k++) {
         path->v.c[k] = fix_mul_q30(v.c[k], tau_q30);
-        if (gravity) {
-            path->g.c[k] = fix_mul(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
+        if (gravity && gravity->c[k] != 0) {
+            path->g.c[k] = fix_mul_low(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
         }
     }
     if ((s->angular.c[0] | s->angular.c[1] | s->angular.c[2]) != 0) {
@@ -345,8 +345,12 @@ carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
     carom_v3_q32 way;
 
     for (int k = 0; k < 3; k++) {
-        way.c[k] = carom_round(
-            fix_mul_q30(path->v.c[k] + fix_mul_q30(path->g.c[k], t_q30), t_q30), 8);
+        int64_t way_q40 = path->v.c[k] + path->g.c[k];
+
+        if (t_q30 < CAROM_ONE_Q30) {
+            way_q40 = fix_mul_q30(path->v.c[k] + fix_mul_q30(path->g.c[k], t_q30), t_q30);
+        }
+        way.c[k] = carom_round(way_q40, 8);
     }
     return way;
 }
@@ -373,7 +377,7 @@ void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int
 
     for (int k = 0; k < 3; k++) {
         s->position.c[k] += way.c[k];
-        if (gravity && gravity->c[k]) {
+        if (gravity && gravity->c[k] != 0) {
             int64_t dv_q40 = fix_mul_q30(fix_mul_q30(gravity->c[k], tau_q30), t_q30);
 
             s->momentum.c[k] += fix_mul_scaled(dv_q40, b->mass);

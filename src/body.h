@@ -175,6 +175,8 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t time_q30,
                        int32_t room_q22);
+/* Where the region's path turns to; it is the present one. Interfere asks for that. */
+void body_region_end(struct body *b);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
 /* Go on by t of the present path. */

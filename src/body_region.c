@@ -30,18 +30,22 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t time_
         region->end.c[k] = path->v.c[k] + path->g.c[k];
     }
     set_turn(region, path);
-    if (path->turns) {
-        carom_quat_q30 end = body_rotation_at(b, CAROM_ONE_Q30);
-
-        body_matrix(&region->end_r, &end);
-    }
     region->bend_q22 = (int32_t)(fix_length_bound(path->g.c) >> 18) + 1;
     region->length_q22 = (int32_t)(fix_length_bound(path->v.c) >> 18) + 1 + region->bend_q22;
     turn_q30 = 2 * (int64_t)region->u_q30;
-    b->reach_q22 = region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 +
+    b->reach_q22 = region->length_q22 + (int32_t)fix_mul_q30(turn_q30, b->radius_q22) + 2 +
                    room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
     turn_q30 += ((int64_t)room_q22 << 30) / b->radius_q22 + 1;
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
+}
+
+void body_region_end(struct body *b)
+{
+    if (b->path.turns) {
+        carom_quat_q30 end = body_rotation_at(b, CAROM_ONE_Q30);
+
+        body_matrix(&b->region.end_r, &end);
+    }
 }
 
 /* How far the centre is off the region's path at a time, x_q32 being where it is. */

@@ -62,23 +62,15 @@ int64_t fix_sqrt_above(uint64_t v)
 
 int64_t fix_mul(int64_t a, int32_t b, int s)
 {
-    /*
-     * a = high 2^32 + low with low unsigned, so both partial products fit int64:
-     * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half added below.
-     */
-    int64_t high = (a >> 32) * b;
-    int64_t low = (int64_t)((uint64_t)a & 0xffffffffu) * b;
-
     CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
     if (s <= 32) {
-        /*
-         * high 2^32 is a whole multiple of 2^s: only the low part is rounded. The high part alone
-         * may not fit where the sum does, so they are added modulo 2^64.
-         */
-        return (int64_t)((uint64_t)carom_shl(high, 32 - s) + (uint64_t)carom_round(low, s));
+        return fix_mul_low(a, b, s);
     }
-    /* The low 32 bits cannot carry past the half, a multiple of 2^32. */
-    return carom_round(high + (low >> 32), s - 32);
+    /*
+     * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half that is added. The low
+     * 32 bits cannot carry past the half, a multiple of 2^32.
+     */
+    return carom_round((a >> 32) * b + (((int64_t)(uint32_t)a * b) >> 32), s - 32);
 }
 
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)

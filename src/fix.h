@@ -73,11 +73,21 @@ int64_t fix_sqrt_above(uint64_t v);
  */
 int64_t fix_mul(int64_t a, int32_t b, int s);
 
-/* fix_mul(a, b, 30): a number in any format times one in q30. */
+/*
+ * The same for 1 <= s <= 32, quick when s is a constant: a = high 2^32 + low with low unsigned, so that
+ * high 2^32 is a whole multiple of 2^s and only the low part is rounded. The high part alone may not
+ * fit where the sum does, so they are added modulo 2^64.
+ */
+static inline int64_t fix_mul_low(int64_t a, int32_t b, int s)
+{
+    return (int64_t)((uint64_t)carom_shl((a >> 32) * b, 32 - s) +
+                     (uint64_t)carom_round((int64_t)(uint32_t)a * b, s));
+}
+
+/* A number in any format times one in q30. */
 static inline int64_t fix_mul_q30(int64_t a, int32_t b)
 {
-    return (int64_t)((uint64_t)carom_shl((a >> 32) * b, 2) +
-                     (uint64_t)carom_round((int64_t)(uint32_t)a * b, 30));
+    return fix_mul_low(a, b, 30);
 }
 
 /* At least |v|, at most 1.16 of it. */

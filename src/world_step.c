@@ -84,7 +84,8 @@ static int substep(struct step *s)
     int result = CAROM_OK;
 
     s->w->stats.substeps++;
-    if (step_retire(s)) {
+    /* what nothing has changed since it was gathered for is in range */
+    if (s->path_q30 == 0 && step_retire(s)) {
         result = step_gather(s);
     }
     if (result == CAROM_OK) {

@@ -110,7 +110,12 @@ static int gather(struct step *s, int32_t slice_q30)
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].standing = !broad_active(&w->bodies[i], &s->next->bodies[i]);
+        struct body *b = &w->bodies[i];
+
+        b->standing = !broad_active(b, &s->next->bodies[i]);
+        if (!b->standing && w->pools[CAROM_POOL_pairs].used > 0) {
+            body_region_end(b);
+        }
     }
     step_mark(w, CAROM_STAGE_BROAD);
     if (result < 0) {
@@ -186,8 +191,8 @@ int step_predict(struct step *s, int32_t *slice_q30)
 {
     int result = CAROM_OK;
 
-    *slice_q30 = step_slice(s);
-    if (s->path_q30 != *slice_q30) {
+    *slice_q30 = s->path_q30 > 0 ? s->path_q30 : step_slice(s);
+    if (s->path_q30 == 0) {
         predict_all(s, *slice_q30);
         if (leaves_region(s, *slice_q30)) {
             result = step_gather(s);
