@@ -1,50 +1,69 @@
 /* SPDX-License-Identifier: MIT */
 #include "body.h"
 
-/* (high 2^31 + low) / 2^s to nearest; |high|, |low| < 2^63. */
-static int64_t shift_parts(int64_t high, int64_t low, int s)
+/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+static int64_t shift_parts(int64_t high, int64_t low, int bits, int s)
 {
-    if (s > 31) {
-        /* what low has below 2^31 cannot carry past the half */
-        return s - 31 > 62 ? 0 : carom_round(high + (low >> 31), s - 31);
+    if (s > bits) {
+        /* what low has below 2^bits cannot carry past the half */
+        return s - bits > 62 ? 0 : carom_round(high + (low >> bits), s - bits);
     }
     if (s < 1) {
-        return carom_shl(carom_shl(high, 31) + low, -s);
+        return carom_shl(carom_shl(high, bits) + low, -s);
     }
-    return carom_shl(high, 31 - s) + carom_round(low, s);
+    return carom_shl(high, bits - s) + carom_round(low, s);
+}
+
+/* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
+static inline void sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+{
+    const int32_t x = v[0], y = v[1], z = v[2];
+
+    out[0] = (int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z;
+    out[1] = (int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z;
+    out[2] = (int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z;
+}
+
+/* v = high 2^31 + low */
+static inline void split(const int64_t v[3], int32_t high[3], int32_t low[3])
+{
+    for (int k = 0; k < 3; k++) {
+        CAROM_ASSERT(carom_abs(v[k]) < (int64_t)1 << 62);
+        high[k] = (int32_t)(v[k] >> 31);
+        low[k] = (int32_t)(v[k] & INT32_MAX);
+    }
+}
+
+static void add_parts(int64_t out[3], const int32_t m[6], const int32_t high[3],
+                      const int32_t low[3], int s)
+{
+    int64_t sum[3], small[3];
+
+    sym3_dot(sum, m, high);
+    sym3_dot(small, m, low);
+    for (int k = 0; k < 3; k++) {
+        out[k] += shift_parts(sum[k], small[k], 31, s);
+    }
 }
 
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
 {
     int32_t high[3], low[3];
 
-    /* v = high 2^31 + low: sums of three products with |m| <= 2^30 are below 2^63 */
-    for (int k = 0; k < 3; k++) {
-        CAROM_ASSERT(carom_abs(v[k]) < (int64_t)1 << 62);
-        high[k] = (int32_t)(v[k] >> 31);
-        low[k] = (int32_t)(v[k] & INT32_MAX);
-    }
-    for (int i = 0; i < 3; i++) {
-        const int32_t row[3] = {m->m[fix_sym3_at[i][0]], m->m[fix_sym3_at[i][1]],
-                                m->m[fix_sym3_at[i][2]]};
-
-        out[i] = shift_parts(carom_dot(row, high), carom_dot(row, low), m->e);
-    }
+    split(v, high, low);
+    out[0] = out[1] = out[2] = 0;
+    add_parts(out, m->m, high, low, m->e);
 }
 
-/* out = J^-1 v with all the digits of the inverse; its exponent is raised by e. out may be v. */
-static void inverse_mul(const struct body *b, int e, int64_t out[3], const int64_t v[3])
+/* out = J^-1 v with all the digits of the inverse; out may be v. */
+static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3])
 {
-    struct carom_sym3 inverse = b->inverse_inertia, rest = b->inverse_rest;
-    int64_t more[3];
+    int32_t high[3], low[3];
 
-    inverse.e += e;
-    rest.e += e;
-    body_sym3_mul(more, &rest, v);
-    body_sym3_mul(out, &inverse, v);
-    for (int k = 0; k < 3; k++) {
-        out[k] += more[k];
-    }
+    split(v, high, low);
+    out[0] = out[1] = out[2] = 0;
+    add_parts(out, b->inverse_inertia.m, high, low, b->inverse_inertia.e);
+    add_parts(out, b->inverse_rest.m, high, low, b->inverse_rest.e);
 }
 
 /*
@@ -108,7 +127,7 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
     memset(w, 0, sizeof *w);
     if (b->moving) {
         angular_in_body(b, s, r, w->c);
-        inverse_mul(b, 0, w->c, w->c);
+        inverse_mul(b, w->c, w->c);
         fix_rotate(w->c, r, w->c);
     }
 }
@@ -223,13 +242,53 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
     body_normalise(out);
 }
 
-/* m u / 2^60 to within a few units; |m| < 2^61, |u| < 2^60. */
-static int64_t mul_q60(int64_t m, int64_t u)
-{
-    int64_t high = m >> 31, low = m & INT32_MAX;
-    int64_t u_high = u >> 30, u_low = u & (CAROM_ONE_Q30 - 1);
+/* A vector of 60 bits in parts, high 2^bits + low. */
+struct parts {
+    int32_t high[3], low[3];
+};
 
-    return 2 * high * u_high + carom_round(low * u_high + 2 * high * u_low, 30);
+static inline struct parts parts_of(const int64_t v[3], int bits)
+{
+    struct parts p;
+
+    for (int k = 0; k < 3; k++) {
+        p.high[k] = (int32_t)(v[k] >> bits);
+        p.low[k] = (int32_t)(v[k] & (((int64_t)1 << bits) - 1));
+    }
+    return p;
+}
+
+/*
+ * out = J^-1 m / 2^s, m = high 2^31 + low below 2^61, to within a unit or two. The inverse is
+ * inertia + rest 2^-29: of the rest only the product with the upper parts counts. A quarter of the low
+ * product is below 2^61, that of the rest below 2^62.
+ */
+static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
+{
+    int64_t high[3], low[3], rest[3];
+
+    CAROM_ASSERT(b->inverse_rest.e == b->inverse_inertia.e + 29);
+    const int more = s - 2 - 29;
+    const int64_t half = more > 0 && more < 63 ? (int64_t)1 << (more - 1) : 0;
+
+    sym3_dot(high, b->inverse_inertia.m, m->high);
+    sym3_dot(low, b->inverse_inertia.m, m->low);
+    sym3_dot(rest, b->inverse_rest.m, m->high);
+    for (int k = 0; k < 3; k++) {
+        rest[k] += low[k] >> 2;
+        out[k] = half != 0 ? (high[k] + (rest[k] >> 29) + half) >> more
+                           : shift_parts(high[k], rest[k], 29, s - 2);
+    }
+}
+
+/* Component m_i u_j - m_j u_i of m x u in the format of m; m has 31 bits in its low parts, u 30. */
+static inline int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
+{
+    int64_t low = (int64_t)m->high[i] * u->low[j] - (int64_t)m->high[j] * u->low[i];
+
+    low = 2 * low + (int64_t)m->low[i] * u->high[j] - (int64_t)m->low[j] * u->high[i];
+    return 2 * ((int64_t)m->high[i] * u->high[j] - (int64_t)m->high[j] * u->high[i]) +
+           carom_round(low, 30);
 }
 
 /*
@@ -252,25 +311,26 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
     up = 60 - fix_bits(all);
     up = up < 0 ? 0 : up;
     for (int k = 0; k < 3; k++) {
-        m[k] = start[k] = fix_mul(carom_shl(l_q40[k], up), tau_q30, 31);
+        m[k] = start[k] = fix_mul_low(carom_shl(l_q40[k], up), tau_q30, 31);
     }
     for (int round = 0; round < 20; round++) {
         int64_t next[3], change = 0;
+        struct parts of_m = parts_of(m, 31), of_u;
 
-        inverse_mul(b, 40 + up - 60, next, m);
+        inverse_mul_parts(b, next, &of_m, b->inverse_inertia.e + 40 + up - 60);
         for (int k = 0; k < 3; k++) {
-            change |= carom_abs(next[k] - u_q60[k]);
+            int64_t d = next[k] - u_q60[k];
+
+            change |= d ^ (d >> 63); /* |d|, or one less */
             u_q60[k] = next[k];
         }
         if (change < (int64_t)1 << 27) {
             break;
         }
-        for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-
-            next[k] = start[k] + mul_q60(m[i], u_q60[j]) - mul_q60(m[j], u_q60[i]);
-        }
-        memcpy(m, next, sizeof m);
+        of_u = parts_of(u_q60, 30);
+        m[0] = start[0] + cross_part(&of_m, &of_u, 1, 2);
+        m[1] = start[1] + cross_part(&of_m, &of_u, 2, 0);
+        m[2] = start[2] + cross_part(&of_m, &of_u, 0, 1);
     }
     for (int k = 0; k < 3; k++) {
         u->c[k] = (int32_t)carom_round(u_q60[k], 30);

@@ -63,14 +63,14 @@ int64_t fix_sqrt_above(uint64_t v)
 int64_t fix_mul(int64_t a, int32_t b, int s)
 {
     CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
-    if (s <= 32) {
-        return fix_mul_low(a, b, s);
+    if (s > 32) {
+        /*
+         * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half that is added.
+         * The low 32 bits cannot carry past the half, a multiple of 2^32.
+         */
+        return carom_round((a >> 32) * b + (((int64_t)(uint32_t)a * b) >> 32), s - 32);
     }
-    /*
-     * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half that is added. The low
-     * 32 bits cannot carry past the half, a multiple of 2^32.
-     */
-    return carom_round((a >> 32) * b + (((int64_t)(uint32_t)a * b) >> 32), s - 32);
+    return fix_mul_low(a, b, s);
 }
 
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)

@@ -49,6 +49,8 @@ static void put_to_sleep(const struct body *bodies, struct body_state *states, u
 void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
                 const struct pair *touching, uint32_t touching_count)
 {
+    bool any = false;
+
     for (uint32_t i = 0; i < body_count; i++) {
         if (!broad_active(&bodies[i], &states[i])) {
             continue;
@@ -58,6 +60,10 @@ void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_co
         } else if (states[i].quiet < QUIET_FRAMES) {
             states[i].quiet++;
         }
+        any = any || states[i].quiet == QUIET_FRAMES;
+    }
+    if (!any) {
+        return;
     }
     rest_islands_begin(bodies, body_count);
     for (uint32_t i = 0; i < touching_count; i++) {
