@@ -140,7 +140,7 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 
     body_matrix(&r, &s->rotation);
     fix_rotate_back(l, &r, w->c);
-    body_sym3_mul(l, &b->inertia, l);
+    body_sym3_mul(l, &b->mesh->mass.inertia, l);
     fix_rotate(l, &r, l);
     for (int k = 0; k < 3; k++) {
         s->momentum.c[k] = fix_mul_scaled(v->c[k], b->mass);
@@ -173,7 +173,7 @@ struct fix_wide body_lift2(const struct body *b)
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)
 {
     static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
-    struct carom_sym3 whole = b->inertia;
+    struct carom_sym3 whole = b->mesh->mass.inertia;
 
     whole.e = 1; /* as plain integers, doubled below */
     for (int n = 0; n < 6; n++) {
@@ -189,7 +189,7 @@ void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct caro
             out->m[n] += (int32_t)fix_mul(axis[k], r->c[row[n]][k], 59);
         }
     }
-    out->e = b->inertia.e;
+    out->e = b->mesh->mass.inertia.e;
 }
 
 void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)

@@ -77,8 +77,7 @@ struct body {
     bool standing; /* still, and the path, the region and the box are those of where it is */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
-    struct carom_sym3 inertia;                       /* divided by the mass, in the mesh's axes */
-    struct carom_sym3 inverse_inertia, inverse_rest; /* the inverse of that is their sum */
+    struct carom_sym3 inverse_inertia, inverse_rest; /* their sum: of the mesh's inertia by mass */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
@@ -92,7 +91,7 @@ struct body {
     struct body_region region;
     int32_t reach_q22;               /* how far any point may go in the region, and the margin */
     int32_t turn_q30;                /* and how far the body may turn, radians */
-    int64_t box_q22[2][3];           /* in world axes around it, grown by the reach */
+    int32_t box_q18[2][3];           /* in world axes around it, grown by the reach */
     bool boxed;                      /* around its mesh's box; else around its sphere */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
     uint16_t contacts;               /* where the island's contacts are listed */

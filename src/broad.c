@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "broad.h"
 
+/* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
+static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)
+{
+    box_q18[0][k] = (int32_t)((middle_q22 - half_q22) >> 4);
+    box_q18[1][k] = (int32_t)((middle_q22 + half_q22) >> 4) + 1;
+}
+
 /* The box of a body in world axes, grown by its reach. */
 static void bounds(const struct body *b, const struct body_state *s, int32_t reach_q22,
-                   int64_t box_q22[2][3])
+                   int32_t box_q18[2][3])
 {
     const struct carom_mesh *mesh = b->mesh;
     int shift = 22 - mesh->raw.quantum_bits;
@@ -25,25 +32,22 @@ static void bounds(const struct body *b, const struct body_state *s, int32_t rea
             m += fix_mul_q30(middle[j], r.c[k][j]);
             h += fix_mul_q30(half[j], (int32_t)carom_abs(r.c[k][j]));
         }
-        box_q22[0][k] = m - h;
-        box_q22[1][k] = m + h;
+        set_side(box_q18, k, m, h);
     }
 }
 
 /* A larger box that costs little: that of the sphere around the body. */
-static void bounds_of_sphere(const struct body *b, const struct body_state *s, int64_t box_q22[2][3])
+static void bounds_of_sphere(const struct body *b, const struct body_state *s,
+                             int32_t box_q18[2][3])
 {
     int64_t h = (int64_t)b->radius_q22 + b->reach_q22 + 1;
 
     for (int k = 0; k < 3; k++) {
-        int64_t m = carom_round(s->position.c[k], 10);
-
-        box_q22[0][k] = m - h;
-        box_q22[1][k] = m + h;
+        set_side(box_q18, k, carom_round(s->position.c[k], 10), h);
     }
 }
 
-static bool overlap(int64_t a[2][3], int64_t b[2][3])
+static bool overlap(int32_t a[2][3], int32_t b[2][3])
 {
     for (int k = 0; k < 3; k++) {
         if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) {
@@ -56,7 +60,7 @@ static bool overlap(int64_t a[2][3], int64_t b[2][3])
 bool broad_near(const struct body *a, const struct body_state *state_a, const struct body *b,
                 const struct body_state *state_b, int32_t margin_q22)
 {
-    int64_t box_a[2][3], box_b[2][3];
+    int32_t box_a[2][3], box_b[2][3];
 
     bounds(a, state_a, margin_q22, box_a);
     bounds(b, state_b, margin_q22, box_b);
@@ -69,18 +73,18 @@ static bool boxes_overlap(struct body *bodies, const struct body_state *states, 
 {
     const uint32_t both[2] = {a, b};
 
-    if (!overlap(bodies[a].box_q22, bodies[b].box_q22)) {
+    if (!overlap(bodies[a].box_q18, bodies[b].box_q18)) {
         return false;
     }
     for (int i = 0; i < 2; i++) {
         struct body *body = &bodies[both[i]];
 
         if (!body->boxed) {
-            bounds(body, &states[both[i]], body->reach_q22, body->box_q22);
+            bounds(body, &states[both[i]], body->reach_q22, body->box_q18);
             body->boxed = true;
         }
     }
-    return overlap(bodies[a].box_q22, bodies[b].box_q22);
+    return overlap(bodies[a].box_q18, bodies[b].box_q18);
 }
 
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
@@ -94,9 +98,9 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
         if (b->mesh && !b->standing) {
             b->boxed = !broad_active(b, &states[i]);
             if (b->boxed) {
-                bounds(b, &states[i], b->reach_q22, b->box_q22);
+                bounds(b, &states[i], b->reach_q22, b->box_q18);
             } else {
-                bounds_of_sphere(b, &states[i], b->box_q22);
+                bounds_of_sphere(b, &states[i], b->box_q18);
             }
         }
     }

@@ -18,15 +18,16 @@ _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BY
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
 /* each of the carved arrays may be rounded up to 8 bytes */
-_Static_assert(sizeof(struct carom_world) + ZLIST_CELLS_MAX * sizeof(uint16_t) + 16 * 8 <=
-                   CAROM_WORLD_FIXED_BYTES,
+_Static_assert(sizeof(struct carom_world) + 16 * 8 <= CAROM_WORLD_FIXED_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
+_Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_HEADS_BYTES");
 
 /* -------------------------------------------------------------------- init */
 
 static bool capacities_in_range(const struct carom_caps *caps)
 {
-#define IN_RANGE(name, bytes, low, high) (caps->name >= (low) && caps->name <= (high)) &&
+/* one more of both, so that 0 may be the smallest */
+#define IN_RANGE(name, bytes, low, high) (caps->name + 1 > (low) && caps->name <= (high)) &&
     return CAROM_POOLS(IN_RANGE) true;
 #undef IN_RANGE
 }
@@ -55,7 +56,10 @@ static void carve(struct carom_world *w, struct arena *arena)
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
-    w->interfere.lists.head = arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    if (caps->entries > 0) {
+        w->interfere.lists.head =
+            arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    }
     w->interfere.candidates =
         arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
 }
@@ -152,8 +156,7 @@ static int set_mass(struct body *b, const struct carom_body_def *def)
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
-    b->inertia = def->mesh->mass.inertia;
-    if (mass_invert(&b->inertia, &b->inverse_inertia, &b->inverse_rest) < 0) {
+    if (mass_invert(&def->mesh->mass.inertia, &b->inverse_inertia, &b->inverse_rest) < 0) {
         return CAROM_ERR_RANGE;
     }
     body_set_mass(b, fix_scale(mass_q32, 32));

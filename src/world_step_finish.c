@@ -18,8 +18,7 @@ void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 /* The same as world_in_range, sooner for most. */
 static bool in_range(const struct body *b, const struct body_state *s)
 {
-    return (body_calm(b, s) &&
-            world_each_within(s->position.c, (int64_t)BODY_WORLD_LIMIT << 32)) ||
+    return (body_calm(b, s) && world_each_within(s->position.c, (int64_t)BODY_WORLD_LIMIT << 32)) ||
            world_in_range(b, s);
 }
 

@@ -546,7 +546,7 @@ static void test_inertia(void)
         body_matrix(&matrix, &state.rotation);
         body_world_inertia(&body, &matrix, &turned);
         real_sym3(mine, &turned);
-        real_sym3(j, &body.inertia);
+        real_sym3(j, &shape.mesh.mass.inertia);
         real_quaternion(m, &state.rotation);
         for (int a = 0; a < 3; a++) {
             for (int b = 0; b < 3; b++) {
