@@ -99,8 +99,7 @@ void body_set_mass(struct body *b, struct fix_scaled mass)
     b->mass = mass;
     b->inverse_mass = fix_scaled_inverse(mass);
     /* |v| <= |p| / m, a 64th off for roundings */
-    b->calm_momentum_q40 =
-        (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
+    b->calm_momentum_q40 = (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
     b->calm_angular_q40 = calm_angular_q40(b);
 }
 
