@@ -196,7 +196,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
  *   contacts    points within the margin, before neighbouring ones are merged
  *   faces       interfering faces of one frame
- *   entries     of z-lists made within a step; rigid meshes bring theirs, so one will do
+ *   entries     of z-lists made within a step, none when all meshes are rigid: these bring theirs
  *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
  *
  *   X(name, bytes for each, smallest allowed, largest allowed)
@@ -206,17 +206,18 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(pairs, CAROM_PAIR_BYTES, 1, 65535)                                                           \
     X(contacts, CAROM_CONTACT_BYTES, 1, 4096)                                                      \
     X(faces, CAROM_FACE_BYTES, 1, 65535)                                                           \
-    X(entries, CAROM_ENTRY_BYTES, 1, 65535)                                                        \
+    X(entries, CAROM_ENTRY_BYTES, 0, 65535)                                                        \
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1216
+#define CAROM_BODY_BYTES        1080
 #define CAROM_PAIR_BYTES        88
 #define CAROM_CONTACT_BYTES     832
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 7200
+#define CAROM_WORLD_FIXED_BYTES 5200
+#define CAROM_HEADS_BYTES       2048 /* once, for any entries at all */
 
 enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
@@ -241,7 +242,7 @@ struct carom_caps {
     ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     (size_t)(n)*CAROM_CANDIDATE_BYTES)
+     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 

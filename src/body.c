@@ -1,56 +1,106 @@
 /* SPDX-License-Identifier: MIT */
 #include "body.h"
 
-/* (high 2^31 + low) / 2^s to nearest; |high|, |low| < 2^63. */
-static int64_t shift_parts(int64_t high, int64_t low, int s)
+/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+static int64_t shift_parts(int64_t high, int64_t low, int bits, int s)
 {
-    if (s > 31) {
-        /* what low has below 2^31 cannot carry past the half */
-        return s - 31 > 62 ? 0 : carom_round(high + (low >> 31), s - 31);
+    if (s > bits) {
+        /* what low has below 2^bits cannot carry past the half */
+        return s - bits > 62 ? 0 : carom_round(high + (low >> bits), s - bits);
     }
     if (s < 1) {
-        return carom_shl(carom_shl(high, 31) + low, -s);
+        return carom_shl(carom_shl(high, bits) + low, -s);
     }
-    return carom_shl(high, 31 - s) + carom_round(low, s);
+    return carom_shl(high, bits - s) + carom_round(low, s);
+}
+
+/* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
+static inline void sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+{
+    const int32_t x = v[0], y = v[1], z = v[2];
+
+    out[0] = (int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z;
+    out[1] = (int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z;
+    out[2] = (int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z;
+}
+
+/* v = high 2^31 + low */
+static inline void split(const int64_t v[3], int32_t high[3], int32_t low[3])
+{
+    for (int k = 0; k < 3; k++) {
+        CAROM_ASSERT(carom_abs(v[k]) < (int64_t)1 << 62);
+        high[k] = (int32_t)(v[k] >> 31);
+        low[k] = (int32_t)(v[k] & INT32_MAX);
+    }
+}
+
+static void add_parts(int64_t out[3], const int32_t m[6], const int32_t high[3],
+                      const int32_t low[3], int s)
+{
+    int64_t sum[3], small[3];
+
+    sym3_dot(sum, m, high);
+    sym3_dot(small, m, low);
+    for (int k = 0; k < 3; k++) {
+        out[k] += shift_parts(sum[k], small[k], 31, s);
+    }
 }
 
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
 {
     int32_t high[3], low[3];
 
-    /* v = high 2^31 + low: sums of three products with |m| <= 2^30 are below 2^63 */
-    for (int k = 0; k < 3; k++) {
-        CAROM_ASSERT(carom_abs(v[k]) < (int64_t)1 << 62);
-        high[k] = (int32_t)(v[k] >> 31);
-        low[k] = (int32_t)(v[k] & INT32_MAX);
-    }
-    for (int i = 0; i < 3; i++) {
-        const int32_t row[3] = {m->m[fix_sym3_at[i][0]], m->m[fix_sym3_at[i][1]],
-                                m->m[fix_sym3_at[i][2]]};
-
-        out[i] = shift_parts(carom_dot(row, high), carom_dot(row, low), m->e);
-    }
+    split(v, high, low);
+    out[0] = out[1] = out[2] = 0;
+    add_parts(out, m->m, high, low, m->e);
 }
 
-/* out = J^-1 v with all the digits of the inverse; its exponent is raised by e. out may be v. */
-static void inverse_mul(const struct body *b, int e, int64_t out[3], const int64_t v[3])
+/* out = J^-1 v with all the digits of the inverse; out may be v. */
+static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3])
 {
-    struct carom_sym3 inverse = b->inverse_inertia, rest = b->inverse_rest;
-    int64_t more[3];
+    int32_t high[3], low[3];
 
-    inverse.e += e;
-    rest.e += e;
-    body_sym3_mul(more, &rest, v);
-    body_sym3_mul(out, &inverse, v);
-    for (int k = 0; k < 3; k++) {
-        out[k] += more[k];
+    split(v, high, low);
+    out[0] = out[1] = out[2] = 0;
+    add_parts(out, b->inverse_inertia.m, high, low, b->inverse_inertia.e);
+    add_parts(out, b->inverse_rest.m, high, low, b->inverse_rest.e);
+}
+
+/*
+ * |w| <= |L| n / m, n being the largest sum of a row of J^-1: an L below m / 2n turns by less than
+ * half a radian. The sums have 32 bits at most, and 2^-20 is taken off for roundings.
+ */
+static uint64_t calm_angular_q40(const struct body *b)
+{
+    const struct carom_sym3 *inverse = &b->inverse_inertia;
+    int64_t most = 1, quotient;
+    int shift;
+
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 2;
+
+        for (int k = 0; k < 3; k++) {
+            sum += carom_abs(inverse->m[fix_sym3_at[i][k]]);
+        }
+        most = sum > most ? sum : most;
     }
+    /* m / 2n = quotient 2^-32 2^(n.e - m.e - 1), in q40 */
+    quotient = ((int64_t)b->mass.m << 32) / most;
+    quotient -= quotient >> 20;
+    shift = inverse->e - b->mass.e - 1 - 32 + 40;
+    if (shift > 60 - fix_bits((uint64_t)quotient)) {
+        return (uint64_t)1 << 60;
+    }
+    return shift > -62 ? (uint64_t)fix_shift(quotient, shift) : 0;
 }
 
 void body_set_mass(struct body *b, struct fix_scaled mass)
 {
     b->mass = mass;
     b->inverse_mass = fix_scaled_inverse(mass);
+    /* |v| <= |p| / m, a 64th off for roundings */
+    b->calm_momentum_q40 = (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
+    b->calm_angular_q40 = calm_angular_q40(b);
 }
 
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
@@ -76,7 +126,7 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
     memset(w, 0, sizeof *w);
     if (b->moving) {
         angular_in_body(b, s, r, w->c);
-        inverse_mul(b, 0, w->c, w->c);
+        inverse_mul(b, w->c, w->c);
         fix_rotate(w->c, r, w->c);
     }
 }
@@ -89,7 +139,7 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 
     body_matrix(&r, &s->rotation);
     fix_rotate_back(l, &r, w->c);
-    body_sym3_mul(l, &b->inertia, l);
+    body_sym3_mul(l, &b->mesh->mass.inertia, l);
     fix_rotate(l, &r, l);
     for (int k = 0; k < 3; k++) {
         s->momentum.c[k] = fix_mul_scaled(v->c[k], b->mass);
@@ -122,7 +172,7 @@ struct fix_wide body_lift2(const struct body *b)
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)
 {
     static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
-    struct carom_sym3 whole = b->inertia;
+    struct carom_sym3 whole = b->mesh->mass.inertia;
 
     whole.e = 1; /* as plain integers, doubled below */
     for (int n = 0; n < 6; n++) {
@@ -138,7 +188,7 @@ void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct caro
             out->m[n] += (int32_t)fix_mul(axis[k], r->c[row[n]][k], 59);
         }
     }
-    out->e = b->inertia.e;
+    out->e = b->mesh->mass.inertia.e;
 }
 
 void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
@@ -191,13 +241,53 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
     body_normalise(out);
 }
 
-/* m u / 2^60 to within a few units; |m| < 2^61, |u| < 2^60. */
-static int64_t mul_q60(int64_t m, int64_t u)
-{
-    int64_t high = m >> 31, low = m & INT32_MAX;
-    int64_t u_high = u >> 30, u_low = u & (CAROM_ONE_Q30 - 1);
+/* A vector of 60 bits in parts, high 2^bits + low. */
+struct parts {
+    int32_t high[3], low[3];
+};
 
-    return 2 * high * u_high + carom_round(low * u_high + 2 * high * u_low, 30);
+static inline struct parts parts_of(const int64_t v[3], int bits)
+{
+    struct parts p;
+
+    for (int k = 0; k < 3; k++) {
+        p.high[k] = (int32_t)(v[k] >> bits);
+        p.low[k] = (int32_t)(v[k] & (((int64_t)1 << bits) - 1));
+    }
+    return p;
+}
+
+/*
+ * out = J^-1 m / 2^s, m = high 2^31 + low below 2^61, to within a unit or two. The inverse is
+ * inertia + rest 2^-29: of the rest only the product with the upper parts counts. A quarter of the low
+ * product is below 2^61, that of the rest below 2^62.
+ */
+static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
+{
+    int64_t high[3], low[3], rest[3];
+
+    CAROM_ASSERT(b->inverse_rest.e == b->inverse_inertia.e + 29);
+    const int more = s - 2 - 29;
+    const int64_t half = more > 0 && more < 63 ? (int64_t)1 << (more - 1) : 0;
+
+    sym3_dot(high, b->inverse_inertia.m, m->high);
+    sym3_dot(low, b->inverse_inertia.m, m->low);
+    sym3_dot(rest, b->inverse_rest.m, m->high);
+    for (int k = 0; k < 3; k++) {
+        rest[k] += low[k] >> 2;
+        out[k] = half != 0 ? (high[k] + (rest[k] >> 29) + half) >> more
+                           : shift_parts(high[k], rest[k], 29, s - 2);
+    }
+}
+
+/* Component m_i u_j - m_j u_i of m x u in the format of m; m has 31 bits in its low parts, u 30. */
+static inline int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
+{
+    int64_t low = (int64_t)m->high[i] * u->low[j] - (int64_t)m->high[j] * u->low[i];
+
+    low = 2 * low + (int64_t)m->low[i] * u->high[j] - (int64_t)m->low[j] * u->high[i];
+    return 2 * ((int64_t)m->high[i] * u->high[j] - (int64_t)m->high[j] * u->high[i]) +
+           carom_round(low, 30);
 }
 
 /*
@@ -220,25 +310,26 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
     up = 60 - fix_bits(all);
     up = up < 0 ? 0 : up;
     for (int k = 0; k < 3; k++) {
-        m[k] = start[k] = fix_mul(carom_shl(l_q40[k], up), tau_q30, 31);
+        m[k] = start[k] = fix_mul_low(carom_shl(l_q40[k], up), tau_q30, 31);
     }
     for (int round = 0; round < 20; round++) {
         int64_t next[3], change = 0;
+        struct parts of_m = parts_of(m, 31), of_u;
 
-        inverse_mul(b, 40 + up - 60, next, m);
+        inverse_mul_parts(b, next, &of_m, b->inverse_inertia.e + 40 + up - 60);
         for (int k = 0; k < 3; k++) {
-            change |= carom_abs(next[k] - u_q60[k]);
+            int64_t d = next[k] - u_q60[k];
+
+            change |= d ^ (d >> 63); /* |d|, or one less */
             u_q60[k] = next[k];
         }
         if (change < (int64_t)1 << 27) {
             break;
         }
-        for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-
-            next[k] = start[k] + mul_q60(m[i], u_q60[j]) - mul_q60(m[j], u_q60[i]);
-        }
-        memcpy(m, next, sizeof m);
+        of_u = parts_of(u_q60, 30);
+        m[0] = start[0] + cross_part(&of_m, &of_u, 1, 2);
+        m[1] = start[1] + cross_part(&of_m, &of_u, 2, 0);
+        m[2] = start[2] + cross_part(&of_m, &of_u, 0, 1);
     }
     for (int k = 0; k < 3; k++) {
         u->c[k] = (int32_t)carom_round(u_q60[k], 30);
@@ -249,14 +340,16 @@ void body_place(struct body *b, const struct body_state *s)
 {
     struct body_path *path = &b->path;
 
-    memset(path, 0, sizeof *path);
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
-        path->start.x.c[k] = s->position.c[k] - carom_shl(path->origin_q22[k], 10);
+        path->start.x.c[k] = (int32_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+        path->v.c[k] = path->g.c[k] = 0;
+        path->u.c[k] = 0;
     }
+    path->u2_q30 = 0;
+    path->turns = false;
     path->start.q = s->rotation;
     body_matrix(&path->start.r, &s->rotation);
-    path->now = path->start;
 }
 
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
@@ -272,17 +365,17 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     }
     body_velocity(b, s, &v);
     for (int k = 0; k < 3; k++) {
-        path->v.c[k] = fix_mul(v.c[k], tau_q30, 30);
-        if (gravity) {
-            path->g.c[k] = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), tau_q30, 31);
+        path->v.c[k] = fix_mul_q30(v.c[k], tau_q30);
+        if (gravity && gravity->c[k] != 0) {
+            path->g.c[k] = fix_mul_low(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
         }
-        path->v_q24.c[k] = (int32_t)carom_round(path->v.c[k], 16);
-        path->g_q24.c[k] = (int32_t)carom_round(path->g.c[k], 16);
     }
-    angular_in_body(b, s, &path->start.r, l);
-    cayley(b, l, tau_q30, &path->u);
-    path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
-    path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    if ((s->angular.c[0] | s->angular.c[1] | s->angular.c[2]) != 0) {
+        angular_in_body(b, s, &path->start.r, l);
+        cayley(b, l, tau_q30, &path->u);
+        path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+        path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    }
 }
 
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30)
@@ -291,10 +384,13 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     carom_v3_q40 w;
     int64_t rate_q40, turn_q40;
 
+    if (body_calm(b, s)) {
+        return tau_q30;
+    }
     body_matrix(&r, &s->rotation);
     body_spin(b, s, &r, &w);
     rate_q40 = fix_length(w.c);
-    turn_q40 = fix_mul(rate_q40, tau_q30, 30);
+    turn_q40 = fix_mul_q30(rate_q40, tau_q30);
     if (turn_q40 <= (int64_t)BODY_TURN_MAX_Q30 << 10) {
         return tau_q30;
     }
@@ -310,70 +406,60 @@ void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r)
     body_matrix(r, &q);
 }
 
-const struct body_pose *body_pose_at(struct body *b, int32_t t_q30)
+carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
 {
-    struct body_path *path = &b->path;
+    const struct body_path *path = &b->path;
+    carom_v3_q32 way;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t way_q40 = path->v.c[k] + path->g.c[k];
+
+        if (t_q30 < CAROM_ONE_Q30) {
+            way_q40 = fix_mul_q30(path->v.c[k] + fix_mul_q30(path->g.c[k], t_q30), t_q30);
+        }
+        way.c[k] = carom_round(way_q40, 8);
+    }
+    return way;
+}
+
+carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
+{
+    const struct body_path *path = &b->path;
+    carom_quat_q30 q = path->start.q;
     int32_t u[3];
 
-    if (path->now.t_q30 == t_q30) {
-        return &path->now;
-    }
-    if (t_q30 == 0) {
-        path->now = path->start;
-        return &path->now;
-    }
-    path->now.t_q30 = t_q30;
-    for (int k = 0; k < 3; k++) {
-        int64_t d_q40 = fix_mul(path->v.c[k] + fix_mul(path->g.c[k], t_q30, 30), t_q30, 30);
-
-        path->now.x.c[k] = path->start.x.c[k] + carom_round(d_q40, 8);
-    }
-    if (path->turns) {
+    if (path->turns && t_q30 > 0) {
         for (int k = 0; k < 3; k++) {
             u[k] = carom_mul_q30(path->u.c[k], t_q30);
         }
-        turn(&path->now.q, &path->start.q, u);
-        body_matrix(&path->now.r, &path->now.q);
+        turn(&q, &path->start.q, u);
     }
-    return &path->now;
+    return q;
 }
 
-void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity)
 {
-    const struct body_pose *pose = body_pose_at(b, t_q30);
+    carom_v3_q32 way = body_way_at(b, t_q30);
 
     for (int k = 0; k < 3; k++) {
-        s->position.c[k] = carom_shl(b->path.origin_q22[k], 10) + pose->x.c[k];
-        if (gravity) {
-            int64_t dv_q40 = fix_mul(fix_mul(gravity->c[k], tau_q30, 30), t_q30, 30);
+        s->position.c[k] += way.c[k];
+        if (gravity && gravity->c[k] != 0) {
+            int64_t dv_q40 = fix_mul_q30(fix_mul_q30(gravity->c[k], tau_q30), t_q30);
 
             s->momentum.c[k] += fix_mul_scaled(dv_q40, b->mass);
         }
     }
-    s->rotation = pose->q;
-}
-
-carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p)
-{
-    carom_v3_q22 out;
-
-    for (int k = 0; k < 3; k++) {
-        /* q30 x q22 = q52: |r.p| <= 2^9 2^52 and |x| <= 2^7 2^52 */
-        int64_t sum_q52 = carom_dot(pose->r.c[k], p->c) + carom_shl(pose->x.c[k], 20);
-
-        out.c[k] = (int32_t)carom_round(sum_q52, 30);
-    }
-    return out;
+    s->rotation = body_rotation_at(b, t_q30);
 }
 
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
 {
     const struct body_path *path = &b->path;
-    int64_t way_q40 = fix_length(path->v.c) + fix_length(path->g.c);
-    const int64_t u_q30[3] = {path->u.c[0], path->u.c[1], path->u.c[2]};
+    int64_t way_q40 = fix_length_bound(path->v.c) + fix_length_bound(path->g.c);
+    int64_t u_q30 = path->turns ? fix_sqrt_above((uint64_t)(path->u2_q30 + 1) << 30) : 0;
 
     /* turned: 2 atan |u| <= 2 |u| */
-    *turn_q30 = fix_mul(2 * fix_length(u_q30), t_q30, 30) + 1;
-    *way_q22 = (fix_mul(way_q40, t_q30, 30) >> 18) + fix_mul(*turn_q30, b->radius_q22, 30) + 2;
+    *turn_q30 = fix_mul_q30(2 * u_q30, t_q30) + 1;
+    *way_q22 = (fix_mul_q30(way_q40, t_q30) >> 18) + fix_mul_q30(*turn_q30, b->radius_q22) + 2;
 }

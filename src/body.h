@@ -36,21 +36,19 @@ struct body_state {
     uint8_t woken; /* since the last step */
 };
 
-struct body_pose {
-    carom_v3_q32 x; /* relative to the path's origin */
-    carom_quat_q30 q;
-    carom_m3_q30 r;
-    int32_t t_q30; /* -1: not yet computed */
-};
-
 struct body_path {
     int64_t origin_q22[3];
-    carom_v3_q40 v, g;         /* displacements over the slice: linear and quadratic in t */
-    carom_v3_q24 v_q24, g_q24; /* the same for the collision kernels */
-    carom_v3_q30 u;            /* the Cayley vector, in the body's axes */
-    int32_t u2_q30;            /* |u|^2 */
+    carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
+    carom_v3_q30 u;    /* the Cayley vector, in the body's axes */
+    int32_t u2_q30;    /* |u|^2 */
     bool turns;
-    struct body_pose start, now; /* now: at the t last asked for */
+    struct {
+        struct {
+            int32_t c[3];
+        } x; /* q32, what the origin leaves of the position */
+        carom_quat_q30 q;
+        carom_m3_q30 r;
+    } start;
 };
 
 /*
@@ -63,7 +61,8 @@ struct body_region {
     carom_v3_q40 way, bend; /* of the centre over its time: way t + bend t^2 */
     carom_v3_q40 end;       /* the centre at its end, relative to `at` */
     carom_m3_q30 end_r;
-    carom_v3_q30 turn;  /* 2 u of the path, in world axes */
+    carom_v3_q30 u;     /* its turn's Cayley vector, in the body's axes */
+    carom_v3_q30 turn;  /* twice that, in world axes */
     int32_t u_q30;      /* |u|, rounded up */
     int32_t length_q22; /* of the centre's way, rounded up */
     int32_t bend_q22;   /* |bend|, rounded up */
@@ -78,9 +77,10 @@ struct body_region {
 struct body {
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
+    bool standing; /* still, and the path, the region and the box are those of where it is */
+    uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
-    struct carom_sym3 inertia;                       /* divided by the mass, in the mesh's axes */
-    struct carom_sym3 inverse_inertia, inverse_rest; /* the inverse of that is their sum */
+    struct carom_sym3 inverse_inertia, inverse_rest; /* their sum: of the mesh's inertia by mass */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
@@ -94,7 +94,8 @@ struct body {
     struct body_region region;
     int32_t reach_q22;               /* how far any point may go in the region, and the margin */
     int32_t turn_q30;                /* and how far the body may turn, radians */
-    int64_t box_q22[2][3];           /* in world axes around it, grown by the reach */
+    int32_t box_q18[2][3];           /* in world axes around it, grown by the reach */
+    bool boxed;                      /* around its mesh's box; else around its sphere */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
     uint16_t contacts;               /* where the island's contacts are listed */
     bool in_contact;                 /* took the frame's acceleration at once; moves straight */
@@ -110,7 +111,7 @@ struct body {
     carom_v3_q40 saved_momentum, saved_angular; /* before it, for the energy rule */
 };
 
-/* Set mass and its inverse; mass > 0. */
+/* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
 void body_set_mass(struct body *b, struct fix_scaled mass);
 
 /* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
@@ -148,19 +149,26 @@ void body_place(struct body *b, const struct body_state *s);
  */
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
+/*
+ * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
+ * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.
+ */
+static inline bool body_calm(const struct body *b, const struct body_state *s)
+{
+    return fix_sum(s->momentum.c) < b->calm_momentum_q40 &&
+           fix_sum(s->angular.c) < b->calm_angular_q40;
+}
 /* The longest slice, at most tau_q30, that turns by BODY_TURN_MAX_Q30 at the present spin. */
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
 
-/* The pose at t of the path; remembered, so that asking again is free. */
-const struct body_pose *body_pose_at(struct body *b, int32_t t_q30);
-/* The pose's rotation at the end of a path with another Cayley vector, |u| <= 0.31. */
+/* How far the centre is at t of the path from its start, and the rotation there. */
+carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30);
+carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30);
+/* The rotation at the end of a path with another Cayley vector, |u| <= 0.31. */
 void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r);
 /* Take the pose at t as the new state, with the momentum that gravity gave over it. */
-void body_advance(struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
-
-/* A point of the body, given about its centre of mass, in the pose; relative to the origin. */
-carom_v3_q22 body_point(const struct body_pose *pose, const carom_v3_q22 *p);
 
 /* How far any point goes from 0 to t of the path, and how far the body turns. Rounded up. */
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
@@ -172,6 +180,8 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22);
+/* Where the region's path turns to, while it begins with the present one. Interfere asks for that. */
+void body_region_end(struct body *b);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
 /* Go on by t of the present path. */

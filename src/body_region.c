@@ -2,39 +2,26 @@
 /* The region of motion that candidates are gathered for. */
 #include "body.h"
 
-/* At least |v|, at most 1.16 of it. */
-static int64_t length_bound(const int64_t v[3])
-{
-    int64_t x = carom_abs(v[0]), y = carom_abs(v[1]), z = carom_abs(v[2]);
-    int64_t most = x > y ? x : y;
-
-    most = most > z ? most : z;
-    /* with m the largest: (m + (a + b) / 2)^2 >= m^2 + m (a + b) >= m^2 + a^2 + b^2 */
-    return most + (x + y + z - most + 1) / 2;
-}
-
 static void set_turn(struct body *b, int32_t longer_q16)
 {
     struct body_region *region = &b->region;
-    int32_t u[3];
     int64_t u2_q60 = 0;
 
-    memset(&region->turn, 0, sizeof region->turn);
-    region->u_q30 = 0;
     region->end_r = region->r;
     if (!b->path.turns) {
+        memset(&region->turn, 0, sizeof region->turn);
+        region->u_q30 = 0;
         return;
     }
     for (int k = 0; k < 3; k++) {
-        u[k] = (int32_t)fix_mul(b->path.u.c[k], longer_q16, 16);
-        u2_q60 += (int64_t)u[k] * u[k];
+        region->u.c[k] = (int32_t)fix_mul(b->path.u.c[k], longer_q16, 16);
+        u2_q60 += (int64_t)region->u.c[k] * region->u.c[k];
     }
-    carom_rotate(region->turn.c, &region->r, u);
+    carom_rotate(region->turn.c, &region->r, region->u.c);
     for (int k = 0; k < 3; k++) {
         region->turn.c[k] *= 2;
     }
     region->u_q30 = (int32_t)fix_sqrt((uint64_t)u2_q60) + 1;
-    body_turned(b, u, &region->end_r);
 }
 
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
@@ -58,13 +45,20 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
         region->end.c[k] = region->way.c[k] + region->bend.c[k];
     }
     set_turn(b, longer_q16);
-    region->bend_q22 = (int32_t)(length_bound(region->bend.c) >> 18) + 1;
-    region->length_q22 = (int32_t)(length_bound(region->way.c) >> 18) + 1 + region->bend_q22;
+    region->bend_q22 = (int32_t)(fix_length_bound(region->bend.c) >> 18) + 1;
+    region->length_q22 = (int32_t)(fix_length_bound(region->way.c) >> 18) + 1 + region->bend_q22;
     turn_q30 = 2 * (int64_t)region->u_q30;
-    b->reach_q22 = region->length_q22 + (int32_t)fix_mul(turn_q30, b->radius_q22, 30) + 2 +
+    b->reach_q22 = region->length_q22 + (int32_t)fix_mul_q30(turn_q30, b->radius_q22) + 2 +
                    room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
     turn_q30 += ((int64_t)room_q22 << 30) / b->radius_q22 + 1;
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
+}
+
+void body_region_end(struct body *b)
+{
+    if (b->path.turns) {
+        body_turned(b, b->region.u.c, &b->region.end_r);
+    }
 }
 
 /*
@@ -93,7 +87,7 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
         d[k] = x_q32[k] - region->at.c[k] - (way_q40 >> 8);
     }
     /* the time is off by 2^-26 at most */
-    return (length_bound(d) >> 10) + (region->length_q22 >> 25) + 1;
+    return (fix_length_bound(d) >> 10) + (region->length_q22 >> 25) + 1;
 }
 
 /*
@@ -121,7 +115,7 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
     /* the region's rate of turn falls by its square on the way */
     cubes_q30 += fix_mul(carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30),
                          part_q30, 30);
-    return length_bound(d) + 2 * cubes_q30 + 4;
+    return fix_length_bound(d) + 2 * cubes_q30 + 4;
 }
 
 bool body_region_holds(const struct body *b, int32_t time_q30)
@@ -144,7 +138,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by an eighth of their second derivatives */
     part_q30 = part_of(region, time_q30);
-    off += ((length_bound(path->g.c) >> 18) +
+    off += ((fix_length_bound(path->g.c) >> 18) +
             fix_mul(fix_mul(region->bend_q22, part_q30, 30), part_q30, 30)) / 4 + 1;
     off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;

@@ -24,7 +24,7 @@ static void set_bounds(struct boyse_view *view)
 {
     const struct body *from = view->from, *to = view->to;
     const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
-    int64_t s_q30 = fix_sqrt((uint64_t)from->path.u2_q30 << 30) + 1;
+    int64_t s_q30 = fix_sqrt((uint64_t)(from->path.u2_q30 + 1) << 30) + 1;
     int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
 
     if (from->path.turns) {
@@ -33,7 +33,7 @@ static void set_bounds(struct boyse_view *view)
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
-        s_q30 = fix_sqrt((uint64_t)to->path.u2_q30 << 30) + 1;
+        s_q30 = fix_sqrt((uint64_t)(to->path.u2_q30 + 1) << 30) + 1;
         reach = fix_length(centre) + from->radius_q22 + way;
         view->seen.way_q22 = clamp(way + fix_mul(2 * reach, (int32_t)s_q30, 30) + 1);
         view->seen.bend_q22 = clamp(bend + fix_mul(2 * way, (int32_t)s_q30, 30) +

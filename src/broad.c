@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "broad.h"
 
+/* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
+static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)
+{
+    box_q18[0][k] = (int32_t)((middle_q22 - half_q22) >> 4);
+    box_q18[1][k] = (int32_t)((middle_q22 + half_q22) >> 4) + 1;
+}
+
 /* The box of a body in world axes, grown by its reach. */
 static void bounds(const struct body *b, const struct body_state *s, int32_t reach_q22,
-                   int64_t box_q22[2][3])
+                   int32_t box_q18[2][3])
 {
     const struct carom_mesh *mesh = b->mesh;
     int shift = 22 - mesh->raw.quantum_bits;
@@ -22,15 +29,25 @@ static void bounds(const struct body *b, const struct body_state *s, int32_t rea
         int64_t h = reach_q22 + 8; /* 8: the roundings of this function */
 
         for (int j = 0; j < 3; j++) {
-            m += fix_mul(middle[j], r.c[k][j], 30);
-            h += fix_mul(half[j], (int32_t)carom_abs(r.c[k][j]), 30);
+            m += fix_mul_q30(middle[j], r.c[k][j]);
+            h += fix_mul_q30(half[j], (int32_t)carom_abs(r.c[k][j]));
         }
-        box_q22[0][k] = m - h;
-        box_q22[1][k] = m + h;
+        set_side(box_q18, k, m, h);
     }
 }
 
-static bool overlap(int64_t a[2][3], int64_t b[2][3])
+/* A larger box that costs little: that of the sphere around the body. */
+static void bounds_of_sphere(const struct body *b, const struct body_state *s,
+                             int32_t box_q18[2][3])
+{
+    int64_t h = (int64_t)b->radius_q22 + b->reach_q22 + 1;
+
+    for (int k = 0; k < 3; k++) {
+        set_side(box_q18, k, carom_round(s->position.c[k], 10), h);
+    }
+}
+
+static bool overlap(int32_t a[2][3], int32_t b[2][3])
 {
     for (int k = 0; k < 3; k++) {
         if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) {
@@ -43,11 +60,31 @@ static bool overlap(int64_t a[2][3], int64_t b[2][3])
 bool broad_near(const struct body *a, const struct body_state *state_a, const struct body *b,
                 const struct body_state *state_b, int32_t margin_q22)
 {
-    int64_t box_a[2][3], box_b[2][3];
+    int32_t box_a[2][3], box_b[2][3];
 
     bounds(a, state_a, margin_q22, box_a);
     bounds(b, state_b, margin_q22, box_b);
     return overlap(box_a, box_b);
+}
+
+/* Whether two boxes overlap; those of spheres are only trusted when they do not. */
+static bool boxes_overlap(struct body *bodies, const struct body_state *states, uint32_t a,
+                          uint32_t b)
+{
+    const uint32_t both[2] = {a, b};
+
+    if (!overlap(bodies[a].box_q18, bodies[b].box_q18)) {
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        struct body *body = &bodies[both[i]];
+
+        if (!body->boxed) {
+            bounds(body, &states[both[i]], body->reach_q22, body->box_q18);
+            body->boxed = true;
+        }
+    }
+    return overlap(bodies[a].box_q18, bodies[b].box_q18);
 }
 
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
@@ -55,8 +92,16 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
 {
     pool_clear(pool);
     for (uint32_t i = 0; i < body_count; i++) {
-        if (bodies[i].mesh) {
-            bounds(&bodies[i], &states[i], bodies[i].reach_q22, bodies[i].box_q22);
+        struct body *b = &bodies[i];
+
+        /* the box of what stands still is worked out once */
+        if (b->mesh && !b->standing) {
+            b->boxed = !broad_active(b, &states[i]);
+            if (b->boxed) {
+                bounds(b, &states[i], b->reach_q22, b->box_q18);
+            } else {
+                bounds_of_sphere(b, &states[i], b->box_q18);
+            }
         }
     }
     for (uint32_t a = 0; a < body_count; a++) {
@@ -70,7 +115,7 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
 
             if (!bodies[b].mesh || (bodies[b].moving && b >= a) || states[b].out ||
                 !(active || broad_active(&bodies[b], &states[b])) ||
-                !overlap(bodies[a].box_q22, bodies[b].box_q22)) {
+                !boxes_overlap(bodies, states, a, b)) {
                 continue;
             }
             place = pool_take(pool);

@@ -62,23 +62,15 @@ int64_t fix_sqrt_above(uint64_t v)
 
 int64_t fix_mul(int64_t a, int32_t b, int s)
 {
-    /*
-     * a = high 2^32 + low with low unsigned, so both partial products fit int64:
-     * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half added below.
-     */
-    int64_t high = (a >> 32) * b;
-    int64_t low = (int64_t)((uint64_t)a & 0xffffffffu) * b;
-
     CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
-    if (s <= 32) {
+    if (s > 32) {
         /*
-         * high 2^32 is a whole multiple of 2^s: only the low part is rounded. The high part alone
-         * may not fit where the sum does, so they are added modulo 2^64.
+         * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half that is added.
+         * The low 32 bits cannot carry past the half, a multiple of 2^32.
          */
-        return (int64_t)((uint64_t)carom_shl(high, 32 - s) + (uint64_t)carom_round(low, s));
+        return carom_round((a >> 32) * b + (((int64_t)(uint32_t)a * b) >> 32), s - 32);
     }
-    /* The low 32 bits cannot carry past the half, a multiple of 2^32. */
-    return carom_round(high + (low >> 32), s - 32);
+    return fix_mul_low(a, b, s);
 }
 
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)
@@ -277,13 +269,23 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
     return true;
 }
 
+int64_t fix_length_bound(const int64_t v[3])
+{
+    int64_t x = carom_abs(v[0]), y = carom_abs(v[1]), z = carom_abs(v[2]);
+    int64_t most = x > y ? x : y;
+
+    most = most > z ? most : z;
+    /* with m the largest: (m + (a + b) / 2)^2 >= m^2 + m (a + b) >= m^2 + a^2 + b^2 */
+    return most + (x + y + z - most + 1) / 2;
+}
+
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
 {
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = fix_mul(v[0], m->c[k][0], 30) + fix_mul(v[1], m->c[k][1], 30) +
-               fix_mul(v[2], m->c[k][2], 30);
+        r[k] = fix_mul_q30(v[0], m->c[k][0]) + fix_mul_q30(v[1], m->c[k][1]) +
+               fix_mul_q30(v[2], m->c[k][2]);
     }
     memcpy(out, r, sizeof r);
 }
@@ -293,8 +295,8 @@ void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = fix_mul(v[0], m->c[0][k], 30) + fix_mul(v[1], m->c[1][k], 30) +
-               fix_mul(v[2], m->c[2][k], 30);
+        r[k] = fix_mul_q30(v[0], m->c[0][k]) + fix_mul_q30(v[1], m->c[1][k]) +
+               fix_mul_q30(v[2], m->c[2][k]);
     }
     memcpy(out, r, sizeof r);
 }

@@ -73,6 +73,38 @@ int64_t fix_sqrt_above(uint64_t v);
  */
 int64_t fix_mul(int64_t a, int32_t b, int s);
 
+/*
+ * The same for 1 <= s <= 32, quick when s is a constant: a = high 2^32 + low with low unsigned, so that
+ * high 2^32 is a whole multiple of 2^s and only the low part is rounded. The high part alone may not
+ * fit where the sum does, so they are added modulo 2^64.
+ */
+static inline int64_t fix_mul_low(int64_t a, int32_t b, int s)
+{
+    return (int64_t)((uint64_t)carom_shl((a >> 32) * b, 32 - s) +
+                     (uint64_t)carom_round((int64_t)(uint32_t)a * b, s));
+}
+
+/* A number in any format times one in q30. */
+static inline int64_t fix_mul_q30(int64_t a, int32_t b)
+{
+    return fix_mul_low(a, b, 30);
+}
+
+/* At least |v|, at most 1.16 of it. */
+int64_t fix_length_bound(const int64_t v[3]);
+
+/* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
+static inline int64_t fix_shift(int64_t v, int s)
+{
+    return s < 0 ? v >> -s : carom_shl(v, s);
+}
+
+/* |x| + |y| + |z|; each below 2^62 */
+static inline uint64_t fix_sum(const int64_t v[3])
+{
+    return (uint64_t)carom_abs(v[0]) + (uint64_t)carom_abs(v[1]) + (uint64_t)carom_abs(v[2]);
+}
+
 /* a * b as a 128-bit number, exact. */
 struct fix_wide fix_wide_mul(int64_t a, int64_t b);
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);

@@ -15,11 +15,13 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
+    if (!b->in_contact) {
+        return false;
+    }
     body_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);
-    return b->in_contact &&
-           fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
+    return fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
 }
 
 /* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */
@@ -47,6 +49,8 @@ static void put_to_sleep(const struct body *bodies, struct body_state *states, u
 void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
                 const struct pair *touching, uint32_t touching_count)
 {
+    bool any = false;
+
     for (uint32_t i = 0; i < body_count; i++) {
         if (!broad_active(&bodies[i], &states[i])) {
             continue;
@@ -56,6 +60,10 @@ void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_co
         } else if (states[i].quiet < QUIET_FRAMES) {
             states[i].quiet++;
         }
+        any = any || states[i].quiet == QUIET_FRAMES;
+    }
+    if (!any) {
+        return;
     }
     rest_islands_begin(bodies, body_count);
     for (uint32_t i = 0; i < touching_count; i++) {

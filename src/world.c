@@ -18,15 +18,16 @@ _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BY
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
 /* each of the carved arrays may be rounded up to 8 bytes */
-_Static_assert(sizeof(struct carom_world) + ZLIST_CELLS_MAX * sizeof(uint16_t) + 16 * 8 <=
-                   CAROM_WORLD_FIXED_BYTES,
+_Static_assert(sizeof(struct carom_world) + 16 * 8 <= CAROM_WORLD_FIXED_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
+_Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_HEADS_BYTES");
 
 /* -------------------------------------------------------------------- init */
 
 static bool capacities_in_range(const struct carom_caps *caps)
 {
-#define IN_RANGE(name, bytes, low, high) (caps->name >= (low) && caps->name <= (high)) &&
+/* one more of both, so that 0 may be the smallest */
+#define IN_RANGE(name, bytes, low, high) (caps->name + 1 > (low) && caps->name <= (high)) &&
     return CAROM_POOLS(IN_RANGE) true;
 #undef IN_RANGE
 }
@@ -55,7 +56,10 @@ static void carve(struct carom_world *w, struct arena *arena)
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
-    w->interfere.lists.head = arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    if (caps->entries > 0) {
+        w->interfere.lists.head =
+            arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+    }
     w->interfere.candidates =
         arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
 }
@@ -152,10 +156,11 @@ static int set_mass(struct body *b, const struct carom_body_def *def)
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
+    if (mass_invert(&def->mesh->mass.inertia, &b->inverse_inertia, &b->inverse_rest) < 0) {
+        return CAROM_ERR_RANGE;
+    }
     body_set_mass(b, fix_scale(mass_q32, 32));
-    b->inertia = def->mesh->mass.inertia;
-    return mass_invert(&b->inertia, &b->inverse_inertia, &b->inverse_rest) < 0 ? CAROM_ERR_RANGE
-                                                                               : CAROM_OK;
+    return CAROM_OK;
 }
 
 /* Everything about a body that its definition settles. */
@@ -223,9 +228,16 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         w->body_count++;
     }
     w->bodies[place] = made;
-    world_now(w)->bodies[place] = state;
+    world_put(w, place, &state);
     world_wake_around(w, place);
     return (int)place;
+}
+
+void world_put(struct carom_world *w, uint32_t body, const struct body_state *state)
+{
+    w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
+    w->bodies[body].standing = false;
+    world_accelerate(w, body);
 }
 
 bool world_has_body(const struct carom_world *w, int body)
@@ -247,7 +259,9 @@ int carom_body_remove(struct carom_world *w, int body)
     s = world_now(w);
     world_wake_around(w, (uint32_t)body);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    memset(&s->bodies[body], 0, sizeof s->bodies[body]);
+    for (int i = 0; i < 2; i++) {
+        memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
+    }
     for (uint32_t i = 0; i < s->warm_count; i++) {
         if (s->warm[i].a != body && s->warm[i].b != body) {
             s->warm[kept++] = s->warm[i];
@@ -289,7 +303,7 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
 
 int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)
 {
-    struct body_state *s;
+    struct body_state state;
     carom_quat_q30 q;
 
     if (!w || !in) {
@@ -307,17 +321,19 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
          !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
     }
-    s = &world_now(w)->bodies[body];
-    if (!w->bodies[body].moving && memcmp(&s->position, &in->position, sizeof s->position) == 0 &&
-        memcmp(&s->rotation, &q, sizeof q) == 0) {
+    state = world_now(w)->bodies[body];
+    if (!w->bodies[body].moving &&
+        memcmp(&state.position, &in->position, sizeof state.position) == 0 &&
+        memcmp(&state.rotation, &q, sizeof q) == 0) {
         return CAROM_OK; /* nothing moved: nothing wakes */
     }
-    s->position = in->position;
-    s->rotation = q;
-    s->out = 0;
+    state.position = in->position;
+    state.rotation = q;
+    state.out = 0;
     if (w->bodies[body].moving) {
-        body_set_motion(&w->bodies[body], s, &in->velocity, &in->spin);
+        body_set_motion(&w->bodies[body], &state, &in->velocity, &in->spin);
     }
+    world_put(w, (uint32_t)body, &state);
     world_wake_around(w, (uint32_t)body);
     return CAROM_OK;
 }

@@ -32,6 +32,7 @@ struct carom_world {
     /* dynamic state */
     struct world_state states[2];
     uint32_t now; /* which of the two is current */
+    bool idle;    /* the last step found nothing awake, and nothing has changed since */
 
     /* set by broad */
     struct pair *pairs;
@@ -72,6 +73,15 @@ bool world_gravity_in_range(const carom_v3_q40 *gravity);
 /* What gravity and a force give a body, 0 for one that stands still; false when out of range. */
 bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
                         const carom_v3_q40 *force, carom_v3_q40 *out);
+
+/*
+ * Give a body a state, in both of the world's: a step need not copy what stands still. What follows
+ * from it is worked out again.
+ */
+void world_put(struct carom_world *w, uint32_t body, const struct body_state *state);
+
+/* Set what gravity and force give a body in a frame, after one of them has changed. */
+void world_accelerate(struct carom_world *w, uint32_t body);
 
 /* Wake every body. */
 void world_wake_all(struct carom_world *world);

@@ -33,6 +33,17 @@ bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
     return world_gravity_in_range(&sum);
 }
 
+void world_accelerate(struct carom_world *w, uint32_t body)
+{
+    const struct world_state *now = world_now(w);
+    struct body *b = &w->bodies[body];
+
+    if (b->mesh) {
+        world_acceleration(b, &now->gravity, &now->bodies[body].force, &b->acceleration);
+        b->acceleration_q40 = fix_length(b->acceleration.c);
+    }
+}
+
 int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
 {
     carom_v3_q40 sum;
@@ -50,6 +61,9 @@ int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
     }
     if (memcmp(&world_now(w)->gravity, gravity, sizeof *gravity) != 0) {
         world_now(w)->gravity = *gravity;
+        for (uint32_t i = 0; i < w->body_count; i++) {
+            world_accelerate(w, i);
+        }
         world_wake_all(w);
     }
     return CAROM_OK;
@@ -75,6 +89,7 @@ int carom_body_set_force(struct carom_world *w, int body, const carom_v3_q40 *fo
     s = &world_now(w)->bodies[body];
     if (memcmp(&s->force, force, sizeof *force) != 0) {
         s->force = *force;
+        world_accelerate(w, (uint32_t)body);
         world_wake_island(w, (uint32_t)body);
     }
     return CAROM_OK;

@@ -253,6 +253,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
 {
     struct world_state *next;
     struct stream s;
+    bool good;
 
     if (!w || !in) {
         return CAROM_ERR_NULL;
@@ -265,10 +266,15 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     s.loading = true;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
     stream_state(&s, w, next);
-    if (s.failed || s.at != bytes || !plausible(w, next)) {
-        return CAROM_ERR_FORMAT;
+    good = !s.failed && s.at == bytes && plausible(w, next);
+    if (good) {
+        w->now = 1 - w->now;
     }
+    /* a step relies on what stands still being the same in both states */
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        world_put(w, i, &world_now(w)->bodies[i]);
+    }
+    w->idle = false;
     w->interfere.stale = true;
-    w->now = 1 - w->now;
-    return CAROM_OK;
+    return good ? CAROM_OK : CAROM_ERR_FORMAT;
 }

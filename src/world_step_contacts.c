@@ -186,12 +186,16 @@ static int solve(struct step *s, bool warm)
 /* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
 int step_start_contacts(struct step *s)
 {
-    int result = find_contacts(s, false);
+    int result = CAROM_OK;
 
-    if (result < 0) {
-        return result;
+    /* most bodies are far from all others: the paths at hand stay as they are */
+    if (s->w->pools[CAROM_POOL_pairs].used > 0) {
+        result = find_contacts(s, false);
+        if (result < 0) {
+            return result;
+        }
     }
-    if (!rest_enter_contact(&s->w->rest, CAROM_ONE_Q30)) {
+    if (s->w->rest.list.pool->used == 0 || !rest_enter_contact(&s->w->rest, CAROM_ONE_Q30)) {
         s->w->rest.warm_count = 0;
         return CAROM_OK;
     }

@@ -264,6 +264,9 @@ void step_limit_energy(struct step *s, bool cut_short)
 {
     struct carom_world *w = s->w;
 
+    if (s->next->touching_count == 0) {
+        return; /* nothing was in contact */
+    }
     rest_islands_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].touched = w->bodies[i].in_contact;

@@ -38,10 +38,11 @@ int step_visit(struct step *s, struct step_visitor *v,
     struct carom_world *w = s->w;
     int result;
 
-    memset(v, 0, sizeof *v);
     v->base.visit = f;
     v->step = s;
     v->pair_number = -1;
+    v->found = false;
+    v->error = CAROM_OK;
     result = interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
                              &v->base);
     return v->error ? v->error : result;
@@ -57,10 +58,13 @@ static void visit_nothing(struct candidate_visitor *self, const struct candidate
 void step_place_all(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (s->w->bodies[i].mesh) {
-            body_place(&s->w->bodies[i], &s->next->bodies[i]);
+        struct body *b = &s->w->bodies[i];
+
+        if (b->mesh && !b->standing) {
+            body_place(b, &s->next->bodies[i]);
         }
     }
+    s->path_q30 = 0;
 }
 
 static void predict_all(struct step *s, int32_t tau_q30)
@@ -68,10 +72,12 @@ static void predict_all(struct step *s, int32_t tau_q30)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
 
-        if (b->mesh) {
+        b->standing = b->standing && !broad_active(b, &s->next->bodies[i]);
+        if (b->mesh && !b->standing) {
             body_predict(b, &s->next->bodies[i], tau_q30, b->in_contact ? NULL : &b->acceleration);
         }
     }
+    s->path_q30 = tau_q30;
 }
 
 /*
@@ -85,7 +91,7 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
         struct body *b = &s->w->bodies[i];
         int64_t way_q22, turn_q30, room_q22 = 0;
 
-        if (!b->mesh) {
+        if (!b->mesh || b->standing) {
             continue;
         }
         if (broad_active(b, &s->next->bodies[i])) {
@@ -108,6 +114,14 @@ static int gather(struct step *s, int32_t slice_q30, int64_t time_q30)
     step_mark(w, CAROM_STAGE_PREDICT);
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body *b = &w->bodies[i];
+
+        b->standing = !broad_active(b, &s->next->bodies[i]);
+        if (!b->standing && w->pools[CAROM_POOL_pairs].used > 0) {
+            body_region_end(b);
+        }
+    }
     step_mark(w, CAROM_STAGE_BROAD);
     if (result < 0) {
         return result;
@@ -239,10 +253,12 @@ int step_predict(struct step *s, int32_t *slice_q30)
 {
     int result = CAROM_OK;
 
-    *slice_q30 = step_slice(s);
-    predict_all(s, *slice_q30);
-    if (leaves_region(s, *slice_q30)) {
-        result = step_gather(s);
+    *slice_q30 = s->path_q30 > 0 ? s->path_q30 : step_slice(s);
+    if (s->path_q30 == 0) {
+        predict_all(s, *slice_q30);
+        if (leaves_region(s, *slice_q30)) {
+            result = step_gather(s);
+        }
     }
     step_mark(s->w, CAROM_STAGE_PREDICT);
     return result;
@@ -286,6 +302,8 @@ int step_first_hit(struct step *s, bool *found)
 
 void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
 {
+    s->left_q30 -= (int32_t)(((int64_t)slice_q30 * t_q30) >> 30);
+    s->path_q30 = 0;
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
 
@@ -296,7 +314,6 @@ void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
         body_advance(b, &s->next->bodies[i], t_q30, slice_q30,
                      b->in_contact ? NULL : &b->acceleration);
     }
-    s->left_q30 -= (int32_t)(((int64_t)slice_q30 * t_q30) >> 30);
     step_mark(s->w, CAROM_STAGE_ADVANCE);
 }
 

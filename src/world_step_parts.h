@@ -14,6 +14,8 @@ struct step {
     struct carom_world *w;
     struct world_state *next;
     int32_t left_q30; /* of the frame */
+    int32_t
+        path_q30; /* the slice that the paths at hand are of, and no state changed since; or 0 */
     uint32_t substep_cap;
     struct boyse_hit hit;
 };

@@ -7,6 +7,7 @@ static void find_islands(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
 
+    w->idle = false;
     rest_islands_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < now->touching_count; i++) {
         rest_islands_join(w->bodies, &now->touching[i]);

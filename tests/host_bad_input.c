@@ -267,7 +267,7 @@ static void test_init(struct lab *lab)
     NO_WORLD(caps.pairs, 0, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.contacts, 4097, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.faces, 65536, CAROM_ERR_ARGUMENT);
-    NO_WORLD(caps.entries, 0, CAROM_ERR_ARGUMENT);
+    NO_WORLD(caps.entries, 65536, CAROM_ERR_ARGUMENT);
     NO_WORLD(caps.candidates, UINT32_MAX, CAROM_ERR_ARGUMENT);
     NO_WORLD(gravity.c[2], ((int64_t)1 << 40) + 1, CAROM_ERR_RANGE);
     check(world == untouched, "no world comes out", __LINE__, 0);

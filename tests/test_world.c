@@ -203,7 +203,7 @@ static void test_init_capacities(void)
     {                                                                                              \
         const struct carom_config good = config;                                                   \
                                                                                                    \
-        config.caps.name = (low)-1;                                                                \
+        config.caps.name = (low)-1u;                                                               \
         refuse_init(block, sizeof block, CAROM_ERR_ARGUMENT);                                      \
         config.caps.name = (high) + 1;                                                             \
         refuse_init(block, SIZE_MAX / 2, CAROM_ERR_ARGUMENT);                                      \
