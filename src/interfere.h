@@ -69,6 +69,9 @@ struct interfere_leaf {
     int32_t top;                        /* highest z of b in the cells under it */
 };
 
+struct target;
+struct interfere_query;
+
 struct interfere {
     struct candidate *candidates;
     struct pool *candidate_pool;
@@ -80,6 +83,10 @@ struct interfere {
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     int error;
     struct candidate_visitor *visitor;
+
+    /* what becomes of a leaf and a face of b that no plane parts: candidates, or pairs of faces */
+    void (*meet)(struct interfere *w, const struct target *t);
+    struct interfere_query *query; /* of a query */
 
     /* the pair being worked on */
     const struct body *a, *b;
@@ -110,5 +117,22 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
 
 /* Sort the interfering faces and drop repeated ones. */
 void interfere_finish(struct interfere *w);
+
+/* A body where it is. */
+struct interfere_placed {
+    const struct body *body;
+    const struct body_state *state;
+};
+
+/*
+ * The face pairs of a and b that interfere at their poses, each once: every pair that crosses or
+ * touches, and some that are within 2^-13 units of each other. The candidates and faces in w stay.
+ * Returns how many, or CAROM_ERR_FACES_FULL, and then some pairs are in `out` all the same.
+ */
+int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                    struct carom_face_pair *out, uint32_t room);
+
+/* Whether a's first vertex is inside b; it must not be within 2^-13 units of b's surface. */
+bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
 
 #endif

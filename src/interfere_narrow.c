@@ -23,14 +23,6 @@ static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     w->candidate_count++;
 }
 
-/* A face of b, in b's mesh axes. */
-struct target {
-    uint16_t number;
-    const struct carom_face *face;
-    struct interfere_vec p[3], low, high;
-    uint32_t over, under; /* vertices of the leaf that stay on one side of its plane */
-};
-
 static inline int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -454,10 +446,20 @@ static bool edges_edges(struct interfere *w, const struct target *t)
     return any;
 }
 
+void interfere_features(struct interfere *w, const struct target *t)
+{
+    bool any = vertices_face(w, t);
+
+    any |= face_vertices(w, t);
+    any |= edges_edges(w, t);
+    if (any) {
+        interfere_add_face(w, w->body_b, t->number);
+    }
+}
+
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    bool any;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
@@ -469,10 +471,5 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     if (!w->leaf.listed) {
         list_corners(w);
     }
-    any = vertices_face(w, &t);
-    any |= face_vertices(w, &t);
-    any |= edges_edges(w, &t);
-    if (any) {
-        interfere_add_face(w, w->body_b, face_b);
-    }
+    w->meet(w, &t);
 }
