@@ -75,8 +75,7 @@ struct meeting {
 static struct interfere_vec way(const struct interfere_vec *from, const struct interfere_vec *to,
                                 int32_t scale)
 {
-    return (struct interfere_vec){{(to->c[0] - from->c[0]) * scale,
-                                   (to->c[1] - from->c[1]) * scale,
+    return (struct interfere_vec){{(to->c[0] - from->c[0]) * scale, (to->c[1] - from->c[1]) * scale,
                                    (to->c[2] - from->c[2]) * scale}};
 }
 

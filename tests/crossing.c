@@ -9,7 +9,7 @@ static int sign(int64_t v)
     return (v > 0) - (v < 0);
 }
 
-/* The sign of n . w, exactly: |n| < 2^60, |w| < 2^30. */
+/* The sign of n . w, exactly: |n| < 2^60, |w| < 2^29 in each component. */
 static int sign_of_dot(const int64_t n[3], const int64_t w[3])
 {
     int64_t high = 0, low = 0;
@@ -112,8 +112,8 @@ static bool edges_meet(const int32_t p[3][3], const int32_t q[3][3], const int s
             if (meets_in_plane(a, b, q, n)) {
                 return true;
             }
-        } else if (on_a * on_b <= 0 && agree(side(a, b, q[0], q[1]), side(a, b, q[1], q[2]),
-                                             side(a, b, q[2], q[0]))) {
+        } else if (on_a * on_b <= 0 &&
+                   agree(side(a, b, q[0], q[1]), side(a, b, q[1], q[2]), side(a, b, q[2], q[0]))) {
             return true;
         }
     }
@@ -167,65 +167,59 @@ void crossing_place(struct crossing_body *body, const carom_v3_q32 *position,
     }
 }
 
-struct box {
-    int32_t low[3], high[3];
-};
-
-static void widen(struct box *box, const int32_t p[3])
+/* The box of a face, or of all of a mesh. */
+static void begin_box(struct crossing_face *box)
 {
     for (int k = 0; k < 3; k++) {
-        box->low[k] = p[k] < box->low[k] ? p[k] : box->low[k];
-        box->high[k] = p[k] > box->high[k] ? p[k] : box->high[k];
+        box->low_q22[k] = INT32_MAX;
+        box->high_q22[k] = INT32_MIN;
     }
 }
 
-static const struct box nothing = {{INT32_MAX, INT32_MAX, INT32_MAX},
-                                   {INT32_MIN, INT32_MIN, INT32_MIN}};
-
-static bool boxes_meet(const struct box *a, const struct box *b)
+static void widen(struct crossing_face *box, const int32_t p[3])
 {
     for (int k = 0; k < 3; k++) {
-        if (a->low[k] > b->high[k] || a->high[k] < b->low[k]) {
+        box->low_q22[k] = p[k] < box->low_q22[k] ? p[k] : box->low_q22[k];
+        box->high_q22[k] = p[k] > box->high_q22[k] ? p[k] : box->high_q22[k];
+    }
+}
+
+static bool boxes_meet(const struct crossing_face *a, const struct crossing_face *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->low_q22[k] > b->high_q22[k] || a->high_q22[k] < b->low_q22[k]) {
             return false;
         }
     }
     return true;
 }
 
-/* The corners of a face, and their box. */
-static struct box corners(int32_t t[3][3], const struct crossing_body *body, uint32_t face)
+static struct crossing_face bounds(const struct crossing_body *body)
 {
-    struct box box = nothing;
+    struct crossing_face box;
 
-    for (int k = 0; k < 3; k++) {
-        memcpy(t[k], body->p_q22[body->mesh->raw.faces[face][k]], sizeof t[k]);
-        widen(&box, t[k]);
-    }
-    return box;
-}
-
-static struct box bounds(const struct crossing_body *body)
-{
-    struct box box = nothing;
-
+    begin_box(&box);
     for (uint32_t v = 0; v < body->mesh->raw.vertex_count; v++) {
         widen(&box, body->p_q22[v]);
     }
     return box;
 }
 
-/* List the faces whose boxes meet a box. */
-static uint32_t list_near(struct crossing_body *body, const struct box *box)
+/* List the faces whose boxes meet a box; returns how many. */
+static uint32_t list_near(struct crossing_body *body, const struct crossing_face *box)
 {
     uint32_t count = 0;
 
     for (uint32_t f = 0; f < body->mesh->raw.face_count; f++) {
-        int32_t t[3][3];
-        struct box own = corners(t, body, f);
+        struct crossing_face *face = &body->near[count];
 
-        if (boxes_meet(&own, box)) {
-            body->near[count++] = (uint16_t)f;
+        begin_box(face);
+        for (int k = 0; k < 3; k++) {
+            memcpy(face->p_q22[k], body->p_q22[body->mesh->raw.faces[f][k]], sizeof face->p_q22[k]);
+            widen(face, face->p_q22[k]);
         }
+        face->number = f;
+        count += boxes_meet(face, box);
     }
     return count;
 }
@@ -234,7 +228,7 @@ void crossing_compare(struct crossing_body *a, struct crossing_body *b,
                       const struct carom_face_pair *found, uint32_t count, uint8_t *bits,
                       struct crossing_tally *tally)
 {
-    struct box box_a = bounds(a), box_b = bounds(b);
+    struct crossing_face box_a = bounds(a), box_b = bounds(b);
     uint32_t near_a = list_near(a, &box_b), near_b = list_near(b, &box_a), crossing = 0;
     size_t row = b->mesh->raw.face_count;
 
@@ -244,16 +238,12 @@ void crossing_compare(struct crossing_body *a, struct crossing_body *b,
         tally->repeated += bits[place / 8] >> place % 8 & 1;
         bits[place / 8] |= (uint8_t)(1 << place % 8);
     }
-    for (uint32_t i = 0; i < near_a; i++) {
-        int32_t p[3][3], q[3][3];
-        struct box own = corners(p, a, a->near[i]);
+    for (const struct crossing_face *p = a->near; p < a->near + near_a; p++) {
+        for (const struct crossing_face *q = b->near; q < b->near + near_b; q++) {
+            size_t place = p->number * row + q->number;
 
-        for (uint32_t j = 0; j < near_b; j++) {
-            struct box other = corners(q, b, b->near[j]);
-            size_t place = a->near[i] * row + b->near[j];
-
-            if (boxes_meet(&own, &other) &&
-                crossing_triangles((const int32_t(*)[3])p, (const int32_t(*)[3])q)) {
+            if (boxes_meet(p, q) &&
+                crossing_triangles((const int32_t(*)[3])p->p_q22, (const int32_t(*)[3])q->p_q22)) {
                 crossing++;
                 tally->missed += !(bits[place / 8] >> place % 8 & 1);
             }

@@ -19,11 +19,18 @@
  */
 bool crossing_triangles(const int32_t p[3][3], const int32_t q[3][3]);
 
+/* A face in a pose, and its box. */
+struct crossing_face {
+    int32_t p_q22[3][3];
+    int32_t low_q22[3], high_q22[3];
+    uint32_t number;
+};
+
 /* A mesh in a pose. The caller gives the memory, for every vertex and every face. */
 struct crossing_body {
     const struct carom_mesh *mesh;
     int32_t (*p_q22)[3];
-    uint16_t *near; /* faces that meet the box of the other body */
+    struct crossing_face *near; /* those that meet the box of the other body */
 };
 
 /* Carry a mesh into the world, seen from `origin`; it must be within 64 units of that. */
