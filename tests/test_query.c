@@ -464,8 +464,8 @@ static void test_cells(void)
 
 /* -------------------------------------------------------------------- slivers */
 
-/* Boxes of which one side or two are a few quanta, any way in each other. */
-static void check_slivers(uint64_t seed)
+/* Boxes of which one side or two are a few quanta, any way in each other. Returns how many touch. */
+static uint32_t check_slivers(uint64_t seed)
 {
     struct test_random r = {seed};
 
@@ -480,24 +480,27 @@ static void check_slivers(uint64_t seed)
         query();
         step();
     }
-    CHECK(POSES < 50 || tally.touching > POSES / 8);
+    return tally.touching;
 }
 
 static void test_slivers(void)
 {
+    uint32_t touching;
+
     begin();
     shape_box(&shape_a, 12, 4096, 2, 2);
     shape_box(&shape_b, 12, 3000, 2500, 2);
-    check_slivers(21);
+    touching = check_slivers(21);
     shape_box(&shape_a, 12, 4000, 3000, 2);
-    check_slivers(22);
+    touching += check_slivers(22);
     shape_box(&shape_a, 12, 30000, 4, 200);
     shape_ball(&shape_b, 12, 300);
-    check_slivers(23);
+    touching += check_slivers(23);
     /* a large face and a very small one */
     shape_box(&shape_a, 14, 4, 6, 20);
     shape_plane(&shape_b, 8, 1, 30000);
-    check_slivers(24);
+    touching += check_slivers(24);
+    CHECK(touching >= POSES);
 }
 
 const struct test tests_query[] = {
