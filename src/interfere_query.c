@@ -35,6 +35,7 @@ struct interfere_query {
 /* The power of two that makes lengths up to this as large as fits 2^30; length_q20 < 2^30. */
 static int32_t scale_for(int32_t length_q20)
 {
+    CAROM_ASSERT(length_q20 > 0 && length_q20 < 1 << 30);
     return (int32_t)1 << (30 - fix_bits32((uint32_t)length_q20));
 }
 
@@ -106,6 +107,7 @@ static bool apart_across(const struct meeting *m, int k, bool upper)
         carom_cross(w, f.c, e.c, 32);
     }
     gap = rise(w, from, m->q[0]);
+    CAROM_ASSERT(carom_abs(gap) < (int64_t)1 << 61);
     limit = (carom_abs(w[0]) + carom_abs(w[1]) + carom_abs(w[2])) * m->near_q20;
     if (gap <= limit) {
         return false;
@@ -119,30 +121,21 @@ static bool apart_across(const struct meeting *m, int k, bool upper)
     return gap - top > limit;
 }
 
-/*
- * Of three corners those over a plane, or if there are none those not under it: with the bits of the
- * former and the latter. All three when they lie in the plane.
- */
-static uint32_t upper_corners(uint32_t over, uint32_t under)
-{
-    return over ? over : ~under & 7;
-}
-
-/* The corner that is alone on its side, by the bits of those above. */
+/* The corner that is alone on its side of a plane, by the bits of those over it. */
 static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
 
 /*
- * Both faces reach through the other one's plane. On the line in which these meet each covers an
- * interval between its two edges from the lone corner; the faces cross if the intervals overlap, and
- * otherwise the edges at the ends that are nearest each other keep them apart. Which ends are on
- * which side of the line follows from the sides of the lone corners.
+ * Whether two faces that each reach through the other one's plane are apart. On the line in which
+ * the planes meet each face covers an interval between its two edges from the lone corner. The faces
+ * cross if the intervals overlap; otherwise the edges at the ends that are nearest each other keep
+ * them apart. Which ends these are follows from the sides of the lone corners.
  */
 static bool intervals_apart(struct meeting *m, const struct interfere_vec *const p[3],
-                            const struct interfere_vec q[3], uint32_t upper_p, uint32_t upper_q)
+                            const struct interfere_vec q[3], uint32_t over_p, uint32_t over_q)
 {
     static const uint8_t next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
-    int i = lone[upper_p], j = lone[upper_q];
-    bool over_p = upper_p == 1u << i, over_q = upper_q == 1u << j, same = over_p == over_q;
+    int i = lone[over_p], j = lone[over_q];
+    bool p_over = over_p == 1u << i, q_over = over_q == 1u << j, same = p_over == q_over;
 
     m->p[0] = p[i];
     m->p[1] = p[next[i]];
@@ -150,7 +143,7 @@ static bool intervals_apart(struct meeting *m, const struct interfere_vec *const
     m->q[0] = &q[j];
     m->q[1] = &q[same ? next[j] : last[j]];
     m->q[2] = &q[same ? last[j] : next[j]];
-    return apart_across(m, 1, !over_q) || apart_across(m, 2, over_q);
+    return apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
 }
 
 /* Whether a face with these corners stays clear of the box of b's face. */
@@ -175,7 +168,7 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     const uint8_t *corner = w->a->mesh->leaf_corners[l->leaf->first_face + i];
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     int32_t near_q18 = (l->near_q20 >> 2) + 4;
-    uint32_t over = 0, under = 0, upper_p, upper_q;
+    uint32_t over_p = 0, over_q = 0, under_q = 0;
     const struct plane *plane;
 
     if (clear_of(p, t, l->near_q20)) {
@@ -185,20 +178,11 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     for (int k = 0; k < 3; k++) {
         int32_t height_q18 = interfere_dot(plane->n_q30, t->p[k].c) - plane->offset_q18;
 
-        over |= (uint32_t)(near_q18 - height_q18) >> 31 << k;
-        under |= (uint32_t)(height_q18 + near_q18) >> 31 << k;
+        over_q |= (uint32_t)(near_q18 - height_q18) >> 31 << k;
+        under_q |= (uint32_t)(height_q18 + near_q18) >> 31 << k;
+        over_p |= (t->over >> corner[k] & 1) << k;
     }
-    if (over == 7 || under == 7) {
-        return false;
-    }
-    upper_q = upper_corners(over, under);
-    over = under = 0;
-    for (int k = 0; k < 3; k++) {
-        over |= (t->over >> corner[k] & 1) << k;
-        under |= (t->under >> corner[k] & 1) << k;
-    }
-    upper_p = upper_corners(over, under);
-    return upper_p == 7 || upper_q == 7 || !intervals_apart(m, p, t->p, upper_p, upper_q);
+    return over_q != 7 && under_q != 7 && !intervals_apart(m, p, t->p, over_p, over_q);
 }
 
 static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)

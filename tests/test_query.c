@@ -225,6 +225,46 @@ static void test_room(void)
     CHECK_EQ(interfere_query(&work, placed(0), placed(1), NULL, 0), 0);
 }
 
+/*
+ * The largest meshes there may be, and the same in 2^-12 units, where all is well within the formats:
+ * the same pairs in the same order.
+ */
+static void test_large(void)
+{
+    static struct carom_face_pair small[ROOM];
+    struct test_random r = {17};
+    int touching = 0;
+
+    begin();
+    for (int n = 0; n < POSES; n++) {
+        carom_quat_q30 turn[2] = {shape_random_turn(&r), shape_random_turn(&r)};
+        int64_t at[3], count[2];
+
+        for (int k = 0; k < 3; k++) {
+            at[k] = test_random_range(&r, -18000, 18000);
+        }
+        for (int large = 0; large < 2; large++) {
+            int bits = large ? 7 : 12;
+
+            shape_box(&shape_a, bits, 32766, 30000, 18000);
+            shape_ball(&shape_b, bits, 16383);
+            make_bodies();
+            for (int k = 0; k < 3; k++) {
+                states[0].position.c[k] = at[k] * ((int64_t)1 << (32 - bits));
+            }
+            states[0].rotation = turn[0];
+            states[1].rotation = turn[1];
+            count[large] =
+                interfere_query(&work, placed(0), placed(1), large ? found : small, ROOM);
+            CHECK(!interfere_inside(placed(0), placed(1)) || count[large] != 0);
+        }
+        CHECK(count[0] >= 0 && count[0] == count[1]);
+        CHECK_EQ(memcmp(small, found, (size_t)count[0] * sizeof small[0]), 0);
+        touching += count[0] > 0;
+    }
+    CHECK(2 * touching > POSES);
+}
+
 /* ----------------------------------------------------------------- containment */
 
 /* Whether a point is in the L of shape_l with this side, in 2^-12 units; or on its surface: -1. */
@@ -538,6 +578,7 @@ static void test_slivers(void)
 const struct test tests_query[] = {
     {"query/needle", test_needle},
     {"query/room", test_room},
+    {"query/large", test_large},
     {"query/inside_l", test_inside_l},
     {"query/inside_turned", test_inside_turned},
     {"query/inside_surface", test_inside_surface},
