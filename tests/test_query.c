@@ -247,7 +247,7 @@ static void test_large(void)
             int bits = large ? 7 : 12;
 
             shape_box(&shape_a, bits, 32766, 30000, 18000);
-            shape_ball(&shape_b, bits, 16383);
+            shape_ball(&shape_b, bits, 14000);
             make_bodies();
             for (int k = 0; k < 3; k++) {
                 states[0].position.c[k] = at[k] * ((int64_t)1 << (32 - bits));
