@@ -380,9 +380,9 @@ struct carom_face_pair {
     uint16_t a, b; /* a face of each of two bodies */
 };
 /*
- * The pairs of faces of bodies a and b that interfere where the bodies are now, whatever their motion.
- * Every pair that has a point in common is among them, each once, and hardly any other: none whose
- * faces are more than 2^-13 units apart and not in one plane. The order is the same everywhere.
+ * The pairs of faces of bodies a and b that interfere where the bodies are now, whatever their motion:
+ * every pair that has a point in common, each once, and hardly any that comes close and has none. The
+ * order is the same everywhere.
  *   out   may be NULL when room is 0
  *   room  pairs that `out` can hold
  * Returns how many there are; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body and itself;

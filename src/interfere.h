@@ -125,14 +125,14 @@ struct interfere_placed {
 };
 
 /*
- * The face pairs of a and b that interfere at their poses, each once: every pair that crosses or
- * touches, and some that are within 2^-13 units of each other. The candidates and faces in w stay.
- * Returns how many, or CAROM_ERR_FACES_FULL, and then some pairs are in `out` all the same.
+ * The face pairs of a and b that interfere at their poses, each once: every pair that has a point in
+ * common, and hardly any other. Candidates and interfering faces in w stay as they are.
+ * Returns how many, or CAROM_ERR_FACES_FULL; some pairs are in `out` then all the same.
  */
 int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room);
 
-/* Whether a's first vertex is inside b; it must not be within 2^-13 units of b's surface. */
+/* Whether a's first vertex is inside b, or under a SURFACE. No faces of both may interfere. */
 bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
 
 #endif

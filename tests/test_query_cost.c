@@ -2,8 +2,8 @@
 /*
  * What carom_query_faces costs: instructions of a Cortex-M3 that counts them, the head of 1876 faces
  * over the field of 3034. near: the boxes overlap and no faces cross; contact: the head grazes the
- * field; deep: it is a quarter of its height in it. Where no board counts, only the phases are
- * looked at.
+ * field; deep: it has sunk in by half a unit, a quarter of its height. Where no board counts, only
+ * the phases are looked at.
  */
 #include "port.h"
 #include "scene.h"
@@ -20,9 +20,9 @@ static struct carom_face_pair pairs[ROOM];
 
 static const struct phase {
     const char *name;
-    int32_t sink_q32_20; /* below the place where the head begins to touch, 2^-12 units */
-    uint32_t bar;        /* instructions on average */
-} phases[] = {{"near", -200, 130000}, {"contact", 8, 250000}, {"deep", 2048, 600000}};
+    int32_t sink; /* below the place where the head begins to touch, 2^-12 units */
+    uint32_t bar; /* instructions on average */
+} phases[] = {{"near", -200, 100000}, {"contact", 8, 165000}, {"deep", 2048, 750000}};
 
 static int query_at(int64_t z_q32, uint32_t *cost)
 {
@@ -79,7 +79,7 @@ static void test_cost(void)
         height_q32 = touching_height();
         for (int k = 0; k < 3; k++) {
             uint32_t cost;
-            int count = query_at(height_q32 - ((int64_t)phases[k].sink_q32_20 << 20), &cost);
+            int count = query_at(height_q32 - ((int64_t)phases[k].sink << 20), &cost);
 
             CHECK((count == 0) == (k == 0));
             sum[k] += cost;
