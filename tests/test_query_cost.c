@@ -79,7 +79,7 @@ static void test_cost(void)
         height_q32 = touching_height();
         for (int k = 0; k < 3; k++) {
             uint32_t cost;
-            int count = query_at(height_q32 - ((int64_t)phases[k].sink << 20), &cost);
+            int count = query_at(height_q32 - phases[k].sink * ((int64_t)1 << 20), &cost);
 
             CHECK((count == 0) == (k == 0));
             sum[k] += cost;
