@@ -375,6 +375,29 @@ struct carom_contact {
 /* Copy up to `max` contacts of the last solve of the step; returns how many there are. */
 int carom_contacts(const struct carom_world *world, struct carom_contact *contacts, int max);
 
+/* -------------------------------------------------- bodies where they are now */
+
+struct carom_face_pair {
+    uint16_t a, b; /* a face of each of two bodies */
+};
+/*
+ * The pairs of faces of bodies a and b that interfere where the bodies are now, whatever their motion:
+ * every pair that has a point in common, each once, and hardly any that comes close and has none. The
+ * order is the same everywhere.
+ *   out   may be NULL when room is 0
+ *   room  pairs that `out` can hold
+ * Returns how many there are; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body and itself;
+ *         CAROM_ERR_FACES_FULL when there are more than `room`: `out` then holds some of them.
+ */
+int carom_query_faces(struct carom_world *world, int a, int b, struct carom_face_pair *out,
+                      uint32_t room);
+/*
+ * Whether body a lies inside body b, or under it if that is a SURFACE. No faces of theirs may
+ * interfere: then all of a is where its first vertex is, unless it is of several parts.
+ * Returns 1 or 0; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body and itself.
+ */
+int carom_query_inside(const struct carom_world *world, int a, int b);
+
 enum carom_stage {
     CAROM_STAGE_PREDICT,
     CAROM_STAGE_BROAD,

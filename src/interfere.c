@@ -223,8 +223,7 @@ static void visit_leaf(struct interfere *w)
 
 /* -------------------------------------------------------------------- pair */
 
-/* R_b^T R_a */
-static void relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
+void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
 {
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -281,10 +280,10 @@ static bool set_motion(struct interfere *w)
         w->at.c[k] = (int32_t)(start[k] >> 12) + w->moves.c[k] / 2;
         distance += carom_abs(start[k]) >> 10;
     }
-    relate(&w->to_b, &b->r, &a->r);
+    interfere_relate(&w->to_b, &b->r, &a->r);
     memset(&w->change, 0, sizeof w->change);
     if (a->u_q30 > 0 || b->u_q30 > 0) {
-        relate(&w->change, &b->end_r, &a->end_r);
+        interfere_relate(&w->change, &b->end_r, &a->end_r);
         for (int i = 0; i < 9; i++) {
             w->change.c[i / 3][i % 3] -= w->to_b.c[i / 3][i % 3];
             w->to_b.c[i / 3][i % 3] += w->change.c[i / 3][i % 3] / 2;
@@ -307,9 +306,19 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
-static void gather_pair(struct interfere *w)
+void interfere_leaves(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
+
+    for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
+        if (leaf_near(w, &ma->leaves[i])) {
+            visit_leaf(w);
+        }
+    }
+}
+
+static void gather_pair(struct interfere *w)
+{
     int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + w->a->turn_q30 + w->b->turn_q30;
 
     if (!set_motion(w)) {
@@ -320,11 +329,8 @@ static void gather_pair(struct interfere *w)
         return;
     }
     w->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
-    for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
-        if (leaf_near(w, &ma->leaves[i])) {
-            visit_leaf(w);
-        }
-    }
+    w->meet = interfere_features;
+    interfere_leaves(w);
 }
 
 void interfere_begin(struct interfere *w)

@@ -51,6 +51,11 @@ struct interfere_vec {
     int32_t c[3];
 };
 
+/* The plane of a face of the leaf in the middle of its way, and the reach along its normal. */
+struct interfere_plane {
+    int32_t n_q30[3], offset_q18, reach_q18;
+};
+
 /* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are
  * q20. */
 struct interfere_leaf {
@@ -66,11 +71,14 @@ struct interfere_leaf {
     /* of each face, once listed: its corners, a bit each, and the box around its way */
     uint32_t corners[CAROM_LEAF_FACES];
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
-    uint32_t turned; /* faces whose normal is there, in b's axes */
-    struct interfere_vec normal[CAROM_LEAF_FACES];
+    uint32_t placed; /* faces whose planes are known, a bit each */
+    struct interfere_plane planes[CAROM_LEAF_FACES];
     uint32_t busy;                      /* faces with candidates */
     int32_t top;                        /* highest z of b in the cells under it */
 };
+
+struct target;
+struct interfere_query;
 
 struct interfere {
     struct candidate *candidates;
@@ -84,6 +92,10 @@ struct interfere {
     bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
     int error;
     struct candidate_visitor *visitor;
+
+    /* what becomes of face i of the leaf and a face of b that no plane parts: candidates, or a pair */
+    bool (*meet)(struct interfere *w, const struct target *t, uint32_t i);
+    struct interfere_query *query; /* of a query */
 
     /* the pair being worked on */
     const struct body *a, *b;
@@ -115,5 +127,22 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
 
 /* Sort the interfering faces and drop repeated ones. */
 void interfere_finish(struct interfere *w);
+
+/* A body where it is. */
+struct interfere_placed {
+    const struct body *body;
+    const struct body_state *state;
+};
+
+/*
+ * The face pairs of a and b that interfere at their poses, each once: every pair that has a point in
+ * common, and hardly any other. Candidates and interfering faces in w stay as they are.
+ * Returns how many, or CAROM_ERR_FACES_FULL; some pairs are in `out` then all the same.
+ */
+int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                    struct carom_face_pair *out, uint32_t room);
+
+/* Whether a's first vertex is inside b, or under a SURFACE. No faces of both may interfere. */
+bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
 
 #endif

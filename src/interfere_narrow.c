@@ -23,16 +23,6 @@ static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     w->candidate_count++;
 }
 
-/* A face of b, in b's mesh axes, and how it stands to the leaf and to one of its faces. */
-struct target {
-    uint16_t number;
-    const struct carom_face *face;
-    struct interfere_vec p[3], low, high;
-    uint32_t over, under; /* vertices of the leaf that stay on one side of its plane */
-    /* its corners over the plane of the leaf's face, and how far off they may be to meet it */
-    int32_t height_q18[3], reach_q18;
-};
-
 static inline int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
@@ -46,17 +36,6 @@ static inline int32_t most(int32_t a, int32_t b)
 static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
 {
     return (struct interfere_vec){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
-}
-
-/* The face of a that is number i of the leaf. */
-static uint32_t face_of(const struct interfere *w, uint32_t i)
-{
-    return w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i];
-}
-
-static const uint8_t *corners_of(const struct interfere *w, uint32_t i)
-{
-    return w->a->mesh->leaf_corners[w->leaf.leaf->first_face + i];
 }
 
 /* -------------------------------------------------------------------- boxes */
@@ -89,9 +68,9 @@ static void list_faces(struct interfere *w)
     struct interfere_leaf *l = &w->leaf;
 
     l->listed = true;
-    l->turned = 0;
+    l->placed = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = corners_of(w, i);
+        const uint8_t *corner = interfere_corners(w, i);
         const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]],
                                                   &l->p[corner[2]]};
 
@@ -155,47 +134,39 @@ static void part_by_plane(const struct interfere *w, struct target *t, uint32_t 
     }
 }
 
-/* The normal of a face of the leaf, in b's axes. */
-static const int32_t *normal_of(struct interfere *w, uint32_t i)
+/* The plane of a face of the leaf. */
+static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
 {
-    int32_t *n = w->leaf.normal[i].c;
+    struct interfere_leaf *l = &w->leaf;
+    struct interfere_plane *plane = &l->planes[i];
 
-    if (!(w->leaf.turned >> i & 1)) {
-        w->leaf.turned |= 1u << i;
-        carom_rotate(n, &w->to_b, w->a->mesh->faces[face_of(w, i)].normal.c);
+    if (!(l->placed >> i & 1)) {
+        l->placed |= 1u << i;
+        carom_rotate(plane->n_q30, &w->to_b, w->a->mesh->faces[interfere_face(w, i)].normal.c);
+        plane->offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
+        plane->reach_q18 = interfere_reach_q18(l, plane->n_q30);
     }
-    return n;
-}
-
-/* Whether a corner of b's face stays on one side of the plane of the leaf's face. */
-static bool stays_over(const struct target *t, int k)
-{
-    return t->height_q18[k] > t->reach_q18;
-}
-
-static bool stays_under(const struct target *t, int k)
-{
-    return t->height_q18[k] < -t->reach_q18;
+    return plane;
 }
 
 /* Whether face i of the leaf and b's face may meet as far as their planes tell. */
 static bool planes_meet(struct interfere *w, struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = &w->leaf;
-    const int32_t *n;
-    int32_t from_q18;
+    uint32_t corners = w->leaf.corners[i];
+    const struct interfere_plane *plane;
 
-    if ((l->corners[i] & ~t->over) == 0 || (l->corners[i] & ~t->under) == 0) {
+    if ((corners & ~t->over) == 0 || (corners & ~t->under) == 0) {
         return false;
     }
-    n = normal_of(w, i);
-    from_q18 = interfere_dot(n, l->p[corners_of(w, i)[0]].c);
-    t->reach_q18 = interfere_reach_q18(l, n);
+    plane = plane_of(w, i);
+    t->corners_over = t->corners_under = 0;
     for (int k = 0; k < 3; k++) {
-        t->height_q18[k] = interfere_dot(n, t->p[k].c) - from_q18;
+        int32_t height_q18 = interfere_dot(plane->n_q30, t->p[k].c) - plane->offset_q18;
+
+        t->corners_over |= (uint32_t)(height_q18 > plane->reach_q18) << k;
+        t->corners_under |= (uint32_t)(height_q18 < -plane->reach_q18) << k;
     }
-    return !(stays_over(t, 0) && stays_over(t, 1) && stays_over(t, 2)) &&
-           !(stays_under(t, 0) && stays_under(t, 1) && stays_under(t, 2));
+    return t->corners_over != 7 && t->corners_under != 7;
 }
 
 /* ---------------------------------------------------------- vertices, faces */
@@ -241,11 +212,11 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
     const struct interfere_leaf *l = &w->leaf;
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
-    uint8_t own = ma->faces[face_of(w, i)].own;
+    uint8_t own = ma->faces[interfere_face(w, i)].own;
     bool any = false;
 
     for (int k = 0; k < 3; k++) {
-        uint32_t at = corners_of(w, i)[k];
+        uint32_t at = interfere_corners(w, i)[k];
         const struct interfere_vec *p = &l->p[at];
         int32_t n[3];
         uint32_t v;
@@ -269,20 +240,21 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
 static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = &w->leaf;
-    const uint8_t *corner = corners_of(w, i);
+    const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const struct interfere_vec none = {{0, 0, 0}}; /* the box of face i has it */
-    const int32_t *n = l->normal[i].c;
+    const int32_t *n = l->planes[i].n_q30;
+    uint32_t left = t->face->own & ~(t->corners_over | t->corners_under) & 7;
     bool any = false;
 
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; left >> k != 0; k++) {
         uint32_t v = w->b->mesh->raw.faces[t->number][k];
 
-        if ((t->face->own & 1 << k) && !stays_over(t, k) && !stays_under(t, k) &&
+        if ((left >> k & 1) &&
             !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
             !stays_beside(l, &t->p[k], p, n) &&
             mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
-            emit(w, CANDIDATE_FACE_VERTEX, v, face_of(w, i));
+            emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
             any = true;
         }
     }
@@ -404,8 +376,8 @@ static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, 
 {
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_leaf *l = &w->leaf;
-    const struct carom_face *face = &ma->faces[face_of(w, i)];
-    const uint8_t *corner = corners_of(w, i);
+    const struct carom_face *face = &ma->faces[interfere_face(w, i)];
+    const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
     bool any = false;
 
@@ -432,16 +404,26 @@ static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, 
 
 static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
 {
+    /* bit k of these: both ends of edge k */
+    uint32_t over = t->corners_over & (t->corners_over >> 1 | t->corners_over << 2);
+    uint32_t under = t->corners_under & (t->corners_under >> 1 | t->corners_under << 2);
+    uint32_t left = (uint32_t)t->face->own >> 3 & ~over & ~under & 7;
     bool any = false;
 
-    for (int j = 0; j < 3; j++) {
-        int next = j == 2 ? 0 : j + 1;
-
-        if ((t->face->own & 8 << j) && !(stays_over(t, j) && stays_over(t, next)) &&
-            !(stays_under(t, j) && stays_under(t, next))) {
+    for (int j = 0; left >> j != 0; j++) {
+        if (left >> j & 1) {
             any |= edges_edge(w, t, i, j);
         }
     }
+    return any;
+}
+
+bool interfere_features(struct interfere *w, const struct target *t, uint32_t i)
+{
+    bool any = vertices_face(w, t, i);
+
+    any |= face_vertices(w, t, i);
+    any |= edges_edges(w, t, i);
     return any;
 }
 
@@ -449,8 +431,7 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
     struct target t; /* the rest of it is set by and by: nearly all end here */
     const struct interfere_vec *const p[3] = {&t.p[0], &t.p[1], &t.p[2]};
-    uint32_t near, vertices;
-    bool touched = false;
+    uint32_t near, vertices, busy = 0;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
@@ -468,16 +449,12 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     }
     part_by_plane(w, &t, vertices);
     for (uint32_t i = 0; near >> i != 0; i++) {
-        if ((near >> i & 1) && planes_meet(w, &t, i)) {
-            bool any = vertices_face(w, &t, i);
-
-            any |= face_vertices(w, &t, i);
-            any |= edges_edges(w, &t, i);
-            w->leaf.busy |= (uint32_t)any << i;
-            touched |= any;
+        if ((near >> i & 1) && planes_meet(w, &t, i) && w->meet(w, &t, i)) {
+            busy |= 1u << i;
         }
     }
-    if (touched) {
+    if (busy != 0) {
+        w->leaf.busy |= busy;
         interfere_add_face(w, w->body_b, face_b);
     }
 }

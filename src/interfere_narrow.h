@@ -19,11 +19,42 @@ static inline int32_t interfere_reach_q18(const struct interfere_leaf *l, const 
     return (l->near_q20 >> 2) + (int32_t)carom_abs(interfere_dot(n, l->shift.c)) / 2 + 4;
 }
 
+/* A face of b, in b's mesh axes, and how it stands to the leaf and to one of its faces. */
+struct target {
+    uint16_t number;
+    const struct carom_face *face;
+    struct interfere_vec p[3], low, high;
+    /* vertices of the leaf that stay on one side of its plane; of those of faces that are near */
+    uint32_t over, under;
+    /* its own corners that stay on one side of the plane of the leaf's face, a bit each */
+    uint32_t corners_over, corners_under;
+};
+
+/* R_b^T R_a */
+void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a);
+
+/* Every leaf of a that comes near faces of b, with w->meet for each pair of faces. */
+void interfere_leaves(struct interfere *w);
+
+/* The face of a that is number i of the leaf, and which vertices of the leaf are its corners. */
+static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
+{
+    return w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i];
+}
+
+static inline const uint8_t *interfere_corners(const struct interfere *w, uint32_t i)
+{
+    return w->a->mesh->leaf_corners[w->leaf.leaf->first_face + i];
+}
+
 /*
- * The leaf at hand and a face of b that it may come near: emit the vertex/face and edge/edge pairs
- * that can touch; the faces of any interfere.
+ * The leaf at hand and a face of b that it may come near: w->meet for each face of the leaf that
+ * neither boxes nor the planes of both keep apart from it.
  */
 void interfere_narrow(struct interfere *w, uint16_t face_b);
+
+/* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
+bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);
 
 /* Note an interfering face; an error is left in w. */
 void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face);

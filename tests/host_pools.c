@@ -67,7 +67,7 @@ static void run_good(void)
 
 /* ------------------------------------------------------------- working pools */
 
-static void test_working(uint32_t candidates)
+static void test_working(uint32_t candidates, uint32_t entries)
 {
     struct carom_caps caps = large;
     struct carom_usage usage[CAROM_POOL_COUNT];
@@ -76,13 +76,14 @@ static void test_working(uint32_t candidates)
     char name[64];
 
     caps.candidates = candidates;
+    caps.entries = entries;
     lab = load_two_fields(&caps);
     while (frame < FRAMES && wanted[frame] == carom_world_hash(lab->world)) {
         lab_step(lab, NULL);
         frame++;
     }
     carom_usage(lab->world, usage);
-    snprintf(name, sizeof name, "pools/candidates_%u", candidates);
+    snprintf(name, sizeof name, "pools/candidates_%u_entries_%u", candidates, entries);
     lab_report(wanted[frame] == carom_world_hash(lab->world) && frame == FRAMES &&
                    usage[CAROM_POOL_candidates].peak <= candidates,
                name, "the same hash for %d of %d frames, refused %u", frame, FRAMES,
@@ -215,8 +216,10 @@ int main(void)
 
     run_good();
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        test_working(sizes[i]);
+        test_working(sizes[i], large.entries);
     }
+    test_working(large.candidates, 1);
+    test_working(1, 1);
     test_outputs();
     test_exact();
     test_bodies();

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * carom_query_faces and carom_query_inside: what they accept and refuse, and that asking changes
+ * nothing that a step does.
+ */
+#include <string.h>
+
+#include "shapes.h"
+#include "test.h"
+
+#define CAPS   4, 4, 32, 256, 16, 64
+#define ROOM   64
+#define FRAMES 40
+
+static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
+static struct shape box, ground;
+static struct carom_face_pair pairs[ROOM];
+
+/* A plane as body 0 and a box as body 1, half in the plane, a corner down. */
+static struct carom_world *setup(int n)
+{
+    const struct carom_config config = {.caps = {CAPS}, .gravity = {{0, 0, -((int64_t)1 << 31)}}};
+    struct carom_body_def def;
+    struct carom_world *world = NULL;
+
+    CHECK_EQ(carom_world_init(block[n], sizeof block[n], &config, &world), CAROM_OK);
+    memset(&def, 0, sizeof def);
+    def.mesh = &ground.mesh;
+    def.stationary = true;
+    CHECK_EQ(carom_body_add(world, &def), 0);
+    memset(&def, 0, sizeof def);
+    def.mesh = &box.mesh;
+    def.rotation = (carom_quat_q30){{900000000, 400000000, 300000000, 303000000}};
+    def.restitution_q30 = CAROM_ONE_Q30 / 2;
+    CHECK_EQ(carom_body_add(world, &def), 1);
+    return world;
+}
+
+static void make_shapes(void)
+{
+    shape_box(&box, 12, 4096, 2868, 2048);
+    shape_plane(&ground, 12, 2, 8192);
+}
+
+static void set_height(struct carom_world *world, int64_t z_q32)
+{
+    struct carom_body_state state;
+
+    CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
+    state.position.c[2] = z_q32;
+    CHECK_EQ(carom_body_set(world, 1, &state), CAROM_OK);
+}
+
+static void test_errors(void)
+{
+    static const struct {
+        int a, b, error;
+    } wrong[] = {{0, 2, CAROM_ERR_BODY},         {-1, 0, CAROM_ERR_BODY},
+                 {1, INT32_MAX, CAROM_ERR_BODY}, {1, 1, CAROM_ERR_ARGUMENT},
+                 {0, 0, CAROM_ERR_ARGUMENT},     {3, 3, CAROM_ERR_BODY}};
+    struct carom_world *world;
+    int count;
+
+    make_shapes();
+    world = setup(0);
+    CHECK_EQ(carom_query_faces(NULL, 1, 0, pairs, ROOM), CAROM_ERR_NULL);
+    CHECK_EQ(carom_query_faces(world, 1, 0, NULL, 1), CAROM_ERR_NULL);
+    CHECK_EQ(carom_query_inside(NULL, 1, 0), CAROM_ERR_NULL);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        memset(pairs, 0x5a, sizeof pairs);
+        CHECK_EQ(carom_query_faces(world, wrong[i].a, wrong[i].b, pairs, ROOM), wrong[i].error);
+        CHECK_EQ(carom_query_inside(world, wrong[i].a, wrong[i].b), wrong[i].error);
+        CHECK(pairs[0].a == 0x5a5a && pairs[0].b == 0x5a5a);
+    }
+    count = carom_query_faces(world, 1, 0, pairs, ROOM);
+    CHECK(count > 2 && count < ROOM);
+    CHECK_EQ(carom_query_faces(world, 1, 0, pairs, UINT32_MAX), count);
+    CHECK_EQ(carom_query_faces(world, 1, 0, pairs, (uint32_t)count), count);
+    CHECK_EQ(carom_query_faces(world, 1, 0, pairs, (uint32_t)count - 1), CAROM_ERR_FACES_FULL);
+    CHECK_EQ(carom_query_faces(world, 0, 1, NULL, 0), CAROM_ERR_FACES_FULL);
+    for (int i = 0; i < count; i++) {
+        CHECK(pairs[i].a < box.raw.face_count && pairs[i].b < ground.raw.face_count);
+    }
+}
+
+/* Over the plane, through it, and under it. */
+static void test_places(void)
+{
+    struct carom_world *world;
+
+    make_shapes();
+    world = setup(0);
+    set_height(world, (int64_t)2 << 32);
+    CHECK_EQ(carom_query_faces(world, 1, 0, NULL, 0), 0);
+    CHECK_EQ(carom_query_inside(world, 1, 0), 0);
+    CHECK_EQ(carom_query_inside(world, 0, 1), 0);
+    set_height(world, -((int64_t)2 << 32));
+    CHECK_EQ(carom_query_faces(world, 1, 0, NULL, 0), 0);
+    CHECK_EQ(carom_query_faces(world, 0, 1, NULL, 0), 0);
+    CHECK_EQ(carom_query_inside(world, 1, 0), 1);
+    CHECK_EQ(carom_query_inside(world, 0, 1), 0);
+}
+
+/* Of two worlds that do the same one is asked between its steps, also with too little room. */
+static void test_no_change(void)
+{
+    struct carom_world *asked, *other;
+    const struct carom_face_ref *faces[2];
+
+    make_shapes();
+    asked = setup(0);
+    other = setup(1);
+    set_height(asked, (int64_t)3 << 30);
+    set_height(other, (int64_t)3 << 30);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        struct carom_usage usage[2][CAROM_POOL_COUNT];
+        int count;
+
+        CHECK(carom_query_faces(asked, 1, 0, pairs, ROOM) >= 0);
+        carom_query_faces(asked, 0, 1, NULL, 0);
+        count = carom_interfering_faces(asked, &faces[0]);
+        CHECK_EQ(count, carom_interfering_faces(other, &faces[1]));
+        CHECK_EQ(memcmp(faces[0], faces[1], (size_t)count * sizeof faces[0][0]), 0);
+        CHECK_EQ(carom_usage(asked, usage[0]), CAROM_OK);
+        CHECK_EQ(carom_usage(other, usage[1]), CAROM_OK);
+        CHECK_EQ(memcmp(usage[0], usage[1], sizeof usage[0]), 0);
+        CHECK(carom_world_step(asked) >= 0 && carom_world_step(other) >= 0);
+        CHECK(carom_world_hash(asked) == carom_world_hash(other));
+    }
+    CHECK(carom_contacts(asked, NULL, 0) > 0); /* it has come down */
+}
+
+const struct test tests_world_query[] = {{"world_query/errors", test_errors},
+                                         {"world_query/places", test_places},
+                                         {"world_query/no_change", test_no_change},
+                                         {0}};
