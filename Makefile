@@ -65,8 +65,16 @@ SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
+NEED_COMPARE := ode bullet fcl valgrind
 
-.PHONY: help run test accuracy oracle check size build clean force
+# Scenes of the comparison: what moves, what stands still.
+mesh_pair = $(1)=build/gen/$(2).crm,build/gen/$(3).crm
+COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
+                  $(call mesh_pair,head450,head450,field386) \
+                  $(call mesh_pair,head836,head836,field512)
+COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
+
+.PHONY: help run test accuracy oracle compare check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -104,6 +112,11 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
+
+compare: ## ODE, Bullet and FCL beside Carom on the same meshes and poses, to out/compare.csv
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
+	@$(SUBMAKE) BOARD=host build/tools/carom-compare $(COMPARE_MESHES)
+	@tools/compare.py build/tools/carom-compare $(COMPARE_SCENES)
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
@@ -181,9 +194,33 @@ build/gen/field_mesh.c: build/gen/field.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh --surface --name field_mesh -o $@ $<
 
+# The same by number of faces, as blobs.
+build/gen/head%.crm: tools/gen_head build/tools/carom-mesh
+	@mkdir -p $(@D)
+	@echo '  mesh  $@'
+	tools/gen_head $* >$(@:.crm=.obj)
+	build/tools/carom-mesh -b $@ $(@:.crm=.obj)
+
+build/gen/field%.crm: tools/gen_field build/tools/carom-mesh
+	@mkdir -p $(@D)
+	@echo '  mesh  $@'
+	tools/gen_field $* >$(@:.crm=.obj)
+	build/tools/carom-mesh --surface -b $@ $(@:.crm=.obj)
+
+build/tools/%.o: tools/%.cpp
+	@mkdir -p $(@D)
+	@echo '  c++   $<'
+	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Itests -Iexamples -isystem /usr/include/bullet \
+	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
+
+build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
+                           $(SCENES) $(B)/libtests.a $(B)/libcarom.a
+	@echo '  link  $@'
+	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
+
 build/tools/carom-mesh: tools/mesh_convert.cpp
 	@mkdir -p $(@D)
 	@echo '  c++   $@'
 	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -MMD -MP -MF $@.d -o $@ $< -lassimp
 
--include $(shell find $(B) -name '*.d' 2>/dev/null) build/tools/carom-mesh.d
+-include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)
