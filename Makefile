@@ -6,6 +6,7 @@ SCENE ?= $(if $(MESH),user,head)
 FRAMES ?= 600
 OPT ?= -O2
 DEBUG ?=
+PAPER ?=
 
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
 ifeq ($(filter $(BOARD),$(BOARDS)),)
@@ -25,6 +26,13 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           -Iinclude -Isrc -Iport -Iport/arm -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
           $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
+ENGINE_SOURCES := $(wildcard src/*.c)
+ifneq ($(PAPER),)
+# The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
+ENGINE_SOURCES += $(wildcard src/paper/*.c)
+CFLAGS += -Isrc/paper -DUSER_VERTICES=4000
+LDFLAGS += -Wl,--wrap=interfere_visit
+endif
 ifdef CROSS
 LDFLAGS += -Wl,-z,noexecstack --specs=nano.specs -nostartfiles -Llinker -T$(BOARD).ld
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
@@ -34,7 +42,7 @@ endif
 # ---------------------------------------------------------------------- files
 
 objects = $(addprefix $(B)/,$(addsuffix .o,$(basename $(1))))
-ENGINE := $(call objects,$(wildcard src/*.c))
+ENGINE := $(call objects,$(ENGINE_SOURCES))
 SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LINKER_FILES)
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
@@ -210,11 +218,11 @@ build/gen/field%.crm: tools/gen_field build/tools/carom-mesh
 build/tools/%.o: tools/%.cpp
 	@mkdir -p $(@D)
 	@echo '  c++   $<'
-	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Itests -Iexamples -isystem /usr/include/bullet \
+	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Isrc -Isrc/paper -Itests -Iexamples -isystem /usr/include/bullet \
 	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
 
 build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
-                           $(SCENES) $(B)/libtests.a $(B)/libcarom.a
+                           $(B)/src/paper/paper.o $(SCENES) $(B)/libtests.a $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 

@@ -316,35 +316,61 @@ std::vector<Made> contenders(const Mesh &moving, const Mesh &still)
     std::vector<Made> made;
 
     made.push_back(make_carom(moving, still));
+    made.push_back(make_paper(moving, still));
     made.push_back(make_ode(moving, still));
     made.push_back(make_bullet(moving, still));
     made.push_back(make_fcl(moving, still));
     return made;
 }
 
-/* The frames in which a contender that tells crossing from not is of another opinion than FCL. */
-void compare_opinions(const Judge &judge, const char *which, const std::vector<Pose> &poses)
+/* The crossing pairs among those that a contender found, each counted once. */
+size_t crossing_found(const Judge &judge, const Pose &pose, const Contender &contender)
+{
+    const oracle_pose at = judge.pose(pose);
+    std::vector<Pair> pairs = contender.pairs();
+    const auto key = [](Pair p) { return std::make_pair(p.moving, p.still); };
+
+    std::sort(pairs.begin(), pairs.end(), [&](Pair p, Pair q) { return key(p) < key(q); });
+    pairs.erase(
+        std::unique(pairs.begin(), pairs.end(), [&](Pair p, Pair q) { return key(p) == key(q); }),
+        pairs.end());
+    return static_cast<size_t>(
+        std::count_if(pairs.begin(), pairs.end(), [&](Pair p) { return judge.crosses(at, p); }));
+}
+
+/*
+ * Of those who tell face pairs: in how many frames they differ from FCL on whether any cross, and how
+ * many of the crossing pairs they found. What a contender says is taken through the judge, as it may
+ * hand over pairs that are only near.
+ */
+void compare_findings(const Judge &judge, const char *which, const std::vector<Pose> &poses)
 {
     const Made fcl = make_fcl(judge.moving.mesh, judge.still.mesh);
-    const Made carom = make_carom(judge.moving.mesh, judge.still.mesh);
-    size_t carom_differs = 0, judge_differs = 0;
+    const Made asked[] = {make_carom(judge.moving.mesh, judge.still.mesh),
+                          make_paper(judge.moving.mesh, judge.still.mesh)};
+    size_t differs[2] = {0, 0}, found[2] = {0, 0}, judge_differs = 0, crossing = 0;
 
     for (const Pose &pose : poses) {
-        const oracle_pose at = judge.pose(pose);
+        const size_t all = judge.crossing(pose);
 
         fcl->place(pose);
         fcl->query();
-        carom->place(pose);
-        carom->query();
-        const std::vector<Pair> pairs = carom->pairs();
-        const bool crosses = std::any_of(pairs.begin(), pairs.end(),
-                                         [&](Pair pair) { return judge.crosses(at, pair); });
+        judge_differs += (all > 0) != (fcl->found() > 0);
+        crossing += all;
+        for (int i = 0; i < 2; i++) {
+            asked[i]->place(pose);
+            asked[i]->query();
+            const size_t own = crossing_found(judge, pose, *asked[i]);
 
-        carom_differs += crosses != (fcl->found() > 0);
-        judge_differs += (judge.crossing(pose) > 0) != (fcl->found() > 0);
+            differs[i] += (own > 0) != (fcl->found() > 0);
+            found[i] += own;
+        }
     }
-    std::printf("agreement,%s,carom,%zu,%zu\n", which, poses.size(), carom_differs);
     std::printf("agreement,%s,judge,%zu,%zu\n", which, poses.size(), judge_differs);
+    for (int i = 0; i < 2; i++) {
+        std::printf("agreement,%s,%s,%zu,%zu\n", which, asked[i]->name(), poses.size(), differs[i]);
+        std::printf("recall,%s,%s,%zu,%zu\n", which, asked[i]->name(), crossing, found[i]);
+    }
 }
 
 } // namespace
@@ -374,8 +400,8 @@ int main(int argc, char **argv)
         }
     }
     if (!counting) {
-        compare_opinions(judge, "free", run.free);
-        compare_opinions(judge, "committed", run.committed);
+        compare_findings(judge, "free", run.free);
+        compare_findings(judge, "committed", run.committed);
     }
     return 0;
 }

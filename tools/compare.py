@@ -1,13 +1,15 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Carom beside Debian's ODE, Bullet and FCL: the same meshes at the same poses.
+"""Carom beside the paper's way and Debian's ODE, Bullet and FCL: same meshes, same poses.
 
 usage: compare.py PROGRAM SCENE=MOVING,STILL ...
 
 Every query of build/tools/carom-compare: instructions are counted by callgrind, times are the best
 of several in one run; means of a phase go to out/compare.csv. Phases: apart, the boxes of the
-bodies do not overlap; near, they do but no faces cross; contact, faces cross. Fails when Carom
-takes more than half of ODE's instructions, or finds contact where FCL does not, or the other way.
+bodies do not overlap; near, they do but no faces cross; contact, faces cross. How many of the
+crossing face pairs are found goes to out/recall.csv. Carom and the paper's way find face pairs, FCL
+pairs and points, ODE and Bullet points. Fails when Carom takes more than half of ODE's
+instructions, misses a crossing pair, or finds contact where FCL does not, or the other way.
 """
 import csv
 import glob
@@ -19,6 +21,8 @@ import tempfile
 
 OUT = "out/compare.csv"
 COLUMNS = ["scene", "phase", "contender", "instructions", "microseconds"]
+RECALL = "out/recall.csv"
+RECALL_COLUMNS = ["scene", "contender", "crossing", "found", "frames", "frames_missed"]
 BAR = 0.5  # of ODE's instructions
 AIM = 0.7  # of its time
 TIMEOUT = 1800  # seconds a run
@@ -51,7 +55,7 @@ def instructions(program, meshes):
 
 
 def scene_rows(program, scene, meshes):
-    """The rows of OUT, and what is wrong."""
+    """The rows of OUT and RECALL, and what is wrong."""
     said = run([program, "time", *meshes])
     counted = instructions(program, meshes)
     frames = {row[1]: row[2] for row in said if row[0] == "phase"}
@@ -60,12 +64,21 @@ def scene_rows(program, scene, meshes):
     rows = [[scene, phase, contender, round(counted[phase, contender]), float(time)]
             for kind, phase, contender, time in [row for row in said if len(row) == 4]
             if kind == "microseconds"]
-    for _, poses, who, asked, differ in [row for row in said if row[0] == "agreement"]:
-        print("%s: %s differs from FCL on contact in %s of %s frames (%s)"
-              % (scene, who, differ, asked, poses))
-        if int(differ):
-            wrong.append("%s: %s differs from FCL" % (scene, who))
-    return rows, wrong
+    recall = []
+    for kind, poses, who, *numbers in said:
+        if kind == "agreement":
+            asked, differ = map(int, numbers)
+            print("%s: %s differs from FCL on contact in %d of %d frames (%s)"
+                  % (scene, who, differ, asked, poses))
+            if differ and who != "paper":
+                wrong.append("%s: %s differs from FCL" % (scene, who))
+        if kind == "recall" and poses == "free":
+            crossing, found = map(int, numbers)
+            print("%s: %s finds %d of %d crossing pairs" % (scene, who, found, crossing))
+            recall.append([scene, who, crossing, found, asked, differ])
+            if found < crossing and who != "paper":
+                wrong.append("%s: %s misses crossing pairs" % (scene, who))
+    return rows, recall, wrong
 
 
 def ratios(rows):
@@ -84,18 +97,23 @@ def ratios(rows):
     return wrong
 
 
+def write(path, columns, rows):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([columns] + rows)
+    print("%d rows in %s" % (len(rows), path))
+
+
 def main(program, *scenes):
-    rows, wrong = [], []
+    rows, recall, wrong = [], [], []
     for each in scenes:
         scene, meshes = each.split("=")
-        more, complaints = scene_rows(program, scene, meshes.split(","))
-        rows += more
-        wrong += complaints
+        for whole, part in zip([rows, recall, wrong],
+                               scene_rows(program, scene, meshes.split(","))):
+            whole += part
     wrong += ratios(rows)
-    os.makedirs(os.path.dirname(OUT), exist_ok=True)
-    with open(OUT, "w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([COLUMNS] + rows)
-    print("%d rows in %s" % (len(rows), OUT))
+    write(OUT, COLUMNS, rows)
+    write(RECALL, RECALL_COLUMNS, recall)
     for text in wrong:
         print("not met: " + text)
     return 1 if wrong else 0
