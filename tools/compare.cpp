@@ -392,10 +392,15 @@ int main(int argc, char **argv)
     }
     for (const Made &contender : contenders(moving.mesh, still.mesh)) {
         for (const Phase &phase : phases) {
-            if (!phase.poses.empty()) {
-                contender->place(phase.poses[0]);
+            Phase measured = {phase.name, {}};
+
+            for (size_t i = 0; i < phase.poses.size(); i += contender->stride()) {
+                measured.poses.push_back(phase.poses[i]);
+            }
+            if (!measured.poses.empty()) {
+                contender->place(measured.poses[0]);
                 contender->query(); /* what a library does once, it does here */
-                (counting ? count_instructions : take_times)(*contender, phase);
+                (counting ? count_instructions : take_times)(*contender, measured);
             }
         }
     }

@@ -47,6 +47,11 @@ class Contender
     virtual void query() = 0;
     /* What the query found: contacts, face pairs or the like. */
     virtual size_t found() const = 0;
+    /* One that is slow is measured at every so many poses only. */
+    virtual size_t stride() const
+    {
+        return 1;
+    }
     /* The face pairs among that; ODE and Bullet do not tell. */
     virtual std::vector<Pair> pairs() const
     {

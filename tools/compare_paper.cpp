@@ -44,6 +44,10 @@ class Paper : public Contender, private paper_visitor
     {
         return "paper";
     }
+    size_t stride() const override
+    {
+        return 10;
+    }
     void place(const Pose &pose) override
     {
         turned_ = matrix_of(pose.quaternion);

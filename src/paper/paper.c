@@ -4,22 +4,23 @@
 
 #define VERTICES 65535
 #define PIXELS   (PAPER_SIDE * PAPER_SIDE)
+#define CORNERS  7    /* of a triangle clipped by four planes */
 #define SEEN     4096 /* pairs that are remembered, so as to be handed over once */
-#define NONE     0xffffffu
 /* Faces that are nearer to upright than 1 in 65536 are left out: no pixel's centre sees them. */
 #define UPRIGHT_Q30 (1 << 14)
 
-/* An entry of a z-list. */
+/* An entry of a z-list, packed: to write and to compare it takes few instructions. */
 struct paper_entry {
-    uint16_t z; /* 0 .. 65535 over the height of the box */
-    uint16_t face;
-    uint32_t next : 24; /* of lower or equal z, or NONE */
-    uint32_t body : 1;  /* 0: a, 1: b */
-    uint32_t down : 1;  /* the face looks down: a ray from above leaves its body there */
+    uint32_t z_face; /* z, 0 .. 65535 over the height of the box, and the face below */
+    uint32_t link;   /* the next entry, of lower or equal z, or NONE; and whose face it is */
 };
+#define NONE 0x0fffffffu
+#define OF_A 0x80000000u
+#define OF_B 0x40000000u
+#define DOWN 0x20000000u /* it looks down: a ray from above leaves its body there */
 
 static struct {
-    uint32_t head[PIXELS]; /* the highest entry of a pixel */
+    uint32_t head[PIXELS]; /* the highest entry of a pixel, and whose faces it has */
     struct paper_entry entry[PAPER_ENTRIES];
     uint32_t used, refused;
     int32_t placed_q20[2][VERTICES][3]; /* of a, of b */
@@ -35,10 +36,14 @@ struct paper_box {
 
 /* A face that is being scanned. */
 struct paper_face {
-    uint16_t number;
-    uint8_t body, down;
+    uint32_t number, bits;         /* for its entries */
     int32_t z0, z1;                /* its extent, as entries have it, but not clipped */
     int64_t z_q32, dx_q32, dy_q32; /* over the box: at the centre of pixel 0, 0, and a step on */
+};
+
+/* A row of its pixels: x0 <= x < x1. */
+struct paper_run {
+    int32_t y, x0, x1;
 };
 
 /* ------------------------------------------------------------------- places */
@@ -99,7 +104,7 @@ static bool may_meet(const struct paper_box *box, const struct paper_placed *b)
 
 struct polygon {
     int n;
-    int32_t xy_q20[SCAN_MAX][2];
+    int32_t xy_q20[CORNERS][2];
 };
 
 /* Cut off what is beyond a limit along axis k; `sign` is 1 for an upper limit, -1 for a lower one. */
@@ -128,7 +133,7 @@ static void clip(struct polygon *p, int k, int sign, int32_t limit)
 
 /* The part of a face over the box, in pixels; false when there is none. */
 static bool project(const struct paper_box *box, const int32_t *const corner[3],
-                    int32_t xy_q4[SCAN_MAX][2], int *n)
+                    int32_t xy_q4[CORNERS][2], int *n)
 {
     struct polygon p = {3, {{0}}};
 
@@ -167,49 +172,63 @@ static bool project(const struct paper_box *box, const int32_t *const corner[3],
 
 static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
 {
-    uint32_t before = NONE, after = buffer.head[pixel], here = buffer.used;
-    struct paper_entry *entry;
+    uint32_t z_face = z << 16 | f->number, here = buffer.used, first = buffer.head[pixel];
+    uint32_t next = first & NONE, *link = &buffer.head[pixel];
 
     if (here == PAPER_ENTRIES) {
         buffer.refused++;
         return;
     }
-    buffer.used++;
-    while (after != NONE && buffer.entry[after].z > z) {
-        before = after;
-        after = buffer.entry[after].next;
+    buffer.used = here + 1;
+    *link = first | f->bits;
+    while (next != NONE && buffer.entry[next].z_face > z_face) {
+        link = &buffer.entry[next].link;
+        next = *link & NONE;
     }
-    entry = &buffer.entry[here];
-    entry->z = (uint16_t)z;
-    entry->face = f->number;
-    entry->next = after & NONE;
-    entry->body = f->body & 1u;
-    entry->down = f->down & 1u;
-    if (before == NONE) {
-        buffer.head[pixel] = here;
-    } else {
-        buffer.entry[before].next = here & NONE;
+    buffer.entry[here].z_face = z_face;
+    buffer.entry[here].link = next | f->bits;
+    *link = (*link & ~NONE) | here;
+}
+
+/*
+ * A row of a face that leaves the box. What is above it counts as at its top, so that a ray knows
+ * from there on where it is inside; what is below ends nothing within the box and is left out.
+ */
+static void enter_clipped(const struct paper_box *box, const struct paper_face *f,
+                          const struct paper_run *run, int64_t z_q32)
+{
+    uint32_t pixel = (uint32_t)(run->y * PAPER_SIDE);
+
+    for (int32_t x = run->x0; x < run->x1; x++, z_q32 += f->dx_q32) {
+        int64_t high = z_q32 >> (box->z_shift + 12);
+        int32_t z = high < f->z0 ? f->z0 : high > f->z1 ? f->z1 : (int32_t)high;
+
+        if (z >= 0) {
+            enter(pixel + (uint32_t)x, z > UINT16_MAX ? UINT16_MAX : (uint32_t)z, f);
+        }
     }
 }
 
 /*
- * One row of a face. What is above the box counts as at its top, so that a ray knows from there on
- * where it is inside; what is below ends nothing within the box and is left out.
+ * One row of a face. Where both ends are within the box by a unit of z, steps of 2^-15 of that are
+ * fine enough: 512 of them are off by 2^-6.
  */
 static void enter_run(const struct paper_box *box, const struct paper_face *f,
-                      const struct scan_run *run)
+                      const struct paper_run *run)
 {
-    int64_t z_q32 = f->z_q32 + run->x0 * f->dx_q32 + run->y * f->dy_q32;
-    uint32_t pixel = (uint32_t)(run->y * PAPER_SIDE + run->x0);
     int shift = box->z_shift + 12;
+    int64_t z_q32 = f->z_q32 + run->x0 * f->dx_q32 + run->y * f->dy_q32;
+    int64_t first = z_q32 >> shift, last = (z_q32 + (run->x1 - run->x0 - 1) * f->dx_q32) >> shift;
+    uint32_t pixel = (uint32_t)(run->y * PAPER_SIDE + run->x0), z_q15, step_q15;
 
-    for (int32_t x = run->x0; x < run->x1; x++, pixel++, z_q32 += f->dx_q32) {
-        int64_t high = z_q32 >> shift;
-        int32_t z = high < f->z0 ? f->z0 : high > f->z1 ? f->z1 : (int32_t)high;
-
-        if (z >= 0) {
-            enter(pixel, z > UINT16_MAX ? UINT16_MAX : (uint32_t)z, f);
-        }
+    if (first < 1 || last < 1 || first >= UINT16_MAX || last >= UINT16_MAX) {
+        enter_clipped(box, f, run, z_q32);
+        return;
+    }
+    z_q15 = (uint32_t)(z_q32 >> (shift - 15));
+    step_q15 = (uint32_t)(f->dx_q32 >> (shift - 15));
+    for (int32_t n = run->x1 - run->x0; n > 0; n--, pixel++, z_q15 += step_q15) {
+        enter(pixel, z_q15 >> 15, f);
     }
 }
 
@@ -238,17 +257,68 @@ static void set_plane(struct paper_face *f, const struct paper_box *box, const i
                (step_q32[0] + step_q32[1]) / 2;
 }
 
+/*
+ * Note where an edge, from its lower end a up to b, has its first pixel on the right in each row
+ * whose centre it crosses; the rows go into `rows`. The slope is off by 2^-16, so x by no more than
+ * 2^-7 of a pixel in all rows.
+ *
+ * Bounds: corners are within 2^13 of q4, the slope within 2^29; with more than one row, a step of 16
+ * in y is so flat that it fits as well.
+ */
+static void walk_edge(int16_t x[PAPER_SIDE], int32_t rows[2], const int32_t a[2],
+                      const int32_t b[2])
+{
+    int32_t y = (a[1] + 7) >> 4, y_end = (b[1] + 7) >> 4, slope_q16, x_q20, step_q20;
+
+    if (y >= y_end) {
+        return;
+    }
+    rows[0] = y < rows[0] ? y : rows[0];
+    rows[1] = y_end > rows[1] ? y_end : rows[1];
+    slope_q16 = (b[0] - a[0]) * 65536 / (b[1] - a[1]);
+    x_q20 = a[0] * 65536 + (int32_t)((int64_t)slope_q16 * (16 * y + 8 - a[1]));
+    x_q20 += 8 * 65536 - 1; /* ceil((x - 8) / 16) */
+    step_q20 = y + 1 < y_end ? slope_q16 * 16 : 0;
+    for (; y < y_end; y++, x_q20 += step_q20) {
+        x[y] = (int16_t)(x_q20 >> 20);
+    }
+}
+
+/* Every pixel of a face over the box: a convex polygon, counter-clockwise unless the face looks down. */
+static void fill(const struct paper_box *box, const struct paper_face *f,
+                 const int32_t xy_q4[CORNERS][2], int count)
+{
+    int16_t x[2][PAPER_SIDE]; /* left, right */
+    int32_t rows[2] = {PAPER_SIDE, 0};
+    int up = f->bits & DOWN ? 0 : 1;
+    struct paper_run run;
+
+    for (int i = 0; i < count; i++) {
+        const int32_t *a = xy_q4[i], *b = xy_q4[i + 1 < count ? i + 1 : 0];
+
+        if (a[1] < b[1]) {
+            walk_edge(x[up], rows, a, b);
+        } else {
+            walk_edge(x[1 - up], rows, b, a);
+        }
+    }
+    for (run.y = rows[0]; run.y < rows[1]; run.y++) {
+        run.x0 = x[0][run.y];
+        run.x1 = x[1][run.y];
+        if (run.x0 < run.x1) {
+            enter_run(box, f, &run);
+        }
+    }
+}
+
 static void scan_face(const struct paper_box *box, const struct paper_placed *p, uint8_t body,
                       uint16_t number)
 {
     const uint16_t *v = p->mesh->raw.faces[number];
     const int32_t *const corner[3] = {buffer.placed_q20[body][v[0]], buffer.placed_q20[body][v[1]],
                                       buffer.placed_q20[body][v[2]]};
-    int32_t n[3], xy_q4[SCAN_MAX][2], low = INT32_MAX, high = INT32_MIN;
-    const struct scan_rect whole = {0, 0, PAPER_SIDE, PAPER_SIDE};
+    int32_t n[3], xy_q4[CORNERS][2], low = INT32_MAX, high = INT32_MIN;
     struct paper_face f;
-    struct scan_run run;
-    struct scan scan;
     int count;
 
     for (int i = 0; i < 3; i++) {
@@ -261,15 +331,11 @@ static void scan_face(const struct paper_box *box, const struct paper_placed *p,
         return;
     }
     f.number = number;
-    f.body = body;
-    f.down = n[2] < 0;
+    f.bits = (body ? OF_B : OF_A) | (n[2] < 0 ? DOWN : 0);
     f.z0 = (low - box->low_q20[2]) >> box->z_shift;
     f.z1 = (high - box->low_q20[2]) >> box->z_shift;
     set_plane(&f, box, n, corner[0]);
-    scan_begin(&scan, (const int32_t(*)[2])xy_q4, count, whole);
-    while (scan_next(&scan, &run)) {
-        enter_run(box, &f, &run);
-    }
+    fill(box, &f, (const int32_t(*)[2])xy_q4, count);
 }
 
 static void scan_mesh(const struct paper_box *box, const struct paper_placed *p, uint8_t body)
@@ -284,8 +350,8 @@ static void scan_mesh(const struct paper_box *box, const struct paper_placed *p,
 static void hand_over(struct paper_visitor *visitor, const struct paper_entry *one,
                       const struct paper_entry *other)
 {
-    uint16_t a = one->body == 0 ? one->face : other->face;
-    uint16_t b = one->body == 0 ? other->face : one->face;
+    uint16_t a = (uint16_t)(one->link & OF_B ? other : one)->z_face;
+    uint16_t b = (uint16_t)(one->link & OF_B ? one : other)->z_face;
     uint32_t key = (uint32_t)a << 16 | b, *seen = &buffer.seen[(a * 61u + b) % SEEN];
 
     if (*seen != key) {
@@ -294,20 +360,20 @@ static void hand_over(struct paper_visitor *visitor, const struct paper_entry *o
     }
 }
 
-/* Down one pixel: a body is entered through a face that looks up and left through one that looks down. */
-static void read_pixel(uint32_t pixel, struct paper_visitor *visitor)
+/* Down one pixel: a body is entered by a face that looks up and left by one that looks down. */
+static void read_pixel(uint32_t at, struct paper_visitor *visitor)
 {
-    const struct paper_entry *last = &buffer.entry[buffer.head[pixel]];
-    int inside[2] = {0, 0};
+    const struct paper_entry *last = NULL;
+    int inside_a = 0, inside_b = 0;
 
-    inside[last->body] = last->down ? -1 : 1;
-    for (uint32_t at = last->next; at != NONE; at = last->next) {
+    for (; at != NONE; at = last->link & NONE) {
         const struct paper_entry *entry = &buffer.entry[at];
+        int step = entry->link & DOWN ? -1 : 1;
 
-        if (inside[0] > 0 && inside[1] > 0 && entry->body != last->body) {
+        if (inside_a > 0 && inside_b > 0 && ((entry->link ^ last->link) & OF_B)) {
             hand_over(visitor, last, entry);
         }
-        inside[entry->body] += entry->down ? -1 : 1;
+        *(entry->link & OF_B ? &inside_b : &inside_a) += step;
         last = entry;
     }
 }
@@ -331,8 +397,8 @@ void paper_pairs(const struct paper_placed *a, const struct paper_placed *b,
     scan_mesh(&box, a, 0);
     scan_mesh(&box, b, 1);
     for (uint32_t pixel = 0; pixel < PIXELS; pixel++) {
-        if (buffer.head[pixel] != NONE) {
-            read_pixel(pixel, visitor);
+        if ((buffer.head[pixel] & OF_A) && (buffer.head[pixel] & OF_B)) {
+            read_pixel(buffer.head[pixel] & NONE, visitor);
         }
     }
 }
