@@ -170,9 +170,10 @@ static bool project(const struct paper_box *box, const int32_t *const corner[3],
 
 /* ----------------------------------------------------------------- scanning */
 
+/* Of equal z the later is above: b before a, so that faces which touch count as crossing. */
 static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
 {
-    uint32_t z_face = z << 16 | f->number, here = buffer.used, first = buffer.head[pixel];
+    uint32_t above = z << 16 | 0xffff, here = buffer.used, first = buffer.head[pixel];
     uint32_t next = first & NONE, *link = &buffer.head[pixel];
 
     if (here == PAPER_ENTRIES) {
@@ -181,11 +182,11 @@ static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
     }
     buffer.used = here + 1;
     *link = first | f->bits;
-    while (next != NONE && buffer.entry[next].z_face > z_face) {
+    while (next != NONE && buffer.entry[next].z_face > above) {
         link = &buffer.entry[next].link;
         next = *link & NONE;
     }
-    buffer.entry[here].z_face = z_face;
+    buffer.entry[here].z_face = z << 16 | f->number;
     buffer.entry[here].link = next | f->bits;
     *link = (*link & ~NONE) | here;
 }
@@ -360,7 +361,10 @@ static void hand_over(struct paper_visitor *visitor, const struct paper_entry *o
     }
 }
 
-/* Down one pixel: a body is entered by a face that looks up and left by one that looks down. */
+/*
+ * Down one pixel: a body is entered by a face that looks up and left by one that looks down. A face
+ * that is met while inside of the other body interferes, with that body's faces next to it.
+ */
 static void read_pixel(uint32_t at, struct paper_visitor *visitor)
 {
     const struct paper_entry *last = NULL;
@@ -370,7 +374,7 @@ static void read_pixel(uint32_t at, struct paper_visitor *visitor)
         const struct paper_entry *entry = &buffer.entry[at];
         int step = entry->link & DOWN ? -1 : 1;
 
-        if (inside_a > 0 && inside_b > 0 && ((entry->link ^ last->link) & OF_B)) {
+        if ((inside_a > 0 || inside_b > 0) && ((entry->link ^ last->link) & OF_B)) {
             hand_over(visitor, last, entry);
         }
         *(entry->link & OF_B ? &inside_b : &inside_a) += step;
