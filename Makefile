@@ -26,12 +26,13 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           -Iinclude -Isrc -Iport -Iport/arm -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
           $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
+PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
 ENGINE_SOURCES += $(wildcard src/paper/*.c)
-CFLAGS += -Isrc/paper -DUSER_VERTICES=4000
-LDFLAGS += -Wl,--wrap=interfere_visit
+CFLAGS += -DUSER_VERTICES=4000
+LDFLAGS += $(PAPER_LINK)
 endif
 ifdef CROSS
 LDFLAGS += -Wl,-z,noexecstack --specs=nano.specs -nostartfiles -Llinker -T$(BOARD).ld
@@ -188,6 +189,9 @@ $(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
+$(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
+$(B)/host_paper.elf: $(call objects,$(wildcard src/paper/*.c))
+
 # Meshes: a generator prints OBJ, the converter makes it a C array.
 build/gen/%.obj: tools/gen_%
 	@mkdir -p $(@D)
@@ -218,7 +222,7 @@ build/gen/field%.crm: tools/gen_field build/tools/carom-mesh
 build/tools/%.o: tools/%.cpp
 	@mkdir -p $(@D)
 	@echo '  c++   $<'
-	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Isrc -Isrc/paper -Itests -Iexamples -isystem /usr/include/bullet \
+	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Isrc -Itests -Iexamples -isystem /usr/include/bullet \
 	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
 
 build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \

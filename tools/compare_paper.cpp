@@ -5,7 +5,7 @@
 #include "compare.hpp"
 
 extern "C" {
-#include "paper.h"
+#include "paper/paper.h"
 }
 
 namespace
