@@ -90,7 +90,7 @@ help: ## list the commands
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
+run: ## a scene on a board; BOARD= SCENE=head|box|pile FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')

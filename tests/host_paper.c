@@ -137,25 +137,27 @@ static void test_scene(void)
 {
     struct lab *lab = lab_load_scene("head");
     struct carom_usage usage[CAROM_POOL_COUNT];
-    unsigned long candidates = 0, faces = 0, hits = 0;
+    struct lab_tally tally = {0};
+    unsigned long candidates = 0, faces = 0;
     const struct carom_face_ref *refs;
 
     lab_start(lab);
     for (int frame = 0; frame < FRAMES; frame++) {
         struct carom_stats stats;
 
-        lab_expect(carom_world_step(lab->world), "step");
+        lab_step(lab, &tally);
         lab_expect(carom_stats(lab->world, &stats), "stats");
         candidates += stats.candidates;
-        hits += stats.hits;
         faces += (unsigned long)lab_expect(carom_interfering_faces(lab->world, &refs), "faces");
     }
     lab_expect(carom_usage(lab->world, usage), "usage");
     /* its candidates have a place of their own: nothing went into the pool of Carom's gather */
     lab_report(candidates > 0 && usage[CAROM_POOL_candidates].peak == 0, "paper/in_place",
                "%lu candidates, none of them Carom's", candidates);
-    lab_report(hits > 0 && faces > 2 && lab_body(lab).position[2] > 0, "paper/head",
-               "%lu hits, %lu interfering faces in %d frames", hits, faces, FRAMES);
+    /* it may miss contacts, so faces may cross; but the head does not fall through the field */
+    lab_report(tally.hits > 0 && faces > 2 && lab_body(lab).position[2] > 0, "paper/head",
+               "%ld hits, %lu interfering faces, %ld of %d frames cross", tally.hits, faces,
+               tally.crossed, FRAMES);
     lab_free(lab);
 }
 
