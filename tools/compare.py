@@ -72,7 +72,7 @@ def scene_rows(program, scene, meshes):
                   % (scene, who, differ, asked, poses))
             if differ and who != "paper":
                 wrong.append("%s: %s differs from FCL" % (scene, who))
-        if kind == "recall" and poses == "free":
+        if kind == "recall" and poses == "free":  # follows the agreement of the same contender
             crossing, found = map(int, numbers)
             print("%s: %s finds %d of %d crossing pairs" % (scene, who, found, crossing))
             recall.append([scene, who, crossing, found, asked, differ])
@@ -87,7 +87,7 @@ def ratios(rows):
     wrong = []
     for (scene, phase, who), (count, time) in costs.items():
         carom = costs[scene, phase, "carom"]
-        print("%-8s %-8s %-7s %9d instructions %9.2f us   carom's part of it %.2f %.2f"
+        print("%-8s %-8s %-7s %9d instructions %9.2f us   carom's part of it %.2g %.2g"
               % (scene, phase, who, count, time, carom[0] / count, carom[1] / time))
         if who == "ode" and phase != "apart":
             if carom[0] > BAR * count:
