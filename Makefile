@@ -193,31 +193,21 @@ $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
 $(B)/host_paper.elf: $(call objects,$(wildcard src/paper/*.c))
 
 # Meshes: a generator prints OBJ, the converter makes it a C array.
-build/gen/%.obj: tools/gen_%
+build/gen/head%: GENERATOR := tools/gen_head
+build/gen/field%: GENERATOR := tools/gen_field
+build/gen/%.obj: tools/gen_head tools/gen_field
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
-	tools/gen_$* > $@
+	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@
 
-build/gen/head_mesh.c: build/gen/head.obj build/tools/carom-mesh
+build/gen/field%: CONVERT := --surface
+build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
-	build/tools/carom-mesh --name head_mesh -o $@ $<
+	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
 
-build/gen/field_mesh.c: build/gen/field.obj build/tools/carom-mesh
+build/gen/%.crm: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
-	build/tools/carom-mesh --surface --name field_mesh -o $@ $<
-
-# The same by number of faces, as blobs.
-build/gen/head%.crm: tools/gen_head build/tools/carom-mesh
-	@mkdir -p $(@D)
-	@echo '  mesh  $@'
-	tools/gen_head $* >$(@:.crm=.obj)
-	build/tools/carom-mesh -b $@ $(@:.crm=.obj)
-
-build/gen/field%.crm: tools/gen_field build/tools/carom-mesh
-	@mkdir -p $(@D)
-	@echo '  mesh  $@'
-	tools/gen_field $* >$(@:.crm=.obj)
-	build/tools/carom-mesh --surface -b $@ $(@:.crm=.obj)
+	build/tools/carom-mesh $(CONVERT) -b $@ $<
 
 build/tools/%.o: tools/%.cpp
 	@mkdir -p $(@D)
@@ -226,7 +216,8 @@ build/tools/%.o: tools/%.cpp
 	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
 
 build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
-                           $(B)/src/paper/paper.o $(SCENES) $(B)/libtests.a $(B)/libcarom.a
+                           $(B)/src/paper/paper.o $(filter %/scene.o %_mesh.o,$(PROGRAM)) \
+                           $(B)/libtests.a $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 
