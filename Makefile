@@ -7,6 +7,7 @@ FRAMES ?= 600
 OPT ?= -O2
 LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
+PAPER ?=
 
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
 ifeq ($(filter $(BOARD),$(BOARDS)),)
@@ -26,6 +27,14 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           -Iinclude -Isrc -Iport -Iport/arm -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
           $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
+PAPER_LINK := -Wl,--wrap=interfere_visit
+ENGINE_SOURCES := $(wildcard src/*.c)
+ifneq ($(PAPER),)
+# The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
+ENGINE_SOURCES += $(wildcard src/paper/*.c)
+CFLAGS += -DUSER_VERTICES=4000
+LDFLAGS += $(PAPER_LINK)
+endif
 ifdef CROSS
 LDFLAGS += -Wl,-z,noexecstack --specs=nano.specs -nostartfiles -Llinker -T$(BOARD).ld
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
@@ -35,7 +44,7 @@ endif
 # ---------------------------------------------------------------------- files
 
 objects = $(addprefix $(B)/,$(addsuffix .o,$(basename $(1))))
-ENGINE := $(call objects,$(wildcard src/*.c))
+ENGINE := $(call objects,$(ENGINE_SOURCES))
 SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LINKER_FILES)
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
@@ -69,15 +78,23 @@ SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
+NEED_COMPARE := ode bullet fcl valgrind
 
-.PHONY: help run test accuracy oracle bench figures check size build clean force
+# Scenes of the comparison: what moves, what stands still.
+mesh_pair = $(1)=build/gen/$(2).crm,build/gen/$(3).crm
+COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
+                  $(call mesh_pair,head450,head450,field386) \
+                  $(call mesh_pair,head836,head836,field512)
+COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
+
+.PHONY: help run test accuracy oracle bench figures compare check size build clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
+run: ## a scene on a board; BOARD= SCENE=head|box|pile|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
@@ -120,6 +137,11 @@ figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@tools/need python3 gnuplot
 	@test -e out/bench.csv || $(MAKE) bench
 	@tools/figures.py out/figures
+
+compare: ## ODE, Bullet and FCL beside Carom on the same meshes and poses, to out/compare.csv
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
+	@$(SUBMAKE) BOARD=host build/tools/carom-compare $(COMPARE_MESHES)
+	@tools/compare.py build/tools/carom-compare $(COMPARE_SCENES)
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
@@ -183,6 +205,9 @@ $(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
+$(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
+$(B)/host_paper.elf: $(call objects,$(wildcard src/paper/*.c))
+
 # Meshes: a generator prints OBJ, the converter makes it a C array.
 build/gen/head%: GENERATOR := tools/gen_head
 build/gen/field%: GENERATOR := tools/gen_field
@@ -196,9 +221,25 @@ build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
 
+build/gen/%.crm: build/gen/%.obj build/tools/carom-mesh
+	@echo '  mesh  $@'
+	build/tools/carom-mesh $(CONVERT) -b $@ $<
+
+build/tools/%.o: tools/%.cpp
+	@mkdir -p $(@D)
+	@echo '  c++   $<'
+	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -Isrc -Itests -Iexamples -isystem /usr/include/bullet \
+	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
+
+build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
+                           $(B)/src/paper/paper.o $(filter %/scene.o %_mesh.o,$(PROGRAM)) \
+                           $(B)/libtests.a $(B)/libcarom.a
+	@echo '  link  $@'
+	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
+
 build/tools/carom-mesh: tools/mesh_convert.cpp
 	@mkdir -p $(@D)
 	@echo '  c++   $@'
 	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -MMD -MP -MF $@.d -o $@ $< -lassimp
 
--include $(shell find $(B) -name '*.d' 2>/dev/null) build/tools/carom-mesh.d
+-include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)

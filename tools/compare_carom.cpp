@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/* Carom: two bodies of a world, and which of their faces interfere where they are. */
+#include <cstdio>
+#include <cstdlib>
+
+#include "compare.hpp"
+
+namespace
+{
+
+using namespace compare;
+
+/* A face or two of the head cross each of the ground's in the worst pose: there is room for all. */
+#define CAPS 2, 1, 64, 8192, 1, 1024
+constexpr uint32_t PAIRS = 65535;
+
+int expect(int result)
+{
+    if (result < 0) {
+        std::fprintf(stderr, "carom: %s\n", carom_result_text(result));
+        std::exit(1);
+    }
+    return result;
+}
+
+class Carom : public Contender
+{
+  public:
+    Carom(const Mesh &moving, const Mesh &still) : pairs_(PAIRS)
+    {
+        carom_config config = {};
+        carom_body_def def = {};
+
+        config.caps = {CAPS};
+        expect(carom_world_init(block_, sizeof block_, &config, &world_));
+        def.mesh = &still.carom;
+        def.stationary = true;
+        still_ = expect(carom_body_add(world_, &def));
+        def.mesh = &moving.carom;
+        def.stationary = false;
+        moving_ = expect(carom_body_add(world_, &def));
+    }
+    const char *name() const override
+    {
+        return "carom";
+    }
+    void place(const Pose &pose) override
+    {
+        expect(carom_body_set(world_, moving_, &pose.state));
+    }
+    void query() override
+    {
+        count_ = carom_query_faces(world_, moving_, still_, pairs_.data(), PAIRS);
+    }
+    size_t found() const override
+    {
+        return static_cast<size_t>(expect(count_));
+    }
+    std::vector<Pair> pairs() const override
+    {
+        std::vector<Pair> all;
+
+        for (size_t i = 0; i < found(); i++) {
+            all.push_back({pairs_[i].a, pairs_[i].b});
+        }
+        return all;
+    }
+
+  private:
+    alignas(8) uint8_t block_[CAROM_WORLD_BYTES(CAPS)];
+    carom_world *world_;
+    int moving_, still_, count_ = 0;
+    std::vector<carom_face_pair> pairs_;
+};
+
+} // namespace
+
+compare::Made compare::make_carom(const Mesh &moving, const Mesh &still)
+{
+    return std::make_unique<Carom>(moving, still);
+}
