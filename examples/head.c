@@ -23,7 +23,7 @@
 static _Alignas(8) uint8_t mesh_block[CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +
                                       CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(WIDTH_MAX, DEPTH_ROWS)];
+static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)];
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 

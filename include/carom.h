@@ -463,8 +463,9 @@ struct carom_picture {
         workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); few rows cost time, not results */
 };
 
-/* Workspace to draw `rows` rows of the picture at once. */
-#define CAROM_DRAW_BYTES(width, rows) ((size_t)4 * (size_t)(width) * (size_t)(rows))
+/* Workspace to draw bodies of so many vertices and faces, all together, at once. */
+#define CAROM_DRAW_BYTES(vertices, faces)                                                          \
+    ((size_t)8192 + (size_t)10 * (size_t)(vertices) + (size_t)11 * (size_t)(faces))
 
 /*
  * Draw the bodies of a world over a background, with the interfering faces of its last step
