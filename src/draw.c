@@ -14,10 +14,11 @@ static bool faces_eye(const struct draw_body *body, const struct carom_face *fac
 static void draw_edge(const struct carom_picture *picture, const struct draw_body *body,
                       uint16_t from, uint16_t to, uint32_t colour)
 {
-    struct draw_vertex end[DRAW_CLIP_MAX] = {draw_vertex(body, from), draw_vertex(body, to)};
+    struct draw_vertex end[DRAW_CLIP_MAX];
     const uint16_t numbers[2] = {from, to};
 
-    if ((end[0].w_q26 && end[1].w_q26) || draw_clip(body, numbers, 2, end) >= 2) {
+    if ((draw_vertex(body, from, &end[0]) && draw_vertex(body, to, &end[1])) ||
+        draw_clip(body, numbers, 2, end) >= 2) {
         draw_line(picture, &end[0], &end[1], colour);
     }
 }
@@ -151,7 +152,7 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
     if (result != CAROM_OK) {
         return result;
     }
-    draw_view_rect(&view, (struct draw_rect){0, 0, picture->width, picture->height});
+    draw_view_rect(&view, draw_whole(&view, picture));
     if (style == CAROM_DRAW_FLAT) {
         return draw_flat(world, &view, picture);
     }

@@ -8,7 +8,10 @@
  *   mesh    relative to the eye along the mesh's axes, q22 shifted right by the body's `shift`, so
  *           that nothing that belongs to the body is longer than 2^29
  *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
- *   picture pixels in q4 from the middle of the picture, y down
+ *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
+ *           and y from 7/16 above the top side of the pixel (width / 2, height / 2), so that a
+ *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
+ *           row before
  *
  * The guard band is a square of DRAW_GUARD pixels either way of the middle of the picture. It holds
  * the largest picture, so that faces are clipped exactly only against it and the near plane; the
@@ -56,8 +59,9 @@ struct draw_view {
     int64_t focal_q16; /* pixels */
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
-    int32_t middle_q4[2]; /* of the picture */
-    struct draw_rect rect;
+    int32_t middle[2];     /* the pixel from which pixels are counted */
+    int32_t round_q29[2];  /* to picture coordinates, in twice the guard band */
+    struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
 };
 
@@ -74,13 +78,32 @@ struct draw_body {
     carom_m3_q30 to_view;
     int64_t origin[3];
     int up, w_shift;
+    int32_t round_q29[2]; /* the view's */
 };
 
-/* A corner on the picture; w_q26 is 0 when it is outside of the guard band or too near. */
+/*
+ * A corner on the picture. With y in the upper half, corners compare by height, and the row is the
+ * upper 12 bits.
+ */
 struct draw_vertex {
-    int16_t x_q4, y_q4; /* from the middle */
+    int32_t yx_q4;
     uint32_t w_q26;
 };
+
+static inline int32_t draw_x(int32_t yx_q4)
+{
+    return (int16_t)(yx_q4 & 0xffff);
+}
+
+static inline int32_t draw_y(int32_t yx_q4)
+{
+    return yx_q4 >> 16;
+}
+
+static inline int32_t draw_row(int32_t yx_q4)
+{
+    return yx_q4 >> 20;
+}
 
 /* Returns CAROM_OK, CAROM_ERR_ARGUMENT or CAROM_ERR_RANGE. */
 int draw_view_init(struct draw_view *view, const struct carom_camera *camera, int32_t width,
@@ -88,14 +111,23 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
 /* Choose the part of the picture to draw. */
 void draw_view_rect(struct draw_view *view, struct draw_rect rect);
 
+/* All of a picture. */
+static inline struct draw_rect draw_whole(const struct draw_view *view,
+                                          const struct carom_picture *picture)
+{
+    int32_t x0 = -view->middle[0], y0 = -view->middle[1];
+
+    return (struct draw_rect){x0, y0, x0 + picture->width, y0 + picture->height};
+}
+
 /* Prepare a body for the view's part; false when nothing of it can show there. */
 bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
                     const struct body_state *state);
 /* Whether a sphere around a point, given about the centre of mass, may show inside the rect. */
 bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
 
-/* A vertex of the mesh on the picture. */
-struct draw_vertex draw_vertex(const struct draw_body *body, uint32_t number);
+/* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
+bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
 
 /*
  * Clip a face, or an edge as a polygon of two corners, given by its vertices.
@@ -132,7 +164,7 @@ struct draw_face {
  * other, the last one first. What is between them is for the rows.
  */
 struct draw_list {
-    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin */
+    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin; as rows are counted */
     struct draw_vertex *vertices;
     struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
     uint32_t vertex_count, face_count; /* with these two */
@@ -149,9 +181,10 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 struct draw_span {
     int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
     int32_t rows;                  /* before an edge ends */
+    int32_t rest;                  /* after that: > 0 with a new left edge, < 0 with a new right one */
     uint32_t pixel;                /* its colour, over a whole word */
     const struct draw_face *face;
-    uint32_t w_low, w_high; /* of its corners */
+    uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
     struct draw_span *next; /* of those that begin, or of those that are free */
 };
 
@@ -162,20 +195,21 @@ struct draw_sweep {
     const struct draw_view *view;
     const struct draw_vertex *vertices;
     uint8_t *row;    /* its pixel 0 */
-    uint8_t *safe;   /* a run that ends here may write 3 bytes more */
+    int32_t safe;    /* a run that ends here may write 3 bytes more */
     int pixel_shift; /* a pixel is 2^pixel_shift bytes */
     int32_t y, x;
     uint32_t ground;             /* the background */
-    const struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
+    struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
     int32_t end;                 /* where it ends */
+    int32_t gate;                /* a span that begins here or later meets no other */
     int under_count;
-    const struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
+    struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
 };
 
 /* Go on to pixel `to`. */
 void draw_advance(struct draw_sweep *s, int32_t to);
 /* Take in a span of which the first pixel is not before x. */
-void draw_overlap(struct draw_sweep *s, const struct draw_span *span);
+void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 
 /* Words of 4 bytes at any place; a whole picture has 8-bit pixels at odd addresses. */
 #if defined __GNUC__
@@ -188,25 +222,7 @@ void draw_overlap(struct draw_sweep *s, const struct draw_span *span);
  * Pixels from <= x < to of the row in one colour. Up to 3 bytes beyond may be written where the row
  * goes on: what is right of a run is always drawn after it.
  */
-static inline void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
-{
-    uint8_t *p = s->row + ((size_t)from << s->pixel_shift);
-    uint8_t *end = s->row + ((size_t)to << s->pixel_shift);
-
-    if (end > s->safe) {
-        for (; end - p >= 4; p += 4) {
-            DRAW_PUT(p, pixel);
-        }
-        if (p < end) {
-            memcpy(p, &pixel, (size_t)(end - p));
-        }
-        return;
-    }
-    while (p < end) {
-        DRAW_PUT(p, pixel);
-        p += 4;
-    }
-}
+void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
 
 /* ---- draw_line.c */
 

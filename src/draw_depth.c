@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
+/* The least and the most of a face's depth, when they are needed first. */
+static void set_depths(const struct draw_sweep *s, struct draw_span *span)
+{
+    uint32_t a = s->vertices[span->face->corner[0]].w_q26;
+    uint32_t b = s->vertices[span->face->corner[1]].w_q26;
+    uint32_t c = s->vertices[span->face->corner[2]].w_q26;
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+
+    span->w_low = low < c ? low : c;
+    span->w_high = high > c ? high : c;
+}
+
 /* Depth along a row: w at the middle of a pixel, and what the next pixel adds. */
 struct slope {
     int64_t w, dx;
@@ -20,8 +32,9 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
     const struct draw_vertex *a = &s->vertices[face->corner[0]];
     const struct draw_vertex *b = &s->vertices[face->corner[1]];
     const struct draw_vertex *c = &s->vertices[face->corner[2]];
-    int32_t x1 = b->x_q4 - a->x_q4, y1 = b->y_q4 - a->y_q4;
-    int32_t x2 = c->x_q4 - a->x_q4, y2 = c->y_q4 - a->y_q4;
+    int32_t xa = draw_x(a->yx_q4), ya = draw_y(a->yx_q4);
+    int32_t x1 = draw_x(b->yx_q4) - xa, y1 = draw_y(b->yx_q4) - ya;
+    int32_t x2 = draw_x(c->yx_q4) - xa, y2 = draw_y(c->yx_q4) - ya;
     int32_t area_q8 = x2 * y1 - x1 * y2; /* twice the area; y runs down the page */
     int64_t w1 = (int64_t)b->w_q26 - a->w_q26, w2 = (int64_t)c->w_q26 - a->w_q26;
     struct slope slope;
@@ -33,15 +46,13 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
     }
     slope.dx = (w2 * y1 - w1 * y2) * 16 / area_q8;
     dy = (w1 * x2 - w2 * x1) * 16 / area_q8;
-    slope.w = a->w_q26 + ((slope.dx * (x * 16 + 8 - s->view->middle_q4[0] - a->x_q4) +
-                           dy * (y * 16 + 8 - s->view->middle_q4[1] - a->y_q4)) >>
-                          4);
+    slope.w = a->w_q26 + ((slope.dx * (x * 16 + 8 - xa) + dy * (y * 16 + 15 - ya)) >> 4);
     return slope;
 }
 
 /* How far a is in front of b at pixel x, and what the next pixel adds. */
-static struct slope ahead_at(const struct draw_sweep *s, const struct draw_span *a,
-                             const struct draw_span *b, int32_t x)
+static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a,
+                             struct draw_span *b, int32_t x)
 {
     struct slope wa = slope_at(s, a->face, x, s->y), wb = slope_at(s, b->face, x, s->y);
 
@@ -49,13 +60,13 @@ static struct slope ahead_at(const struct draw_sweep *s, const struct draw_span 
 }
 
 /* Of two faces at the same depth the one that was listed later is in front. */
-static bool later(const struct draw_span *a, const struct draw_span *b)
+static bool later(struct draw_span *a, struct draw_span *b)
 {
     return a->face < b->face;
 }
 
-static bool in_front(const struct draw_sweep *s, const struct draw_span *a,
-                     const struct draw_span *b, int32_t x)
+static bool in_front(const struct draw_sweep *s, struct draw_span *a,
+                     struct draw_span *b, int32_t x)
 {
     int64_t ahead;
 
@@ -66,7 +77,7 @@ static bool in_front(const struct draw_sweep *s, const struct draw_span *a,
     return ahead > 0 || (ahead == 0 && later(a, b));
 }
 
-static void put_under(struct draw_sweep *s, const struct draw_span *span)
+static void put_under(struct draw_sweep *s, struct draw_span *span)
 {
     if (s->under_count < DRAW_UNDER_MAX) {
         s->under[s->under_count++] = span;
@@ -79,7 +90,7 @@ static void find_top(struct draw_sweep *s)
     int n = 0, best = -1;
 
     for (int i = 0; i < s->under_count; i++) {
-        const struct draw_span *u = s->under[i];
+        struct draw_span *u = s->under[i];
 
         if (u->x_q15[1] >> 15 > s->x) {
             if (u->x_q15[0] >> 15 <= s->x &&
@@ -104,7 +115,7 @@ static void find_top(struct draw_sweep *s)
 static int32_t find_crossing(const struct draw_sweep *s, int32_t to, int *which)
 {
     for (int i = 0; i < s->under_count; i++) {
-        const struct draw_span *u = s->under[i];
+        struct draw_span *u = s->under[i];
         int32_t from = u->x_q15[0] >> 15, end = u->x_q15[1] >> 15;
         int64_t pixels, wanted = !later(u, s->top); /* ahead by so much it is in front */
         struct slope ahead;
@@ -149,7 +160,7 @@ void draw_advance(struct draw_sweep *s, int32_t to)
         draw_fill(s, s->x, end, s->top->pixel);
         s->x = end;
         if (which >= 0) {
-            const struct draw_span *next = s->under[which];
+            struct draw_span *next = s->under[which];
 
             s->under[which] = s->top;
             s->top = next;
@@ -160,12 +171,18 @@ void draw_advance(struct draw_sweep *s, int32_t to)
     }
 }
 
-void draw_overlap(struct draw_sweep *s, const struct draw_span *span)
+void draw_overlap(struct draw_sweep *s, struct draw_span *span)
 {
     int32_t from = span->x_q15[0] >> 15;
 
     if (span->x_q15[1] >> 15 <= s->x) {
         return;
+    }
+    if (span->w_high == 0) {
+        set_depths(s, span);
+    }
+    if (s->top && s->top->w_high == 0) {
+        set_depths(s, s->top);
     }
     if (s->top && from < s->end && s->top->w_low > span->w_high) {
         put_under(s, span);

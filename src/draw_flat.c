@@ -1,6 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
+#define OUTSIDE   0x8000u /* in place of a vertex's place, which is below */
+#define FACES_MAX 0xffffu
+
+/* The most that a leaf may list: its faces, clipped, and their corners. */
+#define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
+#define LEAF_VERTICES (CAROM_LEAF_VERTICES + CAROM_LEAF_FACES * DRAW_CLIP_MAX)
+#define LEAF_ROOM                                                                                  \
+    (LEAF_FACES * (int32_t)sizeof(struct draw_face) +                                              \
+     LEAF_VERTICES * (int32_t)sizeof(struct draw_vertex))
+
 /* Where a pass over the world is. */
 struct flat {
     const struct carom_world *world;
@@ -10,77 +20,64 @@ struct flat {
     uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
     uint32_t *hot;  /* a bit for each face of the body: whether it interferes; or NULL */
     uint32_t *hot_bits;
+    uint16_t *rows;
     struct draw_vertex *vertices;
     uint8_t *end; /* of the workspace */
-    bool full;
 };
 
 /* ------------------------------------------------------------ into the list */
 
-/* The number of a new vertex, or 0 when there is no room. */
-static uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
+/* The number of a new vertex. There must be room. */
+static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
 {
-    if (list->room < (int32_t)sizeof vertex || list->vertex_count == UINT16_MAX) {
-        return 0;
-    }
     list->room -= (int32_t)sizeof vertex;
     list->vertices[list->vertex_count] = vertex;
     return list->vertex_count++;
 }
 
-/*
- * List a face that shows in the part of the picture, by its first row. Returns false when there is
- * no room.
- */
-static bool list_face(const struct draw_view *view, struct draw_list *list, uint32_t i, uint32_t j,
-                      uint32_t k, uint32_t colour)
+/* List a face by its first row, if it shows in the part of the picture. There must be room. */
+static inline void list_face(const struct draw_rect *rect, struct draw_list *list, uint32_t i,
+                             uint32_t j, uint32_t k, uint32_t colour)
 {
-    const struct draw_vertex *a = &list->vertices[i], *b = &list->vertices[j];
-    const struct draw_vertex *c = &list->vertices[k];
-    int32_t top = a->y_q4, low = b->y_q4 > c->y_q4 ? b->y_q4 : c->y_q4;
-    int32_t left = view->rect.x0 * 16 - view->middle_q4[0];
-    int32_t right = view->rect.x1 * 16 - view->middle_q4[0];
+    int32_t a = list->vertices[i].yx_q4, b = list->vertices[j].yx_q4;
+    int32_t c = list->vertices[k].yx_q4, top, end;
     struct draw_face *face;
     uint16_t *row;
 
     /* the top corner first */
-    if (b->y_q4 < top && b->y_q4 <= c->y_q4) {
-        uint32_t first = i;
+    if (b < a && b <= c) {
+        int32_t yx_q4 = a;
+        uint32_t place = i;
 
-        low = c->y_q4 > top ? c->y_q4 : top;
-        top = b->y_q4;
-        i = j;
-        j = k;
-        k = first;
-    } else if (c->y_q4 < top) {
-        uint32_t first = i;
+        a = b, b = c, c = yx_q4;
+        i = j, j = k, k = place;
+    } else if (c < a) {
+        int32_t yx_q4 = a;
+        uint32_t place = i;
 
-        low = b->y_q4 > top ? b->y_q4 : top;
-        top = c->y_q4;
-        i = k;
-        k = j;
-        j = first;
+        a = c, c = b, b = yx_q4;
+        i = k, k = j, j = place;
     }
-    top = (top + view->middle_q4[1] + 7) >> 4;
-    low = (low + view->middle_q4[1] + 7) >> 4;
-    top = top > view->rect.y0 ? top : view->rect.y0;
-    if (top >= low || top >= view->rect.y1 ||
-        (a->x_q4 < left && b->x_q4 < left && c->x_q4 < left) ||
-        (a->x_q4 >= right && b->x_q4 >= right && c->x_q4 >= right)) {
-        return true;
-    }
-    if (list->room < (int32_t)sizeof *face || list->face_count == UINT16_MAX) {
-        return false;
+    top = draw_row(a);
+    end = draw_row(b > c ? b : c);
+    top = top > rect->y0 ? top : rect->y0;
+    if (top >= end || top >= rect->y1 ||
+        (draw_x(a) < rect->x0 * 16 && draw_x(b) < rect->x0 * 16 && draw_x(c) < rect->x0 * 16) ||
+        (draw_x(a) >= rect->x1 * 16 && draw_x(b) >= rect->x1 * 16 && draw_x(c) >= rect->x1 * 16)) {
+        return;
     }
     list->room -= (int32_t)sizeof *face;
     face = &list->faces[-(int32_t)list->face_count];
-    row = &list->rows[top - view->rect.y0];
-    *face = (struct draw_face){{(uint16_t)i, (uint16_t)j, (uint16_t)k}, *row, (uint16_t)colour};
+    row = &list->rows[top];
+    face->corner[0] = (uint16_t)i;
+    face->corner[1] = (uint16_t)j;
+    face->corner[2] = (uint16_t)k;
+    face->next = *row;
+    face->colour = (uint16_t)colour;
     *row = (uint16_t)list->face_count++;
-    return true;
 }
 
-static bool list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t colour)
+static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t colour)
 {
     struct draw_vertex corner[DRAW_CLIP_MAX];
     uint32_t place[DRAW_CLIP_MAX];
@@ -88,39 +85,45 @@ static bool list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t col
 
     for (int i = 0; i < n; i++) {
         place[i] = list_vertex(&f->list, corner[i]);
-        if (place[i] == 0) {
-            return false;
-        }
     }
     for (int i = 2; i < n; i++) {
-        if (!list_face(f->view, &f->list, place[0], place[i - 1], place[i], colour)) {
-            return false;
-        }
+        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour);
     }
-    return true;
 }
 
-static bool see_face(struct flat *f, uint32_t number, uint32_t colour)
+/* Where a vertex of the body is in the list: OUTSIDE when it has no place there. */
+static uint32_t see_vertex(struct flat *f, uint32_t number)
+{
+    struct draw_vertex vertex;
+    uint32_t place = OUTSIDE;
+
+    if (draw_vertex(&f->body, number, &vertex)) {
+        place = list_vertex(&f->list, vertex);
+    }
+    f->seen[number] = (uint16_t)place;
+    return place;
+}
+
+/* A face that looks at the eye. */
+static inline void see_face(struct flat *f, uint32_t number, uint32_t colour)
 {
     const uint16_t *numbers = f->body.mesh->raw.faces[number];
-    const struct draw_vertex *vertices = f->list.vertices;
-    uint32_t place[3];
+    uint32_t i = f->seen[numbers[0]], j = f->seen[numbers[1]], k = f->seen[numbers[2]];
 
-    for (int k = 0; k < 3; k++) {
-        place[k] = f->seen[numbers[k]];
-        if (place[k] == 0) {
-            place[k] = list_vertex(&f->list, draw_vertex(&f->body, numbers[k]));
-            f->seen[numbers[k]] = (uint16_t)place[k];
-            if (place[k] == 0) {
-                return false;
-            }
-        }
+    if (i == 0) {
+        i = see_vertex(f, numbers[0]);
     }
-    if (vertices[place[0]].w_q26 == 0 || vertices[place[1]].w_q26 == 0 ||
-        vertices[place[2]].w_q26 == 0) {
-        return list_clipped(f, numbers, colour);
+    if (j == 0) {
+        j = see_vertex(f, numbers[1]);
     }
-    return list_face(f->view, &f->list, place[0], place[1], place[2], colour);
+    if (k == 0) {
+        k = see_vertex(f, numbers[2]);
+    }
+    if ((i | j | k) & OUTSIDE) {
+        list_clipped(f, numbers, colour);
+    } else {
+        list_face(&f->view->rect, &f->list, i, j, k, colour);
+    }
 }
 
 /* ------------------------------------------------------- over bodies, faces */
@@ -137,27 +140,27 @@ static uint32_t face_colour(const struct draw_body *body, const carom_v3_q30 *no
            24;
 }
 
-static bool see_leaf(struct flat *f, const struct carom_leaf *leaf)
+/* List what shows of a leaf. There must be room for the most that it may be. */
+static void see_leaf(struct flat *f, const struct carom_leaf *leaf)
 {
     const struct draw_body *body = &f->body;
-    const struct carom_mesh *mesh = body->mesh;
-    const uint16_t *numbers = &mesh->leaf_faces[leaf->first_face];
+    const struct carom_face *faces = body->mesh->faces;
+    const uint16_t *numbers = &body->mesh->leaf_faces[leaf->first_face];
+    const uint16_t *end = numbers + leaf->face_count;
+    const int32_t eye[3] = {body->eye[0], body->eye[1], body->eye[2]};
     int shift = 2 + body->shift;
 
-    for (uint32_t i = 0; i < leaf->face_count; i++) {
-        uint32_t number = numbers[i];
-        const struct carom_face *face = &mesh->faces[number];
+    while (numbers < end) {
+        uint32_t number = *numbers++;
+        const struct carom_face *face = &faces[number];
 
-        /* q(20 - shift): nothing shows of a face that is seen so much edge-on that it matters */
-        if ((int32_t)(carom_dot(face->normal.c, body->eye) >> 32) > face->offset_q22 >> shift) {
+        /* q(20 - shift): what is seen so much edge-on that it matters does not show */
+        if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
             bool hot = f->hot && (f->hot[number >> 5] >> (number & 31) & 1);
 
-            if (!see_face(f, number, face_colour(body, &face->normal, hot))) {
-                return false;
-            }
+            see_face(f, number, face_colour(body, &face->normal, hot));
         }
     }
-    return true;
 }
 
 /* Mark the interfering faces of a body. */
@@ -189,7 +192,8 @@ static bool see_part(struct flat *f)
     f->list.faces = (struct draw_face *)(void *)f->end;
     f->list.vertex_count = f->list.face_count = 1;
     f->list.room = (int32_t)(f->end - (uint8_t *)f->vertices) - 16;
-    memset(f->list.rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->list.rows[0]);
+    f->list.rows = f->rows - rect->y0;
+    memset(f->rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->rows[0]);
     for (uint32_t i = 0; i < world->body_count; i++) {
         const struct body *from = &world->bodies[i];
         const struct carom_mesh *mesh = from->mesh;
@@ -203,8 +207,12 @@ static bool see_part(struct flat *f)
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
             const struct carom_leaf *leaf = &mesh->leaves[l];
 
-            if (draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22) && !see_leaf(f, leaf)) {
-                return false;
+            if (draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22)) {
+                if (f->list.room < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
+                    f->list.face_count + LEAF_FACES > FACES_MAX) {
+                    return false;
+                }
+                see_leaf(f, leaf);
             }
         }
     }
@@ -234,8 +242,8 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
     at += (faces + 31) / 32 * sizeof f->hot_bits[0];
     f->seen = (uint16_t *)(void *)at;
     at += vertices * sizeof f->seen[0];
-    f->list.rows = (uint16_t *)(void *)at;
-    at += (size_t)picture->height * sizeof f->list.rows[0];
+    f->rows = (uint16_t *)(void *)at;
+    at += (size_t)picture->height * sizeof f->rows[0];
     at += (0 - (uintptr_t)at) & 7;
     f->vertices = (struct draw_vertex *)(void *)at;
     return at + ROOM_LEAST <= f->end;
@@ -245,12 +253,11 @@ int draw_flat(const struct carom_world *world, struct draw_view *view,
               const struct carom_picture *picture)
 {
     struct flat f = {.world = world, .view = view};
-    struct draw_rect part = {0, 0, picture->width, picture->height};
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    draw_view_rect(view, part);
+    draw_view_rect(view, draw_whole(view, picture));
     see_part(&f);
     draw_rows(view, &f.list, picture);
     return CAROM_OK;

@@ -27,8 +27,9 @@ void draw_ground(const struct carom_picture *picture, int32_t y, int32_t x0, int
 void draw_line(const struct carom_picture *picture, const struct draw_vertex *a,
                const struct draw_vertex *b, uint32_t colour)
 {
-    int32_t from[2] = {(a->x_q4 + picture->width * 8) >> 4, (a->y_q4 + picture->height * 8) >> 4};
-    int32_t to[2] = {(b->x_q4 + picture->width * 8) >> 4, (b->y_q4 + picture->height * 8) >> 4};
+    int32_t x = picture->width / 2, y = picture->height / 2;
+    int32_t from[2] = {(draw_x(a->yx_q4) >> 4) + x, ((draw_y(a->yx_q4) - 7) >> 4) + y};
+    int32_t to[2] = {(draw_x(b->yx_q4) >> 4) + x, ((draw_y(b->yx_q4) - 7) >> 4) + y};
     int32_t size[2] = {to[0] - from[0], to[1] - from[1]};
     int major = carom_abs(size[1]) > carom_abs(size[0]);
     int32_t minor_q16, step_q16 = 0, n;

@@ -14,76 +14,74 @@ struct rows {
     struct draw_span sentinel;
 };
 
-/* The row of the picture whose middle is the first not above y. */
-static inline int32_t row_of(const struct draw_view *view, int32_t y_q4)
-{
-    return (y_q4 + view->middle_q4[1] + 7) >> 4;
-}
-
 /*
  * One side of a span, along the edge from a down to b, at the middle of a row that it crosses.
  *
  * It depends on the edge and the row alone, so that faces that share an edge meet without a gap or
  * an overlap. Corners are at most 2^15 apart, so the quotient is at most 2^30 in size; times the
- * part of the edge above the row it is less than that of dx, 2^30.
+ * part of the edge above the row it is less than that of dx, 2^30. A pixel is right of the side when
+ * its middle is: 2^14 less, and rounded up.
  */
-static inline void set_side(const struct draw_view *view, struct draw_span *span, int side,
-                            const struct draw_vertex *a, const struct draw_vertex *b, int32_t row)
+static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t b, int32_t row)
 {
-    int32_t slope_q15 = (b->x_q4 - a->x_q4) * (1 << 15) / (b->y_q4 - a->y_q4);
-    int32_t below_q4 = row * 16 + 8 - view->middle_q4[1] - a->y_q4;
+    int32_t slope_q15 = (draw_x(b) - draw_x(a)) * (1 << 15) / (draw_y(b) - draw_y(a));
+    int32_t below_q4 = row * 16 + 15 - draw_y(a);
 
-    /* A pixel is right of the side when its middle is: 2^14 less, and rounded up. */
-    span->x_q15[side] = (a->x_q4 + view->middle_q4[0]) * (1 << 11) + (1 << 14) - 1 +
-                        ((slope_q15 * below_q4) >> 4);
+    span->x_q15[side] =
+        draw_x(a) * (1 << 11) + ((slope_q15 * below_q4 + (((1 << 14) - 1) << 4)) >> 4);
     span->step_q15[side] = slope_q15;
 }
 
-/* Set a span to a row of its face; false when the face ended before it. */
-static bool set_sides(const struct rows *r, struct draw_span *span, int32_t row)
+/* Set a span to the first row of its face, or of the part. */
+static inline void begin_span(struct draw_span *span, const struct draw_vertex *vertices,
+                              int32_t row)
 {
-    const struct draw_vertex *vertices = r->list->vertices;
-    const struct draw_vertex *a = &vertices[span->face->corner[0]];
-    const struct draw_vertex *b = &vertices[span->face->corner[1]];
-    const struct draw_vertex *c = &vertices[span->face->corner[2]];
-    int32_t end_b = row_of(r->view, b->y_q4), end_c = row_of(r->view, c->y_q4), end;
+    const uint16_t *corner = span->face->corner;
+    int32_t a = vertices[corner[0]].yx_q4, b = vertices[corner[1]].yx_q4;
+    int32_t c = vertices[corner[2]].yx_q4;
+    int32_t rows_b = draw_row(b) - row, rows_c = draw_row(c) - row;
 
-    if (row < end_b) {
-        set_side(r->view, span, 0, a, b, row);
-        end = end_b;
-        if (row < end_c) {
-            set_side(r->view, span, 1, a, c, row);
-            end = end_c < end_b ? end_c : end_b;
-        } else {
-            set_side(r->view, span, 1, c, b, row);
-        }
-    } else if (row < end_c) {
-        set_side(r->view, span, 0, b, c, row);
-        set_side(r->view, span, 1, a, c, row);
-        end = end_c;
-    } else {
-        return false;
+    span->w_high = 0;
+    span->rest = 0;
+    if (rows_b <= 0) {
+        set_side(span, 0, b, c, row);
+        set_side(span, 1, a, c, row);
+        span->rows = rows_c;
+        return;
     }
-    span->rows = end - row;
-    return true;
+    set_side(span, 0, a, b, row);
+    span->rows = rows_b;
+    if (rows_c <= 0) {
+        set_side(span, 1, c, b, row);
+        return;
+    }
+    set_side(span, 1, a, c, row);
+    span->rest = rows_c - rows_b;
+    if (rows_c < rows_b) {
+        span->rows = rows_c;
+    }
 }
 
-static void set_depths(const struct rows *r, struct draw_span *span)
+/* Go on along the third edge. */
+static inline void turn_span(struct draw_span *span, const struct draw_vertex *vertices,
+                             int32_t row)
 {
-    const struct draw_vertex *vertices = r->list->vertices;
-    uint32_t a = vertices[span->face->corner[0]].w_q26;
-    uint32_t b = vertices[span->face->corner[1]].w_q26;
-    uint32_t c = vertices[span->face->corner[2]].w_q26;
-    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    int32_t b = vertices[span->face->corner[1]].yx_q4, c = vertices[span->face->corner[2]].yx_q4;
 
-    span->w_low = low < c ? low : c;
-    span->w_high = high > c ? high : c;
+    if (span->rest > 0) {
+        set_side(span, 0, b, c, row);
+        span->rows = span->rest;
+    } else {
+        set_side(span, 1, c, b, row);
+        span->rows = -span->rest;
+    }
+    span->rest = 0;
 }
 
 /* Begin with the faces of a row. */
 static bool begin_faces(struct rows *r, int32_t row)
 {
-    uint32_t number = r->list->rows[row - r->view->rect.y0];
+    uint32_t number = r->list->rows[row];
 
     r->fresh = NULL;
     while (number) {
@@ -96,8 +94,7 @@ static bool begin_faces(struct rows *r, int32_t row)
         r->free = span->next;
         span->face = face;
         span->pixel = draw_colour(r->format, face->colour);
-        set_sides(r, span, row);
-        set_depths(r, span);
+        begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
             place = &(*place)->next;
         }
@@ -129,12 +126,18 @@ static void step_row(struct rows *r, int32_t row)
     for (; from < end; from++) {
         struct draw_span *span = *from;
 
-        span->x_q15[0] += span->step_q15[0];
-        span->x_q15[1] += span->step_q15[1];
-        if (--span->rows == 0 && !set_sides(r, span, row)) {
-            span->next = r->free;
-            r->free = span;
-            continue;
+        int32_t x0 = span->x_q15[0] + span->step_q15[0];
+        int32_t x1 = span->x_q15[1] + span->step_q15[1];
+
+        span->x_q15[0] = x0;
+        span->x_q15[1] = x1;
+        if (--span->rows == 0) {
+            if (span->rest == 0) {
+                span->next = r->free;
+                r->free = span;
+                continue;
+            }
+            turn_span(span, r->list->vertices, row);
         }
         while (fresh_x < span->x_q15[0]) {
             put(to++, fresh);
@@ -153,43 +156,82 @@ static void step_row(struct rows *r, int32_t row)
     r->count = (uint32_t)(to - end) - 1;
 }
 
+/* Pixels from <= x < to, and perhaps 3 bytes more. */
+static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
+{
+    uint8_t *p = row + from * (1 << pixel_shift), *end = row + to * (1 << pixel_shift);
+
+    while (p < end) {
+        DRAW_PUT(p, pixel);
+        p += 4;
+    }
+}
+
+void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
+{
+    int32_t safe = to < s->safe ? to : s->safe;
+    size_t bytes;
+
+    fill(s->row, s->pixel_shift, from, safe, pixel);
+    from = from > safe ? from : safe;
+    for (; from < to; from++) {
+        memcpy(s->row + from * (1 << s->pixel_shift), &pixel, (size_t)1 << s->pixel_shift);
+    }
+    (void)bytes;
+}
+
+/* Take in a span that begins where it is not free. */
+static void overlap(struct draw_sweep *s, struct draw_span *span)
+{
+    if (s->end <= s->x) {
+        s->top = NULL;
+    }
+    draw_overlap(s, span);
+    s->gate = INT32_MAX;
+    if (s->top == NULL) {
+        s->end = s->x;
+    }
+    if (s->under_count == 0) {
+        s->gate = s->end;
+    }
+}
+
 static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
-    int32_t x = s->x, end = x, gate = x;
-    uint32_t pixel = s->ground;
-    const struct draw_span *top = NULL;
+    int32_t x = s->x, end = x, gate = x, safe = s->safe;
+    uint32_t pixel = s->ground, ground = s->ground;
+    struct draw_span *top = NULL;
+    uint8_t *row = s->row;
+    int pixel_shift = s->pixel_shift;
 
     for (;;) {
-        const struct draw_span *span = *spans++;
+        struct draw_span *span = *spans++;
         int32_t a = span->x_q15[0] >> 15, b = span->x_q15[1] >> 15;
 
         if (a >= b) {
             continue;
         }
-        if (a >= x1) {
-            break;
+        if (a >= safe) {
+            if (a >= x1) {
+                break;
+            }
+            gate = INT32_MAX;
         }
         if (a < gate) {
             s->x = x;
-            s->top = end > x ? top : NULL;
+            s->top = top;
             s->end = end;
-            draw_overlap(s, span);
+            overlap(s, span);
             top = s->top;
             x = s->x;
-            end = x;
-            gate = x;
-            if (top) {
-                end = gate = s->end;
-                pixel = top->pixel;
-            }
-            if (s->under_count > 0) {
-                gate = INT32_MAX;
-            }
+            end = s->end;
+            gate = s->gate;
+            pixel = top ? top->pixel : ground;
             continue;
         }
-        draw_fill(s, x, end, pixel);
+        fill(row, pixel_shift, x, end, pixel);
         if (a > end) {
-            draw_fill(s, end, a, s->ground);
+            fill(row, pixel_shift, end, a, ground);
         }
         top = span;
         pixel = span->pixel;
@@ -236,14 +278,16 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
             return false;
         }
         step_row(&r, y);
-        s.row = (uint8_t *)picture->pixels + (size_t)y * (size_t)picture->stride;
-        s.safe = s.row + ((size_t)rect->x1 << s.pixel_shift) - 3;
+        s.row = (uint8_t *)picture->pixels +
+                (size_t)(y + view->middle[1]) * (size_t)picture->stride +
+                ((size_t)view->middle[0] << s.pixel_shift);
+        s.safe = rect->x1 - 3;
         s.y = y;
         s.x = rect->x0;
         s.top = NULL;
         s.under_count = 0;
         s.ground =
-            draw_colour(picture->format, (uint32_t)(y * DRAW_SHADES / picture->height));
+            draw_colour(picture->format, (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
         fill_row(&s, r.spans + 1, rect->x1);
     }
     return true;

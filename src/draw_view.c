@@ -48,8 +48,10 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
         return CAROM_ERR_ARGUMENT;
     }
     view->eye = camera->eye;
-    view->middle_q4[0] = width * 8;
-    view->middle_q4[1] = height * 8;
+    view->middle[0] = width / 2;
+    view->middle[1] = height / 2;
+    view->round_q29[0] = (1 << 14) + (width & 1) * (8 << 15);
+    view->round_q29[1] = (1 << 14) + (height & 1) * (8 << 15) + (7 << 15);
     /*
      * x : z must become (focal / DRAW_GUARD) x : z. A power of two taken off z keeps the factor of
      * x at most 1, so that no coordinate grows. focal <= 2^15 pixels, so z_shift <= 5.
@@ -65,9 +67,10 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
 
 void draw_view_rect(struct draw_view *view, struct draw_rect rect)
 {
-    const int32_t edge_q4[2][2] = {
-        {rect.x0 * 16 - view->middle_q4[0], rect.x1 * 16 - view->middle_q4[0]},
-        {rect.y0 * 16 - view->middle_q4[1], rect.y1 * 16 - view->middle_q4[1]}};
+    /* from the middle of the picture */
+    const int32_t half_q4[2] = {view->round_q29[0] >> 15 & 8, view->round_q29[1] >> 15 & 8};
+    const int32_t edge_q4[2][2] = {{rect.x0 * 16 - half_q4[0], rect.x1 * 16 - half_q4[0]},
+                                   {rect.y0 * 16 - half_q4[1], rect.y1 * 16 - half_q4[1]}};
 
     view->rect = rect;
     memcpy(view->side[4].c, view->axes.c[2], sizeof view->side[4].c);
@@ -166,6 +169,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
     }
     body->mesh = from->mesh;
     body->moving = from->moving;
+    memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
     body_matrix(&r, &state->rotation);
     place_eye(body, view, &r, &state->position);
     /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
@@ -198,25 +202,32 @@ bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, 
     return within(body->side, at, (radius_q22 >> body->shift) + 2);
 }
 
+static inline int32_t view_coordinate(const int32_t row[3], int64_t origin, int32_t x, int32_t y,
+                                      int32_t z)
+{
+    return (int32_t)((origin + (int64_t)row[0] * x + (int64_t)row[1] * y + (int64_t)row[2] * z) >>
+                     30);
+}
+
 /* Vertex number `number` in view coordinates. */
 static inline void place(const struct draw_body *body, uint32_t number, int32_t at[3])
 {
     const int16_t *quanta = body->mesh->raw.vertices[number];
-    const int32_t one = (int32_t)1 << body->up;
-    const int32_t v[3] = {quanta[0] * one, quanta[1] * one, quanta[2] * one};
+    const int32_t one = (int32_t)1 << body->up, (*m)[3] = body->to_view.c;
+    int32_t x = quanta[0] * one, y = quanta[1] * one, z = quanta[2] * one;
 
-    for (int k = 0; k < 3; k++) {
-        at[k] = (int32_t)((carom_dot(body->to_view.c[k], v) + body->origin[k]) >> 30);
-    }
+    at[0] = view_coordinate(m[0], body->origin[0], x, y, z);
+    at[1] = view_coordinate(m[1], body->origin[1], x, y, z);
+    at[2] = view_coordinate(m[2], body->origin[2], x, y, z);
 }
 
 /* A view coordinate x, |x| <= z, in q4 pixels: 2^14 x / z; inverse is 2^62 / (z << up). */
-static inline int16_t pixels_q4(int32_t x, int up, int32_t inverse)
+static inline int32_t pixels_q4(int32_t x, int up, int32_t inverse, int32_t round_q29)
 {
     /* x << (up - 1) is below 2^30: the product below 2^61, x / z in q29 its upper half */
     int32_t x_q29 = (int32_t)(((int32_t)((uint32_t)x << (up - 1)) * (int64_t)inverse) >> 32);
 
-    return (int16_t)((x_q29 + (1 << 14)) >> 15);
+    return (x_q29 + round_q29) >> 15;
 }
 
 /*
@@ -236,14 +247,16 @@ static inline struct draw_vertex project(const struct draw_body *body, const int
     int32_t r = (int32_t)(0x7fffffffu / (s >> 16));
     int32_t rest = (1 << 30) - (int32_t)((s * (uint64_t)((uint32_t)r << 15)) >> 32);
     int32_t inverse = r * (1 << 15) + ((r * (rest >> 1)) >> 14);
-    struct draw_vertex vertex = {pixels_q4(at[0], up, inverse), pixels_q4(at[1], up, inverse),
+    int32_t x_q4 = pixels_q4(at[0], up, inverse, body->round_q29[0]);
+    int32_t y_q4 = pixels_q4(at[1], up, inverse, body->round_q29[1]);
+    struct draw_vertex vertex = {(int32_t)((uint32_t)y_q4 << 16 | ((uint32_t)x_q4 & 0xffff)),
                                  (uint32_t)inverse >> (body->w_shift - up)};
 
     CAROM_ASSERT(body->w_shift >= up);
     return vertex;
 }
 
-struct draw_vertex draw_vertex(const struct draw_body *body, uint32_t number)
+bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex)
 {
     int32_t at[3];
     uint32_t z;
@@ -251,9 +264,10 @@ struct draw_vertex draw_vertex(const struct draw_body *body, uint32_t number)
     place(body, number, at);
     z = (uint32_t)at[2];
     if (at[2] < body->near || (uint32_t)at[0] + z > 2 * z || (uint32_t)at[1] + z > 2 * z) {
-        return (struct draw_vertex){0, 0, 0};
+        return false;
     }
-    return project(body, at);
+    *vertex = project(body, at);
+    return true;
 }
 
 /* ----------------------------------------------------------------- clipping */
