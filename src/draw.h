@@ -69,6 +69,7 @@ struct draw_view {
 struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
+    bool inside; /* what is at hand lies inside of the part */
     int shift;
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
@@ -168,7 +169,7 @@ struct draw_list {
     struct draw_vertex *vertices;
     struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
     uint32_t vertex_count, face_count; /* with these two */
-    int32_t room;                      /* bytes between */
+    size_t room;                       /* bytes between */
 };
 
 /* Draw the part. False when there is too little room for one of its rows. */
@@ -202,9 +203,39 @@ struct draw_sweep {
     struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
     int32_t end;                 /* where it ends */
     int32_t gate;                /* a span that begins here or later meets no other */
+    uint32_t under_high;         /* the least depth of the others, w_q26 */
     int under_count;
     struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
 };
+
+/* The least and the most of a face's depth, when they are needed first. */
+void draw_depths(const struct draw_sweep *s, struct draw_span *span);
+
+/* Whether the top span ends right of where another one begins and is in front of all of it. */
+static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, int32_t end,
+                              struct draw_span *span, int32_t from)
+{
+    if (span->w_high == 0) {
+        draw_depths(s, span);
+    }
+    if (top->w_high == 0) {
+        draw_depths(s, top);
+    }
+    if (from < end && top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
+        s->under[s->under_count++] = span;
+        if (s->under_high < span->w_high) {
+            s->under_high = span->w_high;
+        }
+        return true;
+    }
+    return false;
+}
+
+/* Whether a span is in front of all others, as far as is known. */
+static inline bool draw_shows(const struct draw_sweep *s, const struct draw_span *span)
+{
+    return span->w_low > s->under_high;
+}
 
 /* Go on to pixel `to`. */
 void draw_advance(struct draw_sweep *s, int32_t to);

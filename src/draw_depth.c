@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
-/* The least and the most of a face's depth, when they are needed first. */
-static void set_depths(const struct draw_sweep *s, struct draw_span *span)
+void draw_depths(const struct draw_sweep *s, struct draw_span *span)
 {
     uint32_t a = s->vertices[span->face->corner[0]].w_q26;
     uint32_t b = s->vertices[span->face->corner[1]].w_q26;
@@ -81,6 +80,9 @@ static void put_under(struct draw_sweep *s, struct draw_span *span)
 {
     if (s->under_count < DRAW_UNDER_MAX) {
         s->under[s->under_count++] = span;
+        if (s->under_high < span->w_high) {
+            s->under_high = span->w_high;
+        }
     }
 }
 
@@ -106,6 +108,7 @@ static void find_top(struct draw_sweep *s)
         s->end = s->top->x_q15[1] >> 15;
         s->under[best] = s->under[--s->under_count];
     }
+    s->under_high = s->under_count == 0 ? 0 : s->under_high;
 }
 
 /*
@@ -179,14 +182,10 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span)
         return;
     }
     if (span->w_high == 0) {
-        set_depths(s, span);
+        draw_depths(s, span);
     }
     if (s->top && s->top->w_high == 0) {
-        set_depths(s, s->top);
-    }
-    if (s->top && from < s->end && s->top->w_low > span->w_high) {
-        put_under(s, span);
-        return;
+        draw_depths(s, s->top);
     }
     draw_advance(s, from);
     if (s->top == NULL) {

@@ -8,8 +8,8 @@
 #define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
 #define LEAF_VERTICES (CAROM_LEAF_VERTICES + CAROM_LEAF_FACES * DRAW_CLIP_MAX)
 #define LEAF_ROOM                                                                                  \
-    (LEAF_FACES * (int32_t)sizeof(struct draw_face) +                                              \
-     LEAF_VERTICES * (int32_t)sizeof(struct draw_vertex))
+    (LEAF_FACES * sizeof(struct draw_face) +                                              \
+     LEAF_VERTICES * sizeof(struct draw_vertex))
 
 /* Where a pass over the world is. */
 struct flat {
@@ -30,7 +30,6 @@ struct flat {
 /* The number of a new vertex. There must be room. */
 static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
 {
-    list->room -= (int32_t)sizeof vertex;
     list->vertices[list->vertex_count] = vertex;
     return list->vertex_count++;
 }
@@ -66,7 +65,6 @@ static inline void list_face(const struct draw_rect *rect, struct draw_list *lis
         (draw_x(a) >= rect->x1 * 16 && draw_x(b) >= rect->x1 * 16 && draw_x(c) >= rect->x1 * 16)) {
         return;
     }
-    list->room -= (int32_t)sizeof *face;
     face = &list->faces[-(int32_t)list->face_count];
     row = &list->rows[top];
     face->corner[0] = (uint16_t)i;
@@ -94,11 +92,10 @@ static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t col
 /* Where a vertex of the body is in the list: OUTSIDE when it has no place there. */
 static uint32_t see_vertex(struct flat *f, uint32_t number)
 {
-    struct draw_vertex vertex;
     uint32_t place = OUTSIDE;
 
-    if (draw_vertex(&f->body, number, &vertex)) {
-        place = list_vertex(&f->list, vertex);
+    if (draw_vertex(&f->body, number, &f->list.vertices[f->list.vertex_count])) {
+        place = f->list.vertex_count++;
     }
     f->seen[number] = (uint16_t)place;
     return place;
@@ -182,6 +179,12 @@ static void mark_hot(struct flat *f, uint32_t number)
     }
 }
 
+static size_t room(const struct draw_list *list)
+{
+    return (size_t)((const uint8_t *)(list->faces - (list->face_count - 1)) -
+                    (const uint8_t *)(list->vertices + list->vertex_count));
+}
+
 /* List what shows in the part; false when there is no room for all of it. */
 static bool see_part(struct flat *f)
 {
@@ -191,7 +194,6 @@ static bool see_part(struct flat *f)
     f->list.vertices = f->vertices;
     f->list.faces = (struct draw_face *)(void *)f->end;
     f->list.vertex_count = f->list.face_count = 1;
-    f->list.room = (int32_t)(f->end - (uint8_t *)f->vertices) - 16;
     f->list.rows = f->rows - rect->y0;
     memset(f->rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->rows[0]);
     for (uint32_t i = 0; i < world->body_count; i++) {
@@ -208,7 +210,7 @@ static bool see_part(struct flat *f)
             const struct carom_leaf *leaf = &mesh->leaves[l];
 
             if (draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22)) {
-                if (f->list.room < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
+                if (room(&f->list) < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
                     f->list.face_count + LEAF_FACES > FACES_MAX) {
                     return false;
                 }
@@ -259,6 +261,7 @@ int draw_flat(const struct carom_world *world, struct draw_view *view,
     }
     draw_view_rect(view, draw_whole(view, picture));
     see_part(&f);
+    f.list.room = room(&f.list);
     draw_rows(view, &f.list, picture);
     return CAROM_OK;
 }

@@ -93,7 +93,8 @@ static bool begin_faces(struct rows *r, int32_t row)
         }
         r->free = span->next;
         span->face = face;
-        span->pixel = draw_colour(r->format, face->colour);
+        span->pixel = r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
+                                                  : draw_colour(r->format, face->colour);
         begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
             place = &(*place)->next;
@@ -218,6 +219,18 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
             gate = INT32_MAX;
         }
         if (a < gate) {
+            if (top && draw_hides(s, top, end, span, a)) {
+                gate = INT32_MAX;
+                continue;
+            }
+            if (top && a == end && draw_shows(s, span)) {
+                fill(row, pixel_shift, x, end, pixel);
+                top = span;
+                pixel = span->pixel;
+                x = a;
+                end = b;
+                continue;
+            }
             s->x = x;
             s->top = top;
             s->end = end;
@@ -248,7 +261,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
 static void make_room(struct rows *r, struct draw_span *low)
 {
     size_t each = sizeof(struct draw_span) + 2 * sizeof(struct draw_span *);
-    size_t room = (size_t)r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
+    size_t room = r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
 
     r->free = NULL;
     for (size_t i = 0; i < n; i++) {
@@ -286,6 +299,7 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.x = rect->x0;
         s.top = NULL;
         s.under_count = 0;
+        s.under_high = 0;
         s.ground =
             draw_colour(picture->format, (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
         fill_row(&s, r.spans + 1, rect->x1);

@@ -62,7 +62,7 @@ static void prof(void)
 {
     struct carom_world *world = head_scene();
 
-    for (int frame = 0; frame < 0; frame++) {
+    for (int frame = 0; frame < 45; frame++) {
         CHECK(carom_world_step(world) >= 0);
     }
     cost(world, &scene.camera, 320, 240);
