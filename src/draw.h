@@ -43,6 +43,12 @@ enum draw_ramp {
 };
 #define DRAW_SHADES 32
 
+/* The palette entry of a shade of a body's ramp. */
+static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
+{
+    return (uint32_t)(DRAW_STATIONARY + moving + 2 * hot) * DRAW_SHADES + shade;
+}
+
 /* A rectangle of pixels; x1 and y1 are outside. */
 struct draw_rect {
     int32_t x0, y0, x1, y1;
@@ -69,11 +75,11 @@ struct draw_view {
 struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
-    bool inside; /* what is at hand lies inside of the part */
     int shift;
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
+    uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
     carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
     /* view = (to_view (vertex << up) + origin) / 2^30 */
     carom_m3_q30 to_view;
@@ -124,8 +130,11 @@ static inline struct draw_rect draw_whole(const struct draw_view *view,
 /* Prepare a body for the view's part; false when nothing of it can show there. */
 bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
                     const struct body_state *state);
-/* Whether a sphere around a point, given about the centre of mass, may show inside the rect. */
-bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
+/*
+ * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
+ * 1, or 2 when all of it does.
+ */
+int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
 
 /* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
@@ -144,12 +153,6 @@ int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
               const struct carom_picture *picture);
-
-/* The palette entry of a shade of a body's ramp. */
-static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
-{
-    return (uint32_t)(DRAW_STATIONARY + moving + 2 * hot) * DRAW_SHADES + shade;
-}
 
 /* ---- draw_rows.c: their pixels, row by row */
 

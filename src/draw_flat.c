@@ -36,7 +36,7 @@ static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex ve
 
 /* List a face by its first row, if it shows in the part of the picture. There must be room. */
 static inline void list_face(const struct draw_rect *rect, struct draw_list *list, uint32_t i,
-                             uint32_t j, uint32_t k, uint32_t colour)
+                             uint32_t j, uint32_t k, uint32_t colour, bool inside)
 {
     int32_t a = list->vertices[i].yx_q4, b = list->vertices[j].yx_q4;
     int32_t c = list->vertices[k].yx_q4, top, end;
@@ -59,10 +59,16 @@ static inline void list_face(const struct draw_rect *rect, struct draw_list *lis
     }
     top = draw_row(a);
     end = draw_row(b > c ? b : c);
-    top = top > rect->y0 ? top : rect->y0;
-    if (top >= end || top >= rect->y1 ||
-        (draw_x(a) < rect->x0 * 16 && draw_x(b) < rect->x0 * 16 && draw_x(c) < rect->x0 * 16) ||
-        (draw_x(a) >= rect->x1 * 16 && draw_x(b) >= rect->x1 * 16 && draw_x(c) >= rect->x1 * 16)) {
+    if (!inside) {
+        int32_t left = rect->x0 * 16, right = rect->x1 * 16;
+
+        top = top > rect->y0 ? top : rect->y0;
+        if (top >= rect->y1 || (draw_x(a) < left && draw_x(b) < left && draw_x(c) < left) ||
+            (draw_x(a) >= right && draw_x(b) >= right && draw_x(c) >= right)) {
+            return;
+        }
+    }
+    if (top >= end) {
         return;
     }
     face = &list->faces[-(int32_t)list->face_count];
@@ -85,7 +91,8 @@ static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t col
         place[i] = list_vertex(&f->list, corner[i]);
     }
     for (int i = 2; i < n; i++) {
-        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour);
+        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour,
+                  false);
     }
 }
 
@@ -102,7 +109,7 @@ static uint32_t see_vertex(struct flat *f, uint32_t number)
 }
 
 /* A face that looks at the eye. */
-static inline void see_face(struct flat *f, uint32_t number, uint32_t colour)
+static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside)
 {
     const uint16_t *numbers = f->body.mesh->raw.faces[number];
     uint32_t i = f->seen[numbers[0]], j = f->seen[numbers[1]], k = f->seen[numbers[2]];
@@ -119,7 +126,7 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour)
     if ((i | j | k) & OUTSIDE) {
         list_clipped(f, numbers, colour);
     } else {
-        list_face(&f->view->rect, &f->list, i, j, k, colour);
+        list_face(&f->view->rect, &f->list, i, j, k, colour, inside);
     }
 }
 
@@ -129,16 +136,13 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour)
  * Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
  * The light is a little short, so that shades stay below DRAW_SHADES; the ramp is in the bits above.
  */
-static uint32_t face_colour(const struct draw_body *body, const carom_v3_q30 *normal, bool hot)
+static inline uint32_t face_colour(const struct draw_body *body, const carom_v3_q30 *normal)
 {
-    uint32_t ramp = draw_ramp_entry(body->moving, hot, 0);
-
-    return ((uint32_t)(carom_dot(normal->c, body->light.c) >> 32) + (ramp << 24) + (1u << 28)) >>
-           24;
+    return ((uint32_t)(carom_dot(normal->c, body->light.c) >> 32) + body->ramp) >> 24;
 }
 
-/* List what shows of a leaf. There must be room for the most that it may be. */
-static void see_leaf(struct flat *f, const struct carom_leaf *leaf)
+/* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
+static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside)
 {
     const struct draw_body *body = &f->body;
     const struct carom_face *faces = body->mesh->faces;
@@ -153,9 +157,12 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf)
 
         /* q(20 - shift): what is seen so much edge-on that it matters does not show */
         if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
-            bool hot = f->hot && (f->hot[number >> 5] >> (number & 31) & 1);
+            uint32_t colour = face_colour(body, &face->normal);
 
-            see_face(f, number, face_colour(body, &face->normal, hot));
+            if (f->hot && f->hot[number >> 5] >> (number & 31) & 1) {
+                colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
+            }
+            see_face(f, number, colour, inside);
         }
     }
 }
@@ -209,12 +216,14 @@ static bool see_part(struct flat *f)
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
             const struct carom_leaf *leaf = &mesh->leaves[l];
 
-            if (draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22)) {
+            int sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
+
+            if (sees) {
                 if (room(&f->list) < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
                     f->list.face_count + LEAF_FACES > FACES_MAX) {
                     return false;
                 }
-                see_leaf(f, leaf);
+                see_leaf(f, leaf, sees == 2);
             }
         }
     }

@@ -86,15 +86,26 @@ void draw_view_rect(struct draw_view *view, struct draw_rect rect)
     }
 }
 
-/* Whether a point is less than the radius outside of each plane; normals are of length 1. */
-static bool within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int64_t radius)
+/*
+ * Whether a point is less than the radius outside of each plane: 0, or 1, or 2 when it is so much
+ * inside of each; normals are of length 1.
+ */
+static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int64_t radius)
 {
+    int64_t radius_q30 = radius * CAROM_ONE_Q30;
+    int result = 2;
+
     for (int s = 0; s < DRAW_SIDES; s++) {
-        if (carom_dot(side[s].c, at) < -radius * CAROM_ONE_Q30) {
-            return false;
+        int64_t inside = carom_dot(side[s].c, at);
+
+        if (inside < -radius_q30) {
+            return 0;
+        }
+        if (inside < radius_q30) {
+            result = 1;
         }
     }
-    return true;
+    return result;
 }
 
 /*
@@ -109,7 +120,7 @@ static bool sees_body(const struct draw_view *view, const carom_v3_q32 *position
     for (int k = 0; k < 3; k++) {
         at[k] = (int32_t)((position->c[k] - view->eye.c[k]) >> 16);
     }
-    return within(view->side, at, (radius_q22 >> 6) + 4);
+    return within(view->side, at, (radius_q22 >> 6) + 4) > 0;
 }
 
 /* The eye in mesh axes, and how far q22 must be shifted so that the body stays below 2^29. */
@@ -169,6 +180,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
     }
     body->mesh = from->mesh;
     body->moving = from->moving;
+    body->ramp = (draw_ramp_entry(from->moving, false, 0) << 24) + (1u << 28);
     memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
     body_matrix(&r, &state->rotation);
     place_eye(body, view, &r, &state->position);
@@ -191,7 +203,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
     return true;
 }
 
-bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22)
+int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22)
 {
     int32_t at[3];
 
