@@ -39,9 +39,8 @@ static void draw_face_wire(const struct carom_picture *picture, const struct dra
     for (int k = 0; k < 3; k++) {
         const struct carom_edge *edge = &mesh->edges[face->edge[k]];
 
-        if (edge->face[0] == number &&
-            (front || (edge->face[1] != CAROM_NO_FACE &&
-                       faces_eye(body, &mesh->faces[edge->face[1]])))) {
+        if (edge->face[0] == number && (front || (edge->face[1] != CAROM_NO_FACE &&
+                                                  faces_eye(body, &mesh->faces[edge->face[1]])))) {
             draw_edge(picture, body, edge->vertex[0], edge->vertex[1], colour);
         }
     }

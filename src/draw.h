@@ -66,7 +66,7 @@ struct draw_view {
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
     int32_t middle[2];     /* the pixel from which pixels are counted */
-    int32_t round_q29[2];  /* to picture coordinates, in twice the guard band */
+    int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
     struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
 };
@@ -168,16 +168,16 @@ struct draw_face {
  * other, the last one first. What is between them is for the rows.
  */
 struct draw_list {
-    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin; as rows are counted */
+    uint16_t *rows; /* heads of lists of faces, by the row in which they begin */
     struct draw_vertex *vertices;
     struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
     uint32_t vertex_count, face_count; /* with these two */
     size_t room;                       /* bytes between */
 };
 
-/* Draw the part. False when there is too little room for one of its rows. */
+/* Draw the part. False when there is too little room for one of its rows, unless it must be. */
 bool draw_rows(const struct draw_view *view, const struct draw_list *list,
-               const struct carom_picture *picture);
+               const struct carom_picture *picture, bool must);
 
 /* ---- draw_depth.c: where faces cover each other */
 
@@ -185,8 +185,8 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 struct draw_span {
     int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
     int32_t rows;                  /* before an edge ends */
-    int32_t rest;                  /* after that: > 0 with a new left edge, < 0 with a new right one */
-    uint32_t pixel;                /* its colour, over a whole word */
+    int32_t rest;   /* after that: > 0 with a new left edge, < 0 with a new right one */
+    uint32_t pixel; /* its colour, over a whole word */
     const struct draw_face *face;
     uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
     struct draw_span *next; /* of those that begin, or of those that are free */
@@ -202,11 +202,11 @@ struct draw_sweep {
     int32_t safe;    /* a run that ends here may write 3 bytes more */
     int pixel_shift; /* a pixel is 2^pixel_shift bytes */
     int32_t y, x;
-    uint32_t ground;             /* the background */
+    uint32_t ground;       /* the background */
     struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
-    int32_t end;                 /* where it ends */
-    int32_t gate;                /* a span that begins here or later meets no other */
-    uint32_t under_high;         /* the least depth of the others, w_q26 */
+    int32_t end;           /* where it ends */
+    int32_t gate;          /* a span that begins here or later meets no other */
+    uint32_t under_high;   /* the least depth of the others, w_q26 */
     int under_count;
     struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
 };

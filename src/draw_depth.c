@@ -50,8 +50,8 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
 }
 
 /* How far a is in front of b at pixel x, and what the next pixel adds. */
-static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a,
-                             struct draw_span *b, int32_t x)
+static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a, struct draw_span *b,
+                             int32_t x)
 {
     struct slope wa = slope_at(s, a->face, x, s->y), wb = slope_at(s, b->face, x, s->y);
 
@@ -64,8 +64,8 @@ static bool later(struct draw_span *a, struct draw_span *b)
     return a->face < b->face;
 }
 
-static bool in_front(const struct draw_sweep *s, struct draw_span *a,
-                     struct draw_span *b, int32_t x)
+static bool in_front(const struct draw_sweep *s, struct draw_span *a, struct draw_span *b,
+                     int32_t x)
 {
     int64_t ahead;
 
@@ -95,8 +95,7 @@ static void find_top(struct draw_sweep *s)
         struct draw_span *u = s->under[i];
 
         if (u->x_q15[1] >> 15 > s->x) {
-            if (u->x_q15[0] >> 15 <= s->x &&
-                (best < 0 || in_front(s, u, s->under[best], s->x))) {
+            if (u->x_q15[0] >> 15 <= s->x && (best < 0 || in_front(s, u, s->under[best], s->x))) {
                 best = n;
             }
             s->under[n++] = u;

@@ -8,8 +8,7 @@
 #define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
 #define LEAF_VERTICES (CAROM_LEAF_VERTICES + CAROM_LEAF_FACES * DRAW_CLIP_MAX)
 #define LEAF_ROOM                                                                                  \
-    (LEAF_FACES * sizeof(struct draw_face) +                                              \
-     LEAF_VERTICES * sizeof(struct draw_vertex))
+    (LEAF_FACES * sizeof(struct draw_face) + LEAF_VERTICES * sizeof(struct draw_vertex))
 
 /* Where a pass over the world is. */
 struct flat {
@@ -91,8 +90,7 @@ static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t col
         place[i] = list_vertex(&f->list, corner[i]);
     }
     for (int i = 2; i < n; i++) {
-        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour,
-                  false);
+        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour, false);
     }
 }
 
@@ -232,13 +230,14 @@ static bool see_part(struct flat *f)
 
 /* -------------------------------------------------------------------- parts */
 
-#define ROOM_LEAST 4096
+/* For some leaves, and for some 60 faces of a row. */
+#define ROOM_LEAST 8160
 
 /* Lay out the workspace. */
 static bool make_flat(struct flat *f, const struct carom_picture *picture)
 {
     uint8_t *at = picture->workspace;
-    size_t vertices = 0, faces = 0;
+    size_t vertices = 0, faces = 0, bytes;
 
     for (uint32_t i = 0; i < f->world->body_count; i++) {
         const struct carom_mesh *mesh = f->world->bodies[i].mesh;
@@ -248,29 +247,63 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
             faces = mesh->raw.face_count > faces ? mesh->raw.face_count : faces;
         }
     }
-    f->end = at + picture->workspace_bytes / 8 * 8;
+    bytes = (faces + 31) / 32 * sizeof f->hot_bits[0] + vertices * sizeof f->seen[0] +
+            (size_t)picture->height * sizeof f->rows[0];
+    bytes = (bytes + 7) / 8 * 8;
+    if ((uintptr_t)at % 8 != 0 || picture->workspace_bytes / 8 * 8 < bytes + ROOM_LEAST) {
+        return false;
+    }
     f->hot_bits = (uint32_t *)(void *)at;
-    at += (faces + 31) / 32 * sizeof f->hot_bits[0];
-    f->seen = (uint16_t *)(void *)at;
-    at += vertices * sizeof f->seen[0];
-    f->rows = (uint16_t *)(void *)at;
-    at += (size_t)picture->height * sizeof f->rows[0];
-    at += (0 - (uintptr_t)at) & 7;
-    f->vertices = (struct draw_vertex *)(void *)at;
-    return at + ROOM_LEAST <= f->end;
+    f->seen = (uint16_t *)(void *)(f->hot_bits + (faces + 31) / 32);
+    f->rows = f->seen + vertices;
+    f->vertices = (struct draw_vertex *)(void *)(at + bytes);
+    f->end = at + picture->workspace_bytes / 8 * 8;
+    return true;
 }
 
+/*
+ * Draw a part of the picture; false when the workspace is too small for it, unless it must be
+ * drawn.
+ */
+static bool draw_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
+                      bool must)
+{
+    draw_view_rect(f->view, part);
+    if (!see_part(f) && !must) {
+        return false;
+    }
+    f->list.room = room(&f->list);
+    return draw_rows(f->view, &f->list, picture, must);
+}
+
+/*
+ * All at once when the workspace is large enough; otherwise fewer rows, and when a single one is
+ * too much, fewer columns. A pixel is drawn in any case, with as many of its faces as there is room
+ * for: some 60 in front of each other when it is smallest.
+ */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
               const struct carom_picture *picture)
 {
     struct flat f = {.world = world, .view = view};
+    const struct draw_rect whole = draw_whole(view, picture);
+    int32_t x = whole.x0, y = whole.y0, columns = picture->width, rows = picture->height;
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    draw_view_rect(view, draw_whole(view, picture));
-    see_part(&f);
-    f.list.room = room(&f.list);
-    draw_rows(view, &f.list, picture);
+    while (y < whole.y1) {
+        struct draw_rect part = {x, y, x + columns, y + rows};
+
+        part.x1 = part.x1 < whole.x1 ? part.x1 : whole.x1;
+        part.y1 = part.y1 < whole.y1 ? part.y1 : whole.y1;
+        if (draw_part(&f, picture, part, rows == 1 && columns == 1)) {
+            x = part.x1 < whole.x1 ? part.x1 : whole.x0;
+            y = part.x1 < whole.x1 ? y : part.y1;
+        } else if (rows > 1) {
+            rows = (rows + 1) / 2;
+        } else {
+            columns = (columns + 1) / 2;
+        }
+    }
     return CAROM_OK;
 }

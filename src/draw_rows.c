@@ -171,14 +171,20 @@ static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to,
 void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
 {
     int32_t safe = to < s->safe ? to : s->safe;
-    size_t bytes;
+    uint8_t *p = s->row + from * (1 << s->pixel_shift);
 
+    for (; from + 16 <= safe; from += 16 >> s->pixel_shift) {
+        DRAW_PUT(p, pixel);
+        DRAW_PUT(p + 4, pixel);
+        DRAW_PUT(p + 8, pixel);
+        DRAW_PUT(p + 12, pixel);
+        p += 16;
+    }
     fill(s->row, s->pixel_shift, from, safe, pixel);
     from = from > safe ? from : safe;
     for (; from < to; from++) {
         memcpy(s->row + from * (1 << s->pixel_shift), &pixel, (size_t)1 << s->pixel_shift);
     }
-    (void)bytes;
 }
 
 /* Take in a span that begins where it is not free. */
@@ -223,7 +229,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
                 gate = INT32_MAX;
                 continue;
             }
-            if (top && a == end && draw_shows(s, span)) {
+            if (top && a == end && a < safe && draw_shows(s, span)) {
                 fill(row, pixel_shift, x, end, pixel);
                 top = span;
                 pixel = span->pixel;
@@ -276,7 +282,7 @@ static void make_room(struct rows *r, struct draw_span *low)
 }
 
 bool draw_rows(const struct draw_view *view, const struct draw_list *list,
-               const struct carom_picture *picture)
+               const struct carom_picture *picture, bool must)
 {
     struct rows r = {.view = view, .list = list, .format = picture->format};
     struct draw_sweep s = {.view = view, .vertices = list->vertices};
@@ -287,7 +293,7 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
     r.spans[0] = r.last[0] = &lowest;
     s.pixel_shift = picture->format;
     for (int32_t y = rect->y0; y < rect->y1; y++) {
-        if (!begin_faces(&r, y)) {
+        if (!begin_faces(&r, y) && !must) {
             return false;
         }
         step_row(&r, y);
@@ -300,8 +306,8 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.top = NULL;
         s.under_count = 0;
         s.under_high = 0;
-        s.ground =
-            draw_colour(picture->format, (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
+        s.ground = draw_colour(picture->format,
+                               (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
         fill_row(&s, r.spans + 1, rect->x1);
     }
     return true;
