@@ -168,7 +168,7 @@ struct draw_face {
  * other, the last one first. What is between them is for the rows.
  */
 struct draw_list {
-    uint16_t *rows; /* heads of lists of faces, by the row in which they begin */
+    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin */
     struct draw_vertex *vertices;
     struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
     uint32_t vertex_count, face_count; /* with these two */

@@ -71,7 +71,7 @@ static inline void list_face(const struct draw_rect *rect, struct draw_list *lis
         return;
     }
     face = &list->faces[-(int32_t)list->face_count];
-    row = &list->rows[top];
+    row = &list->rows[top - rect->y0];
     face->corner[0] = (uint16_t)i;
     face->corner[1] = (uint16_t)j;
     face->corner[2] = (uint16_t)k;
@@ -199,7 +199,7 @@ static bool see_part(struct flat *f)
     f->list.vertices = f->vertices;
     f->list.faces = (struct draw_face *)(void *)f->end;
     f->list.vertex_count = f->list.face_count = 1;
-    f->list.rows = f->rows - rect->y0;
+    f->list.rows = f->rows;
     memset(f->rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->rows[0]);
     for (uint32_t i = 0; i < world->body_count; i++) {
         const struct body *from = &world->bodies[i];

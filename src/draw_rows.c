@@ -81,7 +81,7 @@ static inline void turn_span(struct draw_span *span, const struct draw_vertex *v
 /* Begin with the faces of a row. */
 static bool begin_faces(struct rows *r, int32_t row)
 {
-    uint32_t number = r->list->rows[row];
+    uint32_t number = r->list->rows[row - r->view->rect.y0];
 
     r->fresh = NULL;
     while (number) {
