@@ -133,8 +133,8 @@ static void no_gaps(void)
     CHECK_EQ(carom_body_remove(world, SCENE_BODY), CAROM_OK);
     for (int view = 0; view < 8; view++) {
         camera.target.c[0] = camera.target.c[1] = camera.target.c[2] = 0;
-        camera.eye.c[0] = (int64_t)(view - 4) << 30;
-        camera.eye.c[1] = (int64_t)(3 - view) << 29;
+        camera.eye.c[0] = (view - 4) * ((int64_t)1 << 30);
+        camera.eye.c[1] = (3 - view) * ((int64_t)1 << 29);
         camera.eye.c[2] = (int64_t)5 << 31;
         cost(world, &camera, WIDTH, HEIGHT, sizeof workspace);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
