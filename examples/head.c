@@ -19,14 +19,11 @@
     (CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +                                                 \
      CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
 
-/* Rows of the picture whose depth is kept at once. */
-#define DEPTH_ROWS 512
-#define WIDTH_MAX  512
-
 static _Alignas(8) uint8_t
     mesh_block[USER_MESH_BYTES > SCENE_LARGE_MESH_BYTES ? USER_MESH_BYTES : SCENE_LARGE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(WIDTH_MAX, DEPTH_ROWS)];
+static _Alignas(8) uint8_t draw_block[CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES,
+                                                       USER_FACES + SCENE_FIELD_FACES)];
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 
@@ -124,8 +121,8 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
                                     .height = fb.height,
                                     .stride = fb.stride,
                                     .format = fb.format,
-                                    .workspace = depth_block,
-                                    .workspace_bytes = sizeof depth_block};
+                                    .workspace = draw_block,
+                                    .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
     if (!fb.pixels) {

@@ -478,17 +478,22 @@ enum carom_pixel_format {
 extern const uint32_t carom_draw_palette[256];
 
 struct carom_picture {
-    void *pixels;          /* the top left one; aligned to the size of a pixel */
-    int32_t width, height; /* pixels, 1 .. 2048 */
-    int32_t stride;        /* bytes from one row to the next, a multiple of the size of a pixel */
-    uint8_t format;        /* enum carom_pixel_format */
-    void *workspace;       /* depth rows, aligned to 8; WIRE needs none, and it may be NULL */
-    size_t
-        workspace_bytes; /* at least CAROM_DRAW_BYTES(width, 1); few rows cost time, not results */
+    void *pixels;           /* the top left one; aligned to the size of a pixel */
+    int32_t width, height;  /* pixels, 1 .. 2048 */
+    int32_t stride;         /* bytes from one row to the next, a multiple of the size of a pixel */
+    uint8_t format;         /* enum carom_pixel_format */
+    void *workspace;        /* aligned to 8; WIRE needs none, and it may be NULL */
+    size_t workspace_bytes; /* at least CAROM_DRAW_BYTES_LEAST; few cost time, not results */
 };
 
-/* Workspace to draw `rows` rows of the picture at once. */
-#define CAROM_DRAW_BYTES(width, rows) ((size_t)4 * (size_t)(width) * (size_t)(rows))
+/*
+ * Workspace to draw bodies of so many vertices and faces, all together, at once; and what the
+ * largest mesh needs. With less than the former the picture is drawn in parts when it has to be.
+ */
+#define CAROM_DRAW_BYTES(vertices, faces)                                                          \
+    ((size_t)12288 + (size_t)10 * (size_t)(vertices) + (size_t)11 * (size_t)(faces))
+#define CAROM_DRAW_BYTES_LEAST(vertices, faces)                                                    \
+    ((size_t)12288 + (size_t)2 * (size_t)(vertices) + (size_t)(faces) / 8)
 
 /*
  * Draw the bodies of a world over a background, with the interfering faces of its last step

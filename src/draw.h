@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * draw - a picture of a world: camera, clipping, flat shading with a depth buffer, wireframe.
+ * draw - a picture of a world: camera, clipping, flat shading row by row, wireframe.
  *
  * Four frames of reference:
  *
@@ -8,20 +8,27 @@
  *   mesh    relative to the eye along the mesh's axes, q22 shifted right by the body's `shift`, so
  *           that nothing that belongs to the body is longer than 2^29
  *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
- *   picture pixels in q4, y down
+ *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
+ *           and y from 7/16 above the top side of the pixel (width / 2, height / 2), so that a
+ *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
+ *           row before
  *
  * The guard band is a square of DRAW_GUARD pixels either way of the middle of the picture. It holds
  * the largest picture, so that faces are clipped exactly only against it and the near plane; the
- * scan cuts the rest at the edges of the picture.
+ * rows cut the rest at the edges of the picture.
  *
  * Depth is w_q26 = 1 / z: it is linear over the picture, larger is nearer, and it is 2^31 on the
  * near plane, 1/32 unit in front of the eye.
+ *
+ * FLAT works on a part of the picture, a rectangle, at a time: all of it when the workspace holds
+ * all faces that show in it. They are listed by the row in which they begin. Then each row knows
+ * its faces from left to right; where one alone covers a pixel no depth is looked at, and every
+ * pixel is written about once.
  */
 #ifndef CAROM_SRC_DRAW_H
 #define CAROM_SRC_DRAW_H
 
-#include "carom.h"
-#include "scan.h"
+#include "world.h"
 
 #define DRAW_GUARD 1024
 
@@ -36,6 +43,17 @@ enum draw_ramp {
 };
 #define DRAW_SHADES 32
 
+/* The palette entry of a shade of a body's ramp. */
+static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
+{
+    return (uint32_t)(DRAW_STATIONARY + moving + 2 * hot) * DRAW_SHADES + shade;
+}
+
+/* A rectangle of pixels; x1 and y1 are outside. */
+struct draw_rect {
+    int32_t x0, y0, x1, y1;
+};
+
 /* ---- draw_view.c: from the world to the picture */
 
 #define DRAW_SIDES 5
@@ -47,77 +65,210 @@ struct draw_view {
     int64_t focal_q16; /* pixels */
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
-    int32_t middle_q4[2];          /* of the picture */
-    struct scan_rect rect;         /* the band of rows being drawn */
+    int32_t middle[2];     /* the pixel from which pixels are counted */
+    int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
+    struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
 };
 
 /* A body as the camera sees it. */
 struct draw_body {
-    const struct draw_view *view;
     const struct carom_mesh *mesh;
     bool moving;
     int shift;
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
-    carom_m3_q30 to_view;          /* from mesh to view coordinates */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
-    carom_v3_q30 light;            /* towards the light, in mesh axes */
+    uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
+    carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
+    /* view = (to_view (vertex << up) + origin) / 2^30 */
+    carom_m3_q30 to_view;
+    int64_t origin[3];
+    int up, w_shift;
+    int32_t round_q29[2]; /* the view's */
 };
 
-/* A corner of a face on its way to the picture. */
-struct draw_corner {
-    int32_t at[3];    /* mesh coordinates, then view coordinates */
-    uint32_t out;     /* bits: what it is outside of */
-    int32_t xy_q4[2]; /* valid when no bit of DRAW_OUT_CLIP is set */
-    uint32_t w_q26;   /* the same */
+/*
+ * A corner on the picture. With y in the upper half, corners compare by height, and the row is the
+ * upper 12 bits.
+ */
+struct draw_vertex {
+    int32_t yx_q4;
+    uint32_t w_q26;
 };
 
-#define DRAW_OUT_CLIP                                                                              \
-    0x1fu /* near plane and guard band; the bits above are the sides of the rect */
+static inline int32_t draw_x(int32_t yx_q4)
+{
+    return (int16_t)(yx_q4 & 0xffff);
+}
+
+static inline int32_t draw_y(int32_t yx_q4)
+{
+    return yx_q4 >> 16;
+}
+
+static inline int32_t draw_row(int32_t yx_q4)
+{
+    return yx_q4 >> 20;
+}
 
 /* Returns CAROM_OK, CAROM_ERR_ARGUMENT or CAROM_ERR_RANGE. */
 int draw_view_init(struct draw_view *view, const struct carom_camera *camera, int32_t width,
                    int32_t height);
 /* Choose the part of the picture to draw. */
-void draw_view_rect(struct draw_view *view, struct scan_rect rect);
+void draw_view_rect(struct draw_view *view, struct draw_rect rect);
 
-void draw_body_init(struct draw_body *body, const struct draw_view *view,
-                    const struct carom_mesh *mesh, const struct carom_body_state *state);
-/* Whether a sphere around a point, given about the centre of mass, may show inside the rect. */
-bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
+/* All of a picture. */
+static inline struct draw_rect draw_whole(const struct draw_view *view,
+                                          const struct carom_picture *picture)
+{
+    int32_t x0 = -view->middle[0], y0 = -view->middle[1];
 
-/* A vertex in mesh coordinates, and from there to the view and the picture. */
-void draw_corner_place(const struct draw_body *body, uint32_t vertex, struct draw_corner *corner);
-void draw_corner_project(const struct draw_body *body, struct draw_corner *corner);
+    return (struct draw_rect){x0, y0, x0 + picture->width, y0 + picture->height};
+}
+
+/* Prepare a body for the view's part; false when nothing of it can show there. */
+bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
+                    const struct body_state *state);
+/*
+ * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
+ * 1, or 2 when all of it does.
+ */
+int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
+
+/* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
+bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
 
 /*
- * Clip a face or an edge that has a corner with a bit of DRAW_OUT_CLIP, and project what is new.
- *   polygon  in: 3 corners; out: up to SCAN_MAX, none of them with such a bit
- * Returns the number of corners; for a line, whether anything is left.
+ * Clip a face, or an edge as a polygon of two corners, given by its vertices.
+ *   out  what is left, on the picture; of an edge, the first two
+ * Returns their number: a triangle gains at most one corner a plane.
  */
-int draw_clip_face(const struct draw_body *body, struct draw_corner polygon[SCAN_MAX]);
-bool draw_clip_line(const struct draw_body *body, struct draw_corner line[2]);
+#define DRAW_CLIP_MAX 8
+int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
+              struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* ---- draw_raster.c: pixels */
+/* ---- draw_flat.c: the faces that show, part by part */
 
-struct draw_canvas {
-    const struct carom_picture *picture;
-    struct scan_rect rect; /* the band of rows being drawn, over the full width */
-    uint32_t *depth;       /* w_q26 of the band's pixels, row by row; NULL for wireframe */
+/* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
+int draw_flat(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture);
+
+/* ---- draw_rows.c: their pixels, row by row */
+
+/* A triangle on the picture. It begins with its top corner and runs counter-clockwise. */
+struct draw_face {
+    uint16_t corner[3]; /* into the vertices */
+    uint16_t next;      /* in its row's list: 1 + where it is, 0 at the end */
+    uint16_t colour;    /* palette entry */
 };
 
-/* The background, and depth at infinity. */
-void draw_clear(const struct draw_canvas *canvas);
-/* Both take projected corners. A triangle that does not run counter-clockwise draws nothing. */
-void draw_triangle(const struct draw_canvas *canvas, const struct draw_corner *a,
-                   const struct draw_corner *b, const struct draw_corner *c, uint32_t colour);
-void draw_line(const struct draw_canvas *canvas, const struct draw_corner *a,
-               const struct draw_corner *b, uint32_t colour);
+/*
+ * What shows in a part of the picture: vertices from one end of the workspace, faces from the
+ * other, the last one first. What is between them is for the rows.
+ */
+struct draw_list {
+    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin */
+    struct draw_vertex *vertices;
+    struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
+    uint32_t vertex_count, face_count; /* with these two */
+    size_t room;                       /* bytes between */
+};
+
+/* Draw the part. False when there is too little room for one of its rows, unless it must be. */
+bool draw_rows(const struct draw_view *view, const struct draw_list *list,
+               const struct carom_picture *picture, bool must);
+
+/* ---- draw_depth.c: where faces cover each other */
+
+/* A face in the row at hand. */
+struct draw_span {
+    int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
+    int32_t rows;                  /* before an edge ends */
+    int32_t rest;   /* after that: > 0 with a new left edge, < 0 with a new right one */
+    uint32_t pixel; /* its colour, over a whole word */
+    const struct draw_face *face;
+    uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
+    struct draw_span *next; /* of those that begin, or of those that are free */
+};
+
+#define DRAW_UNDER_MAX 64
+
+/* A row of which the pixels before x are done. */
+struct draw_sweep {
+    const struct draw_view *view;
+    const struct draw_vertex *vertices;
+    uint8_t *row;    /* its pixel 0 */
+    int32_t safe;    /* a run that ends here may write 3 bytes more */
+    int pixel_shift; /* a pixel is 2^pixel_shift bytes */
+    int32_t y, x;
+    uint32_t ground;       /* the background */
+    struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
+    int32_t end;           /* where it ends */
+    int32_t gate;          /* a span that begins here or later meets no other */
+    uint32_t under_high;   /* the least depth of the others, w_q26 */
+    int under_count;
+    struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
+};
+
+/* The least and the most of a face's depth, when they are needed first. */
+void draw_depths(const struct draw_sweep *s, struct draw_span *span);
+
+/* Whether the top span ends right of where another one begins and is in front of all of it. */
+static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, int32_t end,
+                              struct draw_span *span, int32_t from)
+{
+    if (span->w_high == 0) {
+        draw_depths(s, span);
+    }
+    if (top->w_high == 0) {
+        draw_depths(s, top);
+    }
+    if (from < end && top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
+        s->under[s->under_count++] = span;
+        if (s->under_high < span->w_high) {
+            s->under_high = span->w_high;
+        }
+        return true;
+    }
+    return false;
+}
+
+/* Whether a span is in front of all others, as far as is known. */
+static inline bool draw_shows(const struct draw_sweep *s, const struct draw_span *span)
+{
+    return span->w_low > s->under_high;
+}
+
+/* Go on to pixel `to`. */
+void draw_advance(struct draw_sweep *s, int32_t to);
+/* Take in a span of which the first pixel is not before x. */
+void draw_overlap(struct draw_sweep *s, struct draw_span *span);
+
+/* Words of 4 bytes at any place; a whole picture has 8-bit pixels at odd addresses. */
+#if defined __GNUC__
+#define DRAW_PUT(p, word) __builtin_memcpy(p, &(word), 4)
+#else
+#define DRAW_PUT(p, word) memcpy(p, &(word), 4)
+#endif
+
+/*
+ * Pixels from <= x < to of the row in one colour. Up to 3 bytes beyond may be written where the row
+ * goes on: what is right of a run is always drawn after it.
+ */
+void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
+
+/* ---- draw_line.c */
+
+/* Pixels x0 <= x < x1 of the background. */
+void draw_ground(const struct carom_picture *picture, int32_t y, int32_t x0, int32_t x1);
+
+void draw_line(const struct carom_picture *picture, const struct draw_vertex *a,
+               const struct draw_vertex *b, uint32_t colour);
 
 /* ---- draw_palette.c */
 
-/* A palette entry as a pixel of the format. */
+/* A palette entry as a pixel of the format, over a whole word. */
 uint32_t draw_colour(uint8_t format, uint32_t index);
 
 #endif

@@ -35,9 +35,9 @@ uint32_t draw_colour(uint8_t format, uint32_t index)
 
     switch (format) {
     case CAROM_PALETTE8:
-        return index;
+        return index * 0x01010101u;
     case CAROM_RGB565:
-        return (rgb >> 8 & 0xf800) | (rgb >> 5 & 0x07e0) | (rgb >> 3 & 0x001f);
+        return ((rgb >> 8 & 0xf800) | (rgb >> 5 & 0x07e0) | (rgb >> 3 & 0x001f)) * 0x00010001u;
     default:
         return rgb;
     }

@@ -1,28 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
-#include "body.h"
-#include "mesh.h"
 
 #define CAMERA_LIMIT_Q32 ((int64_t)1 << (14 + 32))
 #define FOCAL_MIN_Q16    (1 << 12)
 #define FOCAL_MAX_Q16    (1 << 20)
 #define NEAR_BITS        5 /* the near plane is 2^-5 units in front of the eye */
 
-/* Towards the light: (-6, -2, 3) / 7, low from the left, so that a landscape shows its relief. */
-static const carom_v3_q30 light = {{-920350135, -306783378, 460175067}};
-
-/* Bits of draw_corner.out. */
-enum {
-    OUT_NEAR = 1,
-    OUT_GUARD_LEFT = 2,
-    OUT_GUARD_RIGHT = 4,
-    OUT_GUARD_TOP = 8,
-    OUT_GUARD_BOTTOM = 16,
-    OUT_LEFT = 32,
-    OUT_RIGHT = 64,
-    OUT_TOP = 128,
-    OUT_BOTTOM = 256
-};
+/*
+ * Towards the light: (-6, -2, 3) / 7, low from the left, so that a landscape shows its relief. Short
+ * of length 1 by one part in 2^20.
+ */
+static const carom_v3_q30 light = {{-920349257, -306783086, 460174628}};
 
 /* Right, down and forward, unit vectors. Looking straight up or down, right is the world's x. */
 static bool camera_axes(carom_m3_q30 *axes, const struct carom_camera *camera)
@@ -60,8 +48,10 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
         return CAROM_ERR_ARGUMENT;
     }
     view->eye = camera->eye;
-    view->middle_q4[0] = width * 8;
-    view->middle_q4[1] = height * 8;
+    view->middle[0] = width / 2;
+    view->middle[1] = height / 2;
+    view->round_q29[0] = (1 << 14) + (width & 1) * (8 << 15);
+    view->round_q29[1] = (1 << 14) + (height & 1) * (8 << 15) + (7 << 15);
     /*
      * x : z must become (focal / DRAW_GUARD) x : z. A power of two taken off z keeps the factor of
      * x at most 1, so that no coordinate grows. focal <= 2^15 pixels, so z_shift <= 5.
@@ -75,11 +65,12 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     return CAROM_OK;
 }
 
-void draw_view_rect(struct draw_view *view, struct scan_rect rect)
+void draw_view_rect(struct draw_view *view, struct draw_rect rect)
 {
-    const int32_t edge_q4[2][2] = {
-        {rect.x0 * 16 - view->middle_q4[0], rect.x1 * 16 - view->middle_q4[0]},
-        {rect.y0 * 16 - view->middle_q4[1], rect.y1 * 16 - view->middle_q4[1]}};
+    /* from the middle of the picture */
+    const int32_t half_q4[2] = {view->round_q29[0] >> 15 & 8, view->round_q29[1] >> 15 & 8};
+    const int32_t edge_q4[2][2] = {{rect.x0 * 16 - half_q4[0], rect.x1 * 16 - half_q4[0]},
+                                   {rect.y0 * 16 - half_q4[1], rect.y1 * 16 - half_q4[1]}};
 
     view->rect = rect;
     memcpy(view->side[4].c, view->axes.c[2], sizeof view->side[4].c);
@@ -95,14 +86,52 @@ void draw_view_rect(struct draw_view *view, struct scan_rect rect)
     }
 }
 
+/*
+ * Whether a point is less than the radius outside of each plane: 0, or 1, or 2 when it is so much
+ * inside of each; normals are of length 1.
+ */
+static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int64_t radius)
+{
+    int64_t radius_q30 = radius * CAROM_ONE_Q30;
+    int result = 2;
+
+    for (int s = 0; s < DRAW_SIDES; s++) {
+        int64_t inside = carom_dot(side[s].c, at);
+
+        if (inside < -radius_q30) {
+            return 0;
+        }
+        if (inside < radius_q30) {
+            result = 1;
+        }
+    }
+    return result;
+}
+
+/*
+ * Whether a body may show. In q16, since it is less than 2^15 units away in each direction; the
+ * radius has room for what that cuts off.
+ */
+static bool sees_body(const struct draw_view *view, const carom_v3_q32 *position,
+                      int32_t radius_q22)
+{
+    int32_t at[3];
+
+    for (int k = 0; k < 3; k++) {
+        at[k] = (int32_t)((position->c[k] - view->eye.c[k]) >> 16);
+    }
+    return within(view->side, at, (radius_q22 >> 6) + 4) > 0;
+}
+
 /* The eye in mesh axes, and how far q22 must be shifted so that the body stays below 2^29. */
-static void place_eye(struct draw_body *body, const carom_m3_q30 *r, const carom_v3_q32 *position)
+static void place_eye(struct draw_body *body, const struct draw_view *view, const carom_m3_q30 *r,
+                      const carom_v3_q32 *position)
 {
     int64_t eye[3];
     uint64_t reach = (uint64_t)body->mesh->radius_q22;
 
     for (int k = 0; k < 3; k++) {
-        eye[k] = body->view->eye.c[k] - position->c[k];
+        eye[k] = view->eye.c[k] - position->c[k];
     }
     fix_rotate_back(eye, r, eye);
     for (int k = 0; k < 3; k++) {
@@ -120,17 +149,44 @@ static void place_eye(struct draw_body *body, const carom_m3_q30 *r, const carom
     }
 }
 
-void draw_body_init(struct draw_body *body, const struct draw_view *view,
-                    const struct carom_mesh *mesh, const struct carom_body_state *state)
+/*
+ * From vertices in quanta to view coordinates in one step. A vertex is below 2^30 in q22, and so is
+ * the centre of mass; with the eye, t < 2^31, and all products add up to less than 2^63.
+ */
+static void place_vertices(struct draw_body *body)
+{
+    int up = 22 - body->mesh->raw.quantum_bits - body->shift;
+    int32_t t[3];
+
+    body->up = up > 0 ? up : 0;
+    for (int k = 0; k < 3; k++) {
+        t[k] = (body->mesh->mass.centre.c[k] >> body->shift) + body->eye[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        body->origin[k] = ((int64_t)1 << 29) - carom_dot(body->to_view.c[k], t);
+        for (int i = 0; up < 0 && i < 3; i++) {
+            body->to_view.c[k][i] >>= -up;
+        }
+    }
+}
+
+bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
+                    const struct body_state *state)
 {
     carom_m3_q30 r;
 
-    body->view = view;
-    body->mesh = mesh;
+    if (!sees_body(view, &state->position, from->mesh->radius_q22)) {
+        return false;
+    }
+    body->mesh = from->mesh;
+    body->moving = from->moving;
+    body->ramp = (draw_ramp_entry(from->moving, false, 0) << 24) + (1u << 28);
+    memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
     body_matrix(&r, &state->rotation);
-    place_eye(body, &r, &state->position);
+    place_eye(body, view, &r, &state->position);
     /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
     body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
+    body->w_shift = 14 + body->shift + view->z_shift;
     for (int k = 0; k < 3; k++) {
         carom_rotate_back(body->to_view.c[k], &r, view->axes.c[k]);
     }
@@ -139,91 +195,112 @@ void draw_body_init(struct draw_body *body, const struct draw_view *view,
         body->to_view.c[1][k] = carom_mul_q30(body->to_view.c[1][k], view->scale_q30);
         body->to_view.c[2][k] >>= view->z_shift;
     }
+    place_vertices(body);
     for (int s = 0; s < DRAW_SIDES; s++) {
         carom_rotate_back(body->side[s].c, &r, view->side[s].c);
     }
     carom_rotate_back(body->light.c, &r, light.c);
+    return true;
 }
 
-bool draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22)
+int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22)
 {
-    int64_t radius = (radius_q22 >> body->shift) + 2; /* rounded up, with room for both roundings */
     int32_t at[3];
 
     for (int k = 0; k < 3; k++) {
         at[k] = (centre->c[k] >> body->shift) - body->eye[k];
     }
-    for (int s = 0; s < DRAW_SIDES; s++) {
-        if (carom_dot(body->side[s].c, at) < -radius * CAROM_ONE_Q30) {
-            return false;
-        }
-    }
-    return true;
+    /* rounded up, with room for both roundings */
+    return within(body->side, at, (radius_q22 >> body->shift) + 2);
 }
 
-void draw_corner_place(const struct draw_body *body, uint32_t vertex, struct draw_corner *corner)
+static inline int32_t view_coordinate(const int32_t row[3], int64_t origin, int32_t x, int32_t y,
+                                      int32_t z)
 {
-    carom_v3_q22 p = mesh_vertex(body->mesh, vertex);
-
-    for (int k = 0; k < 3; k++) {
-        corner->at[k] = (p.c[k] >> body->shift) - body->eye[k];
-    }
+    return (int32_t)((origin + (int64_t)row[0] * x + (int64_t)row[1] * y + (int64_t)row[2] * z) >>
+                     30);
 }
 
-/*
- * How far inside of a plane of DRAW_OUT_CLIP, given by its bit, up to a factor; |result| <= 2^30.
- */
-static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], uint32_t plane)
+/* Vertex number `number` in view coordinates. */
+static inline void place(const struct draw_body *body, uint32_t number, int32_t at[3])
 {
-    switch (plane) {
-    case OUT_NEAR:
-        return at[2] - body->near;
-    case OUT_GUARD_LEFT:
-        return at[2] + at[0];
-    case OUT_GUARD_RIGHT:
-        return at[2] - at[0];
-    case OUT_GUARD_TOP:
-        return at[2] + at[1];
-    default:
-        return at[2] - at[1];
-    }
+    const int16_t *quanta = body->mesh->raw.vertices[number];
+    const int32_t one = (int32_t)1 << body->up, (*m)[3] = body->to_view.c;
+    int32_t x = quanta[0] * one, y = quanta[1] * one, z = quanta[2] * one;
+
+    at[0] = view_coordinate(m[0], body->origin[0], x, y, z);
+    at[1] = view_coordinate(m[1], body->origin[1], x, y, z);
+    at[2] = view_coordinate(m[2], body->origin[2], x, y, z);
+}
+
+/* A view coordinate x, |x| <= z, in q4 pixels: 2^14 x / z; inverse is 2^62 / (z << up). */
+static inline int32_t pixels_q4(int32_t x, int up, int32_t inverse, int32_t round_q29)
+{
+    /* x << (up - 1) is below 2^30: the product below 2^61, x / z in q29 its upper half */
+    int32_t x_q29 = (int32_t)(((int32_t)((uint32_t)x << (up - 1)) * (int64_t)inverse) >> 32);
+
+    return (x_q29 + round_q29) >> 15;
 }
 
 /*
  * To the picture, from inside the guard band and beyond the near plane.
  *
- * 2^3 <= z < 2^29, so 2^33 < 2^62 / z <= 2^59; |x|, |y| <= z, so the products are at most 2^62 and
- * the quotients 2^14 sixteenths of a pixel, DRAW_GUARD. On the near plane z is
- * 2^(22 - NEAR_BITS - shift - z_shift), which makes w_q26 2^31.
+ * z < 2^29 is scaled to 2^31 <= s < 2^32. r = 2^31 / (s / 2^16), both rounded down, is right to one
+ * part in 2^15, so 2^30 - s r / 2^17 is at most 2^15 in size; with it one step of Newton's makes
+ * the inverse right to 2^-28. It comes out below 2^62 / s, hence below 2^31.
+ *
+ * z >= 2^(31 - w_shift), so the last shift is not negative, and w_q26 is below 2^31.
  */
-static void project_inside(const struct draw_body *body, struct draw_corner *corner)
+static inline struct draw_vertex project(const struct draw_body *body, const int32_t at[3])
 {
-    const struct draw_view *view = body->view;
-    const struct scan_rect *rect = &view->rect;
-    int64_t inverse_q62 = ((int64_t)1 << 62) / corner->at[2];
-    int32_t x_q4 = view->middle_q4[0] + (int32_t)carom_round(corner->at[0] * inverse_q62, 48);
-    int32_t y_q4 = view->middle_q4[1] + (int32_t)carom_round(corner->at[1] * inverse_q62, 48);
+    uint32_t z = (uint32_t)at[2];
+    int up = 32 - fix_bits32(z);
+    uint32_t s = z << up;
+    int32_t r = (int32_t)(0x7fffffffu / (s >> 16));
+    int32_t rest = (1 << 30) - (int32_t)((s * (uint64_t)((uint32_t)r << 15)) >> 32);
+    int32_t inverse = r * (1 << 15) + ((r * (rest >> 1)) >> 14);
+    int32_t x_q4 = pixels_q4(at[0], up, inverse, body->round_q29[0]);
+    int32_t y_q4 = pixels_q4(at[1], up, inverse, body->round_q29[1]);
+    struct draw_vertex vertex = {(int32_t)((uint32_t)y_q4 << 16 | ((uint32_t)x_q4 & 0xffff)),
+                                 (uint32_t)inverse >> (body->w_shift - up)};
 
-    corner->xy_q4[0] = x_q4;
-    corner->xy_q4[1] = y_q4;
-    corner->w_q26 = (uint32_t)(inverse_q62 >> (14 + body->shift + view->z_shift));
-    corner->out = (x_q4 < rect->x0 * 16 ? OUT_LEFT : 0u) | (x_q4 > rect->x1 * 16 ? OUT_RIGHT : 0u) |
-                  (y_q4 < rect->y0 * 16 ? OUT_TOP : 0u) | (y_q4 > rect->y1 * 16 ? OUT_BOTTOM : 0u);
+    CAROM_ASSERT(body->w_shift >= up);
+    return vertex;
 }
 
-void draw_corner_project(const struct draw_body *body, struct draw_corner *corner)
+bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex)
 {
-    int32_t x, y, z;
+    int32_t at[3];
+    uint32_t z;
 
-    carom_rotate(corner->at, &body->to_view, corner->at);
-    x = corner->at[0];
-    y = corner->at[1];
-    z = corner->at[2];
-    corner->out = (z < body->near ? OUT_NEAR : 0u) | (x < -z ? OUT_GUARD_LEFT : 0u) |
-                  (x > z ? OUT_GUARD_RIGHT : 0u) | (y < -z ? OUT_GUARD_TOP : 0u) |
-                  (y > z ? OUT_GUARD_BOTTOM : 0u);
-    if (corner->out == 0) {
-        project_inside(body, corner);
+    place(body, number, at);
+    z = (uint32_t)at[2];
+    if (at[2] < body->near || (uint32_t)at[0] + z > 2 * z || (uint32_t)at[1] + z > 2 * z) {
+        return false;
+    }
+    *vertex = project(body, at);
+    return true;
+}
+
+/* ----------------------------------------------------------------- clipping */
+
+/*
+ * How far inside of a plane: the near plane, then left, right, top and bottom of the guard band. Up
+ * to a factor; |result| <= 2^30.
+ */
+static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], int plane)
+{
+    switch (plane) {
+    case 0:
+        return at[2] - body->near;
+    case 1:
+        return at[2] + at[0];
+    case 2:
+        return at[2] - at[0];
+    case 3:
+        return at[2] + at[1];
+    default:
+        return at[2] - at[1];
     }
 }
 
@@ -244,14 +321,37 @@ static void cross_plane(int32_t out[3], const int32_t inner[3], const int32_t ou
     }
 }
 
-/* Project a corner that clipping made: rounding may have left it a hair outside. */
-static void project_clipped(const struct draw_body *body, struct draw_corner *corner)
+/* Sutherland and Hodgman's step: the part of a convex polygon inside one plane. */
+static int clip_plane(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
+                      int plane)
 {
-    int32_t *at = corner->at;
-    int32_t short_of = clip_distance(body, at, OUT_NEAR);
+    int32_t kept[DRAW_CLIP_MAX][3];
+    int m = 0;
 
-    if (short_of < 0) {
-        at[2] -= short_of;
+    for (int i = 0; i < n; i++) {
+        const int32_t *a = polygon[i], *b = polygon[i + 1 < n ? i + 1 : 0];
+        int32_t da = clip_distance(body, a, plane), db = clip_distance(body, b, plane);
+
+        /* A triangle gains at most one corner a plane: 3 + 5 = DRAW_CLIP_MAX. */
+        CAROM_ASSERT(m + (da >= 0) + ((da >= 0) != (db >= 0)) <= DRAW_CLIP_MAX);
+        if (da >= 0) {
+            memcpy(kept[m++], a, sizeof kept[0]);
+        }
+        if (da >= 0 && db < 0) {
+            cross_plane(kept[m++], a, b, da, db);
+        } else if (da < 0 && db >= 0) {
+            cross_plane(kept[m++], b, a, db, da);
+        }
+    }
+    memcpy(polygon, kept, sizeof kept[0] * (size_t)m);
+    return m;
+}
+
+/* Project a corner that clipping made: rounding may have left it a hair outside. */
+static struct draw_vertex project_clipped(const struct draw_body *body, int32_t at[3])
+{
+    if (at[2] < body->near) {
+        at[2] = body->near;
     }
     for (int k = 0; k < 2; k++) {
         if (at[k] > at[2]) {
@@ -260,68 +360,22 @@ static void project_clipped(const struct draw_body *body, struct draw_corner *co
             at[k] = -at[2];
         }
     }
-    project_inside(body, corner);
+    return project(body, at);
 }
 
-/* Sutherland and Hodgman's step: the part of a convex polygon inside one plane. */
-static int clip_plane(const struct draw_body *body, struct draw_corner polygon[SCAN_MAX], int n,
-                      uint32_t plane)
+int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
+              struct draw_vertex out[DRAW_CLIP_MAX])
 {
-    struct draw_corner kept[SCAN_MAX];
-    int m = 0;
+    int32_t polygon[DRAW_CLIP_MAX][3];
 
     for (int i = 0; i < n; i++) {
-        const int32_t *a = polygon[i].at;
-        const int32_t *b = polygon[i + 1 < n ? i + 1 : 0].at;
-        int32_t da = clip_distance(body, a, plane), db = clip_distance(body, b, plane);
-
-        /* A triangle gains at most one corner a plane: 3 + 5 = SCAN_MAX. */
-        CAROM_ASSERT(m + (da >= 0) + ((da >= 0) != (db >= 0)) <= SCAN_MAX);
-        if (da >= 0) {
-            kept[m++] = polygon[i];
-        }
-        if (da >= 0 && db < 0) {
-            cross_plane(kept[m++].at, a, b, da, db);
-        } else if (da < 0 && db >= 0) {
-            cross_plane(kept[m++].at, b, a, db, da);
-        }
+        place(body, numbers[i], polygon[i]);
     }
-    memcpy(polygon, kept, sizeof kept[0] * (size_t)m);
-    return m;
-}
-
-int draw_clip_face(const struct draw_body *body, struct draw_corner polygon[SCAN_MAX])
-{
-    uint32_t out = polygon[0].out | polygon[1].out | polygon[2].out;
-    int n = 3;
-
-    for (uint32_t plane = OUT_NEAR; plane <= OUT_GUARD_BOTTOM && n > 0; plane <<= 1) {
-        if (out & plane) {
-            n = clip_plane(body, polygon, n, plane);
-        }
+    for (int plane = 0; plane < DRAW_SIDES; plane++) {
+        n = clip_plane(body, polygon, n, plane);
     }
     for (int i = 0; i < n; i++) {
-        project_clipped(body, &polygon[i]);
+        out[i] = project_clipped(body, polygon[i]);
     }
     return n;
-}
-
-bool draw_clip_line(const struct draw_body *body, struct draw_corner line[2])
-{
-    for (uint32_t plane = OUT_NEAR; plane <= OUT_GUARD_BOTTOM; plane <<= 1) {
-        int32_t d0 = clip_distance(body, line[0].at, plane);
-        int32_t d1 = clip_distance(body, line[1].at, plane);
-
-        if (d0 < 0 && d1 < 0) {
-            return false;
-        }
-        if (d0 < 0) {
-            cross_plane(line[0].at, line[1].at, line[0].at, d1, d0);
-        } else if (d1 < 0) {
-            cross_plane(line[1].at, line[0].at, line[1].at, d0, d1);
-        }
-    }
-    project_clipped(body, &line[0]);
-    project_clipped(body, &line[1]);
-    return true;
 }

@@ -353,17 +353,3 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     body_velocity(b, s, &v);
     return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
 }
-
-const struct carom_mesh *world_mesh(const struct carom_world *w, int body, bool *moving)
-{
-    if (!world_has_body(w, body)) {
-        return NULL;
-    }
-    *moving = w->bodies[body].moving;
-    return w->bodies[body].mesh;
-}
-
-int world_body_places(const struct carom_world *w)
-{
-    return (int)w->body_count;
-}

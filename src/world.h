@@ -95,10 +95,4 @@ void world_wake_around(struct carom_world *world, uint32_t body);
 /* Wake the islands that have a contact in the list; returns whether there was any. */
 bool world_wake_touched(struct carom_world *world, struct body_state *states);
 
-/* The mesh of a body and whether it moves; NULL when there is no such body. */
-const struct carom_mesh *world_mesh(const struct carom_world *world, int body, bool *moving);
-
-/* Body numbers run below this. */
-int world_body_places(const struct carom_world *world);
-
 #endif

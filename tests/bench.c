@@ -18,7 +18,8 @@ static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
 
 static _Alignas(8) uint8_t mesh_block[SCENE_LARGE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t depth_block[CAROM_DRAW_BYTES(512, 512)];
+static _Alignas(8) uint8_t draw_block[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
+                                                        SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
 static uint32_t pixels[512 * 512];
 
 static int expect(int result, const char *what)
@@ -104,8 +105,8 @@ static void print_draw(const struct carom_world *world, const struct carom_camer
                                           .height = size[1],
                                           .stride = size[0] * 4,
                                           .format = CAROM_XRGB8888,
-                                          .workspace = depth_block,
-                                          .workspace_bytes = sizeof depth_block};
+                                          .workspace = draw_block,
+                                          .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
     expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");

@@ -17,7 +17,7 @@
 #define Q32(n, d) CAROM_RATIO(n, d, 32)
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
-static _Alignas(8) uint8_t depth[CAROM_DRAW_BYTES(SIZE, SIZE)];
+static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(48, 72)];
 static uint8_t pixels[SIZE][SIZE];
 
 static const struct carom_camera above = {
@@ -109,8 +109,8 @@ static inline struct carom_picture picture_8(void)
                                     .height = SIZE,
                                     .stride = SIZE,
                                     .format = CAROM_PALETTE8,
-                                    .workspace = depth,
-                                    .workspace_bytes = sizeof depth};
+                                    .workspace = workspace,
+                                    .workspace_bytes = sizeof workspace};
 
     return picture;
 }

@@ -97,7 +97,7 @@ static void test_null(struct lab *lab)
 static void test_null_drawing(struct lab *lab)
 {
     static uint32_t pixels[16 * 16];
-    static _Alignas(8) uint8_t rows[CAROM_DRAW_BYTES(16, 16)];
+    static _Alignas(8) uint8_t rows[CAROM_DRAW_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
     struct carom_picture picture = {pixels, 16, 16, 64, CAROM_XRGB8888, rows, sizeof rows}, bad;
     const struct carom_camera *camera = &lab->scene.camera;
     struct carom_camera inside = *camera;
@@ -119,7 +119,7 @@ static void test_null_drawing(struct lab *lab)
     bad.width = 0;
     REFUSED(carom_draw(w, camera, &bad, CAROM_DRAW_FLAT), CAROM_ERR_ARGUMENT);
     bad = picture;
-    bad.workspace_bytes = CAROM_DRAW_BYTES(16, 1) - 1;
+    bad.workspace_bytes = CAROM_DRAW_BYTES_LEAST(0, 0) / 2;
     REFUSED(carom_draw(w, camera, &bad, CAROM_DRAW_FLAT), CAROM_ERR_MEMORY);
     REFUSED(carom_draw(w, &inside, &picture, CAROM_DRAW_FLAT), CAROM_ERR_ARGUMENT);
     for (int i = 0; i < 16 * 16; i++) {

@@ -37,24 +37,25 @@ static void formats_agree(void)
     }
 }
 
+/* The least workspace gives the same picture, and nothing beyond a workspace is touched. */
 static void workspace_size(void)
 {
-    static const uint8_t rows[] = {1, 2, 7, 33, 63};
+    static const size_t sizes[] = {CAROM_DRAW_BYTES_LEAST(8, 12), CAROM_DRAW_BYTES(8, 12) + 3};
     struct carom_world *world = new_world();
 
     add_scene(world);
     draw_8(world, &above, CAROM_DRAW_FLAT);
     memcpy(reference, pixels, sizeof pixels);
     CHECK(count_ramp(DRAW_MOVING) > 200); /* the cube covers about 16 x 16 pixels or more */
-    for (size_t i = 0; i < sizeof rows; i++) {
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct carom_picture picture = picture_8();
 
-        picture.workspace_bytes = CAROM_DRAW_BYTES(SIZE, rows[i]) + 3;
-        memset(depth, 0x5a, sizeof depth);
+        picture.workspace_bytes = sizes[i];
+        memset(workspace, 0x5a, sizeof workspace);
         memset(pixels, 0xee, sizeof pixels);
         CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
         CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
-        CHECK_EQ(depth[CAROM_DRAW_BYTES(SIZE, rows[i])], 0x5a);
+        CHECK_EQ(workspace[sizes[i]], 0x5a);
     }
 }
 
@@ -119,10 +120,10 @@ static void picture_errors(void)
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, (p.format = CAROM_RGB565, p.width = 8, p.stride = 17));
     EXPECT_PICTURE(CAROM_ERR_NULL, p.pixels = NULL);
     EXPECT_PICTURE(CAROM_ERR_NULL, p.workspace = NULL);
-    EXPECT_PICTURE(CAROM_ERR_MEMORY, p.workspace_bytes = CAROM_DRAW_BYTES(SIZE, 1) - 1);
-    EXPECT_PICTURE(CAROM_ERR_MEMORY, p.workspace = depth + 4);
+    EXPECT_PICTURE(CAROM_ERR_MEMORY, p.workspace_bytes = CAROM_DRAW_BYTES_LEAST(0, 0) / 2);
+    EXPECT_PICTURE(CAROM_ERR_MEMORY, p.workspace = workspace + 4);
     EXPECT_PICTURE(CAROM_ERR_MEMORY,
-                   (p.format = CAROM_XRGB8888, p.width = 8, p.pixels = depth + 2));
+                   (p.format = CAROM_XRGB8888, p.width = 8, p.pixels = workspace + 2));
 #undef EXPECT_PICTURE
     p = picture_8();
     expect(CAROM_ERR_ARGUMENT, &above, &p, 2);

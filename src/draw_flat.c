@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+#include "draw.h"
+
+#define OUTSIDE   0x8000u /* in place of a vertex's place, which is below */
+#define FACES_MAX 0xffffu
+
+/* The most that a leaf may list: its faces, clipped, and their corners. */
+#define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
+#define LEAF_VERTICES (CAROM_LEAF_VERTICES + CAROM_LEAF_FACES * DRAW_CLIP_MAX)
+#define LEAF_ROOM                                                                                  \
+    (LEAF_FACES * sizeof(struct draw_face) + LEAF_VERTICES * sizeof(struct draw_vertex))
+
+/* Where a pass over the world is. */
+struct flat {
+    const struct carom_world *world;
+    struct draw_view *view;
+    struct draw_list list;
+    struct draw_body body;
+    uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
+    uint32_t *hot;  /* a bit for each face of the body: whether it interferes; or NULL */
+    uint32_t *hot_bits;
+    uint16_t *rows;
+    struct draw_vertex *vertices;
+    uint8_t *end; /* of the workspace */
+};
+
+/* ------------------------------------------------------------ into the list */
+
+/* The number of a new vertex. There must be room. */
+static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
+{
+    list->vertices[list->vertex_count] = vertex;
+    return list->vertex_count++;
+}
+
+/* List a face by its first row, if it shows in the part of the picture. There must be room. */
+static inline void list_face(const struct draw_rect *rect, struct draw_list *list, uint32_t i,
+                             uint32_t j, uint32_t k, uint32_t colour, bool inside)
+{
+    int32_t a = list->vertices[i].yx_q4, b = list->vertices[j].yx_q4;
+    int32_t c = list->vertices[k].yx_q4, top, end;
+    struct draw_face *face;
+    uint16_t *row;
+
+    /* the top corner first */
+    if (b < a && b <= c) {
+        int32_t yx_q4 = a;
+        uint32_t place = i;
+
+        a = b, b = c, c = yx_q4;
+        i = j, j = k, k = place;
+    } else if (c < a) {
+        int32_t yx_q4 = a;
+        uint32_t place = i;
+
+        a = c, c = b, b = yx_q4;
+        i = k, k = j, j = place;
+    }
+    top = draw_row(a);
+    end = draw_row(b > c ? b : c);
+    if (!inside) {
+        int32_t left = rect->x0 * 16, right = rect->x1 * 16;
+
+        top = top > rect->y0 ? top : rect->y0;
+        if (top >= rect->y1 || (draw_x(a) < left && draw_x(b) < left && draw_x(c) < left) ||
+            (draw_x(a) >= right && draw_x(b) >= right && draw_x(c) >= right)) {
+            return;
+        }
+    }
+    if (top >= end) {
+        return;
+    }
+    face = &list->faces[-(int32_t)list->face_count];
+    row = &list->rows[top - rect->y0];
+    face->corner[0] = (uint16_t)i;
+    face->corner[1] = (uint16_t)j;
+    face->corner[2] = (uint16_t)k;
+    face->next = *row;
+    face->colour = (uint16_t)colour;
+    *row = (uint16_t)list->face_count++;
+}
+
+static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t colour)
+{
+    struct draw_vertex corner[DRAW_CLIP_MAX];
+    uint32_t place[DRAW_CLIP_MAX];
+    int n = draw_clip(&f->body, numbers, 3, corner);
+
+    for (int i = 0; i < n; i++) {
+        place[i] = list_vertex(&f->list, corner[i]);
+    }
+    for (int i = 2; i < n; i++) {
+        list_face(&f->view->rect, &f->list, place[0], place[i - 1], place[i], colour, false);
+    }
+}
+
+/* Where a vertex of the body is in the list: OUTSIDE when it has no place there. */
+static uint32_t see_vertex(struct flat *f, uint32_t number)
+{
+    uint32_t place = OUTSIDE;
+
+    if (draw_vertex(&f->body, number, &f->list.vertices[f->list.vertex_count])) {
+        place = f->list.vertex_count++;
+    }
+    f->seen[number] = (uint16_t)place;
+    return place;
+}
+
+/* A face that looks at the eye. */
+static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside)
+{
+    const uint16_t *numbers = f->body.mesh->raw.faces[number];
+    uint32_t i = f->seen[numbers[0]], j = f->seen[numbers[1]], k = f->seen[numbers[2]];
+
+    if (i == 0) {
+        i = see_vertex(f, numbers[0]);
+    }
+    if (j == 0) {
+        j = see_vertex(f, numbers[1]);
+    }
+    if (k == 0) {
+        k = see_vertex(f, numbers[2]);
+    }
+    if ((i | j | k) & OUTSIDE) {
+        list_clipped(f, numbers, colour);
+    } else {
+        list_face(&f->view->rect, &f->list, i, j, k, colour, inside);
+    }
+}
+
+/* ------------------------------------------------------- over bodies, faces */
+
+/*
+ * Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
+ * The light is a little short, so that shades stay below DRAW_SHADES; the ramp is in the bits above.
+ */
+static inline uint32_t face_colour(const struct draw_body *body, const carom_v3_q30 *normal)
+{
+    return ((uint32_t)(carom_dot(normal->c, body->light.c) >> 32) + body->ramp) >> 24;
+}
+
+/* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
+static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside)
+{
+    const struct draw_body *body = &f->body;
+    const struct carom_face *faces = body->mesh->faces;
+    const uint16_t *numbers = &body->mesh->leaf_faces[leaf->first_face];
+    const uint16_t *end = numbers + leaf->face_count;
+    const int32_t eye[3] = {body->eye[0], body->eye[1], body->eye[2]};
+    int shift = 2 + body->shift;
+
+    while (numbers < end) {
+        uint32_t number = *numbers++;
+        const struct carom_face *face = &faces[number];
+
+        /* q(20 - shift): what is seen so much edge-on that it matters does not show */
+        if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
+            uint32_t colour = face_colour(body, &face->normal);
+
+            if (f->hot && f->hot[number >> 5] >> (number & 31) & 1) {
+                colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
+            }
+            see_face(f, number, colour, inside);
+        }
+    }
+}
+
+/* Mark the interfering faces of a body. */
+static void mark_hot(struct flat *f, uint32_t number)
+{
+    const struct carom_face_ref *refs;
+    int count = carom_interfering_faces(f->world, &refs);
+    uint32_t faces = f->body.mesh->raw.face_count;
+
+    f->hot = NULL;
+    for (int i = 0; i < count; i++) {
+        if (refs[i].body == number && refs[i].face < faces) {
+            if (f->hot == NULL) {
+                f->hot = f->hot_bits;
+                memset(f->hot, 0, (faces + 31) / 32 * sizeof f->hot[0]);
+            }
+            f->hot[refs[i].face >> 5] |= 1u << (refs[i].face & 31);
+        }
+    }
+}
+
+static size_t room(const struct draw_list *list)
+{
+    return (size_t)((const uint8_t *)(list->faces - (list->face_count - 1)) -
+                    (const uint8_t *)(list->vertices + list->vertex_count));
+}
+
+/* List what shows in the part; false when there is no room for all of it. */
+static bool see_part(struct flat *f)
+{
+    const struct carom_world *world = f->world;
+    const struct draw_rect *rect = &f->view->rect;
+
+    f->list.vertices = f->vertices;
+    f->list.faces = (struct draw_face *)(void *)f->end;
+    f->list.vertex_count = f->list.face_count = 1;
+    f->list.rows = f->rows;
+    memset(f->rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->rows[0]);
+    for (uint32_t i = 0; i < world->body_count; i++) {
+        const struct body *from = &world->bodies[i];
+        const struct carom_mesh *mesh = from->mesh;
+
+        if (mesh == NULL ||
+            !draw_body_init(&f->body, f->view, from, &world_now(world)->bodies[i])) {
+            continue;
+        }
+        mark_hot(f, i);
+        memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
+        for (uint32_t l = 0; l < mesh->leaf_count; l++) {
+            const struct carom_leaf *leaf = &mesh->leaves[l];
+
+            int sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
+
+            if (sees) {
+                if (room(&f->list) < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
+                    f->list.face_count + LEAF_FACES > FACES_MAX) {
+                    return false;
+                }
+                see_leaf(f, leaf, sees == 2);
+            }
+        }
+    }
+    return true;
+}
+
+/* -------------------------------------------------------------------- parts */
+
+/* For some leaves, and for some 60 faces of a row. */
+#define ROOM_LEAST 8160
+
+/* Lay out the workspace. */
+static bool make_flat(struct flat *f, const struct carom_picture *picture)
+{
+    uint8_t *at = picture->workspace;
+    size_t vertices = 0, faces = 0, bytes;
+
+    for (uint32_t i = 0; i < f->world->body_count; i++) {
+        const struct carom_mesh *mesh = f->world->bodies[i].mesh;
+
+        if (mesh) {
+            vertices = mesh->raw.vertex_count > vertices ? mesh->raw.vertex_count : vertices;
+            faces = mesh->raw.face_count > faces ? mesh->raw.face_count : faces;
+        }
+    }
+    bytes = (faces + 31) / 32 * sizeof f->hot_bits[0] + vertices * sizeof f->seen[0] +
+            (size_t)picture->height * sizeof f->rows[0];
+    bytes = (bytes + 7) / 8 * 8;
+    if ((uintptr_t)at % 8 != 0 || picture->workspace_bytes / 8 * 8 < bytes + ROOM_LEAST) {
+        return false;
+    }
+    f->hot_bits = (uint32_t *)(void *)at;
+    f->seen = (uint16_t *)(void *)(f->hot_bits + (faces + 31) / 32);
+    f->rows = f->seen + vertices;
+    f->vertices = (struct draw_vertex *)(void *)(at + bytes);
+    f->end = at + picture->workspace_bytes / 8 * 8;
+    return true;
+}
+
+/*
+ * Draw a part of the picture; false when the workspace is too small for it, unless it must be
+ * drawn.
+ */
+static bool draw_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
+                      bool must)
+{
+    draw_view_rect(f->view, part);
+    if (!see_part(f) && !must) {
+        return false;
+    }
+    f->list.room = room(&f->list);
+    return draw_rows(f->view, &f->list, picture, must);
+}
+
+/*
+ * All at once when the workspace is large enough; otherwise fewer rows, and when a single one is
+ * too much, fewer columns. A pixel is drawn in any case, with as many of its faces as there is room
+ * for: some 60 in front of each other when it is smallest.
+ */
+int draw_flat(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture)
+{
+    struct flat f = {.world = world, .view = view};
+    const struct draw_rect whole = draw_whole(view, picture);
+    int32_t x = whole.x0, y = whole.y0, columns = picture->width, rows = picture->height;
+
+    if (!make_flat(&f, picture)) {
+        return CAROM_ERR_MEMORY;
+    }
+    while (y < whole.y1) {
+        struct draw_rect part = {x, y, x + columns, y + rows};
+
+        part.x1 = part.x1 < whole.x1 ? part.x1 : whole.x1;
+        part.y1 = part.y1 < whole.y1 ? part.y1 : whole.y1;
+        if (draw_part(&f, picture, part, rows == 1 && columns == 1)) {
+            x = part.x1 < whole.x1 ? part.x1 : whole.x0;
+            y = part.x1 < whole.x1 ? y : part.y1;
+        } else if (rows > 1) {
+            rows = (rows + 1) / 2;
+        } else {
+            columns = (columns + 1) / 2;
+        }
+    }
+    return CAROM_OK;
+}

@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+#include "draw.h"
+
+/* The state of a walk over the rows of a part. */
+struct rows {
+    const struct draw_view *view;
+    const struct draw_list *list;
+    uint8_t format;
+    struct draw_span *free;
+    struct draw_span *fresh;  /* those that begin in the row at hand, from left to right */
+    struct draw_span **spans; /* those of the row, from left to right; a sentinel at the end */
+    struct draw_span **last;  /* the list of the row before, in the same way */
+    uint32_t count;
+    struct draw_span sentinel;
+};
+
+/*
+ * One side of a span, along the edge from a down to b, at the middle of a row that it crosses.
+ *
+ * It depends on the edge and the row alone, so that faces that share an edge meet without a gap or
+ * an overlap. Corners are at most 2^15 apart, so the quotient is at most 2^30 in size; times the
+ * part of the edge above the row it is less than that of dx, 2^30. A pixel is right of the side when
+ * its middle is: 2^14 less, and rounded up.
+ */
+static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t b, int32_t row)
+{
+    int32_t slope_q15 = (draw_x(b) - draw_x(a)) * (1 << 15) / (draw_y(b) - draw_y(a));
+    int32_t below_q4 = row * 16 + 15 - draw_y(a);
+
+    span->x_q15[side] =
+        draw_x(a) * (1 << 11) + ((slope_q15 * below_q4 + (((1 << 14) - 1) << 4)) >> 4);
+    span->step_q15[side] = slope_q15;
+}
+
+/* Set a span to the first row of its face, or of the part. */
+static inline void begin_span(struct draw_span *span, const struct draw_vertex *vertices,
+                              int32_t row)
+{
+    const uint16_t *corner = span->face->corner;
+    int32_t a = vertices[corner[0]].yx_q4, b = vertices[corner[1]].yx_q4;
+    int32_t c = vertices[corner[2]].yx_q4;
+    int32_t rows_b = draw_row(b) - row, rows_c = draw_row(c) - row;
+
+    span->w_high = 0;
+    span->rest = 0;
+    if (rows_b <= 0) {
+        set_side(span, 0, b, c, row);
+        set_side(span, 1, a, c, row);
+        span->rows = rows_c;
+        return;
+    }
+    set_side(span, 0, a, b, row);
+    span->rows = rows_b;
+    if (rows_c <= 0) {
+        set_side(span, 1, c, b, row);
+        return;
+    }
+    set_side(span, 1, a, c, row);
+    span->rest = rows_c - rows_b;
+    if (rows_c < rows_b) {
+        span->rows = rows_c;
+    }
+}
+
+/* Go on along the third edge. */
+static inline void turn_span(struct draw_span *span, const struct draw_vertex *vertices,
+                             int32_t row)
+{
+    int32_t b = vertices[span->face->corner[1]].yx_q4, c = vertices[span->face->corner[2]].yx_q4;
+
+    if (span->rest > 0) {
+        set_side(span, 0, b, c, row);
+        span->rows = span->rest;
+    } else {
+        set_side(span, 1, c, b, row);
+        span->rows = -span->rest;
+    }
+    span->rest = 0;
+}
+
+/* Begin with the faces of a row. */
+static bool begin_faces(struct rows *r, int32_t row)
+{
+    uint32_t number = r->list->rows[row - r->view->rect.y0];
+
+    r->fresh = NULL;
+    while (number) {
+        const struct draw_face *face = &r->list->faces[-(int32_t)number];
+        struct draw_span *span = r->free, **place = &r->fresh;
+
+        if (span == NULL) {
+            return false;
+        }
+        r->free = span->next;
+        span->face = face;
+        span->pixel = r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
+                                                  : draw_colour(r->format, face->colour);
+        begin_span(span, r->list->vertices, row);
+        while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
+            place = &(*place)->next;
+        }
+        span->next = *place;
+        *place = span;
+        number = face->next;
+    }
+    return true;
+}
+
+/* Put a span behind those of the row that begin left of it. */
+static inline void put(struct draw_span **end, struct draw_span *span)
+{
+    int32_t x_q15 = span->x_q15[0];
+
+    for (; end[-1]->x_q15[0] > x_q15; end--) {
+        end[0] = end[-1];
+    }
+    end[0] = span;
+}
+
+/* Make the spans of a row from those of the row before and the ones that begin. */
+static void step_row(struct rows *r, int32_t row)
+{
+    struct draw_span **from = r->spans + 1, **to = r->last + 1, **end = from + r->count;
+    struct draw_span *fresh = r->fresh;
+    int32_t fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
+
+    for (; from < end; from++) {
+        struct draw_span *span = *from;
+
+        int32_t x0 = span->x_q15[0] + span->step_q15[0];
+        int32_t x1 = span->x_q15[1] + span->step_q15[1];
+
+        span->x_q15[0] = x0;
+        span->x_q15[1] = x1;
+        if (--span->rows == 0) {
+            if (span->rest == 0) {
+                span->next = r->free;
+                r->free = span;
+                continue;
+            }
+            turn_span(span, r->list->vertices, row);
+        }
+        while (fresh_x < span->x_q15[0]) {
+            put(to++, fresh);
+            fresh = fresh->next;
+            fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
+        }
+        put(to++, span);
+    }
+    for (; fresh; fresh = fresh->next) {
+        put(to++, fresh);
+    }
+    *to = &r->sentinel;
+    end = r->last;
+    r->last = r->spans;
+    r->spans = end;
+    r->count = (uint32_t)(to - end) - 1;
+}
+
+/* Pixels from <= x < to, and perhaps 3 bytes more. */
+static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
+{
+    uint8_t *p = row + from * (1 << pixel_shift), *end = row + to * (1 << pixel_shift);
+
+    while (p < end) {
+        DRAW_PUT(p, pixel);
+        p += 4;
+    }
+}
+
+void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
+{
+    int32_t safe = to < s->safe ? to : s->safe;
+    uint8_t *p = s->row + from * (1 << s->pixel_shift);
+
+    for (; from + 16 <= safe; from += 16 >> s->pixel_shift) {
+        DRAW_PUT(p, pixel);
+        DRAW_PUT(p + 4, pixel);
+        DRAW_PUT(p + 8, pixel);
+        DRAW_PUT(p + 12, pixel);
+        p += 16;
+    }
+    fill(s->row, s->pixel_shift, from, safe, pixel);
+    from = from > safe ? from : safe;
+    for (; from < to; from++) {
+        memcpy(s->row + from * (1 << s->pixel_shift), &pixel, (size_t)1 << s->pixel_shift);
+    }
+}
+
+/* Take in a span that begins where it is not free. */
+static void overlap(struct draw_sweep *s, struct draw_span *span)
+{
+    if (s->end <= s->x) {
+        s->top = NULL;
+    }
+    draw_overlap(s, span);
+    s->gate = INT32_MAX;
+    if (s->top == NULL) {
+        s->end = s->x;
+    }
+    if (s->under_count == 0) {
+        s->gate = s->end;
+    }
+}
+
+static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+{
+    int32_t x = s->x, end = x, gate = x, safe = s->safe;
+    uint32_t pixel = s->ground, ground = s->ground;
+    struct draw_span *top = NULL;
+    uint8_t *row = s->row;
+    int pixel_shift = s->pixel_shift;
+
+    for (;;) {
+        struct draw_span *span = *spans++;
+        int32_t a = span->x_q15[0] >> 15, b = span->x_q15[1] >> 15;
+
+        if (a >= b) {
+            continue;
+        }
+        if (a >= safe) {
+            if (a >= x1) {
+                break;
+            }
+            gate = INT32_MAX;
+        }
+        if (a < gate) {
+            if (top && draw_hides(s, top, end, span, a)) {
+                gate = INT32_MAX;
+                continue;
+            }
+            if (top && a == end && a < safe && draw_shows(s, span)) {
+                fill(row, pixel_shift, x, end, pixel);
+                top = span;
+                pixel = span->pixel;
+                x = a;
+                end = b;
+                continue;
+            }
+            s->x = x;
+            s->top = top;
+            s->end = end;
+            overlap(s, span);
+            top = s->top;
+            x = s->x;
+            end = s->end;
+            gate = s->gate;
+            pixel = top ? top->pixel : ground;
+            continue;
+        }
+        fill(row, pixel_shift, x, end, pixel);
+        if (a > end) {
+            fill(row, pixel_shift, end, a, ground);
+        }
+        top = span;
+        pixel = span->pixel;
+        x = a;
+        end = gate = b;
+    }
+    s->x = x;
+    s->top = end > x ? top : NULL;
+    s->end = end;
+    draw_advance(s, x1);
+}
+
+/* Lay out the room: spans, and two lists of as many with a sentinel at both ends. */
+static void make_room(struct rows *r, struct draw_span *low)
+{
+    size_t each = sizeof(struct draw_span) + 2 * sizeof(struct draw_span *);
+    size_t room = r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
+
+    r->free = NULL;
+    for (size_t i = 0; i < n; i++) {
+        low[i].next = r->free;
+        r->free = &low[i];
+    }
+    r->spans = (struct draw_span **)(void *)(low + n);
+    r->last = r->spans + n + 2;
+    r->sentinel.x_q15[0] = r->view->rect.x1 * (1 << 15);
+    r->sentinel.x_q15[1] = r->sentinel.x_q15[0] + (1 << 15);
+    r->count = 0;
+}
+
+bool draw_rows(const struct draw_view *view, const struct draw_list *list,
+               const struct carom_picture *picture, bool must)
+{
+    struct rows r = {.view = view, .list = list, .format = picture->format};
+    struct draw_sweep s = {.view = view, .vertices = list->vertices};
+    struct draw_span lowest = {.x_q15 = {INT32_MIN, INT32_MIN}};
+    const struct draw_rect *rect = &view->rect;
+
+    make_room(&r, (struct draw_span *)(void *)(list->vertices + list->vertex_count));
+    r.spans[0] = r.last[0] = &lowest;
+    s.pixel_shift = picture->format;
+    for (int32_t y = rect->y0; y < rect->y1; y++) {
+        if (!begin_faces(&r, y) && !must) {
+            return false;
+        }
+        step_row(&r, y);
+        s.row = (uint8_t *)picture->pixels +
+                (size_t)(y + view->middle[1]) * (size_t)picture->stride +
+                ((size_t)view->middle[0] << s.pixel_shift);
+        s.safe = rect->x1 - 3;
+        s.y = y;
+        s.x = rect->x0;
+        s.top = NULL;
+        s.under_count = 0;
+        s.under_high = 0;
+        s.ground = draw_colour(picture->format,
+                               (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
+        fill_row(&s, r.spans + 1, rect->x1);
+    }
+    return true;
+}
