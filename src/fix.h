@@ -37,7 +37,7 @@ struct fix_wide {
 };
 
 /* Number of bits of v: 0 for 0, 32 for 2^31; 64 for 2^63. */
-static inline int fix_bits32(uint32_t v)
+inline int fix_bits32(uint32_t v)
 {
 #if defined __GNUC__ && UINT_MAX == 0xffffffff
     return v ? 32 - __builtin_clz(v) : 0;
@@ -54,7 +54,7 @@ static inline int fix_bits32(uint32_t v)
 #endif
 }
 
-static inline int fix_bits(uint64_t v)
+inline int fix_bits(uint64_t v)
 {
     uint32_t high = (uint32_t)(v >> 32);
 
@@ -78,14 +78,14 @@ int64_t fix_mul(int64_t a, int32_t b, int s);
  * high 2^32 is a whole multiple of 2^s and only the low part is rounded. The high part alone may not
  * fit where the sum does, so they are added modulo 2^64.
  */
-static inline int64_t fix_mul_low(int64_t a, int32_t b, int s)
+inline int64_t fix_mul_low(int64_t a, int32_t b, int s)
 {
     return (int64_t)((uint64_t)carom_shl((a >> 32) * b, 32 - s) +
                      (uint64_t)carom_round((int64_t)(uint32_t)a * b, s));
 }
 
 /* A number in any format times one in q30. */
-static inline int64_t fix_mul_q30(int64_t a, int32_t b)
+inline int64_t fix_mul_q30(int64_t a, int32_t b)
 {
     return fix_mul_low(a, b, 30);
 }
@@ -94,13 +94,13 @@ static inline int64_t fix_mul_q30(int64_t a, int32_t b)
 int64_t fix_length_bound(const int64_t v[3]);
 
 /* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
-static inline int64_t fix_shift(int64_t v, int s)
+inline int64_t fix_shift(int64_t v, int s)
 {
     return s < 0 ? v >> -s : carom_shl(v, s);
 }
 
 /* |x| + |y| + |z|; each below 2^62 */
-static inline uint64_t fix_sum(const int64_t v[3])
+inline uint64_t fix_sum(const int64_t v[3])
 {
     return (uint64_t)carom_abs(v[0]) + (uint64_t)carom_abs(v[1]) + (uint64_t)carom_abs(v[2]);
 }
