@@ -74,44 +74,59 @@ typedef struct {
 #define CAROM_GRAVITY_MM_S2(mm_s2, fps) CAROM_RATIO(mm_s2, (int64_t)1000 * (fps) * (fps), 40)
 #define CAROM_SPIN_MRAD_S(mrad_s, fps)  CAROM_VELOCITY_MM_S(mrad_s, fps)
 
-/*
- * v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest.
- */
-static inline int64_t carom_round(int64_t v, int s)
-{
-    return (v + ((int64_t)1 << (s - 1))) >> s;
-}
-
-/* v * 2^s without the undefined left shift of a negative number; the result must fit. */
-static inline int64_t carom_shl(int64_t v, int s)
-{
-    return (int64_t)((uint64_t)v << s);
-}
-
-/* |v|; v > INT64_MIN. */
-static inline int64_t carom_abs(int64_t v)
-{
-    return v < 0 ? -v : v;
-}
-
-/* a * b / 2^30 to nearest: the product of a number in any format with one in q30. */
-static inline int32_t carom_mul_q30(int32_t a, int32_t b)
-{
-    return (int32_t)carom_round((int64_t)a * b, 30);
-}
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /*
  * a . b exactly; the formats add up (q30 . q22 gives q52).
  * Range: |a| |b| < 2^62 as vectors, which holds for a direction and any int32 vector shorter than
  * 2^31.
  */
-static inline int64_t carom_dot(const int32_t a[3], const int32_t b[3])
+inline int64_t carom_dot(const int32_t a[3], const int32_t b[3])
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
+/* Where size counts more than speed these are called; the library has a body of each. */
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
+int64_t carom_round(int64_t v, int s);
+int64_t carom_shl(int64_t v, int s);
+int64_t carom_abs(int64_t v);
+int32_t carom_mul_q30(int32_t a, int32_t b);
+void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
+void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+#else
+
+/*
+ * v / 2^s to nearest; 1 <= s <= 62, |v| < 2^62. The shift floors, the added half makes it nearest.
+ */
+inline int64_t carom_round(int64_t v, int s)
+{
+    return (v + ((int64_t)1 << (s - 1))) >> s;
+}
+
+/* v * 2^s without the undefined left shift of a negative number; the result must fit. */
+inline int64_t carom_shl(int64_t v, int s)
+{
+    return (int64_t)((uint64_t)v << s);
+}
+
+/* |v|; v > INT64_MIN. */
+inline int64_t carom_abs(int64_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+/* a * b / 2^30 to nearest: the product of a number in any format with one in q30. */
+inline int32_t carom_mul_q30(int32_t a, int32_t b)
+{
+    return (int32_t)carom_round((int64_t)a * b, 30);
+}
+
 /* out = a x b / 2^s to nearest. Range: each component of the result must fit int32. */
-static inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s)
+inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s)
 {
     int32_t x = (int32_t)carom_round((int64_t)a[1] * b[2] - (int64_t)a[2] * b[1], s);
     int32_t y = (int32_t)carom_round((int64_t)a[2] * b[0] - (int64_t)a[0] * b[2], s);
@@ -123,7 +138,7 @@ static inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t
 }
 
 /* out = m a / 2^30 to nearest; the format of a is kept. out may be a. */
-static inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3])
+inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3])
 {
     int32_t x = (int32_t)carom_round(carom_dot(m->c[0], a), 30);
     int32_t y = (int32_t)carom_round(carom_dot(m->c[1], a), 30);
@@ -135,7 +150,7 @@ static inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int
 }
 
 /* out = (m transposed) a / 2^30 to nearest. out may be a. */
-static inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3])
+inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3])
 {
     int64_t r[3];
 
@@ -146,5 +161,11 @@ static inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, cons
         out[k] = (int32_t)carom_round(r[k], 30);
     }
 }
+
+#endif
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

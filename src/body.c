@@ -310,7 +310,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
     up = 60 - fix_bits(all);
     up = up < 0 ? 0 : up;
     for (int k = 0; k < 3; k++) {
-        m[k] = start[k] = fix_mul_low(carom_shl(l_q40[k], up), tau_q30, 31);
+        m[k] = start[k] = fix_mul(carom_shl(l_q40[k], up), tau_q30, 31);
     }
     for (int round = 0; round < 20; round++) {
         int64_t next[3], change = 0;
@@ -367,7 +367,7 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     for (int k = 0; k < 3; k++) {
         path->v.c[k] = fix_mul_q30(v.c[k], tau_q30);
         if (gravity && gravity->c[k] != 0) {
-            path->g.c[k] = fix_mul_low(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
+            path->g.c[k] = fix_mul(fix_mul_q30(gravity->c[k], tau_q30), tau_q30, 31);
         }
     }
     if ((s->angular.c[0] | s->angular.c[1] | s->angular.c[2]) != 0) {

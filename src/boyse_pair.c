@@ -6,7 +6,7 @@ static int64_t length_q22(const int32_t v_q24[3])
 {
     const int64_t v[3] = {v_q24[0], v_q24[1], v_q24[2]};
 
-    return (fix_length(v) >> 2) + 1;
+    return (v[0] | v[1] | v[2]) != 0 ? (fix_length(v) >> 2) + 1 : 1;
 }
 
 static int32_t clamp(int64_t v)
@@ -23,22 +23,24 @@ static int32_t clamp(int64_t v)
 static void set_bounds(struct boyse_view *view)
 {
     const struct body *from = view->from, *to = view->to;
-    const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
-    int64_t s_q30 = fix_sqrt((uint64_t)(from->path.u2_q30 + 1) << 30) + 1;
     int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
 
     if (from->path.turns) {
-        way += fix_mul(2 * s_q30, from->radius_q22, 30) + 1;
+        int64_t s_q30 = fix_sqrt((uint64_t)(from->path.u2_q30 + 1) << 30) + 1;
+
+        way += fix_mul_q30(2 * s_q30, from->radius_q22) + 1;
         bend += fix_mul(3 * (int64_t)from->radius_q22, from->path.u2_q30 + 1, 30) + 1;
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
-        s_q30 = fix_sqrt((uint64_t)(to->path.u2_q30 + 1) << 30) + 1;
+        const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
+        int64_t s_q30 = fix_sqrt((uint64_t)(to->path.u2_q30 + 1) << 30) + 1;
+
         reach = fix_length(centre) + from->radius_q22 + way;
-        view->seen.way_q22 = clamp(way + fix_mul(2 * reach, (int32_t)s_q30, 30) + 1);
-        view->seen.bend_q22 = clamp(bend + fix_mul(2 * way, (int32_t)s_q30, 30) +
+        view->seen.way_q22 = clamp(way + fix_mul_q30(2 * reach, (int32_t)s_q30) + 1);
+        view->seen.bend_q22 = clamp(bend + fix_mul_q30(2 * way, (int32_t)s_q30) +
                                     fix_mul(3 * reach, to->path.u2_q30 + 1, 30) + 2);
-        view->fixed.way_q22 = clamp(way + fix_mul(2 * s_q30, to->radius_q22, 30) + 1);
+        view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->radius_q22) + 1);
         view->fixed.bend_q22 =
             clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, to->path.u2_q30 + 1, 30) + 1);
     }
@@ -58,44 +60,63 @@ static void set_fine(struct boyse_view *view)
     view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
 }
 
-/* How `to` sees `from`. */
+/* v in the axes of a body; often, gravity above all, there is nothing to turn. */
+static void into_axes(int64_t v[3], const carom_m3_q30 *r)
+{
+    if ((v[0] | v[1] | v[2]) != 0) {
+        fix_rotate_back(v, r, v);
+    }
+}
+
+/* How `to` sees `from`; view->r is known. */
 static void set_view(struct boyse_view *view, struct body *from, struct body *to)
 {
-    const carom_m3_q30 *from_r = &from->path.start.r, *to_r = &to->path.start.r;
+    const carom_m3_q30 *to_r = &to->path.start.r;
     int64_t centre_q32[3], v[3], g[3];
-    int32_t turning[3];
+    int32_t turning[3] = {0, 0, 0};
 
     view->from = from;
     view->to = to;
     for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            int64_t sum = (int64_t)to_r->c[0][k] * from_r->c[0][i] +
-                          (int64_t)to_r->c[1][k] * from_r->c[1][i] +
-                          (int64_t)to_r->c[2][k] * from_r->c[2][i];
-
-            view->r.c[k][i] = (int32_t)carom_round(sum, 30);
-        }
         centre_q32[k] = carom_shl(from->path.origin_q22[k] - to->path.origin_q22[k], 10) +
                         from->path.start.x.c[k] - to->path.start.x.c[k];
         v[k] = from->path.v.c[k] - to->path.v.c[k];
         g[k] = from->path.g.c[k] - to->path.g.c[k];
+        view->u.c[k] = 0;
     }
-    fix_rotate_back(centre_q32, to_r, centre_q32);
-    fix_rotate_back(v, to_r, v);
-    fix_rotate_back(g, to_r, g);
+    into_axes(centre_q32, to_r);
+    into_axes(v, to_r);
+    into_axes(g, to_r);
     for (int k = 0; k < 3; k++) {
         view->centre.c[k] = (int32_t)carom_round(centre_q32[k], 10);
         view->v.c[k] = (int32_t)carom_round(v[k], 16);
         view->g.c[k] = (int32_t)carom_round(g[k], 16);
     }
-    carom_rotate(view->u.c, &view->r, from->path.u.c);
-    carom_cross(turning, view->u.c, view->centre.c, 29);
+    if (from->path.turns) {
+        carom_rotate(view->u.c, &view->r, from->path.u.c);
+        carom_cross(turning, view->u.c, view->centre.c, 29);
+    }
     for (int k = 0; k < 3; k++) {
         view->u_relative.c[k] = view->u.c[k] - to->path.u.c[k];
         view->field.c[k] = (int32_t)carom_round(v[k], 18) - turning[k];
     }
     set_bounds(view);
     set_fine(view);
+}
+
+/* a's mesh axes to b's, and back. */
+static void set_axes(struct boyse_pair *pair)
+{
+    const carom_m3_q30 *a = &pair->a->path.start.r, *b = &pair->b->path.start.r;
+
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++) {
+            int64_t sum = (int64_t)b->c[0][k] * a->c[0][i] + (int64_t)b->c[1][k] * a->c[1][i] +
+                          (int64_t)b->c[2][k] * a->c[2][i];
+
+            pair->view[0].r.c[k][i] = pair->view[1].r.c[i][k] = (int32_t)carom_round(sum, 30);
+        }
+    }
 }
 
 void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
@@ -108,6 +129,7 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
     }
     pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)a->path.u2_q30 << 30) +
                                    fix_sqrt((uint64_t)b->path.u2_q30 << 30));
+    set_axes(pair);
     set_view(&pair->view[0], a, b);
     set_view(&pair->view[1], b, a);
 }

@@ -1,5 +1,22 @@
 /* SPDX-License-Identifier: MIT */
+#define CAROM_FIX_BODIES
 #include "fix.h"
+
+/* What is inline has a body here for whoever calls it. */
+extern inline int64_t carom_round(int64_t v, int s);
+extern inline int64_t carom_shl(int64_t v, int s);
+extern inline int64_t carom_abs(int64_t v);
+extern inline int32_t carom_mul_q30(int32_t a, int32_t b);
+extern inline int64_t carom_dot(const int32_t a[3], const int32_t b[3]);
+extern inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
+extern inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+extern inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+extern inline int fix_bits32(uint32_t v);
+extern inline int fix_bits(uint64_t v);
+extern inline int64_t fix_mul(int64_t a, int32_t b, int s);
+extern inline int64_t fix_mul_q30(int64_t a, int32_t b);
+extern inline int64_t fix_shift(int64_t v, int s);
+extern inline uint64_t fix_sum(const int64_t v[3]);
 
 /*
  * The root of v, 2^30 <= v, within half a unit and a hundredth. Newton's steps end above the root but
@@ -58,19 +75,6 @@ int64_t fix_sqrt_above(uint64_t v)
     return (int64_t)(((uint64_t)sqrt_newton((uint32_t)(v << shift >> 32)) + 1) << 16 >>
                      (shift / 2)) +
            1;
-}
-
-int64_t fix_mul(int64_t a, int32_t b, int s)
-{
-    CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
-    if (s > 32) {
-        /*
-         * |high b| <= 2^62 and |low b| < 2^63 - 2^32, which leaves room for the half that is added.
-         * The low 32 bits cannot carry past the half, a multiple of 2^32.
-         */
-        return carom_round((a >> 32) * b + (((int64_t)(uint32_t)a * b) >> 32), s - 32);
-    }
-    return fix_mul_low(a, b, s);
 }
 
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)

@@ -37,7 +37,7 @@ struct fix_wide {
 };
 
 /* Number of bits of v: 0 for 0, 32 for 2^31; 64 for 2^63. */
-static inline int fix_bits32(uint32_t v)
+inline int fix_bits32(uint32_t v)
 {
 #if defined __GNUC__ && UINT_MAX == 0xffffffff
     return v ? 32 - __builtin_clz(v) : 0;
@@ -54,7 +54,7 @@ static inline int fix_bits32(uint32_t v)
 #endif
 }
 
-static inline int fix_bits(uint64_t v)
+inline int fix_bits(uint64_t v)
 {
     uint32_t high = (uint32_t)(v >> 32);
 
@@ -69,38 +69,46 @@ int64_t fix_sqrt_above(uint64_t v);
 
 /*
  * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
- * bits.
+ * bits: a = high 2^32 + low with low unsigned. Quick where s is a constant.
  */
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
 int64_t fix_mul(int64_t a, int32_t b, int s);
-
-/*
- * The same for 1 <= s <= 32, quick when s is a constant: a = high 2^32 + low with low unsigned, so that
- * high 2^32 is a whole multiple of 2^s and only the low part is rounded. The high part alone may not
- * fit where the sum does, so they are added modulo 2^64.
- */
-static inline int64_t fix_mul_low(int64_t a, int32_t b, int s)
+int64_t fix_mul_q30(int64_t a, int32_t b);
+#else
+inline int64_t fix_mul(int64_t a, int32_t b, int s)
 {
-    return (int64_t)((uint64_t)carom_shl((a >> 32) * b, 32 - s) +
-                     (uint64_t)carom_round((int64_t)(uint32_t)a * b, s));
+    const int64_t high = (a >> 32) * b, low = (int64_t)(uint32_t)a * b;
+
+    CAROM_ASSERT(s >= 1 && s <= 62 && b != INT32_MIN);
+    if (s > 32) {
+        /*
+         * |high| <= 2^62 and |low| < 2^63 - 2^32, which leaves room for the half that is added. The
+         * low 32 bits cannot carry past the half, a multiple of 2^32.
+         */
+        return carom_round(high + (low >> 32), s - 32);
+    }
+    /*
+     * high 2^32 is a whole multiple of 2^s: only the low part is rounded. The high part alone may not
+     * fit where the sum does, so they are added modulo 2^64.
+     */
+    return (int64_t)((uint64_t)carom_shl(high, 32 - s) + (uint64_t)carom_round(low, s));
 }
 
 /* A number in any format times one in q30. */
-static inline int64_t fix_mul_q30(int64_t a, int32_t b)
+inline int64_t fix_mul_q30(int64_t a, int32_t b)
 {
-    return fix_mul_low(a, b, 30);
+    return fix_mul(a, b, 30);
 }
-
-/* At least |v|, at most 1.16 of it. */
-int64_t fix_length_bound(const int64_t v[3]);
+#endif
 
 /* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
-static inline int64_t fix_shift(int64_t v, int s)
+inline int64_t fix_shift(int64_t v, int s)
 {
     return s < 0 ? v >> -s : carom_shl(v, s);
 }
 
 /* |x| + |y| + |z|; each below 2^62 */
-static inline uint64_t fix_sum(const int64_t v[3])
+inline uint64_t fix_sum(const int64_t v[3])
 {
     return (uint64_t)carom_abs(v[0]) + (uint64_t)carom_abs(v[1]) + (uint64_t)carom_abs(v[2]);
 }
@@ -135,6 +143,9 @@ int64_t fix_mul_scaled(int64_t v, struct fix_scaled s);
 
 /* Length of a vector of int64 components, rounded up by at most one part in 2^26; exact for 0. */
 int64_t fix_length(const int64_t v[3]);
+
+/* At least |v|, at most 1.16 of it. */
+int64_t fix_length_bound(const int64_t v[3]);
 
 /*
  * Unit vector along v; returns false, and leaves out alone, when v is 0.
