@@ -73,6 +73,21 @@ static void nearer_hides(void)
     }
 }
 
+/* Two cubes in one place: of equal depths the body that comes last shows. */
+static void equal_depths(void)
+{
+    for (int k = 0; k < 2; k++) {
+        struct carom_world *world = new_world();
+
+        add(world, &cube, at(0, 0, 0), upright, k == 1);
+        add(world, &cube, at(0, 0, 0), upright, k == 0);
+        draw_8(world, &above, CAROM_DRAW_FLAT);
+        /* the top is 3.5 units away: 18.3 pixels wide */
+        CHECK_EQ(count_ramp(k == 0 ? DRAW_MOVING : DRAW_STATIONARY), 18 * 18);
+        CHECK_EQ(count_ramp(k == 0 ? DRAW_STATIONARY : DRAW_MOVING), 0);
+    }
+}
+
 /*
  * A level square cut by one that is tilted about the y axis: they cross between the two columns in
  * the middle. Seen from two heights, as faces of some hundred and of some ten pixels.
@@ -316,6 +331,7 @@ const struct test tests_draw[] = {
     {"draw/covered_pixels", covered_pixels},
     {"draw/shared_edge", shared_edge},
     {"draw/nearer_hides", nearer_hides},
+    {"draw/equal_depths", equal_depths},
     {"draw/crossing_faces", crossing_faces},
     {"draw/nothing_to_see", nothing_to_see},
     {"draw/near_plane", near_plane},
