@@ -6,8 +6,8 @@
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
 #ifndef REGION_WAY
-#define REGION_WAY 12
-#define REGION_TURN_Q30 (CAROM_ONE_Q30 / 12)
+#define REGION_WAY 10
+#define REGION_TURN_Q30 (CAROM_ONE_Q30 / 10)
 #endif
 /* What the gap of features changes by at most through rounding. */
 #define CHANGES_Q22 4
