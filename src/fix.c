@@ -111,12 +111,28 @@ struct fix_wide fix_wide_mul(int64_t a, int64_t b)
     return (a < 0) != (b < 0) ? fix_wide_neg(p) : p;
 }
 
+void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b)
+{
+    *sum = fix_wide_add(*sum, fix_wide_mul(a, b));
+}
+
+struct fix_wide fix_wide_up(struct fix_wide a, int s)
+{
+    if (s > 0) {
+        a.hi = carom_shl(a.hi, s) | (int64_t)(a.lo >> (64 - s));
+        a.lo <<= s;
+    }
+    return a;
+}
+
 struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3])
 {
-    struct fix_wide sum = fix_wide_mul(a[0], b[0]);
+    struct fix_wide sum = {0, 0};
 
-    sum = fix_wide_add(sum, fix_wide_mul(a[1], b[1]));
-    return fix_wide_add(sum, fix_wide_mul(a[2], b[2]));
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(&sum, a[k], b[k]);
+    }
+    return sum;
 }
 
 int fix_wide_sign(struct fix_wide a)
