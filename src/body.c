@@ -156,8 +156,8 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
     body_velocity(b, s, &v);
     body_spin(b, s, r, &w);
     for (int k = 0; k < 3; k++) {
-        sum = fix_wide_add(sum, fix_wide_mul(s->momentum.c[k], v.c[k]));
-        sum = fix_wide_add(sum, fix_wide_mul(s->angular.c[k], w.c[k]));
+        fix_wide_add_product(&sum, s->momentum.c[k], v.c[k]);
+        fix_wide_add_product(&sum, s->angular.c[k], w.c[k]);
     }
     return sum;
 }

@@ -1,22 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#define CAROM_FIX_BODIES
 #include "fix.h"
-
-/* What is inline has a body here for whoever calls it. */
-extern inline int64_t carom_round(int64_t v, int s);
-extern inline int64_t carom_shl(int64_t v, int s);
-extern inline int64_t carom_abs(int64_t v);
-extern inline int32_t carom_mul_q30(int32_t a, int32_t b);
-extern inline int64_t carom_dot(const int32_t a[3], const int32_t b[3]);
-extern inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
-extern inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
-extern inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
-extern inline int fix_bits32(uint32_t v);
-extern inline int fix_bits(uint64_t v);
-extern inline int64_t fix_mul(int64_t a, int32_t b, int s);
-extern inline int64_t fix_mul_q30(int64_t a, int32_t b);
-extern inline int64_t fix_shift(int64_t v, int s);
-extern inline uint64_t fix_sum(const int64_t v[3]);
 
 /*
  * The root of v, 2^30 <= v, within half a unit and a hundredth. Newton's steps end above the root but
@@ -111,12 +94,28 @@ struct fix_wide fix_wide_mul(int64_t a, int64_t b)
     return (a < 0) != (b < 0) ? fix_wide_neg(p) : p;
 }
 
+void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b)
+{
+    *sum = fix_wide_add(*sum, fix_wide_mul(a, b));
+}
+
+struct fix_wide fix_wide_up(struct fix_wide a, int s)
+{
+    if (s > 0) {
+        a.hi = carom_shl(a.hi, s) | (int64_t)(a.lo >> (64 - s));
+        a.lo <<= s;
+    }
+    return a;
+}
+
 struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3])
 {
-    struct fix_wide sum = fix_wide_mul(a[0], b[0]);
+    struct fix_wide sum = {0, 0};
 
-    sum = fix_wide_add(sum, fix_wide_mul(a[1], b[1]));
-    return fix_wide_add(sum, fix_wide_mul(a[2], b[2]));
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(&sum, a[k], b[k]);
+    }
+    return sum;
 }
 
 int fix_wide_sign(struct fix_wide a)

@@ -117,6 +117,9 @@ inline uint64_t fix_sum(const int64_t v[3])
 struct fix_wide fix_wide_mul(int64_t a, int64_t b);
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);
 struct fix_wide fix_wide_neg(struct fix_wide a);
+/* sum += a * b; a * 2^s for 0 <= s < 64. */
+void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b);
+struct fix_wide fix_wide_up(struct fix_wide a, int s);
 /* a . b of two vectors, exact. */
 struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3]);
 /* -1, 0 or 1. */

@@ -15,46 +15,78 @@
 
 /* Corners about a chosen origin. */
 struct tetrahedron {
-    int64_t a[3], b[3], c[3];
+    int32_t p[3][3];
 };
 
 /* Vertices times 2^bits, about an origin of the same format. */
 struct frame {
     const struct carom_mesh_raw *raw;
-    int64_t origin[3];
+    int32_t origin[3];
     int bits;
 };
 
-static void load_corner(int64_t out[3], const struct frame *f, uint32_t v)
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = carom_shl(f->raw->vertices[v][k], f->bits) - f->origin[k];
-    }
-}
-
 static void load(struct tetrahedron *t, const struct frame *f, uint32_t face)
 {
-    const uint16_t *corner = f->raw->faces[face];
+    for (int i = 0; i < 3; i++) {
+        const int16_t *v = f->raw->vertices[f->raw->faces[face][i]];
 
-    load_corner(t->a, f, corner[0]);
-    load_corner(t->b, f, corner[1]);
-    load_corner(t->c, f, corner[2]);
+        for (int k = 0; k < 3; k++) {
+            t->p[i][k] = v[k] * (1 << f->bits) - f->origin[k];
+            CAROM_ASSERT(carom_abs(t->p[i][k]) <= 1 << 20);
+        }
+    }
 }
 
 /* a . (b x c). Range: coordinates up to 2^20, so each product of b and c is <= 2^40, each component
  * of the cross product <= 2^41 and the result <= 3 * 2^61. */
 static int64_t determinant(const struct tetrahedron *t)
 {
+    const int32_t *b = t->p[1], *c = t->p[2];
     int64_t sum = 0;
 
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
 
-        CAROM_ASSERT(carom_abs(t->a[i]) <= 1 << 20 && carom_abs(t->b[i]) <= 1 << 20);
-        CAROM_ASSERT(carom_abs(t->c[i]) <= 1 << 20);
-        sum += t->a[i] * (t->b[j] * t->c[k] - t->b[k] * t->c[j]);
+        sum += t->p[0][i] * ((int64_t)b[j] * c[k] - (int64_t)b[k] * c[j]);
     }
     return sum;
+}
+
+/* Sums over the faces, without their divisors. */
+struct sums {
+    struct fix_wide det, moment[3], second[6];
+};
+
+/*
+ * Bounds: of vertices in quanta, <= 2^15, det < 3 * 2^46; about the centre coordinates are < 2^20 and
+ * det < 3 * 2^61. A sum of corners is below 2^22, one of products < 12 * 2^40; so the sums over 65535
+ * faces, two of them together, are < 2^124.
+ */
+static void sum_faces(const struct frame *about, struct sums *out)
+{
+    memset(out, 0, sizeof *out);
+    for (uint32_t f = 0; f < about->raw->face_count; f++) {
+        struct tetrahedron t;
+        int64_t det;
+        int32_t s[3];
+
+        load(&t, about, f);
+        det = determinant(&t);
+        fix_wide_add_product(&out->det, det, 1);
+        for (int k = 0; k < 3; k++) {
+            s[k] = t.p[0][k] + t.p[1][k] + t.p[2][k];
+            fix_wide_add_product(&out->moment[k], det, s[k]);
+        }
+        for (int n = 0; n < 6; n++) {
+            int i = n % 3, j = n < 3 ? i : (i + 1) % 3;
+            int64_t sum = (int64_t)s[i] * s[j];
+
+            for (int c = 0; c < 3; c++) {
+                sum += (int64_t)t.p[c][i] * t.p[c][j];
+            }
+            fix_wide_add_product(&out->second[n], det, sum);
+        }
+    }
 }
 
 /* v / 2^s to nearest, s = 0 included. */
@@ -77,40 +109,28 @@ static int64_t wide_quotient(struct fix_wide n, int64_t d)
 }
 
 /*
- * Six times the volume in cubic quanta, and the centre of mass with `bits` fractional bits.
+ * Six times the volume in cubic quanta, and the centre of mass with `bits` fractional bits, at most 19.
  *
- * Bounds: coordinates are <= 2^15, so det < 3 * 2^46; a sum of three corners times 2^bits is
- * < 2^17 * 2^19; the sum over 65535 faces < 2^100. A mesh that does not overlap itself has
- * 6 volume <= 6 * 2^48 < 2^51: anything above winds around its inside more than once.
+ * A mesh that does not overlap itself has 6 volume <= 6 * 2^48 < 2^51: anything above winds around
+ * its inside more than once.
  */
 static int volume_and_centre(const struct carom_mesh_raw *raw, int bits, int64_t *volume6,
                              int64_t centre[3])
 {
-    struct frame quanta = {raw, {0, 0, 0}, 0};
-    struct fix_wide volume = {0, 0}, moment[3] = {{0, 0}, {0, 0}, {0, 0}};
+    const struct frame quanta = {raw, {0, 0, 0}, 0};
+    struct sums sums;
 
-    for (uint32_t f = 0; f < raw->face_count; f++) {
-        struct tetrahedron t;
-        int64_t det;
-
-        load(&t, &quanta, f);
-        det = determinant(&t);
-        volume = fix_wide_add(volume, fix_wide_mul(det, 1));
-        for (int k = 0; k < 3; k++) {
-            int64_t sum = carom_shl(t.a[k] + t.b[k] + t.c[k], bits);
-
-            moment[k] = fix_wide_add(moment[k], fix_wide_mul(det, sum));
-        }
+    sum_faces(&quanta, &sums);
+    if (fix_wide_sign(sums.det) <= 0) {
+        return fix_wide_sign(sums.det) < 0 ? CAROM_ERR_MESH_INSIDE_OUT : CAROM_ERR_MESH_EMPTY;
     }
-    if (fix_wide_sign(volume) <= 0) {
-        return fix_wide_sign(volume) < 0 ? CAROM_ERR_MESH_INSIDE_OUT : CAROM_ERR_MESH_EMPTY;
-    }
-    if (fix_wide_bits(volume) > 51) {
+    if (fix_wide_bits(sums.det) > 51) {
         return CAROM_ERR_RANGE;
     }
-    *volume6 = fix_wide_shift(volume, 0);
+    *volume6 = fix_wide_shift(sums.det, 0);
     for (int k = 0; k < 3; k++) {
-        centre[k] = wide_quotient(moment[k], 4 * *volume6);
+        /* moments of quanta are below 2^84 */
+        centre[k] = wide_quotient(fix_wide_up(sums.moment[k], bits), 4 * *volume6);
     }
     return CAROM_OK;
 }
@@ -136,34 +156,17 @@ static void find_box(const struct carom_mesh_raw *raw, int32_t low[3], int32_t h
 /*
  * Twenty times the volume's det, and the entries xx, yy, zz, xy, yz, zx of the inertia in the same
  * scale: inertia / mass = inertia20 / det20.
- *
- * Bounds: coordinates about the centre are < 2^20, so det < 3 * 2^61, the sum of products < 12 *
- * 2^40 and the sum over 65535 faces, two entries together, < 2^124.
  */
 static void second_moments(const struct frame *about, struct fix_wide *det20,
                            struct fix_wide inertia20[6])
 {
-    struct fix_wide p[6] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+    struct sums sums;
 
-    *det20 = p[0];
-    for (uint32_t f = 0; f < about->raw->face_count; f++) {
-        struct tetrahedron t;
-        int64_t det;
-
-        load(&t, about, f);
-        det = determinant(&t);
-        *det20 = fix_wide_add(*det20, fix_wide_mul(det, 20));
-        for (int n = 0; n < 6; n++) {
-            int i = n % 3, j = n < 3 ? i : (i + 1) % 3;
-            int64_t s_i = t.a[i] + t.b[i] + t.c[i], s_j = t.a[j] + t.b[j] + t.c[j];
-            int64_t sum = s_i * s_j + t.a[i] * t.a[j] + t.b[i] * t.b[j] + t.c[i] * t.c[j];
-
-            p[n] = fix_wide_add(p[n], fix_wide_mul(det, sum));
-        }
-    }
+    sum_faces(about, &sums);
+    *det20 = fix_wide_add(fix_wide_up(sums.det, 4), fix_wide_up(sums.det, 2));
     for (int i = 0; i < 3; i++) {
-        inertia20[i] = fix_wide_add(p[(i + 1) % 3], p[(i + 2) % 3]);
-        inertia20[3 + i] = fix_wide_neg(p[3 + i]);
+        inertia20[i] = fix_wide_add(sums.second[(i + 1) % 3], sums.second[(i + 2) % 3]);
+        inertia20[3 + i] = fix_wide_neg(sums.second[3 + i]);
     }
 }
 
@@ -220,7 +223,7 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
             return CAROM_ERR_MESH_INSIDE_OUT; /* some part of it is */
         }
         mass.centre.c[k] = (int32_t)round_off(centre[k], bits - to_q22);
-        about.origin[k] = round_off(centre[k], bits - about.bits);
+        about.origin[k] = (int32_t)round_off(centre[k], bits - about.bits);
     }
     second_moments(&about, &det20, inertia20);
     for (int n = 0; n < 6; n++) {
@@ -257,8 +260,7 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
         size |= (uint64_t)carom_abs(in->m[n]);
     }
     for (int k = 0; k < 3; k++) {
-        det =
-            fix_wide_add(det, fix_wide_mul(in->m[fix_sym3_at[0][k]], cofactor[fix_sym3_at[0][k]]));
+        fix_wide_add_product(&det, in->m[fix_sym3_at[0][k]], cofactor[fix_sym3_at[0][k]]);
     }
     if (fix_wide_sign(det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
         fix_wide_bits(det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
@@ -275,7 +277,7 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
         for (int k = 0; k < 3; k++) {
             int64_t part = -(int64_t)out->m[n] * in->m[fix_sym3_at[0][k]];
 
-            left = fix_wide_add(left, fix_wide_mul(part, cofactor[fix_sym3_at[0][k]]));
+            fix_wide_add_product(&left, part, cofactor[fix_sym3_at[0][k]]);
         }
         rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(left, det));
     }

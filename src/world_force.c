@@ -98,14 +98,14 @@ int carom_body_set_force(struct carom_world *w, int body, const carom_v3_q40 *fo
 /* (a b - c d) / 2^32 to nearest; false when that has more than 61 bits. */
 static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q40, int64_t *out)
 {
-    struct fix_wide half = {0, (uint64_t)1 << 31};
-    struct fix_wide sum =
-        fix_wide_add(fix_wide_mul(a_q32, b_q40), fix_wide_neg(fix_wide_mul(c_q32, d_q40)));
+    struct fix_wide sum = fix_wide_mul(a_q32, b_q40);
 
+    fix_wide_add_product(&sum, -c_q32, d_q40);
     if (fix_wide_bits(sum) > 32 + 61) {
         return false;
     }
-    *out = fix_wide_shift(fix_wide_add(sum, half), 32);
+    fix_wide_add_product(&sum, (int64_t)1 << 31, 1);
+    *out = fix_wide_shift(sum, 32);
     return true;
 }
 
@@ -127,7 +127,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
         for (int k = 0; k < 3; k++) {
             int64_t entry = b->inverse_inertia.m[fix_sym3_at[i][k]];
 
-            sum = fix_wide_add(sum, fix_wide_mul(carom_abs(entry), carom_abs(l[k])));
+            fix_wide_add_product(&sum, carom_abs(entry), carom_abs(l[k]));
         }
         if (fix_wide_bits(sum) - b->inverse_inertia.e > 61) {
             return false;

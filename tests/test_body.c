@@ -579,6 +579,41 @@ static void test_inertia(void)
     }
 }
 
+/* Calm bodies turn by less than half a radian, are slower than the limit, and not rare. */
+static void test_calm(void)
+{
+    struct test_random r = {23};
+    int calm = 0, thin = 0;
+
+    for (int n = 0; n < CASES; n++) {
+        double most_v = n % 2 ? 120 : 1, most_w = n % 4 ? 0.05 : 0.6;
+        carom_v3_q40 v, w;
+        carom_m3_q30 m;
+
+        if (n % 3 == 0) {
+            shape_box(&shape, 12, 8192, 82, 1000); /* thin */
+            shape_body(&shape, true, &body, &state);
+        } else {
+            make_box();
+        }
+        body_set_mass(&body, fix_scale(test_random_range(&r, 1 << 10, 1 << 30), 20));
+        random_state(&r, 0, 0);
+        random_vector(&r, most_v, v.c, 40);
+        random_vector(&r, most_w, w.c, 40);
+        body_set_motion(&body, &state, &v, &w);
+        if (!body_calm(&body, &state)) {
+            continue;
+        }
+        *(n % 3 ? &calm : &thin) += 1;
+        body_matrix(&m, &state.rotation);
+        body_velocity(&body, &state, &v);
+        body_spin(&body, &state, &m, &w);
+        CHECK(real_length((double[3]){real(v.c[0], 40), real(v.c[1], 40), real(v.c[2], 40)}) < 64);
+        CHECK(real_length((double[3]){real(w.c[0], 40), real(w.c[1], 40), real(w.c[2], 40)}) < 0.5);
+    }
+    CHECK(calm > CASES / 5 && thin > 0);
+}
+
 const struct test tests_body[] = {
     {"body/matrix", test_matrix},
     {"body/normalise", test_normalise},
@@ -590,6 +625,7 @@ const struct test tests_body[] = {
     {"body/parabola", test_parabola},
     {"body/still", test_still},
     {"body/path_length", test_path_length},
+    {"body/calm", test_calm},
     {"body/slice", test_slice},
 
     {"body/motion", test_motion},
