@@ -32,6 +32,8 @@ struct candidate {
 /* Order of candidates, hits and contacts: by pair, kind, i, j. Negative when a comes first. */
 int candidate_compare(const struct candidate *a, const struct candidate *b);
 
+#define INTERFERE_TOO_MANY 1
+
 /* Told of every candidate, some at a time. */
 struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
@@ -87,6 +89,7 @@ struct interfere {
     struct pool *face_pool;
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
+    uint32_t enough;                   /* a gather that has more candidates stops */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     bool stale; /* the bodies are not those of the last gather: the next frame begins with one */

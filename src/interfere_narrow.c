@@ -21,6 +21,9 @@ static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     c->i = i;
     c->j = j;
     w->candidate_count++;
+    if (pool->used > w->enough) {
+        w->error = INTERFERE_TOO_MANY;
+    }
 }
 
 static inline int32_t least(int32_t a, int32_t b)

@@ -5,10 +5,9 @@
 #define REFINEMENTS 8
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
-#ifndef REGION_WAY
-#define REGION_WAY 10
-#define REGION_TURN_Q30 (CAROM_ONE_Q30 / 10)
-#endif
+#define REGION_PARTS 10
+#define REGION_PARTS_FREE 4
+#define REGION_ENOUGH 8
 /* What the gap of features changes by at most through rounding. */
 #define CHANGES_Q22 4
 
@@ -136,12 +135,34 @@ static int gather(struct step *s, int32_t slice_q30, int64_t time_q30)
 }
 
 /*
- * For how long to gather: frames at a time while nothing moves fast, for what is swept grows with
- * the time. As long as the last regions held, and twice that when they held all their time.
+ * For how long regions may last, for what is swept grows with the time: while no part of a body goes
+ * farther than a part of its radius. Bodies that nothing is near to may go farther.
  */
-static int64_t gather_time(const struct step *s, int32_t slice_q30)
+static int64_t frames_allowed(const struct step *s, int32_t slice_q30)
 {
-    int64_t frames = 1, held_q30 = 0;
+    int64_t parts = s->w->interfere.candidate_pool->used == 0 ? REGION_PARTS_FREE : REGION_PARTS;
+    int64_t frames = BODY_REGION_FRAMES;
+
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *b = &s->w->bodies[i];
+        int64_t way_q22, turn_q30, way_frame_q22;
+
+        if (!broad_active(b, &s->next->bodies[i])) {
+            continue;
+        }
+        body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+        way_frame_q22 = (way_q22 << 30) / slice_q30 + 1;
+        if (frames * way_frame_q22 > b->radius_q22 / parts) {
+            frames = b->radius_q22 / parts / way_frame_q22;
+        }
+    }
+    return frames > 1 ? frames : 1;
+}
+
+/* As long as the last regions held and no longer than allowed, twice that when they held to their end. */
+static int64_t region_time(const struct step *s, int32_t slice_q30)
+{
+    int64_t frames = 1, allowed;
 
     if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30) {
         return slice_q30;
@@ -149,37 +170,38 @@ static int64_t gather_time(const struct step *s, int32_t slice_q30)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body_region *region = &s->w->bodies[i].region;
 
-        if (region->active && region->elapsed_q30 > held_q30) {
-            held_q30 = region->elapsed_q30;
-            frames = (held_q30 >> 30) + (region->time_q30 - held_q30 < CAROM_ONE_Q30 ? (held_q30 >> 30) + 1 : 0);
-        }
-    }
-    if (frames < 1) frames = 1;
-    if (frames > BODY_REGION_FRAMES) frames = BODY_REGION_FRAMES;
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30;
+        if (region->active) {
+            int64_t held = region->elapsed_q30 >> 30;
+            bool to_end = region->time_q30 - region->elapsed_q30 < CAROM_ONE_Q30;
 
-        if (!broad_active(b, &s->next->bodies[i])) {
-            continue;
-        }
-        body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-        way_q22 = (way_q22 << 30) / slice_q30;
-        turn_q30 = (turn_q30 << 30) / slice_q30;
-        while (frames > 1 &&
-               (frames * turn_q30 > REGION_TURN_Q30 || frames * way_q22 > b->radius_q22 / REGION_WAY)) {
-            frames--;
+            frames = held << to_end > frames ? held << to_end : frames;
         }
     }
+    allowed = frames_allowed(s, slice_q30);
+    frames = frames < allowed ? frames : allowed;
     return s->left_q30 + ((frames - 1) << 30);
 }
 
 int step_gather(struct step *s)
 {
+    struct interfere *in = &s->w->interfere;
+    uint32_t faces = in->gathers > 0 ? in->face_pool->used : 0;
     int32_t slice_q30 = step_slice(s);
+    int64_t time_q30;
+    int result;
 
     predict_all(s, slice_q30);
-    return gather(s, slice_q30, gather_time(s, slice_q30));
+    time_q30 = region_time(s, slice_q30);
+    in->enough = in->candidate_pool->used == 0 ? REGION_ENOUGH : UINT32_MAX;
+    if (time_q30 == slice_q30) in->enough = UINT32_MAX;
+    result = gather(s, slice_q30, time_q30);
+    in->enough = UINT32_MAX;
+    if (result != CAROM_OK && time_q30 > slice_q30) {
+        /* too much, too soon: a single frame will have less */
+        in->face_pool->used = faces;
+        result = gather(s, slice_q30, slice_q30);
+    }
+    return result;
 }
 
 uint16_t step_pair_number(const struct carom_world *w, const struct pair *p)
