@@ -55,16 +55,16 @@ struct contact {
     int64_t band_q40;      /* slip that friction does not resist: what closing the gap asks for */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
     int32_t fine_bits;
-    int64_t mass_q30;    /* velocity by a unit impulse: the larger of along N and across */
-    int64_t drag_q30[3]; /* the part of K N across N */
+    int32_t mass_q24;    /* velocity by a unit impulse: the larger of along N and across */
+    int32_t drag_q28[3]; /* the part of K N across N, over the part along it */
     int32_t inverse[6];  /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
     bool inverted;       /* false: K is too uneven for an inverse in 30 bits */
     int32_t step[2];     /* of a sweep when it slides, so too: along N, and one scalar across */
 
     /* the sweeps', in solver units */
     uint32_t friction_q16;
-    int64_t error, slip[3]; /* V.N above the wanted one and V across N, before */
-    int64_t band;           /* band_q40 */
+    int32_t before[3];       /* V - wanted N before, with a slip that sweeps can follow */
+    int32_t band;            /* band_q40 */
     int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
     int32_t gain[3], way[3]; /* change of it in the last two sweeps, and the way it is going */
     struct contact_roll roll;

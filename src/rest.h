@@ -15,7 +15,7 @@
 #include "contact.h"
 #include "impact.h"
 
-#define REST_BITS       29
+#define REST_BITS       27
 #define REST_SWEEPS_MAX 60
 
 /* An impulse kept for the next frame; part of the state. */

@@ -9,12 +9,12 @@
 #include "rest.h"
 
 /*
- * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a
+ * dv and dw have this many bits below the solver's unit: a share of 1/2 makes every other change of it a
  * tie, and ties go upward.
  */
-#define REST_DV_BITS 8
+#define REST_FINER_BITS 8
 
-/* Sweeps end when no velocity changes by more than this, in solver units of 2^-29 V*. */
+/* Sweeps end when no velocity changes by more than this, in solver units of 2^-27 V*. */
 #define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 26))
 #define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
 
@@ -66,7 +66,7 @@ void rest_prepare_masses(struct contact *c);
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
 void rest_push(struct contact *c, const int32_t impulse[3]);
-/* What one push may change: v, or +-(2^30 - 1). */
+/* What one push may change: v, or +-(2^31 - 1). */
 int32_t rest_clamp(int64_t v);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);

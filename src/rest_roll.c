@@ -119,7 +119,7 @@ static void twist(struct contact *c, const int32_t moment[3])
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->dw[k] += scaled(rest_row(t->m, k, part), t->e);
+            side->body->dw[k] += scaled(rest_row(t->m, k, part), t->e - REST_FINER_BITS);
         }
     }
 }
@@ -145,7 +145,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i)
             const struct body *b = c->side[s].body;
 
             if (b) {
-                int64_t dw = b->dw[k] >> finer(c, b);
+                int64_t dw = b->dw[k] >> (REST_FINER_BITS + finer(c, b));
 
                 spin += s == 0 ? dw : -dw;
             }

@@ -2,8 +2,13 @@
 /* Symmetric sweeps over accumulated, clamped impulses. */
 #include "rest_parts.h"
 
-/* Changes of the relative velocity that are followed: 16 V*. */
-#define CHANGE_MAX ((int64_t)1 << (REST_BITS + 3))
+/*
+ * Sweeps follow a slip of 13 V* and velocities below 16 V*, of which a vector of components up to
+ * 9 V* is one. So a velocity is below 2^31 in length, and so are its parts along N and across.
+ */
+#define SLIP_MAX  ((int64_t)13 << REST_BITS)
+#define PART_MAX  ((int64_t)9 << REST_BITS)
+#define SPEED_MAX (((int64_t)16 << REST_BITS) - 64)
 
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
@@ -32,24 +37,34 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 }
 
 /* Velocities to solver units; no impulses yet. */
+static void begin_contact(struct contact *c, const struct rest_sweep *sw)
+{
+    int64_t wanted = wanted_q40(c, sw), slip[3];
+    int32_t error = (int32_t)rest_to_units(c->speed_q40 - wanted, sw->unit); /* within V* */
+
+    for (int k = 0; k < 3; k++) {
+        int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
+
+        slip[k] = rest_to_units(c->velocity.c[k] - along, sw->unit);
+    }
+    rest_cut(slip, SLIP_MAX);
+    for (int k = 0; k < 3; k++) {
+        c->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
+        c->tangent_impulse[k] = 0;
+        c->gain[k] = c->way[k] = 0;
+    }
+    c->band = rest_clamp(rest_to_units(c->band_q40, sw->unit));
+    c->normal_impulse = 0;
+}
+
 static void begin(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int64_t wanted = wanted_q40(c, sw);
 
         c->friction_q16 =
             sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
-        c->error = rest_to_units(c->speed_q40 - wanted, sw->unit);
-        c->band = rest_to_units(c->band_q40, sw->unit);
-        c->normal_impulse = 0;
-        for (int k = 0; k < 3; k++) {
-            int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
-
-            c->slip[k] = rest_to_units(c->velocity.c[k] - along, sw->unit);
-            c->tangent_impulse[k] = 0;
-            c->gain[k] = c->way[k] = 0;
-        }
+        begin_contact(c, sw);
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
 
@@ -63,33 +78,46 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
 
 int32_t rest_clamp(int64_t v)
 {
-    const int64_t most = CAROM_ONE_Q30 - 1;
+    const int64_t most = INT32_MAX;
 
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
 /*
- * How much the relative velocity has changed so far. A thin body's spin may fill 40 bits while the
- * sum stays small, so products wrap: modulo 2^64 the sum is right.
+ * V - wanted N by now. A thin body's spin may fill 40 bits while the sum stays small, so products
+ * wrap: modulo 2^64 the sum is right.
  */
-static void change_of_velocity(const struct contact *c, int64_t out[3])
+static void present_velocity(const struct contact *c, int32_t v[3])
 {
-    memset(out, 0, 3 * sizeof out[0]);
+    int64_t sum[3] = {0, 0, 0};
+    bool fast = false;
+
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
         const struct body *b = side->body;
+        int64_t dw[3];
 
         for (int k = 0; b && k < 3; k++) {
+            dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
+        }
+        for (int k = 0; b && k < 3; k++) {
             int i = (k + 1) % 3, j = (k + 2) % 3;
-            uint64_t turned = (uint64_t)b->dw[i] * (uint64_t)(int64_t)side->arm_q30[j] -
-                              (uint64_t)b->dw[j] * (uint64_t)(int64_t)side->arm_q30[i];
-            int64_t v = carom_round(b->dv[k], REST_DV_BITS) + carom_round((int64_t)turned, 30);
+            uint64_t turned = (uint64_t)dw[i] * (uint64_t)side->arm_q30[j] -
+                              (uint64_t)dw[j] * (uint64_t)side->arm_q30[i];
+            int64_t d = b->dv[k] + ((int64_t)turned >> (32 - REST_FINER_BITS));
 
-            out[k] += s == 0 ? v : -v;
+            sum[k] += s == 0 ? d : -d;
         }
     }
     for (int k = 0; k < 3; k++) {
-        out[k] = out[k] > CHANGE_MAX ? CHANGE_MAX : out[k] < -CHANGE_MAX ? -CHANGE_MAX : out[k];
+        sum[k] = c->before[k] + carom_round(sum[k], REST_FINER_BITS);
+        fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
+    }
+    if (fast) {
+        rest_cut(sum, SPEED_MAX);
+    }
+    for (int k = 0; k < 3; k++) {
+        v[k] = (int32_t)sum[k];
     }
 }
 
@@ -100,8 +128,8 @@ void rest_push(struct contact *c, const int32_t impulse[3])
         struct body *b = side->body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dv = carom_round((int64_t)impulse[k] * side->share_q30, 30 - REST_DV_BITS);
-            int64_t dw = carom_round(carom_dot(side->turn[k], impulse), side->turn_bits);
+            int64_t dv = carom_round((int64_t)impulse[k] * side->share_q30, 30 - REST_FINER_BITS);
+            int64_t dw = carom_dot(side->turn[k], impulse) >> (side->turn_bits - REST_FINER_BITS);
 
             b->dv[k] += s == 0 ? dv : -dv;
             b->dw[k] += s == 0 ? dw : -dw;
@@ -109,46 +137,45 @@ void rest_push(struct contact *c, const int32_t impulse[3])
     }
 }
 
-/* Length of a vector whose components may have more than 31 bits; down: what it is shifted by. */
-static int64_t long_length(const int64_t v[3], int *down)
+/* Bits of the longest of three components. */
+static int bits3(const int64_t v[3])
 {
-    uint64_t sum = 0;
-
-    *down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 31;
-    *down = *down > 0 ? *down : 0;
-    for (int k = 0; k < 3; k++) {
-        int64_t part = v[k] >> *down;
-
-        sum += (uint64_t)(part * part);
-    }
-    return fix_sqrt(sum);
+    return fix_bits((uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63))));
 }
 
 bool rest_cut(int64_t v[3], int64_t limit)
 {
-    int down;
-    int64_t whole = long_length(v, &down);
+    int down = bits3(v) - 31;
+    uint64_t square = 0, most;
+    int32_t part[3], ratio_q30;
 
-    if (whole <= limit >> down) {
+    down = down > 0 ? down : 0;
+    for (int k = 0; k < 3; k++) {
+        part[k] = (int32_t)(v[k] >> down);
+        square += (uint64_t)((int64_t)part[k] * part[k]);
+    }
+    most = (uint64_t)(limit >> down);
+    if (most >> 32 || square <= most * most) {
         return false;
     }
+    ratio_q30 = (int32_t)((most << 30) / fix_sqrt(square));
     for (int k = 0; k < 3; k++) {
-        v[k] = fix_mul(limit, (int32_t)((v[k] >> down) * CAROM_ONE_Q30 / whole), 30);
+        v[k] = carom_shl(((int64_t)part[k] * ratio_q30) >> 30, down);
     }
     return true;
 }
 
 /* Friction is not against slip that closing a gap asks for. */
-static void leave_band(const struct contact *c, int64_t slip[3])
+static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 {
     int64_t within[3];
 
-    if (c->band > 0) {
-        memcpy(within, slip, sizeof within);
-        rest_cut(within, c->band);
-        for (int k = 0; k < 3; k++) {
-            slip[k] -= within[k];
-        }
+    for (int k = 0; k < 3; k++) {
+        within[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+    }
+    rest_cut(within, c->band);
+    for (int k = 0; k < 3; k++) {
+        v[k] -= (int32_t)within[k];
     }
 }
 
@@ -157,158 +184,179 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->friction_q16, 16);
 }
 
-/* A change of impulse: along N, and across it. */
+/* A change of impulse, each part of at most 30 bits: along N, across it, and both. */
 struct gain {
-    int32_t along, across[3];
+    int32_t along, whole[3];
 };
 
 /*
  * What one push takes of a change: all, or 2^-n of it, so that both its ways shrink alike. As it
  * leads from one impulse in the friction cone to another, so does any part of it.
  */
-static void take(struct gain *g, int64_t along, const int64_t across[3])
+static void take(const struct contact *c, struct gain *g, int64_t along, const int64_t across[3])
 {
-    uint64_t all = (uint64_t)(carom_abs(along) | carom_abs(across[0]) | carom_abs(across[1]) |
-                              carom_abs(across[2]));
-    int down = fix_bits(all) - 30;
+    int down = bits3(across), more = fix_bits((uint64_t)carom_abs(along));
 
+    down = (more > down ? more : down) - 29;
     down = down > 0 ? down : 0;
     g->along = (int32_t)(along >> down);
     for (int k = 0; k < 3; k++) {
-        g->across[k] = (int32_t)(across[k] >> down);
+        g->whole[k] = (int32_t)(across[k] >> down) + carom_mul_q30(g->along, c->normal.c[k]);
     }
 }
 
-/* What ends all motion of the contact; false when that lies outside of the friction cone. */
-static bool stick(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
+/* Whether the impulse lies in the friction cone. */
+static bool in_cone(const struct contact *c, int64_t along, const int64_t across[3])
 {
-    int64_t whole[3], tangent[3], along, limit, length;
-    int32_t v[3];
-    int down;
+    int down = bits3(across), more = fix_bits((uint64_t)along);
+    uint64_t square = 0, limit;
 
+    down = (more > down ? more : down) - 29;
+    down = down > 0 ? down : 0;
+    limit = ((uint64_t)(uint32_t)(along >> down) * c->friction_q16) >> 16; /* mu <= 4: 31 bits */
     for (int k = 0; k < 3; k++) {
-        whole[k] = slip[k] + fix_mul(error, c->normal.c[k], 30);
-    }
-    /* fast slip fills more than 30 bits: the next visit finds what is left over */
-    down = fix_bits((uint64_t)(carom_abs(whole[0]) | carom_abs(whole[1]) | carom_abs(whole[2])));
-    down = down > 30 ? down - 30 : 0;
-    for (int k = 0; k < 3; k++) {
-        v[k] = (int32_t)(whole[k] >> down);
-    }
-    for (int k = 0; k < 3; k++) {
-        int64_t part = carom_round(rest_row(c->inverse, k, v), 30 - c->fine_bits);
+        int32_t part = (int32_t)(across[k] >> down);
 
-        whole[k] = carom_shl(-part, down);
+        square += (uint64_t)((int64_t)part * part);
     }
-    along = fix_mul(whole[0], c->normal.c[0], 30) + fix_mul(whole[1], c->normal.c[1], 30) +
-            fix_mul(whole[2], c->normal.c[2], 30);
-    limit = friction_limit(c, c->normal_impulse + along);
-    if (limit < 0) {
+    return square <= limit * limit;
+}
+
+/*
+ * What ends all motion of the contact; false when that lies outside of the friction cone. Large
+ * velocities are shifted down: the next visit finds what is left over. As K is at least 1 the change
+ * is then below 2^30.
+ */
+static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
+{
+    int down = fix_bits32((uint32_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) +
+               c->fine_bits - 29;
+    int32_t part[3];
+    int64_t along, across[3];
+
+    down = down > 0 ? down : 0;
+    for (int k = 0; k < 3; k++) {
+        part[k] = v[k] >> down;
+    }
+    for (int k = 0; k < 3; k++) {
+        g->whole[k] = -(int32_t)carom_round(rest_row(c->inverse, k, part), 30 - c->fine_bits);
+    }
+    g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
+    along = c->normal_impulse + carom_shl(g->along, down);
+    if (along <= 0) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        whole[k] -= fix_mul(along, c->normal.c[k], 30);
-        tangent[k] = c->tangent_impulse[k] + whole[k];
+        int32_t w = g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
+
+        across[k] = c->tangent_impulse[k] + carom_shl(w, down);
     }
-    length = long_length(tangent, &down);
-    take(g, along, whole);
-    return length <= limit >> down;
+    return in_cone(c, along, across);
 }
 
 /*
  * How much longer a step along N is when friction at its limit follows it: N.K N over N.K (N + mu t),
  * t being the unit vector along v. Where a contact nearly wedges, 8.
  */
-static int32_t following_q27(const struct contact *c, const int64_t v[3])
+static int32_t following_q15(const struct contact *c, const int64_t v[3])
 {
-    int down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 15;
-    int64_t square = 1, drag_q30 = 0, mass_q30;
+    int down = bits3(v) - 15;
+    uint32_t square = 1;
+    int64_t drag = 0;
+    int32_t mass_q11;
 
-    /* 15 bits will do: this only sets the pace. |drag| is below 2^34, the sum below 2^51 */
+    /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
     for (int k = 0; k < 3; k++) {
-        int64_t part = down > 0 ? v[k] >> down : v[k];
+        int32_t part = (int32_t)(down > 0 ? v[k] >> down : v[k]);
 
-        square += part * part;
-        drag_q30 += part * c->drag_q30[k];
+        square += (uint32_t)(part * part);
+        drag += (int64_t)part * c->drag_q28[k];
     }
-    drag_q30 /= fix_sqrt((uint64_t)square);
-    mass_q30 = fix_mul(drag_q30, (int32_t)c->friction_q16, 16);
-    mass_q30 = CAROM_ONE_Q30 + fix_mul(mass_q30, c->step[0], 30 - c->fine_bits);
-    return (int32_t)(((int64_t)1 << 57) /
-                     (mass_q30 > CAROM_ONE_Q30 / 8 ? mass_q30 : CAROM_ONE_Q30 / 8));
+    mass_q11 = (int32_t)(drag >> 17) / (int32_t)fix_sqrt(square);
+    mass_q11 = 2048 + (int32_t)(((int64_t)mass_q11 * c->friction_q16) >> 16);
+    return (1 << 26) / (mass_q11 > 256 ? mass_q11 : 256);
 }
 
 /*
- * A step along N, never pulling, and what it leaves of the slip across; `across` is what the slip so
- * far asks for. Returns whether that is more than friction gives.
+ * Change V.N by dvn, never pulling, and end what that leaves of the slip, as far as friction does.
+ * Returns whether it does not.
  */
-static bool slide_by(const struct contact *c, int64_t step, const int64_t across[3], struct gain *g)
+static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
-    int64_t along = step < c->normal_impulse ? -step : -c->normal_impulse, tangent[3];
-    bool limited;
+    int64_t along = carom_round((int64_t)dvn * c->step[0], 30 - c->fine_bits), tangent[3];
+    bool limited = true;
 
-    for (int k = 0; k < 3; k++) {
-        int64_t drag = fix_mul(c->drag_q30[k], rest_clamp(along), 30);
+    if (along <= -c->normal_impulse) {
+        along = -c->normal_impulse;
+        memset(tangent, 0, sizeof tangent);
+    } else {
+        for (int k = 0; k < 3; k++) {
+            int32_t after = rest_clamp(slip[k] + (((int64_t)c->drag_q28[k] * dvn) >> 28));
 
-        tangent[k] = across[k] - fix_mul(drag, c->step[1], 30 - c->fine_bits);
+            tangent[k] = c->tangent_impulse[k] - (((int64_t)after * c->step[1]) >> (30 - c->fine_bits));
+        }
+        limited = rest_cut(tangent, friction_limit(c, c->normal_impulse + along));
     }
-    limited = rest_cut(tangent, friction_limit(c, c->normal_impulse + along));
     for (int k = 0; k < 3; k++) {
         tangent[k] -= c->tangent_impulse[k];
     }
-    take(g, along, tangent);
+    take(c, g, along, tangent);
     return limited;
 }
 
 /* Along N first; then across towards no slip, within the friction cone. */
-static void slide(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
+static void slide(const struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
-    int64_t step = fix_mul(error, c->step[0], 30 - c->fine_bits), across[3];
+    int64_t across[3];
+    int32_t slip[3];
 
     for (int k = 0; k < 3; k++) {
-        across[k] = c->tangent_impulse[k] - fix_mul(slip[k], c->step[1], 30 - c->fine_bits);
+        slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+        across[k] = c->tangent_impulse[k] - (((int64_t)slip[k] * c->step[1]) >> (30 - c->fine_bits));
     }
     if (c->friction_q16 == 0 ||
-        !slide_by(c, fix_mul(step, following_q27(c, across), 27), across, g)) {
-        slide_by(c, step, across, g);
+        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
+        slide_by(c, -error, slip, g);
     }
 }
 
 /* Take up a change; returns its largest component, the last place apart. */
 static int32_t add(struct contact *c, const struct gain *g)
 {
-    int32_t whole[3], most = 0;
+    int32_t most = 0;
 
     c->normal_impulse += g->along;
     for (int k = 0; k < 3; k++) {
-        c->tangent_impulse[k] += g->across[k];
-        whole[k] = carom_mul_q30(g->along, c->normal.c[k]) + g->across[k];
-        c->gain[k] = rest_clamp((int64_t)c->gain[k] + whole[k]);
-        most = carom_abs(whole[k]) > most ? (int32_t)carom_abs(whole[k]) : most;
+        int32_t size = g->whole[k] < 0 ? -g->whole[k] : g->whole[k];
+
+        c->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
+        /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
+        c->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
+        most = size > most ? size : most;
     }
-    rest_push(c, whole);
-    return most > 4 ? most : 0;
+    rest_push(c, g->whole);
+    return most > 1 ? most : 0;
 }
 
 /* One contact; returns how much a velocity moved. */
 static int64_t visit(struct contact *c)
 {
-    int64_t change[3], slip[3], error;
+    int32_t v[3], error;
     struct gain g;
 
-    change_of_velocity(c, change);
-    error = carom_round((int64_t)c->normal.c[0] * change[0] + (int64_t)c->normal.c[1] * change[1] +
-                            (int64_t)c->normal.c[2] * change[2],
-                        30);
-    for (int k = 0; k < 3; k++) {
-        slip[k] = c->slip[k] + change[k] - fix_mul(error, c->normal.c[k], 30);
+    present_velocity(c, v);
+    error = (int32_t)carom_round(carom_dot(c->normal.c, v), 30);
+    if (error >= 0 && c->normal_impulse == 0 &&
+        (c->tangent_impulse[0] | c->tangent_impulse[1] | c->tangent_impulse[2]) == 0) {
+        return 0; /* it opens */
     }
-    error += c->error;
-    leave_band(c, slip);
-    if (c->friction_q16 == 0 || !c->inverted || !stick(c, error, slip, &g)) {
-        slide(c, error, slip, &g);
+    if (c->band > 0) {
+        leave_band(c, error, v);
     }
-    return fix_mul(c->mass_q30, add(c, &g), 30);
+    if (c->friction_q16 == 0 || !c->inverted || !stick(c, v, &g)) {
+        slide(c, error, v, &g);
+    }
+    return ((int64_t)c->mass_q24 * add(c, &g)) >> 24;
 }
 
 /*
@@ -335,7 +383,7 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
         for (int k = 0; k < 3; k++) {
             across[k] = c->friction_q16 > 0 ? gain[k] - fix_mul(along, c->normal.c[k], 30) : 0;
         }
-        take(&g, along, across);
+        take(c, &g, along, across);
         add(c, &g);
         memset(c->gain, 0, sizeof c->gain);
         rest_roll_accelerate(c, (int32_t)part_q30);
