@@ -131,9 +131,6 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i)
     int64_t pressure = 0, next[3], limit, most = 0;
     int32_t change[3];
 
-    if (!roll->acts) {
-        return 0;
-    }
     for (uint32_t n = i; same_pair(r, i, n); n++) {
         pressure += rest_contact(r, n)->normal_impulse;
     }
@@ -178,9 +175,6 @@ void rest_roll_accelerate(struct contact *c, int32_t part_q30)
     struct contact_roll *roll = &c->roll;
     int32_t gain[3];
 
-    if (!roll->acts) {
-        return;
-    }
     for (int k = 0; k < 3; k++) {
         gain[k] = carom_mul_q30(roll->way[k], part_q30);
         roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);

@@ -83,84 +83,137 @@ int32_t rest_clamp(int64_t v)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
+/* v s - w r modulo 2^64. */
+static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, int32_t w_high,
+                              int32_t r)
+{
+    uint32_t high = (uint32_t)v_high * (uint32_t)s - (uint32_t)w_high * (uint32_t)r;
+
+    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) + ((uint64_t)high << 32));
+}
+
+/*
+ * out = v x r modulo 2^64, in two halves: the low one signed, and what that leaves.
+ */
+static void wrapping_cross(int64_t out[3], const int64_t v[3], const int32_t r[3])
+{
+    int32_t low[3], high[3];
+
+    for (int k = 0; k < 3; k++) {
+        low[k] = (int32_t)v[k];
+        high[k] = (int32_t)((v[k] - low[k]) >> 32);
+    }
+    out[0] = wrapping_minor(low[1], high[1], r[2], low[2], high[2], r[1]);
+    out[1] = wrapping_minor(low[2], high[2], r[0], low[0], high[0], r[2]);
+    out[2] = wrapping_minor(low[0], high[0], r[1], low[1], high[1], r[0]);
+}
+
+/* What the solve so far changed the velocity of a body's place of contact by, in finer units. */
+static void change_at(const struct contact_side *side, int64_t out[3])
+{
+    const struct body *b = side->body;
+    int64_t dw[3];
+
+    for (int k = 0; k < 3; k++) {
+        dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
+    }
+    wrapping_cross(out, dw, side->arm_q30);
+    for (int k = 0; k < 3; k++) {
+        out[k] = b->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+    }
+}
+
 /*
  * V - wanted N by now. A thin body's spin may fill 40 bits while the sum stays small, so products
  * wrap: modulo 2^64 the sum is right.
  */
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
-    int64_t sum[3] = {0, 0, 0};
+    int64_t sum[3] = {0, 0, 0}, other[3] = {0, 0, 0};
     bool fast = false;
 
-    for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
-        const struct body *b = side->body;
-        int64_t dw[3];
-
-        for (int k = 0; b && k < 3; k++) {
-            dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
-        }
-        for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-            uint64_t turned = (uint64_t)dw[i] * (uint64_t)side->arm_q30[j] -
-                              (uint64_t)dw[j] * (uint64_t)side->arm_q30[i];
-            int64_t d = b->dv[k] + ((int64_t)turned >> (32 - REST_FINER_BITS));
-
-            sum[k] += s == 0 ? d : -d;
-        }
+    if (c->side[0].body) {
+        change_at(&c->side[0], sum);
+    }
+    if (c->side[1].body) {
+        change_at(&c->side[1], other);
     }
     for (int k = 0; k < 3; k++) {
-        sum[k] = c->before[k] + carom_round(sum[k], REST_FINER_BITS);
+        sum[k] = c->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
+        v[k] = (int32_t)sum[k];
         fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
     }
     if (fast) {
         rest_cut(sum, SPEED_MAX);
+        for (int k = 0; k < 3; k++) {
+            v[k] = (int32_t)sum[k];
+        }
     }
+}
+
+static void push_side(const struct contact_side *side, const int32_t impulse[3])
+{
+    struct body *b = side->body;
+    int down = side->turn_bits - REST_FINER_BITS;
+
     for (int k = 0; k < 3; k++) {
-        v[k] = (int32_t)sum[k];
+        b->dv[k] += ((int64_t)impulse[k] * side->share_q30) >> (30 - REST_FINER_BITS);
+        b->dw[k] += carom_dot(side->turn[k], impulse) >> down;
     }
 }
 
 void rest_push(struct contact *c, const int32_t impulse[3])
 {
-    for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
-        struct body *b = side->body;
+    const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
-        for (int k = 0; b && k < 3; k++) {
-            int64_t dv = carom_round((int64_t)impulse[k] * side->share_q30, 30 - REST_FINER_BITS);
-            int64_t dw = carom_dot(side->turn[k], impulse) >> (side->turn_bits - REST_FINER_BITS);
-
-            b->dv[k] += s == 0 ? dv : -dv;
-            b->dw[k] += s == 0 ? dw : -dw;
-        }
+    if (c->side[0].body) {
+        push_side(&c->side[0], impulse);
+    }
+    if (c->side[1].body) {
+        push_side(&c->side[1], opposite);
     }
 }
 
-/* Bits of the longest of three components. */
-static int bits3(const int64_t v[3])
+/* Shift four numbers down until each has at most so many bits; returns how far. */
+static int shrink(int64_t v[4], int bits)
 {
-    return fix_bits((uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63))));
+    uint64_t all = 0;
+    int down;
+
+    for (int k = 0; k < 4; k++) {
+        all |= (uint64_t)(v[k] ^ (v[k] >> 63));
+    }
+    down = fix_bits(all) - bits;
+    if (down <= 0) {
+        return 0;
+    }
+    for (int k = 0; k < 4; k++) {
+        v[k] >>= down;
+    }
+    return down;
+}
+
+/* |v|^2 of a vector of at most 31 bits. */
+static uint64_t square32(const int32_t v[3])
+{
+    return (uint64_t)((int64_t)v[0] * v[0]) + (uint64_t)((int64_t)v[1] * v[1]) +
+           (uint64_t)((int64_t)v[2] * v[2]);
 }
 
 bool rest_cut(int64_t v[3], int64_t limit)
 {
-    int down = bits3(v) - 31;
-    uint64_t square = 0, most;
-    int32_t part[3], ratio_q30;
+    int64_t part[4] = {v[0], v[1], v[2], limit};
+    int down = shrink(part, 31);
+    const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
+    uint64_t most = (uint64_t)part[3], square = square32(v32);
+    int32_t ratio_q30;
 
-    down = down > 0 ? down : 0;
-    for (int k = 0; k < 3; k++) {
-        part[k] = (int32_t)(v[k] >> down);
-        square += (uint64_t)((int64_t)part[k] * part[k]);
-    }
-    most = (uint64_t)(limit >> down);
-    if (most >> 32 || square <= most * most) {
+    if (square <= most * most) {
         return false;
     }
     ratio_q30 = (int32_t)((most << 30) / fix_sqrt(square));
     for (int k = 0; k < 3; k++) {
-        v[k] = carom_shl(((int64_t)part[k] * ratio_q30) >> 30, down);
+        v[k] = carom_shl(((int64_t)v32[k] * ratio_q30) >> 30, down);
     }
     return true;
 }
@@ -168,14 +221,18 @@ bool rest_cut(int64_t v[3], int64_t limit)
 /* Friction is not against slip that closing a gap asks for. */
 static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 {
-    int64_t within[3];
+    int32_t slip[3], ratio_q30 = CAROM_ONE_Q30;
+    uint64_t square;
 
     for (int k = 0; k < 3; k++) {
-        within[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+        slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
     }
-    rest_cut(within, c->band);
+    square = square32(slip);
+    if (square > (uint64_t)((int64_t)c->band * c->band)) {
+        ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->band << 30) / fix_sqrt(square));
+    }
     for (int k = 0; k < 3; k++) {
-        v[k] -= (int32_t)within[k];
+        v[k] -= carom_mul_q30(slip[k], ratio_q30);
     }
 }
 
@@ -184,43 +241,10 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->friction_q16, 16);
 }
 
-/* A change of impulse, each part of at most 30 bits: along N, across it, and both. */
+/* A change of impulse, each part below 2^30: along N, and with what is across it. */
 struct gain {
     int32_t along, whole[3];
 };
-
-/*
- * What one push takes of a change: all, or 2^-n of it, so that both its ways shrink alike. As it
- * leads from one impulse in the friction cone to another, so does any part of it.
- */
-static void take(const struct contact *c, struct gain *g, int64_t along, const int64_t across[3])
-{
-    int down = bits3(across), more = fix_bits((uint64_t)carom_abs(along));
-
-    down = (more > down ? more : down) - 29;
-    down = down > 0 ? down : 0;
-    g->along = (int32_t)(along >> down);
-    for (int k = 0; k < 3; k++) {
-        g->whole[k] = (int32_t)(across[k] >> down) + carom_mul_q30(g->along, c->normal.c[k]);
-    }
-}
-
-/* Whether the impulse lies in the friction cone. */
-static bool in_cone(const struct contact *c, int64_t along, const int64_t across[3])
-{
-    int down = bits3(across), more = fix_bits((uint64_t)along);
-    uint64_t square = 0, limit;
-
-    down = (more > down ? more : down) - 29;
-    down = down > 0 ? down : 0;
-    limit = ((uint64_t)(uint32_t)(along >> down) * c->friction_q16) >> 16; /* mu <= 4: 31 bits */
-    for (int k = 0; k < 3; k++) {
-        int32_t part = (int32_t)(across[k] >> down);
-
-        square += (uint64_t)((int64_t)part * part);
-    }
-    return square <= limit * limit;
-}
 
 /*
  * What ends all motion of the contact; false when that lies outside of the friction cone. Large
@@ -229,10 +253,11 @@ static bool in_cone(const struct contact *c, int64_t along, const int64_t across
  */
 static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
 {
-    int down = fix_bits32((uint32_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) +
+    int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
+                                     (v[2] ^ (v[2] >> 31)))) +
                c->fine_bits - 29;
-    int32_t part[3];
-    int64_t along, across[3];
+    int64_t after[4], limit;
+    int32_t part[3], across[3];
 
     down = down > 0 ? down : 0;
     for (int k = 0; k < 3; k++) {
@@ -242,16 +267,21 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
         g->whole[k] = -(int32_t)carom_round(rest_row(c->inverse, k, part), 30 - c->fine_bits);
     }
     g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
-    along = c->normal_impulse + carom_shl(g->along, down);
-    if (along <= 0) {
+    after[3] = c->normal_impulse + carom_shl(g->along, down);
+    if (after[3] <= 0) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        int32_t w = g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
-
-        across[k] = c->tangent_impulse[k] + carom_shl(w, down);
+        after[k] = c->tangent_impulse[k] +
+                   carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
     }
-    return in_cone(c, along, across);
+    /* mu is at most 4: the limit has 31 bits */
+    shrink(after, 29);
+    for (int k = 0; k < 3; k++) {
+        across[k] = (int32_t)after[k];
+    }
+    limit = (after[3] * (int32_t)c->friction_q16) >> 16;
+    return square32(across) <= (uint64_t)(limit * limit);
 }
 
 /*
@@ -260,14 +290,15 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
  */
 static int32_t following_q15(const struct contact *c, const int64_t v[3])
 {
-    int down = bits3(v) - 15;
+    int64_t t[4] = {v[0], v[1], v[2], 0};
     uint32_t square = 1;
     int64_t drag = 0;
     int32_t mass_q11;
 
     /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
+    shrink(t, 15);
     for (int k = 0; k < 3; k++) {
-        int32_t part = (int32_t)(down > 0 ? v[k] >> down : v[k]);
+        int32_t part = (int32_t)t[k];
 
         square += (uint32_t)(part * part);
         drag += (int64_t)part * c->drag_q28[k];
@@ -283,24 +314,29 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
  */
 static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
-    int64_t along = carom_round((int64_t)dvn * c->step[0], 30 - c->fine_bits), tangent[3];
+    int64_t change[4] = {0, 0, 0, carom_round((int64_t)dvn * c->step[0], 30 - c->fine_bits)};
     bool limited = true;
 
-    if (along <= -c->normal_impulse) {
-        along = -c->normal_impulse;
-        memset(tangent, 0, sizeof tangent);
+    if (change[3] <= -c->normal_impulse) {
+        change[3] = -c->normal_impulse;
     } else {
         for (int k = 0; k < 3; k++) {
             int32_t after = rest_clamp(slip[k] + (((int64_t)c->drag_q28[k] * dvn) >> 28));
 
-            tangent[k] = c->tangent_impulse[k] - (((int64_t)after * c->step[1]) >> (30 - c->fine_bits));
+            change[k] =
+                c->tangent_impulse[k] - (((int64_t)after * c->step[1]) >> (30 - c->fine_bits));
         }
-        limited = rest_cut(tangent, friction_limit(c, c->normal_impulse + along));
+        limited = rest_cut(change, friction_limit(c, c->normal_impulse + change[3]));
     }
     for (int k = 0; k < 3; k++) {
-        tangent[k] -= c->tangent_impulse[k];
+        change[k] -= c->tangent_impulse[k];
     }
-    take(c, g, along, tangent);
+    /* if that is too large for one push a part of all of it: from one place in the cone to another */
+    shrink(change, 29);
+    g->along = (int32_t)change[3];
+    for (int k = 0; k < 3; k++) {
+        g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
+    }
     return limited;
 }
 
@@ -359,6 +395,14 @@ static int64_t visit(struct contact *c)
     return ((int64_t)c->mass_q24 * add(c, &g)) >> 24;
 }
 
+/* A component of the way: three of them make up a vector below 2^30. */
+static int32_t way_of(int64_t v)
+{
+    const int64_t most = CAROM_ONE_Q30 / 2;
+
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
+}
+
 /*
  * Two sweeps, forwards and backwards, are one step of a symmetric iteration; its steps are
  * conjugated (Fletcher-Reeves), which takes the root of the number of sweeps. When they grow, it
@@ -366,27 +410,31 @@ static int64_t visit(struct contact *c)
  */
 static void accelerate(struct rest *r, int64_t moved, int64_t before)
 {
-    int64_t part_q30 = moved < before ? moved * CAROM_ONE_Q30 / before : 0;
+    int32_t part_q30 = moved < before ? (int32_t)(moved * CAROM_ONE_Q30 / before) : 0;
 
-    part_q30 = (part_q30 * part_q30) >> 30;
+    part_q30 = carom_mul_q30(part_q30, part_q30);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int64_t along, across[3];
-        int32_t gain[3];
+        int32_t all = 0;
         struct gain g;
 
         for (int k = 0; k < 3; k++) {
-            gain[k] = carom_mul_q30(c->way[k], (int32_t)part_q30);
-            c->way[k] = rest_clamp((int64_t)gain[k] + c->gain[k]);
+            g.whole[k] = carom_mul_q30(c->way[k], part_q30);
+            all |= c->gain[k] | g.whole[k];
+            c->way[k] = way_of((int64_t)g.whole[k] + c->gain[k]);
+            c->gain[k] = 0;
         }
-        along = carom_round(carom_dot(c->normal.c, gain), 30);
-        for (int k = 0; k < 3; k++) {
-            across[k] = c->friction_q16 > 0 ? gain[k] - fix_mul(along, c->normal.c[k], 30) : 0;
+        if (all != 0) {
+            g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
+            for (int k = 0; c->friction_q16 == 0 && k < 3; k++) {
+                g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
+            }
+            add(c, &g);
+            memset(c->gain, 0, sizeof c->gain);
         }
-        take(c, &g, along, across);
-        add(c, &g);
-        memset(c->gain, 0, sizeof c->gain);
-        rest_roll_accelerate(c, (int32_t)part_q30);
+        if (c->roll.acts) {
+            rest_roll_accelerate(c, part_q30);
+        }
     }
 }
 
@@ -418,8 +466,10 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
             int64_t m = visit(rest_contact(r, at));
 
             moved = m > moved ? m : moved;
-            m = rest_roll_sweep(r, at);
-            moved = m > moved ? m : moved;
+            if (rest_contact(r, at)->roll.acts) {
+                m = rest_roll_sweep(r, at);
+                moved = m > moved ? m : moved;
+            }
         }
         if (moved <= sw->residual) {
             return;
