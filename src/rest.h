@@ -16,7 +16,8 @@
 #include "impact.h"
 
 #define REST_BITS       27
-#define REST_SWEEPS_MAX 60
+#define REST_SWEEPS_MAX 60 /* of an impact */
+#define REST_SWEEPS_HELD 40 /* of resting contact, which goes on in the next frame */
 
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {

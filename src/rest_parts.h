@@ -23,7 +23,7 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
-    bool rolls; /* with rolling friction: no contact is an impact */
+    bool rolls; /* resting contact, with rolling friction: no contact is an impact */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */

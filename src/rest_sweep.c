@@ -454,9 +454,10 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
     bool coupled = n > 1 || rest_contact(r, 0)->roll.acts;
+    int rounds = sw->rolls ? REST_SWEEPS_HELD : REST_SWEEPS_MAX;
     int64_t before = 0;
 
-    for (int round = 0; round < REST_SWEEPS_MAX; round++) {
+    for (int round = 0; round < rounds; round++) {
         int64_t moved = 0;
 
         r->sweeps++;
@@ -474,7 +475,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         if (moved <= sw->residual) {
             return;
         }
-        if (coupled && round & 1 && round < REST_SWEEPS_MAX - 1) {
+        if (coupled && round & 1 && round < rounds - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
             accelerate(r, moved, before);
             before = moved;
