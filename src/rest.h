@@ -72,6 +72,9 @@ void rest_keep_hits(struct rest *r, uint16_t pair);
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
+/* v, or +-(2^31 - 1). */
+int32_t rest_clamp(int64_t v);
+
 /* Part of a velocity or an impulse along a direction. */
 static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
 {

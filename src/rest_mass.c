@@ -132,7 +132,7 @@ static void refine_unit(struct contact *c, int64_t along_q30)
 {
     int bits = fix_bits((uint64_t)along_q30) - 30;
 
-    c->fine_bits = bits > 0 ? bits : 0;
+    c->fine_bits = (int8_t)(bits > 0 ? bits : 0);
     c->mass_unit.e += c->fine_bits;
     for (int s = 0; s < 2; s++) {
         c->side[s].share_q30 >>= c->fine_bits;

@@ -41,11 +41,13 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
     int32_t error = (int32_t)rest_to_units(c->speed_q40 - wanted, sw->unit); /* within V* */
+    carom_v3_q40 v;
 
+    rest_relative_velocity(c, &v);
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = rest_to_units(c->velocity.c[k] - along, sw->unit);
+        slip[k] = rest_to_units(v.c[k] - along, sw->unit);
     }
     rest_cut(slip, SLIP_MAX);
     for (int k = 0; k < 3; k++) {
@@ -53,7 +55,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
         c->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->band = rest_clamp(rest_to_units(c->band_q40, sw->unit));
+    c->band = rest_clamp(rest_to_units(carom_shl(c->band_q30, 10), sw->unit));
     c->normal_impulse = 0;
 }
 
@@ -498,7 +500,9 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
 
             c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
         }
-        rest_roll_finish(c, sw);
+        if (sw->rolls) {
+            rest_roll_finish(c, sw);
+        }
     }
 }
 
@@ -510,7 +514,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         rest_load_warm(r, sw);
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        rest_roll_prepare(r, i, sw);
+        rest_contact(r, i)->roll.acts = sw->rolls && rest_roll_prepare(r, i, sw);
     }
     sweeps(r, sw);
     finish(r, sw);

@@ -183,7 +183,7 @@ static void find_chords(struct step *s)
         struct contact *c = &list->contacts[i];
         int64_t way_q22;
 
-        c->chord_q40 = INT64_MAX;
+        c->chord_q28 = INT32_MAX;
         if (!bends(c, s->left_q30)) {
             continue;
         }
@@ -197,7 +197,7 @@ static void find_chords(struct step *s)
         step_select_pair(&v, c->key.pair);
         way_q22 = gap_change(&v.pair, &c->key) + 4;
         if (carom_abs(way_q22) < 1 << 24) {
-            c->chord_q40 = way_q22 * ((int64_t)1 << 38) / (slice_q30 >> 10);
+            c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));
         }
     }
 }
