@@ -66,8 +66,16 @@ static bool rises(const struct rest *r, struct fix_wide before)
 
 struct fix_wide rest_energy_before(struct rest *r)
 {
+    struct fix_wide sum = {0, 0};
+
     save_momenta(r);
-    return kinetic2(r);
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+
+        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].momentum.c, b->velocity.c));
+        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].angular.c, b->spin.c));
+    }
+    return sum;
 }
 
 void rest_energy_rule(struct rest *r, struct fix_wide before)

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What an impulse at a contact changes: K, and steps of the sweeps. */
+#include "impact_rows.h"
 #include "rest_parts.h"
-
-/* v 2^s */
-static int64_t shifted(int64_t v, int s)
-{
-    return s > 0 ? carom_shl(v, s) : s < 0 ? carom_round(v, s < -62 ? 62 : -s) : v;
-}
 
 /*
  * R J^-1 R^T over the unit of length squared. Its largest entry is on the diagonal and at most the
@@ -35,23 +30,30 @@ void rest_prepare_body(struct body *b)
     b->turning.e = b->inverse_inertia.e - 2 - 2 * (b->unit_bits - 22);
 }
 
+/* a x b, exact */
+static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
+{
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
+}
+
 /* The turn by an impulse on one side, and what it adds to K. */
 static void prepare_side(struct contact_side *side, int64_t k_q30[6])
 {
     const struct carom_sym3 *t = &side->body->turning;
-    const int32_t *arm = side->arm_q30;
-    int64_t turn[3][3];
+    int64_t turn[3][3], part[3];
     uint64_t all = 0;
     int down;
 
     /* row i of T (arm x P) is P.(T_i x arm) */
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
-            int m = (k + 1) % 3, n = (k + 2) % 3;
+        const uint8_t *at = fix_sym3_at[i];
+        const int32_t row[3] = {t->m[at[0]], t->m[at[1]], t->m[at[2]]};
 
-            turn[i][k] = (int64_t)t->m[fix_sym3_at[i][m]] * arm[n] -
-                         (int64_t)t->m[fix_sym3_at[i][n]] * arm[m];
-            all |= (uint64_t)carom_abs(turn[i][k]);
+        cross(turn[i], row, side->arm_q30);
+        for (int k = 0; k < 3; k++) {
+            all |= (uint64_t)(turn[i][k] ^ (turn[i][k] >> 63));
         }
     }
     /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
@@ -59,17 +61,17 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
     down = down > t->e - 20 ? down : t->e - 20;
     side->turn_bits = 30 + t->e - down;
     for (int i = 0; i < 9; i++) {
-        int32_t entry = (int32_t)shifted(turn[i / 3][i % 3], -down);
+        int32_t entry = (int32_t)impact_shift(turn[i / 3][i % 3], -down);
 
         side->turn[i / 3][i % 3] = carom_mul_q30(entry, side->share_q30);
     }
+    /* what an impulse along axis i changes the velocity by */
     for (int i = 0; i < 3; i++) {
-        int m = (i + 1) % 3, n = (i + 2) % 3;
+        const int32_t spin[3] = {side->turn[0][i], side->turn[1][i], side->turn[2][i]};
 
+        cross(part, spin, side->arm_q30);
         for (int k = 0; k <= i; k++) {
-            k_q30[fix_sym3_at[i][k]] +=
-                carom_round((int64_t)side->turn[m][k] * arm[n] - (int64_t)side->turn[n][k] * arm[m],
-                            side->turn_bits);
+            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], side->turn_bits);
         }
         k_q30[fix_sym3_at[i][i]] += side->share_q30;
     }
@@ -162,7 +164,7 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
         for (int i = 0; i < 6; i++) {
-            c->inverse[i] = (int32_t)shifted((int64_t)adjoint[i] * inverse, up - 29 - shift);
+            c->inverse[i] = (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
     multiply(n, k, c->normal.c);
@@ -172,7 +174,7 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     for (int i = 0; i < 3; i++) {
         int64_t drag = n[i] - carom_mul_q30(product, c->normal.c[i]);
 
-        c->drag_q28[i] = rest_clamp(shifted(drag * c->step[0], shift - 32));
+        c->drag_q28[i] = rest_clamp(impact_shift(drag * c->step[0], shift - 32));
     }
     half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
     multiply(n, adjoint, c->normal.c);

@@ -69,12 +69,6 @@ void rest_push(struct contact *c, const int32_t impulse[3]);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
 
-/* Solver units. */
-static inline int64_t rest_to_units(int64_t v_q40, int unit)
-{
-    return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
-}
-
 /* Start from the impulses of the last frame. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw);
 

@@ -5,6 +5,7 @@
  * the patch's radius times the normal impulse, against the spin of one body relative to the other.
  * Without it a body of many small faces rolls to and fro in a hollow for a long time.
  */
+#include "impact_rows.h"
 #include "rest_parts.h"
 
 /*
@@ -48,11 +49,6 @@ static int finer(const struct contact *c, const struct body *b)
     return b->unit_bits - c->roll.unit_bits;
 }
 
-static int64_t scaled(int64_t v, int s)
-{
-    return s > 0 ? carom_round(v, s) : carom_shl(v, -s);
-}
-
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct contact_side *side)
 {
@@ -67,7 +63,7 @@ static int64_t turning_q30(const struct contact_side *side)
         }
         largest = sum > largest ? sum : largest;
     }
-    return scaled(fix_mul(largest, side->share_q30, 30), t->e - 30);
+    return impact_shift(fix_mul(largest, side->share_q30, 30), 30 - t->e);
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -92,7 +88,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         }
         mass_q30 += turning_q30(side) >> (2 * finer(c, side->body));
         for (int k = 0; k < 3; k++) {
-            int64_t w = scaled(side->body->spin.c[k], sw->unit + 22 - roll->unit_bits);
+            int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
             spin[k] += s == 0 ? w : -w;
         }
@@ -124,7 +120,7 @@ static void twist(struct contact *c, const int32_t moment[3])
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->dw[k] += scaled(rest_row(t->m, k, part), t->e - REST_FINER_BITS);
+            side->body->dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }

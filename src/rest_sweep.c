@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Symmetric sweeps over accumulated, clamped impulses. */
+#include "impact_rows.h"
 #include "rest_parts.h"
 
 /*
@@ -40,14 +41,14 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
-    int32_t error = (int32_t)rest_to_units(c->speed_q40 - wanted, sw->unit); /* within V* */
+    int32_t error = (int32_t)impact_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
     carom_v3_q40 v;
 
     rest_relative_velocity(c, &v);
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = rest_to_units(v.c[k] - along, sw->unit);
+        slip[k] = impact_shift(v.c[k] - along, -sw->unit);
     }
     rest_cut(slip, SLIP_MAX);
     for (int k = 0; k < 3; k++) {
@@ -55,7 +56,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
         c->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->band = rest_clamp(rest_to_units(carom_shl(c->band_q30, 10), sw->unit));
+    c->band = rest_clamp(impact_shift(carom_shl(c->band_q30, 10), -sw->unit));
     c->normal_impulse = 0;
 }
 
