@@ -78,7 +78,7 @@ void rest_load_warm(struct rest *r, const struct rest_sweep *sw);
  * a step of the acceleration; the result, with none a result of 0.
  */
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw);
-int64_t rest_roll_sweep(struct rest *r, uint32_t i);
+int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet);
 void rest_roll_accelerate(struct contact *c, int32_t part_q30);
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
 

@@ -125,12 +125,12 @@ static void twist(struct contact *c, const int32_t moment[3])
     }
 }
 
-int64_t rest_roll_sweep(struct rest *r, uint32_t i)
+int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
 {
     struct contact *c = rest_contact(r, i);
     struct contact_roll *roll = &c->roll;
     int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
-    int32_t change[3], limit, most = 0;
+    int32_t change[3], limit, most = 0, moved;
 
     for (uint32_t n = i; same_pair(r, i, n); n++) {
         pressure += rest_contact(r, n)->normal_impulse;
@@ -156,12 +156,18 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i)
 
         change[k] = (int32_t)next[k] - roll->moment[k];
         size = change[k] < 0 ? -change[k] : change[k];
-        roll->moment[k] = (int32_t)next[k];
-        roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
         most = size > most ? size : most;
     }
+    moved = rest_clamp(((int64_t)roll->mass_q24 * most) >> 24);
+    if (moved < quiet) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        roll->moment[k] += change[k];
+        roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
+    }
     twist(c, change);
-    return ((int64_t)roll->mass_q24 * most) >> 24;
+    return moved;
 }
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)

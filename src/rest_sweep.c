@@ -377,8 +377,11 @@ static int32_t add(struct contact *c, const struct gain *g)
     return most > 1 ? most : 0;
 }
 
-/* One contact; returns how much a velocity moved. */
-static int64_t visit(struct contact *c)
+/*
+ * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
+ * power of 2, is at rest.
+ */
+static int64_t visit(struct contact *c, int32_t quiet)
 {
     int32_t v[3], error;
     struct gain g;
@@ -391,6 +394,9 @@ static int64_t visit(struct contact *c)
     }
     if (c->band > 0) {
         leave_band(c, error, v);
+    }
+    if (((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) | (v[2] ^ (v[2] >> 31))) < quiet) {
+        return 0;
     }
     if (c->friction_q16 == 0 || !c->inverted || !stick(c, v, &g)) {
         slide(c, error, v, &g);
@@ -467,11 +473,11 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         for (uint32_t i = 0; i < n; i++) {
             /* forwards and backwards in turn, so that no end of a stack is favoured */
             uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at));
+            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual : 0);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, at)->roll.acts) {
-                m = rest_roll_sweep(r, at);
+                m = rest_roll_sweep(r, at, sw->residual);
                 moved = m > moved ? m : moved;
             }
         }
