@@ -169,8 +169,7 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
             taken = true;
             continue;
         }
-        there =
-            there || (same && distance_q22(c, &near) < 20 * (int64_t)pair->skin_q22);
+        there = there || (same && distance_q22(c, &near) < 20 * (int64_t)pair->skin_q22);
         i++;
     }
     if (there && !taken) {
@@ -191,8 +190,7 @@ void contact_merge(struct contact_list *list)
         for (j = 0; j < kept; j++) {
             struct contact *k = &list->contacts[j];
 
-            if (k->key.pair == c->key.pair &&
-                distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
+            if (k->key.pair == c->key.pair && distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
                 cosine_q30(&k->normal, &c->normal) > SAME_NORMAL_Q30) {
                 break;
             }

@@ -46,14 +46,15 @@ struct contact {
 
     /* worked out by the solver */
     uint16_t
-        order; /* contacts[n].order is the n-th contact when islands come one after the other */
-    bool idle; /* nothing asks for its island to be solved now */
+        order;    /* contacts[n].order is the n-th contact when islands come one after the other */
+    bool idle;    /* nothing asks for its island to be solved now */
     bool resting; /* solved without any impact in its island */
     bool impact;
-    bool inverted;               /* false: K is too uneven for an inverse in 30 bits */
+    bool inverted; /* false: K is too uneven for an inverse in 30 bits */
     int8_t fine_bits;
-    int32_t chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
-    int32_t band_q30;  /* slip that friction does not resist: what closing the gap asks for */
+    int32_t
+        chord_q28;    /* how fast the gap opens on the path, from its start to its end, at most 8 */
+    int32_t band_q30; /* slip that friction does not resist: what closing the gap asks for */
     int64_t speed_q40;           /* V.N before */
     int64_t target_q40;          /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
@@ -61,7 +62,7 @@ struct contact {
     int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
     int32_t step[2]; /* of a sweep when it slides, so too: along N, and one scalar across */
     union {
-        int32_t inverse[6]; /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
+        int32_t inverse[6];      /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
         carom_v3_q40 wanted_q40; /* while the energy rule looks for less: without friction */
     };
 

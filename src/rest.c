@@ -150,8 +150,8 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
 
         for (int k = 0; b && k < 3; k++) {
             int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t moment = fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) +
-                             moment_q40[k];
+            int64_t moment =
+                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
 
             state->momentum.c[k] += s == 0 ? p[k] : -p[k];
             state->angular.c[k] += s == 0 ? moment : -moment;

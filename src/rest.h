@@ -15,9 +15,10 @@
 #include "contact.h"
 #include "impact.h"
 
-#define REST_BITS       27
-#define REST_SWEEPS_MAX 60 /* of an impact */
-#define REST_SWEEPS_HELD 40 /* of resting contact, which goes on in the next frame */
+#define REST_BITS        27
+#define REST_SWEEPS_MAX  60 /* of an impact */
+#define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY 70 /* and at many */
 
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {

@@ -11,6 +11,12 @@
 #define PART_MAX  ((int64_t)9 << REST_BITS)
 #define SPEED_MAX (((int64_t)16 << REST_BITS) - 64)
 
+/*
+ * Contacts of a body or two that slide or roll settle over the frames; a heap that is left unsettled
+ * slips, and then takes more sweeps than it was spared.
+ */
+#define FEW 8
+
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
     return sw->plastic && (c->impact || c->target_q40 > 0) ? 0 : c->target_q40;
@@ -92,7 +98,8 @@ static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, i
 {
     uint32_t high = (uint32_t)v_high * (uint32_t)s - (uint32_t)w_high * (uint32_t)r;
 
-    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) + ((uint64_t)high << 32));
+    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) +
+                     ((uint64_t)high << 32));
 }
 
 /*
@@ -351,7 +358,8 @@ static void slide(const struct contact *c, int32_t error, const int32_t v[3], st
 
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
-        across[k] = c->tangent_impulse[k] - (((int64_t)slip[k] * c->step[1]) >> (30 - c->fine_bits));
+        across[k] =
+            c->tangent_impulse[k] - (((int64_t)slip[k] * c->step[1]) >> (30 - c->fine_bits));
     }
     if (c->friction_q16 == 0 ||
         !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
@@ -463,7 +471,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
     bool coupled = n > 1 || rest_contact(r, 0)->roll.acts;
-    int rounds = sw->rolls ? REST_SWEEPS_HELD : REST_SWEEPS_MAX;
+    int rounds = sw->rolls ? (n <= FEW ? REST_SWEEPS_FEW : REST_SWEEPS_MANY) : REST_SWEEPS_MAX;
     int64_t before = 0;
 
     for (int round = 0; round < rounds; round++) {

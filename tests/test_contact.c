@@ -174,9 +174,10 @@ static void test_edge_on_face(void)
     CHECK(find(1000, 0));
     contact_merge(&list);
     CHECK_EQ(pool.used, 2);
-    CHECK_NEAR(contact_point(&contacts[0]).c[0] + contact_point(&contacts[1]).c[0], (int64_t)3 << 31, 1 << 12);
-    CHECK_NEAR(carom_abs(contact_point(&contacts[0]).c[0] - contact_point(&contacts[1]).c[0]), (int64_t)1 << 32,
-               1 << 12);
+    CHECK_NEAR(contact_point(&contacts[0]).c[0] + contact_point(&contacts[1]).c[0],
+               (int64_t)3 << 31, 1 << 12);
+    CHECK_NEAR(carom_abs(contact_point(&contacts[0]).c[0] - contact_point(&contacts[1]).c[0]),
+               (int64_t)1 << 32, 1 << 12);
     for (uint32_t i = 0; i < 2; i++) {
         CHECK_NEAR(contacts[i].gap_q22, 500, 2);
         CHECK_EQ(contacts[i].normal.c[2], CAROM_ONE_Q30);
