@@ -212,7 +212,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
 #define CAROM_BODY_BYTES        1080
 #define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     832
+#define CAROM_CONTACT_BYTES     544
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12

@@ -41,28 +41,33 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
     return c;
 }
 
-static int32_t digits_fewer(int64_t v, int digits)
+static int64_t digits_fewer(int64_t v, int digits)
 {
-    return (int32_t)(digits > 0 ? carom_round(v, digits) : carom_shl(v, -digits));
+    return digits > 0 ? carom_round(v, digits) : carom_shl(v, -digits);
 }
 
-/* The arms of both bodies, and the place in the world. */
-static void set_place(struct contact *c, const struct boyse_pair *pair, const carom_v3_q40 arm[2])
+static void set_arms(struct contact *c, const carom_v3_q40 arm[2])
 {
     for (int s = 0; s < 2; s++) {
         struct contact_side *side = &c->side[s];
 
-        for (int k = 0; k < 3; k++) {
-            side->arm.c[k] = digits_fewer(arm[s].c[k], 40 - 22);
-            if (side->body) {
-                side->arm_q30[k] = digits_fewer(arm[s].c[k], 40 - contact_arm_bits(side->body));
-            }
+        for (int k = 0; side->body && k < 3; k++) {
+            side->arm_q30[k] =
+                (int32_t)digits_fewer(arm[s].c[k], 40 - contact_arm_bits(side->body));
         }
     }
+}
+
+carom_v3_q32 contact_point(const struct contact *c)
+{
+    const struct body *a = c->side[0].body;
+    carom_v3_q32 point;
+
     for (int k = 0; k < 3; k++) {
-        c->point.c[k] = carom_shl(pair->a->path.origin_q22[k], 10) + pair->a->path.start.x.c[k] +
-                        carom_round(arm[0].c[k], 8);
+        point.c[k] = carom_shl(a->path.origin_q22[k], 10) + a->path.start.x.c[k] +
+                     digits_fewer(c->side[0].arm_q30[k], contact_arm_bits(a) - 32);
     }
+    return point;
 }
 
 bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
@@ -82,7 +87,7 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->normal = *normal;
     c->side[0].body = pair->a->moving ? pair->a : NULL;
     c->side[1].body = pair->b->moving ? pair->b : NULL;
-    set_place(c, pair, arm);
+    set_arms(c, arm);
     return true;
 }
 
@@ -109,12 +114,13 @@ static int64_t cosine_q30(const carom_v3_q30 *a, const carom_v3_q30 *b)
     return carom_dot(a->c, b->c) >> 30;
 }
 
-static int64_t distance_q22(const carom_v3_q22 *a, const carom_v3_q22 *b)
+static int64_t distance_q22(const struct contact *c, const carom_v3_q22 *place)
 {
+    carom_v3_q22 arm = contact_arm(c);
     int64_t sum = 0;
 
     for (int k = 0; k < 3; k++) {
-        sum += carom_abs((int64_t)a->c[k] - b->c[k]);
+        sum += carom_abs((int64_t)arm.c[k] - place->c[k]);
     }
     return sum;
 }
@@ -163,8 +169,7 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
             taken = true;
             continue;
         }
-        there =
-            there || (same && distance_q22(&c->side[0].arm, &near) < 20 * (int64_t)pair->skin_q22);
+        there = there || (same && distance_q22(c, &near) < 20 * (int64_t)pair->skin_q22);
         i++;
     }
     if (there && !taken) {
@@ -179,13 +184,13 @@ void contact_merge(struct contact_list *list)
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
+        carom_v3_q22 arm = contact_arm(c);
         uint32_t j;
 
         for (j = 0; j < kept; j++) {
             struct contact *k = &list->contacts[j];
 
-            if (k->key.pair == c->key.pair &&
-                distance_q22(&k->side[0].arm, &c->side[0].arm) < 2 * (int64_t)c->skin_q22 &&
+            if (k->key.pair == c->key.pair && distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
                 cosine_q30(&k->normal, &c->normal) > SAME_NORMAL_Q30) {
                 break;
             }
@@ -195,7 +200,10 @@ void contact_merge(struct contact_list *list)
                 list->contacts[j].gap_q22 = c->gap_q22;
             }
         } else {
-            list->contacts[kept++] = *c;
+            if (kept < i) {
+                list->contacts[kept] = *c;
+            }
+            kept++;
         }
     }
     list->pool->used = kept;

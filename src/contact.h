@@ -10,9 +10,8 @@
 
 /* One of a contact's two bodies, in the solver's units (rest.h). Index 0 is a, 1 is b. */
 struct contact_side {
-    struct body *body; /* NULL: stationary */
-    carom_v3_q22 arm;  /* from the centre of mass to the contact */
-    /* the same over the body's unit of length, of a moving body: what impulses turn it by */
+    struct body *body; /* NULL: stationary; the rest is then without meaning */
+    /* from the centre of mass to the contact, over the body's unit of length */
     int32_t arm_q30[3];
     /* filled in by the solver */
     int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
@@ -23,14 +22,18 @@ struct contact_side {
 /* Rolling friction of a pair, kept with its first contact in an island; rest_roll.c. */
 struct contact_roll {
     bool acts;
-    int32_t unit_bits; /* of length: the shorter of the two bodies' */
+    int8_t unit_bits;  /* of length: the shorter of the two bodies' */
     int32_t arm_q30;   /* the patch over which contacts press, in that unit */
-    int64_t mass_q30;  /* change of spin by a unit moment, at most */
+    int32_t mass_q24;  /* change of spin by a unit moment, at most */
     int32_t step_q30;  /* its inverse */
-    int64_t spin[3];   /* relative, before the solve, in solver units */
     int32_t moment[3]; /* accumulated */
-    int32_t gain[3], way[3];
-    carom_v3_q40 moment_q40, wanted_q40; /* the result: on a, and its opposite on b */
+    union {
+        struct {
+            int32_t spin[3]; /* relative, before the solve, in solver units */
+            int32_t gain[3], way[3];
+        };
+        carom_v3_q40 moment_q40; /* the result, when the sweeps are over: on a, its opposite on b */
+    };
 };
 
 struct contact {
@@ -38,8 +41,7 @@ struct contact {
     struct candidate key;
     carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
-    carom_v3_q32 point; /* in the world, for carom_contacts */
-    int32_t skin_q22;   /* of the pair */
+    int32_t skin_q22; /* of the pair */
     struct contact_side side[2];
 
     /* worked out by the solver */
@@ -47,30 +49,35 @@ struct contact {
         order;    /* contacts[n].order is the n-th contact when islands come one after the other */
     bool idle;    /* nothing asks for its island to be solved now */
     bool resting; /* solved without any impact in its island */
-    int64_t chord_q40; /* how fast the gap opens on the path, from its start to its end */
     bool impact;
-    carom_v3_q40 velocity; /* V before */
-    int64_t speed_q40;     /* V.N before */
-    int64_t target_q40;    /* wanted V'.N */
-    int64_t band_q40;      /* slip that friction does not resist: what closing the gap asks for */
+    bool inverted; /* false: K is too uneven for an inverse in 30 bits */
+    int8_t fine_bits;
+    int32_t
+        chord_q28;    /* how fast the gap opens on the path, from its start to its end, at most 8 */
+    int32_t band_q30; /* slip that friction does not resist: what closing the gap asks for */
+    int64_t speed_q40;           /* V.N before */
+    int64_t target_q40;          /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
-    int32_t fine_bits;
-    int64_t mass_q30;    /* velocity by a unit impulse: the larger of along N and across */
-    int64_t drag_q30[3]; /* the part of K N across N */
-    int32_t inverse[6];  /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
-    bool inverted;       /* false: K is too uneven for an inverse in 30 bits */
-    int32_t step[2];     /* of a sweep when it slides, so too: along N, and one scalar across */
+    int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
+    int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
+    int32_t step[2]; /* of a sweep when it slides, so too: along N, and one scalar across */
+    union {
+        int32_t inverse[6];      /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
+        carom_v3_q40 wanted_q40; /* while the energy rule looks for less: without friction */
+    };
 
     /* the sweeps', in solver units */
     uint32_t friction_q16;
-    int64_t error, slip[3]; /* V.N above the wanted one and V across N, before */
-    int64_t band;           /* band_q40 */
+    int32_t before[3]; /* V - wanted N before, with a slip that sweeps can follow */
+    int32_t band;      /* band_q30 */
     int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
-    int32_t gain[3], way[3]; /* change of it in the last two sweeps, and the way it is going */
+    union {
+        struct {
+            int32_t gain[3], way[3]; /* change of it in two sweeps, and the way it is going */
+        };
+        carom_v3_q40 impulse_q40; /* the result, when the sweeps are over: P on a, -P on b */
+    };
     struct contact_roll roll;
-
-    carom_v3_q40 impulse_q40;             /* the result: P on a, -P on b */
-    carom_v3_q40 wanted_q40, plastic_q40; /* between which the energy rule chooses */
 };
 
 /* The contacts of a world at the present poses, sorted by key, with their pool. */
@@ -94,6 +101,21 @@ static inline int contact_arm_bits(const struct body *b)
 {
     return 30 + 22 - b->unit_bits;
 }
+
+/* From the centre of mass of a, which moves, to the contact; and the place in the world. */
+static inline carom_v3_q22 contact_arm(const struct contact *c)
+{
+    const struct contact_side *side = &c->side[0];
+    int down = contact_arm_bits(side->body) - 22;
+    carom_v3_q22 arm;
+
+    for (int k = 0; k < 3; k++) {
+        arm.c[k] = (int32_t)(((int64_t)side->arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
+    }
+    return arm;
+}
+
+carom_v3_q32 contact_point(const struct contact *c);
 
 /*
  * Take in a contact of a pair at a place. One of that key stays as it was. Returns false when the

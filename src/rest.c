@@ -29,8 +29,7 @@ uint32_t rest_friction(const struct body *a, const struct body *b)
     return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
 }
 
-/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) */
-static void relative_velocity(const struct contact *c, carom_v3_q40 *v)
+void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
     memset(v, 0, sizeof *v);
     for (int s = 0; s < 2; s++) {
@@ -45,6 +44,14 @@ static void relative_velocity(const struct contact *c, carom_v3_q40 *v)
             v->c[k] += s == 0 ? at : -at;
         }
     }
+}
+
+static int64_t speed_along_normal_q40(const struct contact *c)
+{
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return rest_along_q40(&v, &c->normal);
 }
 
 /* Velocities of the bodies that have contacts, each once. */
@@ -124,10 +131,31 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
         c->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
-    c->band_q40 = c->impact ? 0 : carom_abs(c->target_q40);
+    c->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->target_q40) >> 10);
     /* what the path's bend takes back of V.N must be there to begin with */
-    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->speed_q40 > c->chord_q40) {
-        c->target_q40 += c->speed_q40 - c->chord_q40;
+    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
+        int64_t more_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+
+        c->target_q40 += more_q40 > 0 ? more_q40 : 0;
+    }
+}
+
+void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
+                   const int64_t moment_q40[3])
+{
+    for (int s = 0; s < 2; s++) {
+        struct body_state *state = rest_state(r, c, s);
+        const struct body *b = c->side[s].body;
+        const int32_t *arm = c->side[s].arm_q30;
+
+        for (int k = 0; b && k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+            int64_t moment =
+                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
+
+            state->momentum.c[k] += s == 0 ? p[k] : -p[k];
+            state->angular.c[k] += s == 0 ? moment : -moment;
+        }
     }
 }
 
@@ -135,22 +163,8 @@ void rest_apply(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
-        const int64_t *p = c->impulse_q40.c;
 
-        for (int s = 0; s < 2; s++) {
-            struct body_state *state = rest_state(r, c, s);
-            const struct body *b = c->side[s].body;
-            const int32_t *arm = c->side[s].arm_q30;
-
-            for (int k = 0; b && k < 3; k++) {
-                int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
-                int64_t moment = fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) +
-                                 c->roll.moment_q40.c[k];
-
-                state->momentum.c[k] += s == 0 ? p[k] : -p[k];
-                state->angular.c[k] += s == 0 ? moment : -moment;
-            }
-        }
+        rest_apply_at(r, c, c->impulse_q40.c, c->roll.moment_q40.c);
     }
 }
 
@@ -177,7 +191,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     impact_side(&c->side[0], &in.a);
     impact_side(&c->side[1], &in.b);
     in.normal = c->normal;
-    relative_velocity(c, &in.velocity);
+    rest_relative_velocity(c, &in.velocity);
     in.target_q40 = c->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
     result = impact_solve(&r->gauss, &in, &out);
@@ -199,8 +213,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        relative_velocity(c, &c->velocity);
-        c->speed_q40 = rest_along_q40(&c->velocity, &c->normal);
+        c->speed_q40 = speed_along_normal_q40(c);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
@@ -264,14 +277,6 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
         rest_store_warm(r);
     }
     return result;
-}
-
-static int64_t speed_along_normal_q40(const struct contact *c)
-{
-    carom_v3_q40 v;
-
-    relative_velocity(c, &v);
-    return rest_along_q40(&v, &c->normal);
 }
 
 void rest_keep_hits(struct rest *r, uint16_t pair)

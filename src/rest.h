@@ -15,8 +15,10 @@
 #include "contact.h"
 #include "impact.h"
 
-#define REST_BITS       29
-#define REST_SWEEPS_MAX 60
+#define REST_BITS        27
+#define REST_SWEEPS_MAX  60 /* of an impact */
+#define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY 70 /* and at many */
 
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {
@@ -70,6 +72,9 @@ void rest_keep_hits(struct rest *r, uint16_t pair);
  * bodies are not idle then.
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
+
+/* v, or +-(2^31 - 1). */
+int32_t rest_clamp(int64_t v);
 
 /* Part of a velocity or an impulse along a direction. */
 static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)

@@ -34,20 +34,25 @@ static void restore_momenta(struct rest *r)
  * From the saved momenta, apply impulses that are k of the way from the plastic to the wanted ones.
  * Impulses are blended, not momenta, so that they stay equal and opposite to the last bit.
  */
-static void apply_blend(struct rest *r, int32_t k_q30)
+static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
 {
+    restore_momenta(r);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
+        carom_v3_q40 impulse, moment;
 
         for (int k = 0; k < 3; k++) {
-            int64_t from = c->plastic_q40.c[k];
+            int64_t from = c->impulse_q40.c[k];
 
-            c->impulse_q40.c[k] = from + fix_mul(c->wanted_q40.c[k] - from, k_q30, 30);
-            c->roll.moment_q40.c[k] = fix_mul(c->roll.wanted_q40.c[k], k_q30, 30);
+            impulse.c[k] = from + fix_mul(c->wanted_q40.c[k] - from, k_q30, 30);
+            moment.c[k] = fix_mul(c->roll.moment_q40.c[k], k_q30, 30);
+        }
+        rest_apply_at(r, c, impulse.c, moment.c);
+        if (keep) {
+            c->impulse_q40 = impulse;
+            c->roll.moment_q40 = moment;
         }
     }
-    restore_momenta(r);
-    rest_apply(r);
 }
 
 /* Whether the energy is above `before`. Momenta are rounded: a rise below 2^-26 is not one. */
@@ -61,8 +66,16 @@ static bool rises(const struct rest *r, struct fix_wide before)
 
 struct fix_wide rest_energy_before(struct rest *r)
 {
+    struct fix_wide sum = {0, 0};
+
     save_momenta(r);
-    return kinetic2(r);
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+
+        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].momentum.c, b->velocity.c));
+        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].angular.c, b->spin.c));
+    }
+    return sum;
 }
 
 void rest_energy_rule(struct rest *r, struct fix_wide before)
@@ -78,24 +91,18 @@ void rest_energy_rule(struct rest *r, struct fix_wide before)
         struct contact *c = rest_contact(r, i);
 
         c->wanted_q40 = c->impulse_q40;
-        c->roll.wanted_q40 = c->roll.moment_q40;
     }
     rest_solve_sweeps(r, &plastic, false);
-    for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-
-        c->plastic_q40 = c->impulse_q40;
-    }
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
     while (high - low > 1) {
         int32_t k_q30 = low + (high - low) / 2;
 
-        apply_blend(r, k_q30);
+        apply_blend(r, k_q30, false);
         if (rises(r, before)) {
             high = k_q30;
         } else {
             low = k_q30;
         }
     }
-    apply_blend(r, low);
+    apply_blend(r, low, true);
 }

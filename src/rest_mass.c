@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What an impulse at a contact changes: K, and steps of the sweeps. */
+#include "impact_rows.h"
 #include "rest_parts.h"
-
-/* v 2^s */
-static int64_t shifted(int64_t v, int s)
-{
-    return s > 0 ? carom_shl(v, s) : s < 0 ? carom_round(v, s < -62 ? 62 : -s) : v;
-}
 
 /*
  * R J^-1 R^T over the unit of length squared. Its largest entry is on the diagonal and at most the
@@ -35,60 +30,48 @@ void rest_prepare_body(struct body *b)
     b->turning.e = b->inverse_inertia.e - 2 - 2 * (b->unit_bits - 22);
 }
 
-/* a x the unit vector along axis k */
-static void across_axis(int32_t out[3], const int32_t a[3], int k)
+/* a x b, exact */
+static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
-    int i = (k + 1) % 3, j = (k + 2) % 3;
-
-    out[k] = 0;
-    out[i] = a[j];
-    out[j] = -a[i];
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
 }
 
 /* The turn by an impulse on one side, and what it adds to K. */
 static void prepare_side(struct contact_side *side, int64_t k_q30[6])
 {
-    const struct body *b = side->body;
-    const struct carom_sym3 *t = &b->turning;
-    int64_t turn[3][3];
+    const struct carom_sym3 *t = &side->body->turning;
+    int64_t turn[3][3], part[3];
     uint64_t all = 0;
-    int down, rest;
+    int down;
 
-    for (int k = 0; k < 3; k++) {
-        int32_t lever[3];
+    /* row i of T (arm x P) is P.(T_i x arm) */
+    for (int i = 0; i < 3; i++) {
+        const uint8_t *at = fix_sym3_at[i];
+        const int32_t row[3] = {t->m[at[0]], t->m[at[1]], t->m[at[2]]};
 
-        across_axis(lever, side->arm_q30, k);
-        for (int i = 0; i < 3; i++) {
-            turn[i][k] = rest_row(t->m, i, lever);
-            all |= (uint64_t)carom_abs(turn[i][k]);
+        cross(turn[i], row, side->arm_q30);
+        for (int k = 0; k < 3; k++) {
+            all |= (uint64_t)(turn[i][k] ^ (turn[i][k] >> 63));
         }
     }
-    down = fix_bits(all) - 31;
-    down = down > 0 ? down : 0;
-    all = 0;
-    for (int i = 0; i < 9; i++) {
-        int64_t *entry_of = &turn[i / 3][i % 3];
-
-        *entry_of = (*entry_of >> down) * side->share_q30;
-        all |= (uint64_t)carom_abs(*entry_of);
-    }
     /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
-    rest = fix_bits(all) - 30;
-    if (60 + t->e - down - rest > 50) {
-        rest = 60 + t->e - down - 50;
-    }
-    side->turn_bits = 60 + t->e - down - rest;
+    down = fix_bits(all) - 30;
+    down = down > t->e - 20 ? down : t->e - 20;
+    side->turn_bits = 30 + t->e - down;
     for (int i = 0; i < 9; i++) {
-        side->turn[i / 3][i % 3] = (int32_t)shifted(turn[i / 3][i % 3], -rest);
-    }
-    for (int i = 0; i < 3; i++) {
-        int m = (i + 1) % 3, n = (i + 2) % 3;
+        int32_t entry = (int32_t)impact_shift(turn[i / 3][i % 3], -down);
 
+        side->turn[i / 3][i % 3] = carom_mul_q30(entry, side->share_q30);
+    }
+    /* what an impulse along axis i changes the velocity by */
+    for (int i = 0; i < 3; i++) {
+        const int32_t spin[3] = {side->turn[0][i], side->turn[1][i], side->turn[2][i]};
+
+        cross(part, spin, side->arm_q30);
         for (int k = 0; k <= i; k++) {
-            k_q30[fix_sym3_at[i][k]] +=
-                carom_round((int64_t)side->turn[m][k] * side->arm_q30[n] -
-                                (int64_t)side->turn[n][k] * side->arm_q30[m],
-                            side->turn_bits);
+            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], side->turn_bits);
         }
         k_q30[fix_sym3_at[i][i]] += side->share_q30;
     }
@@ -149,20 +132,13 @@ static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
  */
 static void refine_unit(struct contact *c, int64_t along_q30)
 {
-    int bits = fix_bits((uint64_t)along_q30) - 32;
+    int bits = fix_bits((uint64_t)along_q30) - 30;
 
-    c->fine_bits = bits > 0 ? bits : 0;
-    if (bits <= 0) {
-        return;
-    }
-    c->mass_unit.e += bits;
-    c->mass_q30 >>= bits;
+    c->fine_bits = (int8_t)(bits > 0 ? bits : 0);
+    c->mass_unit.e += c->fine_bits;
     for (int s = 0; s < 2; s++) {
-        c->side[s].share_q30 >>= bits;
-        c->side[s].turn_bits += bits;
-    }
-    for (int k = 0; k < 3; k++) {
-        c->drag_q30[k] = carom_round(c->drag_q30[k], bits);
+        c->side[s].share_q30 >>= c->fine_bits;
+        c->side[s].turn_bits += c->fine_bits;
     }
 }
 
@@ -176,21 +152,29 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     /* 29 bits, so that minors fit; K is at least 1, the lighter body alone gives that */
     int shift = fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 29;
     int32_t k[6], adjoint[6], n[3], det, half, product, root;
-    int64_t along_q30, across_q30;
+    int64_t along_q30, across_q30, most;
 
     for (int i = 0; i < 6; i++) {
         k[i] = (int32_t)(k_q30[i] >> shift);
     }
     det = adjugate(adjoint, k);
     c->inverted = det >= 1 << 9;
-    for (int i = 0; i < 6 && c->inverted; i++) {
-        c->inverse[i] = (int32_t)(((int64_t)adjoint[i] * CAROM_ONE_Q30 / det) >> shift);
+    if (c->inverted) {
+        int up = 30 - fix_bits32((uint32_t)det);
+        int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
+
+        for (int i = 0; i < 6; i++) {
+            c->inverse[i] = (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+        }
     }
     multiply(n, k, c->normal.c);
     product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
-    c->mass_q30 = carom_shl(product, shift);
+    along_q30 = carom_shl(product, shift);
+    c->step[0] = (int32_t)(((int64_t)1 << 60) / along_q30);
     for (int i = 0; i < 3; i++) {
-        c->drag_q30[i] = carom_shl(n[i] - carom_mul_q30(product, c->normal.c[i]), shift);
+        int64_t drag = n[i] - carom_mul_q30(product, c->normal.c[i]);
+
+        c->drag_q28[i] = rest_clamp(impact_shift(drag * c->step[0], shift - 32));
     }
     half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
     multiply(n, adjoint, c->normal.c);
@@ -198,11 +182,10 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     root = carom_mul_q30(half, half) - product;
     root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
     across_q30 = carom_shl((int64_t)half + root, shift);
-    c->step[0] = (int32_t)(((int64_t)1 << 60) / c->mass_q30);
     c->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
-    along_q30 = c->mass_q30;
-    c->mass_q30 = across_q30 > along_q30 ? across_q30 : along_q30;
     refine_unit(c, along_q30);
+    most = across_q30 > along_q30 ? across_q30 : along_q30;
+    c->mass_q24 = rest_clamp(most >> (6 + c->fine_bits));
 }
 
 void rest_prepare_masses(struct contact *c)

@@ -9,12 +9,12 @@
 #include "rest.h"
 
 /*
- * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a
+ * dv and dw have this many bits below the solver's unit: a share of 1/2 makes every other change of it a
  * tie, and ties go upward.
  */
-#define REST_DV_BITS 8
+#define REST_FINER_BITS 8
 
-/* Sweeps end when no velocity changes by more than this, in solver units of 2^-29 V*. */
+/* Sweeps end when no velocity changes by more than this, in solver units of 2^-27 V*. */
 #define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 26))
 #define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
 
@@ -23,7 +23,7 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
-    bool rolls; /* with rolling friction: no contact is an impact */
+    bool rolls; /* resting contact, with rolling friction: no contact is an impact */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */
@@ -66,27 +66,19 @@ void rest_prepare_masses(struct contact *c);
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
 void rest_push(struct contact *c, const int32_t impulse[3]);
-/* What one push may change: v, or +-(2^30 - 1). */
-int32_t rest_clamp(int64_t v);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
-
-/* Solver units. */
-static inline int64_t rest_to_units(int64_t v_q40, int unit)
-{
-    return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
-}
 
 /* Start from the impulses of the last frame. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw);
 
 /*
- * Rolling friction of the pair whose first contact in the island is the i-th; nothing for others.
- * Before the sweeps; a step of a sweep, which returns how much a velocity moved; a step of the
- * acceleration; the result.
+ * Rolling friction of the pair whose first contact in the island is the i-th. Before the sweeps,
+ * when it returns whether there is any; a step of a sweep, which returns how much a velocity moved;
+ * a step of the acceleration; the result, with none a result of 0.
  */
-void rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw);
-int64_t rest_roll_sweep(struct rest *r, uint32_t i);
+bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw);
+int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet);
 void rest_roll_accelerate(struct contact *c, int32_t part_q30);
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
 
@@ -98,8 +90,13 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
  */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm);
 
-/* p += P, L += r x P on a, the same P against b. */
+/* p += P, L += r x P and a moment on a, the same against b; of one contact, and of all. */
+void rest_apply_at(struct rest *r, const struct contact *c, const int64_t impulse_q40[3],
+                   const int64_t moment_q40[3]);
 void rest_apply(struct rest *r);
+
+/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) before the solve. */
+void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
 
 /* Set the momenta of the island's bodies aside before a solve; twice their kinetic energy. */
 struct fix_wide rest_energy_before(struct rest *r);

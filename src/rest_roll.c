@@ -5,6 +5,7 @@
  * the patch's radius times the normal impulse, against the spin of one body relative to the other.
  * Without it a body of many small faces rolls to and fro in a hollow for a long time.
  */
+#include "impact_rows.h"
 #include "rest_parts.h"
 
 /*
@@ -48,11 +49,6 @@ static int finer(const struct contact *c, const struct body *b)
     return b->unit_bits - c->roll.unit_bits;
 }
 
-static int64_t scaled(int64_t v, int s)
-{
-    return s > 0 ? carom_round(v, s) : carom_shl(v, -s);
-}
-
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct contact_side *side)
 {
@@ -67,23 +63,22 @@ static int64_t turning_q30(const struct contact_side *side)
         }
         largest = sum > largest ? sum : largest;
     }
-    return scaled(fix_mul(largest, side->share_q30, 30), t->e - 30);
+    return impact_shift(fix_mul(largest, side->share_q30, 30), 30 - t->e);
 }
 
-void rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
+bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 {
     struct contact *c = rest_contact(r, i);
     struct contact_roll *roll = &c->roll;
     const struct body *a = c->side[0].body, *b = c->side[1].body;
+    int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
 
     memset(roll, 0, sizeof *roll);
-    if (!leads(r, i) || !may_roll(r, i) || !sw->rolls || c->friction_q16 == 0 ||
+    if (!leads(r, i) || !may_roll(r, i) || c->friction_q16 == 0 ||
         rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
-        return;
+        return false;
     }
-    roll->acts = true;
-    roll->unit_bits = a && b ? (a->unit_bits < b->unit_bits ? a->unit_bits : b->unit_bits)
-                             : (a ? a : b)->unit_bits;
+    roll->unit_bits = (int8_t)(b && b->unit_bits < a->unit_bits ? b->unit_bits : a->unit_bits);
     roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
@@ -91,14 +86,20 @@ void rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         if (!side->body) {
             continue;
         }
-        roll->mass_q30 += turning_q30(side) >> (2 * finer(c, side->body));
+        mass_q30 += turning_q30(side) >> (2 * finer(c, side->body));
         for (int k = 0; k < 3; k++) {
-            int64_t spin = scaled(side->body->spin.c[k], sw->unit + 22 - roll->unit_bits);
+            int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
-            roll->spin[k] += s == 0 ? spin : -spin;
+            spin[k] += s == 0 ? w : -w;
         }
     }
-    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (roll->mass_q30 | 1));
+    rest_cut(spin, INT32_MAX);
+    for (int k = 0; k < 3; k++) {
+        roll->spin[k] = (int32_t)spin[k];
+    }
+    roll->mass_q24 = rest_clamp(mass_q30 >> 6);
+    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (mass_q30 | 1));
+    return true;
 }
 
 /* Apply a moment to the bodies. */
@@ -119,58 +120,73 @@ static void twist(struct contact *c, const int32_t moment[3])
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->dw[k] += scaled(rest_row(t->m, k, part), t->e);
+            side->body->dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }
 
-int64_t rest_roll_sweep(struct rest *r, uint32_t i)
+int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
 {
     struct contact *c = rest_contact(r, i);
     struct contact_roll *roll = &c->roll;
-    int64_t pressure = 0, next[3], limit, most = 0;
-    int32_t change[3];
+    int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
+    int32_t change[3], limit, most = 0, moved;
 
-    if (!roll->acts) {
-        return 0;
-    }
     for (uint32_t n = i; same_pair(r, i, n); n++) {
         pressure += rest_contact(r, n)->normal_impulse;
     }
-    limit = rest_clamp(fix_mul(pressure, roll->arm_q30, 30));
-    for (int k = 0; k < 3; k++) {
-        int64_t spin = roll->spin[k];
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
 
-        for (int s = 0; s < 2; s++) {
-            const struct body *b = c->side[s].body;
+        for (int k = 0; b && k < 3; k++) {
+            int64_t dw = b->dw[k] >> (REST_FINER_BITS + finer(c, b));
 
-            if (b) {
-                int64_t dw = b->dw[k] >> finer(c, b);
-
-                spin += s == 0 ? dw : -dw;
-            }
+            spin[k] += s == 0 ? dw : -dw;
         }
-        next[k] = roll->moment[k] - fix_mul(spin, roll->step_q30, 30);
+    }
+    /* so a component of the moment stays within 2^30 */
+    limit = rest_clamp(fix_mul(pressure, roll->arm_q30, 30));
+    limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
+    for (int k = 0; k < 3; k++) {
+        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q30) >> 30);
     }
     rest_cut(next, limit > 0 ? limit : 0);
     for (int k = 0; k < 3; k++) {
-        change[k] = rest_clamp(next[k] - roll->moment[k]);
+        int32_t size;
+
+        change[k] = (int32_t)next[k] - roll->moment[k];
+        size = change[k] < 0 ? -change[k] : change[k];
+        most = size > most ? size : most;
+    }
+    moved = rest_clamp(((int64_t)roll->mass_q24 * most) >> 24);
+    if (moved < quiet) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
         roll->moment[k] += change[k];
         roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
-        most = carom_abs(change[k]) > most ? carom_abs(change[k]) : most;
     }
     twist(c, change);
-    return fix_mul(roll->mass_q30, (int32_t)most, 30);
+    return moved;
 }
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 {
     struct fix_scaled unit = c->mass_unit;
 
+    if (!c->roll.acts) {
+        return;
+    }
     unit.e -= sw->unit + c->roll.unit_bits - 22;
     for (int k = 0; k < 3; k++) {
         c->roll.moment_q40.c[k] = fix_mul_scaled(c->roll.moment[k], unit);
     }
+}
+
+/* A component of a moment: at most 2^30. */
+static int32_t within(int64_t v)
+{
+    return (int32_t)(v > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : v < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : v);
 }
 
 void rest_roll_accelerate(struct contact *c, int32_t part_q30)
@@ -178,14 +194,11 @@ void rest_roll_accelerate(struct contact *c, int32_t part_q30)
     struct contact_roll *roll = &c->roll;
     int32_t gain[3];
 
-    if (!roll->acts) {
-        return;
-    }
     for (int k = 0; k < 3; k++) {
         gain[k] = carom_mul_q30(roll->way[k], part_q30);
         roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);
         roll->gain[k] = 0;
-        gain[k] = rest_clamp((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
+        gain[k] = within((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
         roll->moment[k] += gain[k];
     }
     twist(c, gain);

@@ -1,9 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* Symmetric sweeps over accumulated, clamped impulses. */
+#include "impact_rows.h"
 #include "rest_parts.h"
 
-/* Changes of the relative velocity that are followed: 16 V*. */
-#define CHANGE_MAX ((int64_t)1 << (REST_BITS + 3))
+/*
+ * Sweeps follow a slip of 13 V* and velocities below 16 V*, of which a vector of components up to
+ * 9 V* is one. So a velocity is below 2^31 in length, and so are its parts along N and across.
+ */
+#define SLIP_MAX  ((int64_t)13 << REST_BITS)
+#define PART_MAX  ((int64_t)9 << REST_BITS)
+#define SPEED_MAX (((int64_t)16 << REST_BITS) - 64)
+
+/*
+ * Contacts of a body or two that slide or roll settle over the frames; a heap that is left unsettled
+ * slips, and then takes more sweeps than it was spared.
+ */
+#define FEW 8
 
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
@@ -32,24 +44,36 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 }
 
 /* Velocities to solver units; no impulses yet. */
+static void begin_contact(struct contact *c, const struct rest_sweep *sw)
+{
+    int64_t wanted = wanted_q40(c, sw), slip[3];
+    int32_t error = (int32_t)impact_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    for (int k = 0; k < 3; k++) {
+        int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
+
+        slip[k] = impact_shift(v.c[k] - along, -sw->unit);
+    }
+    rest_cut(slip, SLIP_MAX);
+    for (int k = 0; k < 3; k++) {
+        c->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
+        c->tangent_impulse[k] = 0;
+        c->gain[k] = c->way[k] = 0;
+    }
+    c->band = rest_clamp(impact_shift(carom_shl(c->band_q30, 10), -sw->unit));
+    c->normal_impulse = 0;
+}
+
 static void begin(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int64_t wanted = wanted_q40(c, sw);
 
         c->friction_q16 =
             sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
-        c->error = rest_to_units(c->speed_q40 - wanted, sw->unit);
-        c->band = rest_to_units(c->band_q40, sw->unit);
-        c->normal_impulse = 0;
-        for (int k = 0; k < 3; k++) {
-            int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
-
-            c->slip[k] = rest_to_units(c->velocity.c[k] - along, sw->unit);
-            c->tangent_impulse[k] = 0;
-            c->gain[k] = c->way[k] = 0;
-        }
+        begin_contact(c, sw);
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
 
@@ -63,92 +87,162 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
 
 int32_t rest_clamp(int64_t v)
 {
-    const int64_t most = CAROM_ONE_Q30 - 1;
+    const int64_t most = INT32_MAX;
 
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/*
- * How much the relative velocity has changed so far. A thin body's spin may fill 40 bits while the
- * sum stays small, so products wrap: modulo 2^64 the sum is right.
- */
-static void change_of_velocity(const struct contact *c, int64_t out[3])
+/* v s - w r modulo 2^64. */
+static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, int32_t w_high,
+                              int32_t r)
 {
-    memset(out, 0, 3 * sizeof out[0]);
-    for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
-        const struct body *b = side->body;
+    uint32_t high = (uint32_t)v_high * (uint32_t)s - (uint32_t)w_high * (uint32_t)r;
 
-        for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-            uint64_t turned = (uint64_t)b->dw[i] * (uint64_t)(int64_t)side->arm_q30[j] -
-                              (uint64_t)b->dw[j] * (uint64_t)(int64_t)side->arm_q30[i];
-            int64_t v = carom_round(b->dv[k], REST_DV_BITS) + carom_round((int64_t)turned, 30);
+    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) +
+                     ((uint64_t)high << 32));
+}
 
-            out[k] += s == 0 ? v : -v;
-        }
+/*
+ * out = v x r modulo 2^64, in two halves: the low one signed, and what that leaves.
+ */
+static void wrapping_cross(int64_t out[3], const int64_t v[3], const int32_t r[3])
+{
+    int32_t low[3], high[3];
+
+    for (int k = 0; k < 3; k++) {
+        low[k] = (int32_t)v[k];
+        high[k] = (int32_t)((v[k] - low[k]) >> 32);
+    }
+    out[0] = wrapping_minor(low[1], high[1], r[2], low[2], high[2], r[1]);
+    out[1] = wrapping_minor(low[2], high[2], r[0], low[0], high[0], r[2]);
+    out[2] = wrapping_minor(low[0], high[0], r[1], low[1], high[1], r[0]);
+}
+
+/* What the solve so far changed the velocity of a body's place of contact by, in finer units. */
+static void change_at(const struct contact_side *side, int64_t out[3])
+{
+    const struct body *b = side->body;
+    int64_t dw[3];
+
+    for (int k = 0; k < 3; k++) {
+        dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
+    }
+    wrapping_cross(out, dw, side->arm_q30);
+    for (int k = 0; k < 3; k++) {
+        out[k] = b->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+    }
+}
+
+/*
+ * V - wanted N by now. A thin body's spin may fill 40 bits while the sum stays small, so products
+ * wrap: modulo 2^64 the sum is right.
+ */
+static void present_velocity(const struct contact *c, int32_t v[3])
+{
+    int64_t sum[3] = {0, 0, 0}, other[3] = {0, 0, 0};
+    bool fast = false;
+
+    if (c->side[0].body) {
+        change_at(&c->side[0], sum);
+    }
+    if (c->side[1].body) {
+        change_at(&c->side[1], other);
     }
     for (int k = 0; k < 3; k++) {
-        out[k] = out[k] > CHANGE_MAX ? CHANGE_MAX : out[k] < -CHANGE_MAX ? -CHANGE_MAX : out[k];
+        sum[k] = c->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
+        v[k] = (int32_t)sum[k];
+        fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
+    }
+    if (fast) {
+        rest_cut(sum, SPEED_MAX);
+        for (int k = 0; k < 3; k++) {
+            v[k] = (int32_t)sum[k];
+        }
+    }
+}
+
+static void push_side(const struct contact_side *side, const int32_t impulse[3])
+{
+    struct body *b = side->body;
+    int down = side->turn_bits - REST_FINER_BITS;
+
+    for (int k = 0; k < 3; k++) {
+        b->dv[k] += ((int64_t)impulse[k] * side->share_q30) >> (30 - REST_FINER_BITS);
+        b->dw[k] += carom_dot(side->turn[k], impulse) >> down;
     }
 }
 
 void rest_push(struct contact *c, const int32_t impulse[3])
 {
-    for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
-        struct body *b = side->body;
+    const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
-        for (int k = 0; b && k < 3; k++) {
-            int64_t dv = carom_round((int64_t)impulse[k] * side->share_q30, 30 - REST_DV_BITS);
-            int64_t dw = carom_round(carom_dot(side->turn[k], impulse), side->turn_bits);
-
-            b->dv[k] += s == 0 ? dv : -dv;
-            b->dw[k] += s == 0 ? dw : -dw;
-        }
+    if (c->side[0].body) {
+        push_side(&c->side[0], impulse);
+    }
+    if (c->side[1].body) {
+        push_side(&c->side[1], opposite);
     }
 }
 
-/* Length of a vector whose components may have more than 31 bits; down: what it is shifted by. */
-static int64_t long_length(const int64_t v[3], int *down)
+/* Shift four numbers down until each has at most so many bits; returns how far. */
+static int shrink(int64_t v[4], int bits)
 {
-    uint64_t sum = 0;
+    uint64_t all = 0;
+    int down;
 
-    *down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 31;
-    *down = *down > 0 ? *down : 0;
-    for (int k = 0; k < 3; k++) {
-        int64_t part = v[k] >> *down;
-
-        sum += (uint64_t)(part * part);
+    for (int k = 0; k < 4; k++) {
+        all |= (uint64_t)(v[k] ^ (v[k] >> 63));
     }
-    return fix_sqrt(sum);
+    down = fix_bits(all) - bits;
+    if (down <= 0) {
+        return 0;
+    }
+    for (int k = 0; k < 4; k++) {
+        v[k] >>= down;
+    }
+    return down;
+}
+
+/* |v|^2 of a vector of at most 31 bits. */
+static uint64_t square32(const int32_t v[3])
+{
+    return (uint64_t)((int64_t)v[0] * v[0]) + (uint64_t)((int64_t)v[1] * v[1]) +
+           (uint64_t)((int64_t)v[2] * v[2]);
 }
 
 bool rest_cut(int64_t v[3], int64_t limit)
 {
-    int down;
-    int64_t whole = long_length(v, &down);
+    int64_t part[4] = {v[0], v[1], v[2], limit};
+    int down = shrink(part, 31);
+    const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
+    uint64_t most = (uint64_t)part[3], square = square32(v32);
+    int32_t ratio_q30;
 
-    if (whole <= limit >> down) {
+    if (square <= most * most) {
         return false;
     }
+    ratio_q30 = (int32_t)((most << 30) / fix_sqrt(square));
     for (int k = 0; k < 3; k++) {
-        v[k] = fix_mul(limit, (int32_t)((v[k] >> down) * CAROM_ONE_Q30 / whole), 30);
+        v[k] = carom_shl(((int64_t)v32[k] * ratio_q30) >> 30, down);
     }
     return true;
 }
 
 /* Friction is not against slip that closing a gap asks for. */
-static void leave_band(const struct contact *c, int64_t slip[3])
+static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 {
-    int64_t within[3];
+    int32_t slip[3], ratio_q30 = CAROM_ONE_Q30;
+    uint64_t square;
 
-    if (c->band > 0) {
-        memcpy(within, slip, sizeof within);
-        rest_cut(within, c->band);
-        for (int k = 0; k < 3; k++) {
-            slip[k] -= within[k];
-        }
+    for (int k = 0; k < 3; k++) {
+        slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+    }
+    square = square32(slip);
+    if (square > (uint64_t)((int64_t)c->band * c->band)) {
+        ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->band << 30) / fix_sqrt(square));
+    }
+    for (int k = 0; k < 3; k++) {
+        v[k] -= carom_mul_q30(slip[k], ratio_q30);
     }
 }
 
@@ -157,158 +251,173 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->friction_q16, 16);
 }
 
-/* A change of impulse: along N, and across it. */
+/* A change of impulse, each part below 2^30: along N, and with what is across it. */
 struct gain {
-    int32_t along, across[3];
+    int32_t along, whole[3];
 };
 
 /*
- * What one push takes of a change: all, or 2^-n of it, so that both its ways shrink alike. As it
- * leads from one impulse in the friction cone to another, so does any part of it.
+ * What ends all motion of the contact; false when that lies outside of the friction cone. Large
+ * velocities are shifted down: the next visit finds what is left over. As K is at least 1 the change
+ * is then below 2^30.
  */
-static void take(struct gain *g, int64_t along, const int64_t across[3])
+static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
 {
-    uint64_t all = (uint64_t)(carom_abs(along) | carom_abs(across[0]) | carom_abs(across[1]) |
-                              carom_abs(across[2]));
-    int down = fix_bits(all) - 30;
+    int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
+                                     (v[2] ^ (v[2] >> 31)))) +
+               c->fine_bits - 29;
+    int64_t after[4], limit;
+    int32_t part[3], across[3];
 
     down = down > 0 ? down : 0;
-    g->along = (int32_t)(along >> down);
     for (int k = 0; k < 3; k++) {
-        g->across[k] = (int32_t)(across[k] >> down);
-    }
-}
-
-/* What ends all motion of the contact; false when that lies outside of the friction cone. */
-static bool stick(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
-{
-    int64_t whole[3], tangent[3], along, limit, length;
-    int32_t v[3];
-    int down;
-
-    for (int k = 0; k < 3; k++) {
-        whole[k] = slip[k] + fix_mul(error, c->normal.c[k], 30);
-    }
-    /* fast slip fills more than 30 bits: the next visit finds what is left over */
-    down = fix_bits((uint64_t)(carom_abs(whole[0]) | carom_abs(whole[1]) | carom_abs(whole[2])));
-    down = down > 30 ? down - 30 : 0;
-    for (int k = 0; k < 3; k++) {
-        v[k] = (int32_t)(whole[k] >> down);
+        part[k] = v[k] >> down;
     }
     for (int k = 0; k < 3; k++) {
-        int64_t part = carom_round(rest_row(c->inverse, k, v), 30 - c->fine_bits);
-
-        whole[k] = carom_shl(-part, down);
+        g->whole[k] = -(int32_t)carom_round(rest_row(c->inverse, k, part), 30 - c->fine_bits);
     }
-    along = fix_mul(whole[0], c->normal.c[0], 30) + fix_mul(whole[1], c->normal.c[1], 30) +
-            fix_mul(whole[2], c->normal.c[2], 30);
-    limit = friction_limit(c, c->normal_impulse + along);
-    if (limit < 0) {
+    g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
+    after[3] = c->normal_impulse + carom_shl(g->along, down);
+    if (after[3] <= 0) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        whole[k] -= fix_mul(along, c->normal.c[k], 30);
-        tangent[k] = c->tangent_impulse[k] + whole[k];
+        after[k] = c->tangent_impulse[k] +
+                   carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
     }
-    length = long_length(tangent, &down);
-    take(g, along, whole);
-    return length <= limit >> down;
+    /* mu is at most 4: the limit has 31 bits */
+    shrink(after, 29);
+    for (int k = 0; k < 3; k++) {
+        across[k] = (int32_t)after[k];
+    }
+    limit = (after[3] * (int32_t)c->friction_q16) >> 16;
+    return square32(across) <= (uint64_t)(limit * limit);
 }
 
 /*
  * How much longer a step along N is when friction at its limit follows it: N.K N over N.K (N + mu t),
  * t being the unit vector along v. Where a contact nearly wedges, 8.
  */
-static int32_t following_q27(const struct contact *c, const int64_t v[3])
+static int32_t following_q15(const struct contact *c, const int64_t v[3])
 {
-    int down = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]))) - 15;
-    int64_t square = 1, drag_q30 = 0, mass_q30;
+    int64_t t[4] = {v[0], v[1], v[2], 0};
+    uint32_t square = 1;
+    int64_t drag = 0;
+    int32_t mass_q11;
 
-    /* 15 bits will do: this only sets the pace. |drag| is below 2^34, the sum below 2^51 */
+    /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
+    shrink(t, 15);
     for (int k = 0; k < 3; k++) {
-        int64_t part = down > 0 ? v[k] >> down : v[k];
+        int32_t part = (int32_t)t[k];
 
-        square += part * part;
-        drag_q30 += part * c->drag_q30[k];
+        square += (uint32_t)(part * part);
+        drag += (int64_t)part * c->drag_q28[k];
     }
-    drag_q30 /= fix_sqrt((uint64_t)square);
-    mass_q30 = fix_mul(drag_q30, (int32_t)c->friction_q16, 16);
-    mass_q30 = CAROM_ONE_Q30 + fix_mul(mass_q30, c->step[0], 30 - c->fine_bits);
-    return (int32_t)(((int64_t)1 << 57) /
-                     (mass_q30 > CAROM_ONE_Q30 / 8 ? mass_q30 : CAROM_ONE_Q30 / 8));
+    mass_q11 = (int32_t)(drag >> 17) / (int32_t)fix_sqrt(square);
+    mass_q11 = 2048 + (int32_t)(((int64_t)mass_q11 * c->friction_q16) >> 16);
+    return (1 << 26) / (mass_q11 > 256 ? mass_q11 : 256);
 }
 
 /*
- * A step along N, never pulling, and what it leaves of the slip across; `across` is what the slip so
- * far asks for. Returns whether that is more than friction gives.
+ * Change V.N by dvn, never pulling, and end what that leaves of the slip, as far as friction does.
+ * Returns whether it does not.
  */
-static bool slide_by(const struct contact *c, int64_t step, const int64_t across[3], struct gain *g)
+static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
-    int64_t along = step < c->normal_impulse ? -step : -c->normal_impulse, tangent[3];
-    bool limited;
+    int64_t change[4] = {0, 0, 0, carom_round((int64_t)dvn * c->step[0], 30 - c->fine_bits)};
+    bool limited = true;
 
-    for (int k = 0; k < 3; k++) {
-        int64_t drag = fix_mul(c->drag_q30[k], rest_clamp(along), 30);
+    if (change[3] <= -c->normal_impulse) {
+        change[3] = -c->normal_impulse;
+    } else {
+        for (int k = 0; k < 3; k++) {
+            int32_t after = rest_clamp(slip[k] + (((int64_t)c->drag_q28[k] * dvn) >> 28));
 
-        tangent[k] = across[k] - fix_mul(drag, c->step[1], 30 - c->fine_bits);
+            change[k] =
+                c->tangent_impulse[k] - (((int64_t)after * c->step[1]) >> (30 - c->fine_bits));
+        }
+        limited = rest_cut(change, friction_limit(c, c->normal_impulse + change[3]));
     }
-    limited = rest_cut(tangent, friction_limit(c, c->normal_impulse + along));
     for (int k = 0; k < 3; k++) {
-        tangent[k] -= c->tangent_impulse[k];
+        change[k] -= c->tangent_impulse[k];
     }
-    take(g, along, tangent);
+    /* if that is too large for one push a part of all of it: from one place in the cone to another */
+    shrink(change, 29);
+    g->along = (int32_t)change[3];
+    for (int k = 0; k < 3; k++) {
+        g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
+    }
     return limited;
 }
 
 /* Along N first; then across towards no slip, within the friction cone. */
-static void slide(const struct contact *c, int64_t error, const int64_t slip[3], struct gain *g)
+static void slide(const struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
-    int64_t step = fix_mul(error, c->step[0], 30 - c->fine_bits), across[3];
+    int64_t across[3];
+    int32_t slip[3];
 
     for (int k = 0; k < 3; k++) {
-        across[k] = c->tangent_impulse[k] - fix_mul(slip[k], c->step[1], 30 - c->fine_bits);
+        slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+        across[k] =
+            c->tangent_impulse[k] - (((int64_t)slip[k] * c->step[1]) >> (30 - c->fine_bits));
     }
     if (c->friction_q16 == 0 ||
-        !slide_by(c, fix_mul(step, following_q27(c, across), 27), across, g)) {
-        slide_by(c, step, across, g);
+        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
+        slide_by(c, -error, slip, g);
     }
 }
 
 /* Take up a change; returns its largest component, the last place apart. */
 static int32_t add(struct contact *c, const struct gain *g)
 {
-    int32_t whole[3], most = 0;
+    int32_t most = 0;
 
     c->normal_impulse += g->along;
     for (int k = 0; k < 3; k++) {
-        c->tangent_impulse[k] += g->across[k];
-        whole[k] = carom_mul_q30(g->along, c->normal.c[k]) + g->across[k];
-        c->gain[k] = rest_clamp((int64_t)c->gain[k] + whole[k]);
-        most = carom_abs(whole[k]) > most ? (int32_t)carom_abs(whole[k]) : most;
+        int32_t size = g->whole[k] < 0 ? -g->whole[k] : g->whole[k];
+
+        c->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
+        /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
+        c->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
+        most = size > most ? size : most;
     }
-    rest_push(c, whole);
-    return most > 4 ? most : 0;
+    rest_push(c, g->whole);
+    return most > 1 ? most : 0;
 }
 
-/* One contact; returns how much a velocity moved. */
-static int64_t visit(struct contact *c)
+/*
+ * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
+ * power of 2, is at rest.
+ */
+static int64_t visit(struct contact *c, int32_t quiet)
 {
-    int64_t change[3], slip[3], error;
+    int32_t v[3], error;
     struct gain g;
 
-    change_of_velocity(c, change);
-    error = carom_round((int64_t)c->normal.c[0] * change[0] + (int64_t)c->normal.c[1] * change[1] +
-                            (int64_t)c->normal.c[2] * change[2],
-                        30);
-    for (int k = 0; k < 3; k++) {
-        slip[k] = c->slip[k] + change[k] - fix_mul(error, c->normal.c[k], 30);
+    present_velocity(c, v);
+    error = (int32_t)carom_round(carom_dot(c->normal.c, v), 30);
+    if (error >= 0 && c->normal_impulse == 0 &&
+        (c->tangent_impulse[0] | c->tangent_impulse[1] | c->tangent_impulse[2]) == 0) {
+        return 0; /* it opens */
     }
-    error += c->error;
-    leave_band(c, slip);
-    if (c->friction_q16 == 0 || !c->inverted || !stick(c, error, slip, &g)) {
-        slide(c, error, slip, &g);
+    if (c->band > 0) {
+        leave_band(c, error, v);
     }
-    return fix_mul(c->mass_q30, add(c, &g), 30);
+    if (((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) | (v[2] ^ (v[2] >> 31))) < quiet) {
+        return 0;
+    }
+    if (c->friction_q16 == 0 || !c->inverted || !stick(c, v, &g)) {
+        slide(c, error, v, &g);
+    }
+    return ((int64_t)c->mass_q24 * add(c, &g)) >> 24;
+}
+
+/* A component of the way: three of them make up a vector below 2^30. */
+static int32_t way_of(int64_t v)
+{
+    const int64_t most = CAROM_ONE_Q30 / 2;
+
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
 /*
@@ -318,27 +427,31 @@ static int64_t visit(struct contact *c)
  */
 static void accelerate(struct rest *r, int64_t moved, int64_t before)
 {
-    int64_t part_q30 = moved < before ? moved * CAROM_ONE_Q30 / before : 0;
+    int32_t part_q30 = moved < before ? (int32_t)(moved * CAROM_ONE_Q30 / before) : 0;
 
-    part_q30 = (part_q30 * part_q30) >> 30;
+    part_q30 = carom_mul_q30(part_q30, part_q30);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int64_t along, across[3];
-        int32_t gain[3];
+        int32_t all = 0;
         struct gain g;
 
         for (int k = 0; k < 3; k++) {
-            gain[k] = carom_mul_q30(c->way[k], (int32_t)part_q30);
-            c->way[k] = rest_clamp((int64_t)gain[k] + c->gain[k]);
+            g.whole[k] = carom_mul_q30(c->way[k], part_q30);
+            all |= c->gain[k] | g.whole[k];
+            c->way[k] = way_of((int64_t)g.whole[k] + c->gain[k]);
+            c->gain[k] = 0;
         }
-        along = carom_round(carom_dot(c->normal.c, gain), 30);
-        for (int k = 0; k < 3; k++) {
-            across[k] = c->friction_q16 > 0 ? gain[k] - fix_mul(along, c->normal.c[k], 30) : 0;
+        if (all != 0) {
+            g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
+            for (int k = 0; c->friction_q16 == 0 && k < 3; k++) {
+                g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
+            }
+            add(c, &g);
+            memset(c->gain, 0, sizeof c->gain);
         }
-        take(&g, along, across);
-        add(c, &g);
-        memset(c->gain, 0, sizeof c->gain);
-        rest_roll_accelerate(c, (int32_t)part_q30);
+        if (c->roll.acts) {
+            rest_roll_accelerate(c, part_q30);
+        }
     }
 }
 
@@ -358,25 +471,28 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
     bool coupled = n > 1 || rest_contact(r, 0)->roll.acts;
+    int rounds = sw->rolls ? (n <= FEW ? REST_SWEEPS_FEW : REST_SWEEPS_MANY) : REST_SWEEPS_MAX;
     int64_t before = 0;
 
-    for (int round = 0; round < REST_SWEEPS_MAX; round++) {
+    for (int round = 0; round < rounds; round++) {
         int64_t moved = 0;
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
             /* forwards and backwards in turn, so that no end of a stack is favoured */
             uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at));
+            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual : 0);
 
             moved = m > moved ? m : moved;
-            m = rest_roll_sweep(r, at);
-            moved = m > moved ? m : moved;
+            if (rest_contact(r, at)->roll.acts) {
+                m = rest_roll_sweep(r, at, sw->residual);
+                moved = m > moved ? m : moved;
+            }
         }
         if (moved <= sw->residual) {
             return;
         }
-        if (coupled && round & 1 && round < REST_SWEEPS_MAX - 1) {
+        if (coupled && round & 1 && round < rounds - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
             accelerate(r, moved, before);
             before = moved;
@@ -399,7 +515,9 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
 
             c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
         }
-        rest_roll_finish(c, sw);
+        if (sw->rolls) {
+            rest_roll_finish(c, sw);
+        }
     }
 }
 
@@ -411,7 +529,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         rest_load_warm(r, sw);
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        rest_roll_prepare(r, i, sw);
+        rest_contact(r, i)->roll.acts = sw->rolls && rest_roll_prepare(r, i, sw);
     }
     sweeps(r, sw);
     finish(r, sw);

@@ -9,7 +9,7 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
     const struct body *a = rest_body(r, c, 0);
     int32_t nearest = a->radius_q22 / 20;
     struct rest_warm *best = NULL;
-    carom_v3_q22 arm = c->side[0].arm;
+    carom_v3_q22 arm = contact_arm(c);
 
     carom_rotate_back(arm.c, &a->path.start.r, arm.c);
     for (uint32_t i = 0; i < r->warm_count; i++) {
@@ -84,6 +84,7 @@ void rest_store_warm(struct rest *r)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         const struct contact *c = &r->list.contacts[i];
         struct rest_warm *w = &r->warm[r->warm_count];
+        carom_v3_q22 arm;
 
         if (!c->resting) {
             continue;
@@ -93,7 +94,8 @@ void rest_store_warm(struct rest *r)
         w->a = r->pairs[c->key.pair].a;
         w->b = r->pairs[c->key.pair].b;
         w->normal = c->normal;
-        carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, c->side[0].arm.c);
+        arm = contact_arm(c);
+        carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
         w->normal_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
         for (int k = 0; k < 3; k++) {
             w->tangent_q40.c[k] = c->impulse_q40.c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);

@@ -123,6 +123,8 @@ static void note_hits(struct step *s)
 
 /* Of shorter slices nothing is asked: less than a thousandth of a frame. */
 #define CHORD_SLICE_MIN_Q30 (1 << 20)
+/* Nor of what bends by less than this part of a skin: the gap of the next frame makes up for it. */
+#define CHORD_BEND_DIVISOR 16
 
 /* By how much the gap of a contact changes on the present paths, q22. */
 static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c)
@@ -134,6 +136,37 @@ static int64_t gap_change(const struct boyse_pair *pair, const struct candidate 
     return (int64_t)(to.sign == from.sign ? to.gap_q22 : -to.gap_q22) - from.gap_q22;
 }
 
+/* Straight paths of a slice for all that move. */
+static void predict_straight(struct step *s, int32_t slice_q30)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
+            body_predict(&s->w->bodies[i], &s->next->bodies[i], slice_q30, NULL);
+        }
+    }
+}
+
+/*
+ * Whether the path of a contact may be off the straight one by more than a small part of the skin:
+ * r w^2 / 8 of both bodies. The spins are those of the last look at the contacts.
+ */
+static bool bends(const struct contact *c, int32_t left_q30)
+{
+    int64_t bend_q22 = 0;
+
+    for (int k = 0; k < 2; k++) {
+        const struct body *b = c->side[k].body;
+
+        if (b) {
+            int64_t turn_q30 = fix_mul(fix_length(b->spin.c), left_q30, 40);
+
+            turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
+            bend_q22 += fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
+        }
+    }
+    return bend_q22 > c->skin_q22 / CHORD_BEND_DIVISOR;
+}
+
 /*
  * How the gap of each contact is going to change in the next slice. A body that rolls or tips does
  * not keep the V.N that it starts with: its arm turns, and so does its spin. Without this it comes
@@ -143,29 +176,28 @@ static void find_chords(struct step *s)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
-    int32_t slice_q30 = step_slice(s);
     struct step_visitor v = {.step = s, .pair_number = -1};
+    int32_t slice_q30 = 0; /* not yet known */
 
-    for (uint32_t i = 0; i < w->body_count && slice_q30 > CHORD_SLICE_MIN_Q30; i++) {
-        if (broad_active(&w->bodies[i], &s->next->bodies[i])) {
-            body_predict(&w->bodies[i], &s->next->bodies[i], slice_q30, NULL);
-        }
-    }
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
+        int64_t way_q22;
 
-        c->chord_q40 = INT64_MAX;
+        c->chord_q28 = INT32_MAX;
+        if (!bends(c, s->left_q30)) {
+            continue;
+        }
+        if (slice_q30 == 0) {
+            slice_q30 = step_slice(s);
+            predict_straight(s, slice_q30);
+        }
         if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
             continue;
         }
         step_select_pair(&v, c->key.pair);
-        /* a bend of a few units is rounding */
-        if (v.pair.view[0].seen.bend_q22 + v.pair.view[1].seen.bend_q22 > 16) {
-            int64_t way_q22 = gap_change(&v.pair, &c->key) + 4;
-
-            if (carom_abs(way_q22) < 1 << 24) {
-                c->chord_q40 = way_q22 * ((int64_t)1 << 38) / (slice_q30 >> 10);
-            }
+        way_q22 = gap_change(&v.pair, &c->key) + 4;
+        if (carom_abs(way_q22) < 1 << 24) {
+            c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));
         }
     }
 }

@@ -92,13 +92,13 @@ static void check_four_corners(int32_t gap_q22)
         CHECK(!(seen >> v & 1));
         seen |= (uint8_t)(1 << v);
         for (int k = 0; k < 2; k++) {
-            CHECK_EQ(c->side[0].arm.c[k], shape_a.vertices[v][k] * 1024);
-            CHECK_EQ(c->point.c[k],
+            CHECK_EQ(contact_arm(c).c[k], shape_a.vertices[v][k] * 1024);
+            CHECK_EQ(contact_point(c).c[k],
                      states[0].position.c[k] + shape_a.vertices[v][k] * ((int64_t)1 << 20));
         }
         /* half way between the surfaces */
-        CHECK_NEAR(c->point.c[2], carom_shl(gap_q22, 10) / 2, 1024);
-        CHECK_NEAR(c->side[0].arm.c[2], -600 * 1024 - gap_q22 / 2, 1);
+        CHECK_NEAR(contact_point(c).c[2], carom_shl(gap_q22, 10) / 2, 1024);
+        CHECK_NEAR(contact_arm(c).c[2], -600 * 1024 - gap_q22 / 2, 1);
     }
     CHECK_EQ(seen, 15);
 }
@@ -174,13 +174,14 @@ static void test_edge_on_face(void)
     CHECK(find(1000, 0));
     contact_merge(&list);
     CHECK_EQ(pool.used, 2);
-    CHECK_NEAR(contacts[0].point.c[0] + contacts[1].point.c[0], (int64_t)3 << 31, 1 << 12);
-    CHECK_NEAR(carom_abs(contacts[0].point.c[0] - contacts[1].point.c[0]), (int64_t)1 << 32,
-               1 << 12);
+    CHECK_NEAR(contact_point(&contacts[0]).c[0] + contact_point(&contacts[1]).c[0],
+               (int64_t)3 << 31, 1 << 12);
+    CHECK_NEAR(carom_abs(contact_point(&contacts[0]).c[0] - contact_point(&contacts[1]).c[0]),
+               (int64_t)1 << 32, 1 << 12);
     for (uint32_t i = 0; i < 2; i++) {
         CHECK_NEAR(contacts[i].gap_q22, 500, 2);
         CHECK_EQ(contacts[i].normal.c[2], CAROM_ONE_Q30);
-        CHECK_NEAR(contacts[i].point.c[1], (int64_t)3 << 29, (int64_t)1 << 31);
+        CHECK_NEAR(contact_point(&contacts[i]).c[1], (int64_t)3 << 29, (int64_t)1 << 31);
     }
 }
 
@@ -205,8 +206,8 @@ static void test_crossing_edges(void)
         CHECK_EQ(contacts[0].key.kind, CANDIDATE_EDGE_EDGE);
         CHECK_NEAR(contacts[0].gap_q22, 700, 3);
         CHECK_NEAR(contacts[0].normal.c[2], sign * CAROM_ONE_Q30, 4);
-        CHECK_NEAR(contacts[0].point.c[0], 0, 1 << 12);
-        CHECK_NEAR(contacts[0].side[0].arm.c[0], -(1 << 20), 4);
+        CHECK_NEAR(contact_point(&contacts[0]).c[0], 0, 1 << 12);
+        CHECK_NEAR(contact_arm(&contacts[0]).c[0], -(1 << 20), 4);
     }
 }
 
@@ -368,17 +369,17 @@ static void test_force(void)
     CHECK(in_order());
     CHECK_EQ(c->key.kind, CANDIDATE_EDGE_EDGE);
     CHECK_EQ(c->gap_q22, skin / 2);
-    CHECK_EQ(c->side[0].arm.c[0], -(1 << 21));
-    CHECK_EQ(c->side[0].arm.c[1], -(1 << 18));
-    CHECK_NEAR(c->side[0].arm.c[2], -600 * 1024 - 150, 1);
+    CHECK_EQ(contact_arm(c).c[0], -(1 << 21));
+    CHECK_EQ(contact_arm(c).c[1], -(1 << 18));
+    CHECK_NEAR(contact_arm(c).c[2], -600 * 1024 - 150, 1);
     /* the unit of length is 1, the power of two above the radius */
     CHECK_EQ(bodies[0].unit_bits, 22);
     CHECK_NEAR(c->side[0].arm_q30[0], -(1 << 29), 2);
     CHECK_NEAR(c->side[0].arm_q30[1], -(1 << 26), 2);
     CHECK_NEAR(c->side[0].arm_q30[2], -(600 * 1024 + 150) * 256, 2);
-    CHECK_NEAR(c->point.c[0], 0, 2);
-    CHECK_NEAR(c->point.c[1], 0, 2);
-    CHECK_NEAR(c->point.c[2], 150 * 1024, 2);
+    CHECK_NEAR(contact_point(c).c[0], 0, 2);
+    CHECK_NEAR(contact_point(c).c[1], 0, 2);
+    CHECK_NEAR(contact_point(c).c[2], 150 * 1024, 2);
     /* the same place and normal by other features */
     hit.candidate.j = edge_at(&shape_b, 1, 0, 2, 0, hit.candidate.j + 1);
     CHECK(contact_force(&list, &pair, &hit));
@@ -433,7 +434,7 @@ static void check_normals(uint32_t vertex_a, int32_t reach)
 
         for (int k = 0; k < 3; k++) {
             n[k] = real(contacts[i].normal.c[k], 30);
-            CHECK_NEAR(contacts[i].point.c[k], 0, (int64_t)reach << 10);
+            CHECK_NEAR(contact_point(&contacts[i]).c[k], 0, (int64_t)reach << 10);
         }
         CHECK(n[2] > 0);
         CHECK(least_rise(&shape_a, &bodies[0], vertex_a, n) >= -0.03);

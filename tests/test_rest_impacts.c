@@ -175,7 +175,7 @@ static void test_plastic(void)
             double arm[3], at[3], normal[3];
 
             for (int k = 0; k < 3; k++) {
-                arm[k] = real(hand.contacts[i].side[0].arm.c[k], 22);
+                arm[k] = real(contact_arm(&hand.contacts[i]).c[k], 22);
                 normal[k] = real(hand.contacts[i].normal.c[k], 30);
             }
             real_cross(at, w, arm);
