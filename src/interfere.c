@@ -336,6 +336,7 @@ static void gather_pair(struct interfere *w)
 void interfere_begin(struct interfere *w)
 {
     w->whole = w->stale = false;
+    w->enough = UINT32_MAX;
     w->error = CAROM_OK;
 }
 

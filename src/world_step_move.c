@@ -103,7 +103,7 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
 }
 
 /* Pairs, interfering faces and candidates for the paths at hand, which take slice_q30 of a frame. */
-static int gather(struct step *s, int32_t slice_q30, int64_t time_q30)
+static int gather(struct step *s, int32_t slice_q30, int64_t time_q30, uint32_t enough)
 {
     struct carom_world *w = s->w;
     struct step_visitor v;
@@ -129,6 +129,7 @@ static int gather(struct step *s, int32_t slice_q30, int64_t time_q30)
         pool_clear(&w->pools[CAROM_POOL_faces]);
     }
     interfere_begin(&w->interfere);
+    w->interfere.enough = enough;
     result = step_visit(s, &v, visit_nothing);
     step_mark(w, CAROM_STAGE_INTERFERE);
     return result;
@@ -186,20 +187,21 @@ int step_gather(struct step *s)
 {
     struct interfere *in = &s->w->interfere;
     uint32_t faces = in->gathers > 0 ? in->face_pool->used : 0;
+    bool free = in->candidate_pool->used == 0;
     int32_t slice_q30 = step_slice(s);
     int64_t time_q30;
     int result;
 
     predict_all(s, slice_q30);
     time_q30 = region_time(s, slice_q30);
-    in->enough = in->candidate_pool->used == 0 ? REGION_ENOUGH : UINT32_MAX;
-    if (time_q30 == slice_q30) in->enough = UINT32_MAX;
-    result = gather(s, slice_q30, time_q30);
-    in->enough = UINT32_MAX;
-    if (result != CAROM_OK && time_q30 > slice_q30) {
-        /* too much, too soon: a single frame will have less */
+    if (time_q30 == slice_q30) {
+        return gather(s, slice_q30, slice_q30, UINT32_MAX);
+    }
+    result = gather(s, slice_q30, time_q30, free ? REGION_ENOUGH : UINT32_MAX);
+    if (result != CAROM_OK) {
+        /* a single frame will have less, and an error is one only if it has it too */
         in->face_pool->used = faces;
-        result = gather(s, slice_q30, slice_q30);
+        result = gather(s, slice_q30, slice_q30, UINT32_MAX);
     }
     return result;
 }
@@ -237,7 +239,7 @@ static int predict_hit(struct step *s, int32_t slice_q30)
 
     predict_all(s, slice_q30);
     if (leaves_region(s, slice_q30)) {
-        result = gather(s, slice_q30, slice_q30);
+        result = gather(s, slice_q30, slice_q30, UINT32_MAX);
         if (result == CAROM_OK) {
             s->hit.candidate.pair = step_pair_number(s->w, &p);
         }
