@@ -77,6 +77,9 @@ struct interfere {
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
 
+    bool pooled;                     /* b's z-lists are in `lists` */
+    const struct carom_mesh *listed; /* the mesh that `lists` hold whole; NULL: none */
+
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     int error;
     struct candidate_visitor *visitor;
@@ -107,6 +110,9 @@ void interfere_begin(struct interfere *w);
  */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);
+
+/* Forget z-lists that were made; the surface has moved or gone. */
+void interfere_forget_lists(struct interfere *w);
 
 /* Sort the interfering faces and drop repeated ones. */
 void interfere_finish(struct interfere *w);

@@ -186,11 +186,26 @@ static int build(struct mesh_builder *b)
     return mesh_build_zlists(b);
 }
 
-int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
-                     size_t bytes)
+int mesh_refresh(struct mesh_builder *b)
+{
+    int error = find_box(b->mesh);
+
+    if (error == CAROM_OK) {
+        error = find_normals(b);
+    }
+    if (error == CAROM_OK) {
+        mesh_shape_edges(b);
+        find_offsets(b);
+        b->mesh->radius_q22 = find_radius(b->mesh);
+        mesh_shape_leaves(b);
+    }
+    return error;
+}
+
+int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct carom_mesh_raw *raw,
+              void *mem, size_t bytes)
 {
     struct carom_mesh built;
-    struct mesh_builder b;
     int error;
 
     if (!mesh || !raw || !raw->vertices || !raw->faces || !mem) {
@@ -205,14 +220,23 @@ int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, 
     }
     memset(&built, 0, sizeof built);
     built.raw = *raw;
-    b.mesh = &built;
-    arena_init(&b.arena, mem, bytes);
-    b.keys = (uint64_t *)mem + bytes / 8 - (size_t)3 * raw->face_count;
-    error = build(&b);
+    b->mesh = &built;
+    arena_init(&b->arena, mem, bytes);
+    b->keys = (uint64_t *)mem + bytes / 8 - (size_t)3 * raw->face_count;
+    error = build(b);
+    b->mesh = mesh;
     if (error == CAROM_OK) {
         *mesh = built;
     }
     return error;
+}
+
+int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                     size_t bytes)
+{
+    struct mesh_builder b;
+
+    return mesh_make(&b, mesh, raw, mem, bytes);
 }
 
 int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes)

@@ -246,6 +246,7 @@ int carom_body_remove(struct carom_world *w, int body)
     }
     s = world_now(w);
     world_wake_around(w, (uint32_t)body);
+    interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
     memset(&s->bodies[body], 0, sizeof s->bodies[body]);
     for (uint32_t i = 0; i < s->warm_count; i++) {

@@ -24,6 +24,7 @@ const char *carom_result_text(int result)
         "the mesh is inside out",
         "the surface is not single-valued in z",
         "the data is truncated, altered or of another kind",
+        "a surface would press a body into a stationary one",
     };
     const int count = (int)(sizeof errors / sizeof errors[0]);
 

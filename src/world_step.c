@@ -51,6 +51,7 @@ void step_begin(struct step *s, struct carom_world *w)
         struct body *b = &w->bodies[i];
 
         b->in_contact = false;
+        b->work2 = (struct fix_wide){0, 0};
         world_acceleration(b, &now->gravity, &now->bodies[i].force, &b->acceleration);
         b->acceleration_q40 = fix_length(b->acceleration.c);
     }
@@ -138,6 +139,7 @@ int carom_world_step(struct carom_world *w)
         return fail(w, result);
     }
     w->now = 1 - w->now;
+    world_halt_surfaces(w);
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);
     status = cut_short ? CAROM_SUBSTEP_CAP : CAROM_OK;
