@@ -39,9 +39,9 @@ SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LI
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
-EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
+EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
-SCENES := $(call objects,examples/scene.c build/gen/head_mesh.c build/gen/field_mesh.c)
+SCENES := $(call objects,$(wildcard examples/scene*.c) build/gen/head_mesh.c build/gen/field_mesh.c)
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
@@ -73,7 +73,7 @@ help: ## list the commands
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
+run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')

@@ -152,6 +152,21 @@ static int build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, uint
     return result;
 }
 
+/* The same for the sheet, which is going to move. */
+static int build_sheet(struct scene *scene, uint8_t **mem, size_t *bytes)
+{
+    struct carom_mesh_raw raw = scene_sheet_raw(&scene->sheet);
+    size_t wanted = CAROM_SURFACE_BYTES(SCENE_SHEET_VERTICES, SCENE_SHEET_FACES);
+    int result = *bytes < wanted ? CAROM_ERR_MEMORY
+                                 : carom_surface_build(&scene->ground_mesh, &raw, *mem, wanted);
+
+    if (result >= 0) {
+        *mem += wanted;
+        *bytes -= wanted;
+    }
+    return result;
+}
+
 /* Layers of four, each turned and shifted against the one below, falling close together. */
 static void pour(struct scene *scene)
 {
@@ -178,21 +193,23 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
                size_t bytes)
 {
     bool box = strcmp(name, "box") == 0, pile = strcmp(name, "pile") == 0;
+    bool sheet = strcmp(name, "sheet") == 0;
     struct carom_mesh_raw ground = box ? plane_mesh : field_mesh;
-    struct carom_mesh_raw body = box || pile ? box_mesh : head_mesh;
+    struct carom_mesh_raw body = box || pile || sheet ? box_mesh : head_mesh;
     uint8_t *next = mem;
     int result;
 
     if (strcmp(name, "user") == 0 && user) {
         body = scaled(user);
-    } else if (!box && !pile && strcmp(name, "head") != 0) {
+    } else if (!box && !pile && !sheet && strcmp(name, "head") != 0) {
         return CAROM_ERR_ARGUMENT;
     }
     memset(scene, 0, sizeof *scene);
     if (pile) {
         body.quantum_bits = PILE_BITS;
     }
-    result = build(&scene->ground_mesh, &ground, &next, &bytes);
+    result = sheet ? build_sheet(scene, &next, &bytes)
+                   : build(&scene->ground_mesh, &ground, &next, &bytes);
     if (result >= 0) {
         result = build(&scene->body_mesh, &body, &next, &bytes);
     }
@@ -204,12 +221,16 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     }
     scene->ground = ground_start;
     scene->ground.mesh = &scene->ground_mesh;
-    scene->body = box ? box_start : head_start;
+    scene->body = box || sheet ? box_start : head_start;
     scene->body.mesh = &scene->body_mesh;
     scene->camera = camera;
     scene->caps = (struct carom_caps){SCENE_CAPS};
     if (pile) {
         pour(scene);
+    }
+    if (sheet) {
+        scene->caps = (struct carom_caps){SCENE_SHEET_CAPS};
+        scene->waves = true;
     }
     return result;
 }
@@ -220,7 +241,7 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
     struct carom_config own = *config;
     int result;
 
-    if (scene->other_count > 0) {
+    if (scene->other_count > 0 || scene->waves) {
         own.caps = scene->caps;
     }
     result = carom_world_init(block, bytes, &own, world);
@@ -234,4 +255,13 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
         result = carom_body_add(*world, &scene->others[i]);
     }
     return result < 0 ? result : CAROM_OK;
+}
+
+int scene_before(struct scene *scene, struct carom_world *world, int frame)
+{
+    if (!scene->waves) {
+        return CAROM_OK;
+    }
+    scene_sheet_shape(scene->sheet.vertices, frame);
+    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])scene->sheet.vertices);
 }

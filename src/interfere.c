@@ -361,7 +361,7 @@ static void gather_over(struct interfere *w, const struct body *bodies, const st
     bool last = false;
 
     while (!last && !w->error) {
-        last = interfere_make_lists(w, bodies[b].mesh, &place);
+        last = interfere_make_lists(w, bodies, pairs, pair_count, b, &place);
         for (uint32_t i = first; i < pair_count && !w->error; i++) {
             if (pairs[i].b == b) {
                 gather_pair(w, bodies, pairs, i);

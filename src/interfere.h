@@ -69,6 +69,11 @@ struct interfere_leaf {
     int32_t top;                        /* highest z of b in the cells under it */
 };
 
+/* A rectangle seen from above, quanta. */
+struct interfere_area {
+    int32_t low[2], high[2];
+};
+
 struct interfere {
     struct candidate *candidates;
     struct pool *candidate_pool;
@@ -78,7 +83,8 @@ struct interfere {
     uint32_t gathers, candidate_count; /* for the statistics */
 
     bool pooled;                     /* b's z-lists are in `lists` */
-    const struct carom_mesh *listed; /* the mesh that `lists` hold whole; NULL: none */
+    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
+    struct interfere_area area;      /* where they hold all of it */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     int error;

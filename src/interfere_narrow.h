@@ -28,11 +28,11 @@ struct interfere_place {
 };
 
 /*
- * Make the z-lists of a mesh from a place on, until all are or the pool of entries is full; `from`
- * moves on. Returns whether that was all.
+ * Make the z-lists of b under the bodies of its pairs, from a place on, until all are made or the pool
+ * of entries is full; `from` moves on. Returns whether that was all.
  */
-bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
-                          struct interfere_place *from);
+bool interfere_make_lists(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                          uint32_t pair_count, uint16_t b, struct interfere_place *from);
 
 /* The faces of b in a cell of the lists that were made, from the highest z1 down to the leaf. */
 void interfere_visit_made(struct interfere *w, uint32_t cell);
