@@ -60,7 +60,7 @@ struct scene {
 /* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of the sheet */
 #define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
 #define SCENE_PILE_CAPS   17, 128, 384, 2048, 256, 2048
-#define SCENE_SHEET_CAPS  2, 1, 64, 1024, 4096, 1024
+#define SCENE_SHEET_CAPS  2, 1, 64, 1024, 512, 1024
 #define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
 
 /* The raw meshes of the head scene, generated. */
