@@ -122,6 +122,21 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
 
 /* -------------------------------------------------------------------- build */
 
+int64_t mesh_longest(int64_t longest, const int64_t v[3])
+{
+    uint64_t limit = (uint64_t)(longest * longest), square = 0; /* 3 2^62 fits */
+    int64_t length;
+
+    for (int k = 0; k < 3; k++) {
+        square += (uint64_t)(v[k] * v[k]);
+    }
+    if (square < limit - (limit >> 20)) {
+        return longest;
+    }
+    length = fix_length(v);
+    return length > longest ? length : longest;
+}
+
 /* The smallest sphere around the centre of mass that holds every vertex, rounded up. */
 static int32_t find_radius(const struct carom_mesh *mesh)
 {
@@ -130,9 +145,8 @@ static int32_t find_radius(const struct carom_mesh *mesh)
     for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
         carom_v3_q22 p = mesh_vertex(mesh, v);
         int64_t wide[3] = {p.c[0], p.c[1], p.c[2]};
-        int64_t length = fix_length(wide);
 
-        radius = length > radius ? length : radius;
+        radius = mesh_longest(radius, wide);
     }
     return (int32_t)radius;
 }

@@ -35,6 +35,12 @@ int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct caro
  */
 int mesh_refresh(struct mesh_builder *b);
 
+/*
+ * The longer one of `longest` and the length of v, |v| < 2^31 each: without a root when v is clearly
+ * shorter, by more than what lengths are rounded up by.
+ */
+int64_t mesh_longest(int64_t longest, const int64_t v[3]);
+
 /* Sort keys in rising order, in place. */
 void mesh_sort(uint64_t *keys, uint32_t n);
 

@@ -113,13 +113,12 @@ static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf)
     leaf->radius_q22 = 0;
     for (int i = 0; i < leaf->vertex_count; i++) {
         carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
-        int64_t from_centre[3], length;
+        int64_t from_centre[3];
 
         for (int k = 0; k < 3; k++) {
             from_centre[k] = (int64_t)p.c[k] - leaf->centre.c[k];
         }
-        length = fix_length(from_centre);
-        leaf->radius_q22 = length > leaf->radius_q22 ? (int32_t)length : leaf->radius_q22;
+        leaf->radius_q22 = (int32_t)mesh_longest(leaf->radius_q22, from_centre);
     }
 }
 
