@@ -216,7 +216,8 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
  *   contacts    points within the margin, before neighbouring ones are merged
  *   faces       interfering faces of one frame
- *   entries     of z-lists made within a step; rigid meshes bring theirs, so one will do
+ *   entries     of z-lists made within a step, for surfaces that move under the bodies over them;
+ *               working; rigid meshes bring theirs, so one will do
  *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
  *
  *   X(name, bytes for each, smallest allowed, largest allowed)
@@ -465,8 +466,10 @@ int carom_snapshot_size(const struct carom_world *world);
  */
 int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);
 /*
- * Take a snapshot back into a world that holds the same bodies. CAROM_ERR_FORMAT for bytes that are
- * not whole or belong to other bodies; the world is then as it was.
+ * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
+ * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
+ * CAROM_ERR_FORMAT for bytes that are not whole or belong to other bodies or surfaces elsewhere; the
+ * world is then as it was.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

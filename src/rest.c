@@ -104,6 +104,13 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }
 
+/* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
+static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+{
+    return way_q22 < 1 << 22 ? (way_q22 << 40) / (time_q30 >> 8)
+                             : ((way_q22 << 30) / (time_q30 >> 8)) << 10;
+}
+
 /*
  * The surface stands still within a step, where it will be at its end: nobody can follow it farther
  * down than that. What would have to counts it as standing still along the normal.
@@ -111,7 +118,7 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
 {
     int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
-    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -(room_q22 << 40) / (tau_q30 >> 8) : 0;
+    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
 
     if (c->target_q40 + rise_q40 >= least_q40) {
         return;
@@ -146,7 +153,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         /* may come nearer until the skins touch; q22 to q40 over the time */
         int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
 
-        c->target_q40 = tau_q30 > 0 ? -(open_q22 << 40) / (time_q30 >> 8) : 0;
+        c->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
     } else {
         c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
         c->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;

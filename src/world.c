@@ -224,6 +224,9 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     }
     w->bodies[place] = made;
     world_now(w)->bodies[place] = state;
+    if (made.mesh->surface) {
+        mesh_surface_halt(made.mesh->surface);
+    }
     world_wake_around(w, place);
     return (int)place;
 }

@@ -268,14 +268,12 @@ static void test_jump(void)
 static void test_spread(void)
 {
     struct carom_body_state s;
-    int64_t gap_q32;
     int other;
 
     begin(MOST, 0, 1 << 15);
     box_def.position.c[0] = CAROM_RATIO(1, 2, 32);
     box_def.position.c[2] = 3 * HALF + CAROM_RATIO(5, 100, 32);
     other = carom_body_add(world, &box_def);
-    gap_q32 = CAROM_RATIO(5, 100, 32);
     for (int v = 0; v < COUNT; v++) {
         at[v][2] = 1000;
     }
@@ -285,7 +283,6 @@ static void test_spread(void)
     CHECK(state_of(other).position.c[2] > s.position.c[2] + 2 * HALF);
     CHECK(state_of(other).position.c[2] > box_def.position.c[2]);
     CHECK(state_of(other).position.c[2] < box_def.position.c[2] + 1000 * QUANTUM_Q32);
-    (void)gap_q32;
 }
 
 /* ------------------------------------------------------------------- refusals */
@@ -328,6 +325,54 @@ static void test_refused(void)
     CHECK_EQ(carom_world_hash(world), hash);
     for (int v = 0; v < COUNT; v++) {
         CHECK_EQ(surface.raw.vertices[v][2], 1000);
+    }
+}
+
+/* A step that fails leaves the surface on its way: the next one with room goes on from there. */
+static void test_all_or_nothing(void)
+{
+    struct carom_world *w = NULL;
+    uint64_t hash;
+
+    begin(MOST, 0, 1 << 15);
+    settle();
+    w = world;
+    for (int v = 0; v < COUNT; v++) {
+        at[v][2] = 40;
+    }
+    CHECK_EQ(move(), CAROM_OK);
+    hash = carom_world_hash(w);
+    w->pools[CAROM_POOL_contacts].size = 1;
+    CHECK_EQ(carom_world_step(w), CAROM_ERR_CONTACTS_FULL);
+    CHECK_EQ(carom_world_hash(w), hash);
+    CHECK_EQ(mesh_drift_most(&surface), 40 << 10);
+    w->pools[CAROM_POOL_contacts].size = w->config.caps.contacts;
+    CHECK_EQ(carom_world_step(w), CAROM_OK);
+    CHECK_EQ(mesh_drift_most(&surface), 0);
+    CHECK_NEAR(state_of(BOX).velocity.c[2], 40 * QUANTUM_Q40, 5 * QUANTUM_Q40);
+}
+
+/* Heights at random, by some units a frame: nothing overflows, and the box stays above. */
+static void test_wild(void)
+{
+    struct test_random r = {5};
+
+    for (int e = 0; e < 2; e++) {
+        begin(MOST, e ? CAROM_ONE_Q30 : 0, 1 << 15);
+        for (int frame = 0; frame < 60; frame++) {
+            int range = frame % 3 == 0 ? 30000 : frame % 3 == 1 ? 5000 : 200;
+
+            for (int v = 0; v < COUNT; v++) {
+                at[v][2] = (int16_t)test_random_range(&r, -range, range);
+            }
+            CHECK_EQ(move(), CAROM_OK);
+            CHECK(carom_world_step(world) >= 0);
+            if (carom_abs(state_of(BOX).position.c[0]) < CAROM_RATIO(3, 1, 32) &&
+                carom_abs(state_of(BOX).position.c[1]) < CAROM_RATIO(3, 1, 32)) {
+                /* of what is under it nothing is lower than -range */
+                CHECK(state_of(BOX).position.c[2] > -range * QUANTUM_Q32);
+            }
+        }
     }
 }
 
@@ -380,6 +425,8 @@ const struct test tests_world_surface[] = {
     {"world_surface/aside", test_aside},
     {"world_surface/jump", test_jump},
     {"world_surface/spread", test_spread},
+    {"world_surface/all_or_nothing", test_all_or_nothing},
+    {"world_surface/wild", test_wild},
     {"world_surface/refused", test_refused},
     {"world_surface/snapshot", test_snapshot},
     {0},
