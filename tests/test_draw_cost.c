@@ -93,14 +93,14 @@ static void out_of_sight(void)
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         CHECK(pixels[i] < DRAW_SHADES);
     }
-    for (int body = 0; body < SCENE_OTHERS + 2; body++) {
+    for (int body = 0; body < scene.other_count + 2; body++) {
         CHECK_EQ(carom_body_remove(world, body), CAROM_OK);
     }
     empty = cost(world, &away, WIDTH, HEIGHT, sizeof workspace);
     report("nothing in sight", spent);
     report("nothing at all", empty);
     CHECK(empty <= EMPTY_SMALL);
-    CHECK(spent <= empty + (SCENE_OTHERS + 2) * EACH_BODY);
+    CHECK(spent <= empty + (uint32_t)(scene.other_count + 2) * EACH_BODY);
 }
 
 /* Pictures are the same in parts, down to the least workspace, which takes many. */
