@@ -49,12 +49,13 @@ SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LI
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
-EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene.c,$(wildcard examples/*.c)))
+EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 # what the generators make, by the number of faces; without one, that of the paper
 HEADS := head head48 head80 head450 head836
 FIELDS := field field386 field512 field12012 field49928
-SCENE_FILES := $(call objects,examples/scene.c $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
+SCENE_FILES := $(call objects,$(wildcard examples/scene*.c) \
+    $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
@@ -94,7 +95,7 @@ help: ## list the commands
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
+run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
 	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')

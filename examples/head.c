@@ -148,7 +148,10 @@ int main(void)
 
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
-        int status = expect(carom_world_step(world), "step");
+        int status;
+
+        expect(scene_before(&scene, world, frame), "scene");
+        status = expect(carom_world_step(world), "step");
         uint32_t draw_ticks = draw(world, &scene.camera);
 
         port_present();

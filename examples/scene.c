@@ -175,6 +175,21 @@ static int build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, uint
     return result;
 }
 
+/* The same for the sheet, which is going to move. */
+static int build_sheet(struct scene *scene, uint8_t **mem, size_t *bytes)
+{
+    struct carom_mesh_raw raw = scene_sheet_raw(&scene->sheet);
+    size_t wanted = CAROM_SURFACE_BYTES(SCENE_SHEET_VERTICES, SCENE_SHEET_FACES);
+    int result = *bytes < wanted ? CAROM_ERR_MEMORY
+                                 : carom_surface_build(&scene->ground_mesh, &raw, *mem, wanted);
+
+    if (result >= 0) {
+        *mem += wanted;
+        *bytes -= wanted;
+    }
+    return result;
+}
+
 /* Layers of side x side bodies, each turned and shifted against the one below, close together. */
 static void pour(struct scene *scene, int side, int z_mm, int up_mm_s)
 {
@@ -222,7 +237,8 @@ static void lay(struct scene *scene)
 /* What a scene is made of. */
 static const struct recipe {
     const char *name;
-    const struct carom_mesh_raw *ground, *bodies[SCENE_MESHES]; /* the bodies take them in turn */
+    const struct carom_mesh_raw *ground;               /* NULL: the sheet */
+    const struct carom_mesh_raw *bodies[SCENE_MESHES]; /* the bodies take them in turn */
     const struct carom_body_def *start;
     void (*arrange)(struct scene *); /* where further bodies are */
     uint8_t others;                  /* bodies but the first */
@@ -245,6 +261,7 @@ static const struct recipe {
     {"growth-3034", &field_mesh, {&head_mesh}, &growth_starts[1], NULL, 0, 0},
     {"growth-12012", &field12012_mesh, {&head_mesh}, &growth_starts[2], NULL, 0, 0},
     {"growth-49928", &field49928_mesh, {&head_mesh}, &growth_starts[3], NULL, 0, 0},
+    {"sheet", NULL, {&box_mesh}, &box_start, NULL, 0, 0},
     {"user", &field_mesh, {NULL}, &head_start, NULL, 0, 0},
 };
 
@@ -300,14 +317,17 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     scene->ground = ground_start;
     scene->ground.mesh = &scene->ground_mesh;
     scene->camera = camera;
-    result = build(&scene->ground_mesh, recipe->ground, &next, &bytes);
+    scene->waves = recipe->ground == NULL;
+    result = scene->waves ? build_sheet(scene, &next, &bytes)
+                          : build(&scene->ground_mesh, recipe->ground, &next, &bytes);
     if (result >= 0) {
         result = build_bodies(scene, recipe, user, &next, &bytes);
     }
     if (recipe->arrange) {
         recipe->arrange(scene);
     }
-    scene->caps = recipe->others == 0   ? (struct carom_caps){SCENE_CAPS}
+    scene->caps = scene->waves          ? (struct carom_caps){SCENE_SHEET_CAPS}
+                  : recipe->others == 0 ? (struct carom_caps){SCENE_CAPS}
                   : recipe->others < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
                                         : (struct carom_caps){SCENE_LARGE_CAPS};
     return result;
@@ -319,7 +339,7 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
     struct carom_config own = *config;
     int result;
 
-    if (scene->other_count > 0) {
+    if (scene->other_count > 0 || scene->waves) {
         own.caps = scene->caps;
     }
     result = carom_world_init(block, bytes, &own, world);
@@ -333,4 +353,13 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
         result = carom_body_add(*world, &scene->others[i]);
     }
     return result < 0 ? result : CAROM_OK;
+}
+
+int scene_before(struct scene *scene, struct carom_world *world, int frame)
+{
+    if (!scene->waves) {
+        return CAROM_OK;
+    }
+    scene_sheet_shape(scene->sheet.vertices, frame);
+    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])scene->sheet.vertices);
 }

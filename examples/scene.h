@@ -13,6 +13,7 @@
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
  *   pile32      32 bodies of 12 to 80 faces, poured on the field
  *   flight32    the same, thrown up from just above the field
+ *   sheet       a box on a sheet of 800 faces that waves
  *   user        a mesh of the caller's in place of the head
  *
  * A frame is 1/60 s and a unit 1 m.
@@ -36,6 +37,15 @@ enum { SCENE_GROUND, SCENE_BODY };
 #define SCENE_OTHERS 31
 #define SCENE_MESHES 4 /* of bodies, in one scene */
 
+/* A sheet of squares, two faces each. */
+#define SCENE_SHEET_SIDE     20
+#define SCENE_SHEET_VERTICES ((SCENE_SHEET_SIDE + 1) * (SCENE_SHEET_SIDE + 1))
+#define SCENE_SHEET_FACES    (2 * SCENE_SHEET_SIDE * SCENE_SHEET_SIDE)
+struct scene_sheet {
+    int16_t vertices[SCENE_SHEET_VERTICES][3];
+    uint16_t faces[SCENE_SHEET_FACES][3];
+};
+
 struct scene {
     struct carom_mesh ground_mesh, body_mesh, other_mesh[SCENE_MESHES - 1];
     struct carom_body_def ground, body; /* refer to the meshes: a scene stays where it was loaded */
@@ -43,6 +53,8 @@ struct scene {
     int other_count;
     struct carom_camera camera;
     struct carom_caps caps;
+    bool waves; /* the ground is this sheet */
+    struct scene_sheet sheet;
 };
 
 /*
@@ -59,10 +71,11 @@ struct scene {
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
 
-/* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32 bodies */
+/* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet */
 #define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
 #define SCENE_PILE_CAPS   17, 128, 384, 2048, 256, 2048
 #define SCENE_LARGE_CAPS  33, 256, 768, 4096, 1, 4096
+#define SCENE_SHEET_CAPS  2, 1, 64, 1024, 512, 1024
 #define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
 
 /* The raw meshes, generated; a number is that of the faces. */
@@ -86,5 +99,12 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
 /* Make a world in a block of its own and put the bodies in. Returns CAROM_OK or an error. */
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
+
+/* What happens before a frame, 1 being the first: the sheet moves. Returns CAROM_OK or an error. */
+int scene_before(struct scene *scene, struct carom_world *world, int frame);
+
+/* The sheet: where its vertices are before a frame, and the raw mesh of the first. */
+void scene_sheet_shape(int16_t (*vertices)[3], int32_t frame);
+struct carom_mesh_raw scene_sheet_raw(struct scene_sheet *sheet);
 
 #endif

@@ -52,7 +52,9 @@ enum carom_error {
     CAROM_ERR_MESH_EDGE = -15,       /* an edge with three faces, or two of the same direction */
     CAROM_ERR_MESH_INSIDE_OUT = -16, /* a SOLID of negative volume, a SURFACE that looks down */
     CAROM_ERR_MESH_SURFACE = -17,    /* a SURFACE face that is not single-valued in z */
-    CAROM_ERR_FORMAT = -18           /* a blob or snapshot that is not whole */
+    CAROM_ERR_FORMAT = -18,          /* a blob or snapshot that is not whole */
+    CAROM_ERR_BLOCKED = -19,         /* a surface would press a body into a stationary one */
+    CAROM_ERR_NO_ENTRIES = -20       /* a surface that moves needs a world of some entries */
 };
 
 /* A short English text for any result. Never NULL. */
@@ -127,6 +129,8 @@ struct carom_zref {
     uint16_t face;
 };
 
+struct carom_surface;
+
 /* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
 struct carom_mesh {
     struct carom_mesh_raw raw;
@@ -146,6 +150,7 @@ struct carom_mesh {
     const uint8_t (*leaf_corners)[3]; /* a leaf face's corners as places in its leaf's vertices */
     const uint32_t *cell_start; /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
     const struct carom_zref *zrefs; /* sorted by z1, highest first */
+    struct carom_surface *surface;  /* of carom_surface_build; else NULL */
 };
 
 /*
@@ -177,6 +182,22 @@ int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, 
                      size_t bytes);
 
 /*
+ * A SURFACE whose vertices may be moved while it is in a world, by carom_surface_move. As
+ * carom_mesh_build, but
+ *
+ *   mesh   must stay where it is; for one body of one world
+ *   raw    its vertices are copied and not needed any more; its faces must outlive the mesh
+ *   mem    CAROM_SURFACE_BYTES(vertices, faces) bytes of RAM: what is built and two copies of the
+ *          vertices live in it
+ *
+ * Returns  CAROM_ERR_ARGUMENT for a SOLID as well.
+ */
+#define CAROM_SURFACE_BYTES(vertices, faces)                                                       \
+    (CAROM_MESH_BYTES(vertices, faces) + ((size_t)12 * (size_t)(vertices) + 80 + 7) / 8 * 8)
+int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                        size_t bytes);
+
+/*
  * Read a mesh from the binary blob that the mesh converter writes (layout: SPEC.md).
  *   mem  receives vertices and faces: CAROM_BLOB_BYTES(vertices, faces) bytes, aligned to 8
  * Returns CAROM_OK; CAROM_ERR_FORMAT for a blob that is truncated or altered; CAROM_ERR_MEMORY.
@@ -196,7 +217,8 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
  *   contacts    points within the margin, before neighbouring ones are merged
  *   faces       interfering faces of one frame
- *   entries     of z-lists made within a step, none when all meshes are rigid: these bring theirs
+ *   entries     of z-lists made within a step, for surfaces that move under the bodies over them;
+ *               working; none when all meshes are rigid: these bring theirs
  *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
  *
  *   X(name, bytes for each, smallest allowed, largest allowed)
@@ -210,9 +232,9 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1080
+#define CAROM_BODY_BYTES        1104
 #define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     544
+#define CAROM_CONTACT_BYTES     568
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
@@ -328,6 +350,28 @@ int carom_body_set_force(struct carom_world *world, int body, const carom_v3_q40
  */
 int carom_body_push(struct carom_world *world, int body, const carom_v3_q40 *impulse,
                     const carom_v3_q32 *point);
+
+/*
+ * Let a surface of carom_surface_build have other vertices, of the same topology. The surface stands
+ * still within a step; in the next one whatever touches it finds it moving by what its vertices have
+ * moved by since the last step, in a frame. What touches it or is near it wakes. Moving bodies that
+ * the surface went into are lifted out of it along its z, with what touches them: that is its work.
+ * Interfering faces and contacts of the last step are forgotten.
+ *
+ *   vertices  as many as the mesh has; copied
+ *
+ * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body that is no such surface;
+ *          CAROM_ERR_RANGE for a coordinate more than 16 units from where it was in the last step, or
+ *          for what carom_mesh_build does not take; CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT, _SURFACE;
+ *          CAROM_ERR_BLOCKED when what would be lifted runs into a stationary body;
+ *          CAROM_ERR_PAIRS_FULL, _FACES_FULL.
+ */
+int carom_surface_move(struct carom_world *world, int body, const int16_t (*vertices)[3]);
+/*
+ * Put a surface there at once, as if it had been there in the last step: as carom_body_set with a
+ * stationary body, whatever is in the way stays where it is. Before a snapshot is taken back.
+ */
+int carom_surface_set(struct carom_world *world, int body, const int16_t (*vertices)[3]);
 
 /*
  * Move the world by one frame. All or nothing.
@@ -447,8 +491,10 @@ int carom_snapshot_size(const struct carom_world *world);
  */
 int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes);
 /*
- * Take a snapshot back into a world that holds the same bodies. CAROM_ERR_FORMAT for bytes that are
- * not whole or belong to other bodies; the world is then as it was.
+ * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
+ * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
+ * CAROM_ERR_FORMAT for bytes that are not whole or belong to other bodies or surfaces elsewhere; the
+ * world is then as it was.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

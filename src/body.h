@@ -109,6 +109,8 @@ struct body {
     struct carom_sym3 turning;       /* R J^-1 R^T by the solver's unit of length squared */
     int64_t dv[3], dw[3];            /* what a solve changes them by, in its units */
     carom_v3_q40 saved_momentum, saved_angular; /* before it, for the energy rule */
+    int64_t lift_q32;      /* what surfaces lift an island by, at its lowest body */
+    struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
 };
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */

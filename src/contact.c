@@ -88,24 +88,42 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->side[0].body = pair->a->moving ? pair->a : NULL;
     c->side[1].body = pair->b->moving ? pair->b : NULL;
     set_arms(c, arm);
+    contact_drift(pair, key, &arm[1], &c->drift);
     return true;
+}
+
+/*
+ * How much of a gap a surface made when it moved: what lay on it and is going to follow it down still
+ * is where it was, and what it threw up is ahead of it.
+ */
+static int64_t drifted_q22(const struct boyse_pair *pair, const struct candidate *c,
+                           const carom_v3_q30 *normal, const carom_v3_q40 *arm)
+{
+    carom_v3_q40 drift;
+
+    contact_drift(pair, c, arm, &drift);
+    return carom_abs(contact_rise_q40(&drift, normal)) >> 18;
 }
 
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
                  const struct candidate *c, int32_t margin_q22)
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
+    int32_t most = mesh_drift_most(pair->b->mesh);
     struct boyse_touch touch;
     carom_v3_q40 arm[2];
 
-    if (!boyse_near(pair, c, deepest, margin_q22)) {
+    if (!boyse_near(pair, c, deepest, margin_q22 + most)) {
         return true;
     }
     boyse_touch(pair, c, 0, &touch);
-    if (!touch.valid || touch.gap_q22 > margin_q22 || touch.gap_q22 < deepest) {
+    if (!touch.valid || touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
         return true;
     }
     contact_place(pair, c, &touch.normal, arm);
+    if (most > 0 && touch.gap_q22 - drifted_q22(pair, c, &touch.normal, &arm[1]) > margin_q22) {
+        return true;
+    }
     return contact_insert(list, pair, c, &touch.normal, touch.gap_q22, arm);
 }
 

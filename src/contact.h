@@ -41,7 +41,8 @@ struct contact {
     struct candidate key;
     carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
-    int32_t skin_q22; /* of the pair */
+    int32_t skin_q22;   /* of the pair */
+    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
     struct contact_side side[2];
 
     /* worked out by the solver */
@@ -140,6 +141,21 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
  */
 bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
                    const struct boyse_hit *hit);
+
+/*
+ * How the surface of b moves at a contact, in world axes: what it moved by since the last step, a
+ * frame; 0 for all else.
+ *   arm  from b's centre to the contact
+ */
+void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
+                   const carom_v3_q40 *arm, carom_v3_q40 *drift);
+
+/* The part of the drift along the normal. */
+static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)
+{
+    return fix_mul(drift->c[0], n->c[0], 30) + fix_mul(drift->c[1], n->c[1], 30) +
+           fix_mul(drift->c[2], n->c[2], 30);
+}
 
 /*
  * Merge contacts of a pair that share place and normal; the smallest gap stays.

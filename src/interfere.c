@@ -42,9 +42,9 @@ static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3
 }
 
 /* The highest z of b in the cells under a box, quanta. */
-static int32_t highest_under(const struct carom_mesh *mb, const int32_t low[3],
-                             const int32_t high[3])
+static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3])
 {
+    const struct carom_mesh *mb = w->b->mesh;
     struct cells cells = cells_under(mb, low, high);
     int32_t top = INT16_MIN;
 
@@ -52,7 +52,13 @@ static int32_t highest_under(const struct carom_mesh *mb, const int32_t low[3],
         const uint32_t *start = &mb->cell_start[row * mb->grid_nx];
 
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
-            if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
+            if (w->pooled) {
+                uint16_t first = w->lists.head[row * mb->grid_nx + col];
+
+                top = first != ZLIST_NONE && w->lists.entry[first].z1 > top
+                          ? w->lists.entry[first].z1
+                          : top;
+            } else if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
                 top = mb->zrefs[start[col]].z1;
             }
         }
@@ -92,7 +98,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
             return false;
         }
     }
-    l->top = highest_under(mb, low, high);
+    l->top = highest_under(w, low, high);
     return low[2] <= l->top;
 }
 
@@ -181,18 +187,23 @@ static bool is_new(struct interfere *w, uint16_t face)
     return true;
 }
 
+void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face)
+{
+    if (z0 <= w->leaf.quanta_high[2] && is_new(w, face) && face_near(w, face)) {
+        interfere_narrow(w, face);
+    }
+}
+
 /* The faces of b in one cell, from the highest z1 down to the leaf. */
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    int32_t low = w->leaf.quanta_low[2], high = w->leaf.quanta_high[2];
+    int32_t low = w->leaf.quanta_low[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
     for (; r < end && r->z1 >= low; r++) {
-        if (r->z0 <= high && is_new(w, r->face) && face_near(w, r->face)) {
-            interfere_narrow(w, r->face);
-        }
+        interfere_visit_entry(w, r->z0, r->face);
     }
 }
 
@@ -211,7 +222,13 @@ static void visit_leaf(struct interfere *w)
     cells = cells_under(mb, w->leaf.quanta_low, w->leaf.quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
-            visit_cell(w, (uint32_t)(row * mb->grid_nx + col));
+            uint32_t cell = (uint32_t)(row * mb->grid_nx + col);
+
+            if (w->pooled) {
+                interfere_visit_made(w, cell);
+            } else {
+                visit_cell(w, cell);
+            }
         }
     }
     for (uint32_t i = 0; w->leaf.busy >> i != 0; i++) {
@@ -317,10 +334,18 @@ void interfere_leaves(struct interfere *w)
     }
 }
 
-static void gather_pair(struct interfere *w)
+static void gather_pair(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                        uint32_t number)
 {
-    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + w->a->turn_q30 + w->b->turn_q30;
+    const struct pair *p = &pairs[number];
+    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
 
+    w->pair = (uint16_t)number;
+    w->body_a = p->a;
+    w->body_b = p->b;
+    w->a = &bodies[p->a];
+    w->b = &bodies[p->b];
+    w->pooled = interfere_makes_lists(w->b->mesh);
     if (!set_motion(w)) {
         return;
     }
@@ -331,6 +356,65 @@ static void gather_pair(struct interfere *w)
     w->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
+}
+
+/* What bodies of pairs with b reach, seen from above in b's quanta. */
+static struct interfere_area area_under(const struct body *bodies, const struct pair *pairs,
+                                        uint32_t pair_count, uint16_t b)
+{
+    struct interfere_area area = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
+    const struct body *surface = &bodies[b];
+    int shift = 32 - surface->mesh->raw.quantum_bits;
+
+    for (uint32_t i = 0; i < pair_count; i++) {
+        const struct body *a = &bodies[pairs[i].a];
+        int64_t way[3], around_q22 = (int64_t)a->radius_q22 + a->reach_q22 + surface->reach_q22;
+        int32_t around = (int32_t)(around_q22 >> (shift - 10)) + 2;
+
+        for (int k = 0; k < 3; k++) {
+            way[k] = a->region.at.c[k] - surface->region.at.c[k];
+        }
+        fix_rotate_back(way, &surface->region.r, way);
+        for (int k = 0; pairs[i].b == b && k < 2; k++) {
+            /* places are below 2^14 units: 2^34 quanta */
+            int64_t at = way[k] >> shift;
+            int32_t middle = (int32_t)(at < -(1 << 20) ? -(1 << 20) : at > 1 << 20 ? 1 << 20 : at);
+
+            area.low[k] = middle - around < area.low[k] ? middle - around : area.low[k];
+            area.high[k] = middle + around > area.high[k] ? middle + around : area.high[k];
+        }
+    }
+    return area;
+}
+
+/* The pairs from the first on that have the same b, against each chunk of its lists. */
+static void gather_over(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                        uint32_t pair_count, uint32_t first)
+{
+    const uint16_t b = pairs[first].b;
+    const struct interfere_area area = area_under(bodies, pairs, pair_count, b);
+    struct interfere_place place = {0, 0};
+    bool last = false;
+
+    while (!last && !w->error) {
+        last = interfere_make_lists(w, bodies[b].mesh, &area, &place);
+        for (uint32_t i = first; i < pair_count && !w->error; i++) {
+            if (pairs[i].b == b) {
+                gather_pair(w, bodies, pairs, i);
+            }
+        }
+    }
+}
+
+/* Whether a pair is the first one that has its b. */
+static bool comes_first(const struct pair *pairs, uint32_t number)
+{
+    uint32_t i = 0;
+
+    while (pairs[i].b != pairs[number].b) {
+        i++;
+    }
+    return i == number;
 }
 
 void interfere_begin(struct interfere *w)
@@ -349,12 +433,11 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
         w->gathers++;
         pool_clear(w->candidate_pool);
         for (uint32_t i = 0; i < pair_count && !w->error; i++) {
-            w->pair = (uint16_t)i;
-            w->body_a = pairs[i].a;
-            w->body_b = pairs[i].b;
-            w->a = &bodies[pairs[i].a];
-            w->b = &bodies[pairs[i].b];
-            gather_pair(w);
+            if (!interfere_makes_lists(bodies[pairs[i].b].mesh)) {
+                gather_pair(w, bodies, pairs, i);
+            } else if (comes_first(pairs, i)) {
+                gather_over(w, bodies, pairs, pair_count, i);
+            }
         }
         if (w->error) {
             w->whole = false;

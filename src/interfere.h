@@ -81,6 +81,10 @@ struct interfere_leaf {
 
 struct target;
 struct interfere_query;
+/* A rectangle seen from above, quanta. */
+struct interfere_area {
+    int32_t low[2], high[2];
+};
 
 struct interfere {
     struct candidate *candidates;
@@ -90,6 +94,10 @@ struct interfere {
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
     uint32_t enough;                   /* a gather that has more candidates stops */
+
+    bool pooled;                     /* b's z-lists are in `lists` */
+    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
+    struct interfere_area area;      /* where they hold all of it */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
@@ -127,6 +135,9 @@ void interfere_begin(struct interfere *w);
  */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);
+
+/* Forget z-lists that were made; the surface has moved or gone. */
+void interfere_forget_lists(struct interfere *w);
 
 /* Sort the interfering faces and drop repeated ones. */
 void interfere_finish(struct interfere *w);

@@ -56,6 +56,29 @@ void interfere_narrow(struct interfere *w, uint16_t face_b);
 /* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
 bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);
 
+/* Whether the z-lists of a mesh are made within a step. */
+static inline bool interfere_makes_lists(const struct carom_mesh *mesh)
+{
+    return mesh->surface && !mesh->surface->own_lists;
+}
+
+/* Where the making of z-lists goes on. */
+struct interfere_place {
+    uint32_t face, cells; /* the next face, and how many of its cells are done */
+};
+
+/*
+ * Make the z-lists of a mesh in an area, from a place on, until all are made or the pool of entries is
+ * full; `from` moves on. Returns whether that was all.
+ */
+bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
+                          const struct interfere_area *area, struct interfere_place *from);
+
+/* The faces of b in a cell of the lists that were made, from the highest z1 down to the leaf. */
+void interfere_visit_made(struct interfere *w, uint32_t cell);
+/* A face of b in a cell, with the z that it spans there. */
+void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face);
+
 /* Note an interfering face; an error is left in w. */
 void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face);
 

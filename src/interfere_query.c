@@ -15,6 +15,7 @@ struct interfere_query {
     struct carom_face_pair *out;
     uint32_t room, count;
     bool swapped; /* a is the caller's b */
+    bool again;   /* leaves come up again, for other z-lists of b */
 
     /* of the leaf at hand */
     const struct carom_leaf *leaf;
@@ -34,7 +35,7 @@ static int32_t scale_for(int32_t length_q20)
 static void begin_leaf(struct interfere_query *q, const struct carom_leaf *leaf)
 {
     q->leaf = leaf;
-    q->first = q->count;
+    q->first = q->again ? 0 : q->count;
     /* an edge is shorter than the sphere is wide, but for what cutting off makes of it */
     q->edge_scale = scale_for((leaf->radius_q22 >> 1) + 8);
 }
@@ -121,7 +122,7 @@ static bool intervals_apart(struct meeting *m, const struct interfere_vec *const
     return apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
 }
 
-/* A face lies in several cells and may come up again: the pairs of a leaf are each listed once. */
+/* A face lies in several cells and may come up again: pairs are listed once. */
 static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
 {
     struct interfere_query *q = w->query;
@@ -193,6 +194,35 @@ static void place_pair(struct interfere *w, const struct body_state *a, const st
     interfere_relate(&w->to_b, &r_b, &r_a);
 }
 
+/* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
+static struct interfere_area area_at(const struct interfere *w)
+{
+    int shift = 20 - w->b->mesh->raw.quantum_bits;
+    int32_t around = (w->a->radius_q22 >> 2) + BOX_MARGIN_Q22;
+    struct interfere_area area;
+
+    for (int k = 0; k < 2; k++) {
+        area.low[k] = (w->at.c[k] - around) >> shift;
+        area.high[k] = (w->at.c[k] + around) >> shift;
+    }
+    return area;
+}
+
+/* All leaves of a, against each chunk of b's z-lists when they are made from the pool. */
+static void visit_leaves(struct interfere *w)
+{
+    const struct interfere_area area = area_at(w);
+    struct interfere_place place = {0, 0};
+    bool last = false;
+
+    w->pooled = interfere_makes_lists(w->b->mesh);
+    while (!last && !w->error) {
+        last = !w->pooled || interfere_make_lists(w, w->b->mesh, &area, &place);
+        interfere_leaves(w);
+        w->query->again = true;
+    }
+}
+
 int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room)
 {
@@ -207,6 +237,7 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     q.count = 0;
     q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
     q.leaf = NULL;
+    q.again = false;
     w->a = q.swapped ? b.body : a.body;
     w->b = q.swapped ? a.body : b.body;
     place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state);
@@ -217,7 +248,7 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     w->error = CAROM_OK;
     w->meet = meet;
     w->query = &q;
-    interfere_leaves(w);
+    visit_leaves(w);
     w->query = NULL;
     result = w->error ? w->error : (int)q.count;
     w->error = CAROM_OK;
@@ -293,28 +324,42 @@ static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v
     return (side > 0 ? height < 0 : height > 0) ? side : 0;
 }
 
+/* How often more faces over a point look up than down, by the z-lists of its cell. */
+static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
+{
+    int to_quanta = 22 - mesh->raw.quantum_bits, winding = 0;
+    int32_t col = ((p->c[0] >> to_quanta) - mesh->grid_x0) >> mesh->grid_shift;
+    int32_t row = ((p->c[1] >> to_quanta) - mesh->grid_y0) >> mesh->grid_shift;
+    const struct carom_zref *r, *end;
+    uint32_t cell;
+
+    if (col < 0 || col >= mesh->grid_nx || row < 0 || row >= mesh->grid_ny) {
+        return 0;
+    }
+    cell = (uint32_t)(row * mesh->grid_nx + col);
+    end = &mesh->zrefs[mesh->cell_start[cell + 1]];
+    for (r = &mesh->zrefs[mesh->cell_start[cell]]; r < end && r->z1 >= p->c[2] >> to_quanta; r++) {
+        winding += face_over(mesh, r->face, p);
+    }
+    return winding;
+}
+
+/* The same for a mesh whose own z-lists are those of another shape. */
+static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
+{
+    int winding = 0;
+
+    for (uint32_t face = 0; face < mesh->raw.face_count; face++) {
+        winding += face_over(mesh, (uint16_t)face, p);
+    }
+    return winding;
+}
+
 bool interfere_inside(struct interfere_placed a, struct interfere_placed b)
 {
     const struct carom_mesh *mb = b.body->mesh;
-    int to_quanta = 22 - mb->raw.quantum_bits, winding = 0;
-    const struct carom_zref *r, *end;
     carom_v3_q22 p;
-    int32_t col, row, z;
-    uint32_t cell;
 
-    if (!place_probe(&p, a, b)) {
-        return false;
-    }
-    col = ((p.c[0] >> to_quanta) - mb->grid_x0) >> mb->grid_shift;
-    row = ((p.c[1] >> to_quanta) - mb->grid_y0) >> mb->grid_shift;
-    z = p.c[2] >> to_quanta;
-    if (col < 0 || col >= mb->grid_nx || row < 0 || row >= mb->grid_ny) {
-        return false;
-    }
-    cell = (uint32_t)(row * mb->grid_nx + col);
-    end = &mb->zrefs[mb->cell_start[cell + 1]];
-    for (r = &mb->zrefs[mb->cell_start[cell]]; r < end && r->z1 >= z; r++) {
-        winding += face_over(mb, r->face, &p);
-    }
-    return winding > 0;
+    return place_probe(&p, a, b) &&
+           (interfere_makes_lists(mb) ? winding_of_all(mb, &p) : winding_at(mb, &p)) > 0;
 }

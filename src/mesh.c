@@ -122,6 +122,21 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
 
 /* -------------------------------------------------------------------- build */
 
+int64_t mesh_longest(int64_t longest, const int64_t v[3])
+{
+    uint64_t limit = (uint64_t)(longest * longest), square = 0; /* 3 2^62 fits */
+    int64_t length;
+
+    for (int k = 0; k < 3; k++) {
+        square += (uint64_t)(v[k] * v[k]);
+    }
+    if (square < limit - (limit >> 20)) {
+        return longest;
+    }
+    length = fix_length(v);
+    return length > longest ? length : longest;
+}
+
 /* The smallest sphere around the centre of mass that holds every vertex, rounded up. */
 static int32_t find_radius(const struct carom_mesh *mesh)
 {
@@ -130,9 +145,8 @@ static int32_t find_radius(const struct carom_mesh *mesh)
     for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
         carom_v3_q22 p = mesh_vertex(mesh, v);
         int64_t wide[3] = {p.c[0], p.c[1], p.c[2]};
-        int64_t length = fix_length(wide);
 
-        radius = length > radius ? length : radius;
+        radius = mesh_longest(radius, wide);
     }
     return (int32_t)radius;
 }
@@ -186,11 +200,26 @@ static int build(struct mesh_builder *b)
     return mesh_build_zlists(b);
 }
 
-int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
-                     size_t bytes)
+int mesh_refresh(struct mesh_builder *b)
+{
+    int error = find_box(b->mesh);
+
+    if (error == CAROM_OK) {
+        error = find_normals(b);
+    }
+    if (error == CAROM_OK) {
+        mesh_shape_edges(b);
+        find_offsets(b);
+        b->mesh->radius_q22 = find_radius(b->mesh);
+        mesh_shape_leaves(b);
+    }
+    return error;
+}
+
+int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct carom_mesh_raw *raw,
+              void *mem, size_t bytes)
 {
     struct carom_mesh built;
-    struct mesh_builder b;
     int error;
 
     if (!mesh || !raw || !raw->vertices || !raw->faces || !mem) {
@@ -205,14 +234,23 @@ int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, 
     }
     memset(&built, 0, sizeof built);
     built.raw = *raw;
-    b.mesh = &built;
-    arena_init(&b.arena, mem, bytes);
-    b.keys = (uint64_t *)mem + bytes / 8 - (size_t)3 * raw->face_count;
-    error = build(&b);
+    b->mesh = &built;
+    arena_init(&b->arena, mem, bytes);
+    b->keys = (uint64_t *)mem + bytes / 8 - (size_t)3 * raw->face_count;
+    error = build(b);
+    b->mesh = mesh;
     if (error == CAROM_OK) {
         *mesh = built;
     }
     return error;
+}
+
+int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                     size_t bytes)
+{
+    struct mesh_builder b;
+
+    return mesh_make(&b, mesh, raw, mem, bytes);
 }
 
 int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes)

@@ -19,6 +19,59 @@ static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v
         {quanta[0] * one - centre[0], quanta[1] * one - centre[1], quanta[2] * one - centre[2]}};
 }
 
+/* A surface whose vertices the caller may move; behind its mesh in the caller's block. */
+struct carom_surface {
+    struct carom_mesh *mesh;
+    int16_t (*now)[3];    /* its vertices */
+    int16_t (*before)[3]; /* where they were when the last step ended */
+    struct carom_face *faces;
+    struct carom_edge *edges;
+    struct carom_leaf *leaves;
+    uint32_t *lists;  /* room for z-lists of its own */
+    bool own_lists;   /* these are kept and used; else those of a world's pool */
+    int32_t most_q22; /* no vertex has moved by more since `before` */
+};
+
+/*
+ * Let the mesh have other vertices, for a try: mesh_surface_keep takes them over, mesh_surface_undo
+ * goes back.
+ *
+ *   drifts  it moves there, and may do so by MESH_STEP_MAX units; else it is put there
+ *   rise    out  the surface is higher than before by no more than that anywhere; 0 or above
+ *
+ * Returns CAROM_OK, CAROM_ERR_RANGE for a step of more than MESH_STEP_MAX units or too large a box,
+ * CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT or _SURFACE; nothing has changed then.
+ */
+#define MESH_STEP_MAX 16
+int mesh_surface_try(struct carom_surface *s, const int16_t (*vertices)[3], bool drifts,
+                     int64_t *rise_q22);
+void mesh_surface_keep(struct carom_surface *s);
+void mesh_surface_undo(struct carom_surface *s);
+
+/* The surface stands still where it is. */
+void mesh_surface_halt(struct carom_surface *s);
+
+/* How far any vertex has moved since the last step; 0 for a mesh that cannot. */
+static inline int32_t mesh_drift_most(const struct carom_mesh *mesh)
+{
+    return mesh->surface ? mesh->surface->most_q22 : 0;
+}
+
+/*
+ * What a vertex, a place on an edge or a place on a face has moved by since the last step, in the
+ * mesh's axes; places not on the feature count as the nearest.
+ */
+void mesh_drift_vertex(const struct carom_mesh *mesh, uint32_t v, carom_v3_q40 *out);
+void mesh_drift_edge(const struct carom_mesh *mesh, uint32_t edge, const carom_v3_q22 *at,
+                     carom_v3_q40 *out);
+void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *at,
+                     carom_v3_q40 *out);
+
+/* Start the walk over the cells of the mesh's grid that a face touches. */
+void mesh_scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face);
+/* A face as z-lists see it. */
+struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face);
+
 /* The grid of the mesh's own z-lists. */
 static inline struct scan_grid mesh_grid(const struct carom_mesh *mesh)
 {

@@ -20,7 +20,26 @@ struct mesh_builder {
     uint64_t *keys; /* the work table: 3 for each face */
     struct carom_face *faces;
     struct carom_edge *edges;
+    struct carom_leaf *leaves;
 };
+
+/*
+ * carom_mesh_build, and where in the block things lie: faces, edges and leaves of the builder.
+ */
+int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct carom_mesh_raw *raw,
+              void *mem, size_t bytes);
+
+/*
+ * Work out anew what depends on where the vertices are, but for the z-lists. CAROM_OK,
+ * CAROM_ERR_RANGE, CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT or _SURFACE.
+ */
+int mesh_refresh(struct mesh_builder *b);
+
+/*
+ * The longer one of `longest` and the length of v, |v| < 2^31 each: without a root when v is clearly
+ * shorter, by more than what lengths are rounded up by.
+ */
+int64_t mesh_longest(int64_t longest, const int64_t v[3]);
 
 /* Sort keys in rising order, in place. */
 void mesh_sort(uint64_t *keys, uint32_t n);
@@ -28,8 +47,13 @@ void mesh_sort(uint64_t *keys, uint32_t n);
 /* Edges, their rings and what faces own. CAROM_OK or CAROM_ERR_MESH_OPEN, _EDGE, _SURFACE. */
 int mesh_build_edges(struct mesh_builder *b);
 
+/* What of the edges depends on where the vertices are. */
+void mesh_shape_edges(struct mesh_builder *b);
+
 /* Cut the faces into leaves. */
 void mesh_build_leaves(struct mesh_builder *b);
+/* What of the leaves depends on where the vertices are. */
+void mesh_shape_leaves(struct mesh_builder *b);
 
 /* The mesh's own z-lists. CAROM_OK or CAROM_ERR_MESH_SURFACE. */
 int mesh_build_zlists(struct mesh_builder *b);

@@ -101,15 +101,21 @@ static int count_edges(struct mesh_builder *b)
     return CAROM_OK;
 }
 
-/* Where an edge lies, from a side of its face 0. */
-static void place_edge(struct mesh_builder *b, struct carom_edge *e, uint32_t side)
+/* The vertices of an edge, from a side of its face 0. */
+static void join_edge(const struct mesh_builder *b, struct carom_edge *e, uint32_t side)
 {
-    const struct carom_mesh_raw *raw = &b->mesh->raw;
-    const uint16_t *corner = raw->faces[side / 3];
-    int64_t along_q22[3];
+    const uint16_t *corner = b->mesh->raw.faces[side / 3];
 
     e->vertex[0] = corner[side % 3];
     e->vertex[1] = corner[(side + 1) % 3];
+}
+
+/* Where an edge lies. */
+static void place_edge(const struct mesh_builder *b, struct carom_edge *e)
+{
+    const struct carom_mesh_raw *raw = &b->mesh->raw;
+    int64_t along_q22[3];
+
     for (int k = 0; k < 3; k++) {
         int32_t quanta = raw->vertices[e->vertex[1]][k] - raw->vertices[e->vertex[0]][k];
 
@@ -157,10 +163,7 @@ static void make_edges(struct mesh_builder *b)
             e->face[1] = (uint16_t)(side1 / 3);
             b->faces[side1 / 3].edge[side1 % 3] = number;
         }
-        place_edge(b, e, side0);
-        if (is_convex(b, e)) {
-            b->faces[side0 / 3].own |= (uint8_t)(8 << side0 % 3);
-        }
+        join_edge(b, e, side0);
     }
 }
 
@@ -190,13 +193,13 @@ static void make_rings(struct mesh_builder *b)
     mesh->ring = ring;
 }
 
-/* Whether a face's flag says that the edge is convex. */
-static bool marked_convex(const struct mesh_builder *b, uint32_t edge)
+/* The flag of an edge in `own` of its face 0. */
+static uint8_t convex_flag(const struct mesh_builder *b, uint32_t edge)
 {
     const struct carom_face *face = &b->faces[b->edges[edge].face[0]];
     int k = face->edge[0] == edge ? 0 : face->edge[1] == edge ? 1 : 2;
 
-    return (face->own & 8 << k) != 0;
+    return (uint8_t)(8 << k);
 }
 
 /* Give every vertex at a convex edge to the first face that has it as a corner. */
@@ -216,7 +219,7 @@ static void own_vertices(struct mesh_builder *b)
 
                 first = face < first ? face : first;
             }
-            sharp |= marked_convex(b, edge);
+            sharp |= (b->faces[b->edges[edge].face[0]].own & convex_flag(b, edge)) != 0;
         }
         if (sharp) {
             const uint16_t *corner = mesh->raw.faces[first];
@@ -225,6 +228,20 @@ static void own_vertices(struct mesh_builder *b)
             b->faces[first].own |= (uint8_t)(1 << k);
         }
     }
+}
+
+void mesh_shape_edges(struct mesh_builder *b)
+{
+    for (uint32_t f = 0; f < b->mesh->raw.face_count; f++) {
+        b->faces[f].own = 0;
+    }
+    for (uint32_t i = 0; i < b->mesh->edge_count; i++) {
+        place_edge(b, &b->edges[i]);
+        if (is_convex(b, &b->edges[i])) {
+            b->faces[b->edges[i].face[0]].own |= convex_flag(b, i);
+        }
+    }
+    own_vertices(b);
 }
 
 int mesh_build_edges(struct mesh_builder *b)
@@ -241,6 +258,6 @@ int mesh_build_edges(struct mesh_builder *b)
     b->mesh->edges = b->edges;
     make_edges(b);
     make_rings(b);
-    own_vertices(b);
+    mesh_shape_edges(b);
     return CAROM_OK;
 }

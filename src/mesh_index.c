@@ -94,9 +94,10 @@ static bool add_face(struct leaf_builder *l, struct carom_leaf *leaf, const uint
  * The sphere around a leaf, about the middle of its box.
  * Bounds: the middle is within the mesh's box, so the differences fit q22 as the vertices do.
  */
-static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf,
-                       const uint16_t *vertices)
+static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf)
 {
+    const uint16_t *vertices = &mesh->leaf_vertices[leaf->first_vertex];
+
     for (int k = 0; k < 3; k++) {
         int32_t low = INT16_MAX, high = INT16_MIN;
 
@@ -109,31 +110,31 @@ static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf,
         leaf->centre.c[k] =
             (int32_t)(carom_shl(low + high, 21 - mesh->raw.quantum_bits) - mesh->mass.centre.c[k]);
     }
+    leaf->radius_q22 = 0;
     for (int i = 0; i < leaf->vertex_count; i++) {
         carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
-        int64_t from_centre[3], length;
+        int64_t from_centre[3];
 
         for (int k = 0; k < 3; k++) {
             from_centre[k] = (int64_t)p.c[k] - leaf->centre.c[k];
         }
-        length = fix_length(from_centre);
-        leaf->radius_q22 = length > leaf->radius_q22 ? (int32_t)length : leaf->radius_q22;
+        leaf->radius_q22 = (int32_t)mesh_longest(leaf->radius_q22, from_centre);
     }
 }
 
 /* The slab in which a leaf lies, and its vertices that belong to its faces. */
-static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf,
-                     const struct leaf_builder *l)
+static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf)
 {
-    const uint16_t *vertices = &l->vertices[leaf->first_vertex];
+    const uint16_t *vertices = &mesh->leaf_vertices[leaf->first_vertex];
     int64_t sum[3] = {0, 0, 0};
 
+    leaf->owned = 0;
     for (uint32_t i = leaf->first_face; i < leaf->first_face + leaf->face_count; i++) {
-        const struct carom_face *face = &mesh->faces[l->faces[i]];
+        const struct carom_face *face = &mesh->faces[mesh->leaf_faces[i]];
 
         for (int k = 0; k < 3; k++) {
             sum[k] += face->normal.c[k];
-            leaf->owned |= face->own & 1 << k ? 1u << l->corners[i][k] : 0;
+            leaf->owned |= face->own & 1 << k ? 1u << mesh->leaf_corners[i][k] : 0;
         }
     }
     if (!fix_normalise(&leaf->axis, sum)) {
@@ -150,6 +151,14 @@ static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf,
     }
 }
 
+void mesh_shape_leaves(struct mesh_builder *b)
+{
+    for (uint32_t i = 0; i < b->mesh->leaf_count; i++) {
+        bound_leaf(b->mesh, &b->leaves[i]);
+        set_slab(b->mesh, &b->leaves[i]);
+    }
+}
+
 /* Make leaves of n <= 16 neighbouring faces: one, or two where there are too many vertices for one,
  * since any ten faces fit. */
 static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
@@ -163,8 +172,6 @@ static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, ui
         while (i < n && add_face(l, leaf, mesh->raw.faces[key_face(keys[i])], key_face(keys[i]))) {
             i++;
         }
-        bound_leaf(mesh, leaf, &l->vertices[leaf->first_vertex]);
-        set_slab(mesh, leaf, l);
         l->face_count += leaf->face_count;
         l->vertex_count += leaf->vertex_count;
     }
@@ -217,6 +224,8 @@ void mesh_build_leaves(struct mesh_builder *b)
     mesh->leaf_faces = l.faces;
     mesh->leaf_vertices = l.vertices;
     mesh->leaf_corners = (const uint8_t(*)[3])l.corners;
+    b->leaves = l.leaves;
+    mesh_shape_leaves(b);
 }
 
 /* ------------------------------------------------------------------ z-lists */
@@ -254,8 +263,7 @@ static bool lay_grid(struct carom_mesh *mesh, int shift)
     return nx * ny == 1 || (uint32_t)(3 * nx * ny) <= 2 * mesh->raw.face_count;
 }
 
-/* Start the walk over the cells that a face touches. */
-static void scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face)
+void mesh_scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face)
 {
     struct scan_grid grid = mesh_grid(mesh);
     int32_t xy[3][2];
@@ -277,7 +285,7 @@ static uint32_t count_entries(const struct carom_mesh *mesh, uint32_t *count)
         struct scan_cells scan;
         struct scan_run run;
 
-        scan_face(&scan, mesh, f);
+        mesh_scan_face(&scan, mesh, f);
         while (scan_cells_next(&scan, &run)) {
             for (int32_t col = run.x0; col < run.x1; col++) {
                 count[run.y * mesh->grid_nx + col]++;
@@ -288,7 +296,7 @@ static uint32_t count_entries(const struct carom_mesh *mesh, uint32_t *count)
     return total;
 }
 
-static struct zface face_of(const struct carom_mesh *mesh, uint32_t face)
+struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face)
 {
     struct zface z;
 
@@ -310,11 +318,11 @@ static void fill_lists(const struct carom_mesh *mesh, uint32_t *cell, struct car
     struct scan_grid grid = mesh_grid(mesh);
 
     for (uint32_t f = mesh->raw.face_count; f-- > 0;) {
-        struct zface z = face_of(mesh, f);
+        struct zface z = mesh_zface(mesh, f);
         struct scan_cells scan;
         struct scan_run run;
 
-        scan_face(&scan, mesh, f);
+        mesh_scan_face(&scan, mesh, f);
         while (scan_cells_next(&scan, &run)) {
             for (int32_t col = run.x0; col < run.x1; col++) {
                 struct carom_zref *entry = &zrefs[--cell[run.y * grid.nx + col]];

@@ -29,9 +29,12 @@ uint32_t rest_friction(const struct body *a, const struct body *b)
     return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
 }
 
+/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
-    memset(v, 0, sizeof *v);
+    for (int k = 0; k < 3; k++) {
+        v->c[k] = -c->drift.c[k];
+    }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
         const int32_t *arm = c->side[s].arm_q30;
@@ -109,11 +112,40 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }
 
+/* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
+static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+{
+    return way_q22 < 1 << 22 ? (way_q22 << 40) / (time_q30 >> 8)
+                             : ((way_q22 << 30) / (time_q30 >> 8)) << 10;
+}
+
+/*
+ * The surface stands still within a step, where it will be at its end: nobody can follow it farther
+ * down than that. What would have to counts it as standing still along the normal.
+ */
+static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
+{
+    int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
+    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
+
+    if (c->target_q40 + rise_q40 >= least_q40) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        c->drift.c[k] -= fix_mul(rise_q40, c->normal.c[k], 30);
+    }
+    c->speed_q40 += rise_q40;
+    c->target_q40 = least_q40;
+}
+
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
     int32_t e_q30 = restitution(r, c);
-    int64_t open_q22 = (int64_t)c->gap_q22 - c->skin_q22;
+    int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
+    /* a surface that goes down has left behind what is going to follow it */
+    int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
+    int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
 
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
@@ -126,7 +158,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         /* may come nearer until the skins touch; q22 to q40 over the time */
         int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
 
-        c->target_q40 = tau_q30 > 0 ? -(open_q22 << 40) / (time_q30 >> 8) : 0;
+        c->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
     } else {
         c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
         c->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
@@ -134,9 +166,12 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     c->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->target_q40) >> 10);
     /* what the path's bend takes back of V.N must be there to begin with */
     if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
-        int64_t more_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+        int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
 
         c->target_q40 += more_q40 > 0 ? more_q40 : 0;
+    }
+    if (rise_q40 < 0) {
+        hold_above(c, tau_q30, rise_q40);
     }
 }
 
@@ -262,6 +297,17 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     return CAROM_OK;
 }
 
+/* What surfaces that move have done on the island at hand: 2 P.drift. */
+static void book_work(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+        struct body *b = c->side[0].body;
+
+        b->work2 = fix_wide_add(b->work2, rest_work2(c));
+    }
+}
+
 int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
 {
     int result = CAROM_OK;
@@ -271,6 +317,7 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
     for (r->first = 0; r->first < r->list.pool->used && result == CAROM_OK; r->first += r->count) {
         if (rest_take_island(r)) {
             result = solve_island(r, tau_q30, warm);
+            book_work(r);
         }
     }
     if (warm) {

@@ -55,11 +55,18 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
     }
 }
 
-/* Whether the energy is above `before`. Momenta are rounded: a rise below 2^-26 is not one. */
+/*
+ * Whether the energy is above `before` and what surfaces that move have added. Momenta are rounded: a
+ * rise below 2^-26 is not one.
+ */
 static bool rises(const struct rest *r, struct fix_wide before)
 {
     struct fix_wide slack = {before.hi >> 26, (uint64_t)fix_wide_shift(before, 26)};
     struct fix_wide limit = fix_wide_add(before, slack);
+
+    for (uint32_t i = 0; i < r->count; i++) {
+        limit = fix_wide_add(limit, rest_work2(rest_contact(r, i)));
+    }
 
     return fix_wide_sign(fix_wide_add(kinetic2(r), fix_wide_neg(limit))) > 0;
 }

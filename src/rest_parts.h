@@ -52,6 +52,14 @@ static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
     return &r->list.contacts[r->list.contacts[r->first + i].order];
 }
 
+/* Twice what a surface that moves does by a contact's impulse, q80. */
+static inline struct fix_wide rest_work2(const struct contact *c)
+{
+    const int64_t twice[3] = {2 * c->drift.c[0], 2 * c->drift.c[1], 2 * c->drift.c[2]};
+
+    return fix_wide_dot(c->impulse_q40.c, twice);
+}
+
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
 static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 {

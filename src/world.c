@@ -213,6 +213,9 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     if (!w || !def || !def->mesh) {
         return CAROM_ERR_NULL;
     }
+    if (def->mesh->surface && w->config.caps.entries == 0) {
+        return CAROM_ERR_NO_ENTRIES;
+    }
     pool = &w->pools[CAROM_POOL_bodies];
     result = make_body(&made, &state, def);
     if (result < 0) {
@@ -229,6 +232,9 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     }
     w->bodies[place] = made;
     world_put(w, place, &state);
+    if (made.mesh->surface) {
+        mesh_surface_halt(made.mesh->surface);
+    }
     world_wake_around(w, place);
     return (int)place;
 }
@@ -258,6 +264,7 @@ int carom_body_remove(struct carom_world *w, int body)
     }
     s = world_now(w);
     world_wake_around(w, (uint32_t)body);
+    interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
     for (int i = 0; i < 2; i++) {
         memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);

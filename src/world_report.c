@@ -24,6 +24,8 @@ const char *carom_result_text(int result)
         "the mesh is inside out",
         "the surface is not single-valued in z",
         "the data is truncated, altered or of another kind",
+        "a surface would press a body into a stationary one",
+        "a surface that moves needs a world of some entries",
     };
     const int count = (int)(sizeof errors / sizeof errors[0]);
 

@@ -9,6 +9,8 @@
  *       u8 asleep, out, quiet, woken
  *   u32 count of kept impulses; each: u16 a, b, arm 3 x i32, normal 3 x i32, i64, tangent 3 x i64
  *   u32 count of touching pairs; each: u16 a, b
+ *   u64 for each body that is a surface of carom_surface_build: FNV-1a of its vertices and of those of
+ *       the last step, int16 x, y, z each; the caller has put the surface there before it is loaded
  *   u64 FNV-1a of all bytes before
  */
 #include "world.h"
@@ -128,6 +130,30 @@ static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
     return count;
 }
 
+static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
+{
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        uint16_t c = (uint16_t)v[i / 3][i % 3];
+
+        fnv = (fnv ^ (c & 0xff)) * FNV_PRIME;
+        fnv = (fnv ^ c >> 8) * FNV_PRIME;
+    }
+    return fnv;
+}
+
+/* Where a surface is that moves: the caller has its vertices, so only that they are the same. */
+static void stream_surface(struct stream *s, const struct carom_mesh *mesh)
+{
+    const struct carom_surface *surface = mesh->surface;
+    uint32_t n = mesh->raw.vertex_count;
+    uint64_t fnv = hash_vertices((const int16_t(*)[3])surface->now, n, FNV_START);
+
+    fnv = hash_vertices((const int16_t(*)[3])surface->before, n, fnv);
+    if (word(s, fnv, 8) != fnv) {
+        s->failed = true;
+    }
+}
+
 /* The whole state, out of or into `state`. */
 static void stream_state(struct stream *s, const struct carom_world *w, struct world_state *state)
 {
@@ -148,6 +174,11 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
     for (uint32_t i = 0; i < state->touching_count && !s->failed; i++) {
         number16(s, &state->touching[i].a);
         number16(s, &state->touching[i].b);
+    }
+    for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
+        if (w->bodies[i].mesh && w->bodies[i].mesh->surface) {
+            stream_surface(s, w->bodies[i].mesh);
+        }
     }
     check = s->fnv;
     if (word(s, check, 8) != check) {

@@ -44,6 +44,7 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
             *to = *from;
         }
         w->bodies[i].in_contact = false;
+        w->bodies[i].work2 = (struct fix_wide){0, 0};
     }
 }
 
@@ -140,6 +141,7 @@ static void step_idle(struct carom_world *w)
 {
     if (!w->idle) {
         forget(w);
+        world_halt_surfaces(w);
         memset(&w->stats, 0, sizeof w->stats);
         w->stats.substeps = w->stats.gathers = 1;
         w->idle = true;
@@ -177,6 +179,7 @@ static int step_frame(struct carom_world *w, bool *cut_short)
         return result;
     }
     w->now = 1 - w->now;
+    world_halt_surfaces(w);
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);
     return result;

@@ -52,6 +52,7 @@ static struct account audit(const struct step *s, uint32_t first)
         }
         sum.kinetic = fix_wide_add(sum.kinetic, kinetic2(b, to));
         sum.excess = fix_wide_add(sum.excess, climbed2(b, from, to));
+        sum.excess = fix_wide_add(sum.excess, fix_wide_neg(b->work2));
         if (b->in_contact) {
             sum.excess = fix_wide_add(sum.excess, fix_wide_neg(body_lift2(b)));
         }

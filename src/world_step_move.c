@@ -97,6 +97,7 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
             body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
             room_q22 = 10 * (int64_t)b->skin_q22 + (b->acceleration_q40 >> 18) + way_q22 / 16;
         }
+        room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
         body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
         b->region.active = broad_active(b, &s->next->bodies[i]);
     }

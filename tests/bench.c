@@ -156,6 +156,7 @@ int main(void)
     for (int frame = 1; frame <= frames; frame++) {
         bool slept = all_asleep(world, 2 + scene.other_count);
 
+        expect(scene_before(&scene, world, frame), "scene");
         expect(carom_world_step(world), "step");
         if (frame >= first) {
             print_frame(world, &scene.camera, slept, draw > 0 && frame % draw == 0);

@@ -12,7 +12,7 @@ unset MAKEFLAGS MAKELEVEL MFLAGS
 includes='-Iinclude -Isrc -Iport -Iexamples -Itests'
 # nothing is drawn
 engine=$(ls src/*.c | grep -v '^src/draw')
-others='examples/scene.c build/gen/*_mesh.c tests/host_hashes.c
+others='examples/scene.c examples/scene_sheet.c build/gen/*_mesh.c tests/host_hashes.c
         tests/lab.c tests/oracle.c port/host/host.c port/option.c port/print.c port/assert.c'
 
 # hashes NAME COMMAND...: run a program, keep its hashes; fails when it fails
