@@ -232,13 +232,13 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
 /* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1104
+#define CAROM_BODY_BYTES        1096
 #define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     568
+#define CAROM_CONTACT_BYTES     552
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 5200
+#define CAROM_WORLD_FIXED_BYTES 3768
 #define CAROM_HEADS_BYTES       2048 /* once, for any entries at all */
 
 enum carom_pool {

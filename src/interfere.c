@@ -79,7 +79,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
     static const int order[3] = {2, 0, 1}; /* most end above b */
     const struct carom_mesh *mb = w->b->mesh;
-    struct interfere_leaf *l = &w->leaf;
+    struct interfere_leaf *l = w->leaf;
     int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
     int32_t radius = (leaf->radius_q22 >> 2) + 1, low[3], high[3];
 
@@ -106,7 +106,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    struct interfere_leaf *l = &w->leaf;
+    struct interfere_leaf *l = w->leaf;
     const int32_t *row = w->to_b.c[k];
     int32_t low = INT32_MAX, high = INT32_MIN;
 
@@ -125,14 +125,14 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
 static bool place_leaf(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
-    const struct carom_leaf *leaf = w->leaf.leaf;
+    const struct carom_leaf *leaf = w->leaf->leaf;
     carom_v3_q22 local[CAROM_LEAF_VERTICES];
 
     for (uint32_t i = 0; i < leaf->vertex_count; i++) {
         local[i] = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
     }
     place_axis(w, local, 2);
-    if (w->leaf.quanta_low[2] > w->leaf.top) {
+    if (w->leaf->quanta_low[2] > w->leaf->top) {
         return false;
     }
     place_axis(w, local, 0);
@@ -143,7 +143,7 @@ static bool place_leaf(struct interfere *w)
 /* Where the slab of the leaf is. */
 static void place_slab(struct interfere *w)
 {
-    struct interfere_leaf *l = &w->leaf;
+    struct interfere_leaf *l = w->leaf;
     int32_t at_q18, reach_q18;
 
     carom_rotate(l->axis_q30, &w->to_b, l->leaf->axis.c);
@@ -159,7 +159,7 @@ static void place_slab(struct interfere *w)
 static bool face_near(const struct interfere *w, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const uint16_t *corner = mb->raw.faces[face];
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
@@ -189,7 +189,7 @@ static bool is_new(struct interfere *w, uint16_t face)
 
 void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face)
 {
-    if (z0 <= w->leaf.quanta_high[2] && is_new(w, face) && face_near(w, face)) {
+    if (z0 <= w->leaf->quanta_high[2] && is_new(w, face) && face_near(w, face)) {
         interfere_narrow(w, face);
     }
 }
@@ -198,7 +198,7 @@ void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face)
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    int32_t low = w->leaf.quanta_low[2];
+    int32_t low = w->leaf->quanta_low[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
@@ -216,10 +216,10 @@ static void visit_leaf(struct interfere *w)
         return;
     }
     place_slab(w);
-    w->leaf.busy = 0;
-    w->leaf.listed = false;
+    w->leaf->busy = 0;
+    w->leaf->listed = false;
     memset(w->seen, 0xff, sizeof w->seen); /* CAROM_NO_FACE */
-    cells = cells_under(mb, w->leaf.quanta_low, w->leaf.quanta_high);
+    cells = cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
             uint32_t cell = (uint32_t)(row * mb->grid_nx + col);
@@ -231,9 +231,9 @@ static void visit_leaf(struct interfere *w)
             }
         }
     }
-    for (uint32_t i = 0; w->leaf.busy >> i != 0; i++) {
-        if (w->leaf.busy >> i & 1) {
-            interfere_add_face(w, w->body_a, w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i]);
+    for (uint32_t i = 0; w->leaf->busy >> i != 0; i++) {
+        if (w->leaf->busy >> i & 1) {
+            interfere_add_face(w, w->body_a, w->a->mesh->leaf_faces[w->leaf->leaf->first_face + i]);
         }
     }
 }

@@ -68,7 +68,7 @@ static void bound(const struct interfere_vec *const p[3], struct interfere_vec *
 /* Corners of the leaf's faces, and the boxes around their ways. */
 static void list_faces(struct interfere *w)
 {
-    struct interfere_leaf *l = &w->leaf;
+    struct interfere_leaf *l = w->leaf;
 
     l->listed = true;
     l->placed = 0;
@@ -89,7 +89,7 @@ static void list_faces(struct interfere *w)
 /* The leaf's faces whose ways' boxes meet that of b's face, a bit each, and their vertices. */
 static uint32_t faces_near(const struct interfere *w, const struct target *t, uint32_t *vertices)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     uint32_t near = 0;
 
     *vertices = 0;
@@ -110,7 +110,7 @@ static uint32_t faces_near(const struct interfere *w, const struct target *t, ui
 /* Whether the leaf's slab, swept, has all of b's face on one side. */
 static bool beside_slab(const struct interfere *w, const struct target *t)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     int32_t a = interfere_dot(l->axis_q30, t->p[0].c), b = interfere_dot(l->axis_q30, t->p[1].c),
             c = interfere_dot(l->axis_q30, t->p[2].c);
 
@@ -121,7 +121,7 @@ static bool beside_slab(const struct interfere *w, const struct target *t)
 /* Which of these vertices of the leaf stay over the plane of b's face on their way, or under it. */
 static void part_by_plane(const struct interfere *w, struct target *t, uint32_t vertices)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const int32_t *n = t->face->normal.c;
     int32_t offset_q18 = t->face->offset_q22 >> 4, reach_q18 = interfere_reach_q18(l, n);
     int32_t above_q18 = offset_q18 + reach_q18, below_q18 = offset_q18 - reach_q18;
@@ -140,7 +140,7 @@ static void part_by_plane(const struct interfere *w, struct target *t, uint32_t 
 /* The plane of a face of the leaf. */
 static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
 {
-    struct interfere_leaf *l = &w->leaf;
+    struct interfere_leaf *l = w->leaf;
     struct interfere_plane *plane = &l->planes[i];
 
     if (!(l->placed >> i & 1)) {
@@ -155,7 +155,7 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
 /* Whether face i of the leaf and b's face may meet as far as their planes tell. */
 static bool planes_meet(struct interfere *w, struct target *t, uint32_t i)
 {
-    uint32_t corners = w->leaf.corners[i];
+    uint32_t corners = w->leaf->corners[i];
     const struct interfere_plane *plane;
 
     if ((corners & ~t->over) == 0 || (corners & ~t->under) == 0) {
@@ -212,7 +212,7 @@ static bool outside(const struct interfere_vec *p, const struct interfere_vec *l
 /* The corners that face i of the leaf owns against b's face. */
 static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
     uint8_t own = ma->faces[interfere_face(w, i)].own;
@@ -242,7 +242,7 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
 /* The corners that b's face owns against face i of the leaf. */
 static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const struct interfere_vec none = {{0, 0, 0}}; /* the box of face i has it */
@@ -324,8 +324,8 @@ static bool passes_by(const struct interfere *in, const int32_t w[3], const int3
     carom_cross(axis, w, line, 30);
     from = carom_dot(axis, start->c);
     run = (carom_dot(axis, other) >> 30) * (length_q22 >> 2);
-    limit = (size_of(axis) + 4) * (in->leaf.near_q20 + 4) + length_q22 +
-            carom_abs(carom_dot(axis, in->leaf.shift.c)) / 2;
+    limit = (size_of(axis) + 4) * (in->leaf->near_q20 + 4) + length_q22 +
+            carom_abs(carom_dot(axis, in->leaf->shift.c)) / 2;
     return from + (run < 0 ? run : 0) > limit || from + (run > 0 ? run : 0) < -limit;
 }
 
@@ -346,8 +346,8 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     }
     sine_q30 = size_of(l->w) + 4; /* at least */
     d = difference(l->start_a, l->start_b);
-    limit = sine_q30 * (in->leaf.near_q20 + 4) +
-            carom_abs(carom_dot(l->w, in->leaf.shift.c)) / 2;
+    limit = sine_q30 * (in->leaf->near_q20 + 4) +
+            carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
     if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
         return false;
     }
@@ -361,7 +361,7 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
                        const struct interfere_vec *q, const struct interfere_vec *c,
                        const struct interfere_vec *d)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
 
     for (int k = 2; k >= 0; k--) {
         int32_t reach = l->reach.c[k];
@@ -378,7 +378,7 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
 static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, int j)
 {
     const struct carom_mesh *ma = w->a->mesh;
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const struct carom_face *face = &ma->faces[interfere_face(w, i)];
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
@@ -442,7 +442,7 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     if (beside_slab(w, &t)) {
         return;
     }
-    if (!w->leaf.listed) {
+    if (!w->leaf->listed) {
         list_faces(w);
     }
     bound(p, &t.low, &t.high);
@@ -457,7 +457,7 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
         }
     }
     if (busy != 0) {
-        w->leaf.busy |= busy;
+        w->leaf->busy |= busy;
         interfere_add_face(w, w->body_b, face_b);
     }
 }

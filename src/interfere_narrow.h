@@ -39,12 +39,12 @@ void interfere_leaves(struct interfere *w);
 /* The face of a that is number i of the leaf, and which vertices of the leaf are its corners. */
 static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
 {
-    return w->a->mesh->leaf_faces[w->leaf.leaf->first_face + i];
+    return w->a->mesh->leaf_faces[w->leaf->leaf->first_face + i];
 }
 
 static inline const uint8_t *interfere_corners(const struct interfere *w, uint32_t i)
 {
-    return w->a->mesh->leaf_corners[w->leaf.leaf->first_face + i];
+    return w->a->mesh->leaf_corners[w->leaf->leaf->first_face + i];
 }
 
 /*

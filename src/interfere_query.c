@@ -143,7 +143,7 @@ static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
 /* Whether face i of the leaf and b's face may have a point in common, their planes met. */
 static bool faces_cross(const struct interfere *w, const struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = &w->leaf;
+    const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     struct meeting m = {.scale_p = w->query->edge_scale, .near_q20 = l->near_q20};
@@ -162,8 +162,8 @@ static bool meet(struct interfere *w, const struct target *t, uint32_t i)
 {
     struct interfere_query *q = w->query;
 
-    if (q->leaf != w->leaf.leaf) {
-        begin_leaf(q, w->leaf.leaf);
+    if (q->leaf != w->leaf->leaf) {
+        begin_leaf(q, w->leaf->leaf);
     }
     if (faces_cross(w, t, i)) {
         add_pair(w, (uint16_t)interfere_face(w, i), t->number);

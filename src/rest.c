@@ -229,7 +229,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     rest_relative_velocity(c, &in.velocity);
     in.target_q40 = c->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
-    result = impact_solve(&r->gauss, &in, &out);
+    result = impact_solve(r->gauss, &in, &out);
     if (result == CAROM_OK) {
         c->impulse_q40 = out.impulse;
         r->energy_rules += out.energy_rule;

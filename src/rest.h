@@ -30,7 +30,7 @@ struct rest_warm {
 };
 
 struct rest {
-    struct gauss gauss;
+    struct gauss *gauss; /* room to solve in */
     struct contact_list list;
     const struct pair *pairs;
     struct body *bodies;

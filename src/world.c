@@ -91,6 +91,8 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 #undef SET_SIZE
     carve(w, &arena);
     world_now(w)->gravity = config->gravity;
+    w->rest.gauss = &w->scratch.gauss;
+    w->interfere.leaf = &w->scratch.leaf;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
     w->interfere.lists.pool = &w->pools[CAROM_POOL_entries];

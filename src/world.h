@@ -37,6 +37,12 @@ struct carom_world {
     /* set by broad */
     struct pair *pairs;
 
+    /* what interfere and the solvers each work in while they run: never at the same time */
+    union {
+        struct interfere_leaf leaf;
+        struct gauss gauss;
+    } scratch;
+
     /* set by interfere */
     struct interfere interfere;
 

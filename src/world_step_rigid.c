@@ -146,7 +146,7 @@ static void add_inertia(const struct step *s, const struct step_rigid *rigid, ui
 static bool find_spin(const struct step *s, struct step_rigid *rigid)
 {
     struct fix_wide angular_q72[3] = {{0, 0}, {0, 0}, {0, 0}};
-    struct gauss *w = &s->w->rest.gauss;
+    struct gauss *w = s->w->rest.gauss;
     int64_t inertia_q30[6] = {0};
     uint64_t all = 0;
     int down, up, bits = 0;

@@ -18,6 +18,7 @@ struct hand {
     struct rest_warm warm[HAND_CONTACTS];
     struct pool pool;
     struct rest rest;
+    struct gauss gauss;
     struct boyse_pair pair;
 };
 

@@ -36,6 +36,7 @@ static struct candidate candidates[CANDIDATES];
 static struct carom_face_ref faces[FACES];
 static struct pool entry_pool, candidate_pool, face_pool;
 static struct interfere work;
+static struct interfere_leaf leaf;
 
 /* --------------------------------------------------------------- the answer */
 
@@ -101,6 +102,7 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
     candidate_pool = (struct pool){candidate_size, 0, 0, 0};
     face_pool = (struct pool){face_size, 0, 0, 0};
     work.lists = (struct zlist){heads, entries, &entry_pool};
+    work.leaf = &leaf;
     work.candidates = candidates;
     work.candidate_pool = &candidate_pool;
     work.faces = faces;

@@ -32,6 +32,7 @@ static struct candidate candidates[CANDIDATES];
 static struct carom_face_ref faces[FACES];
 static struct pool candidate_pool, face_pool;
 static struct interfere work;
+static struct interfere_leaf leaf;
 static struct carom_face_pair found[ROOM];
 
 static int32_t corner_a[SHAPE_VERTICES][3], corner_b[SHAPE_VERTICES][3];
@@ -148,6 +149,7 @@ static void begin(void)
     candidate_pool = (struct pool){CANDIDATES, 0, 0, 0};
     face_pool = (struct pool){FACES, 0, 0, 0};
     memset(&work, 0, sizeof work);
+    work.leaf = &leaf;
     work.candidates = candidates;
     work.candidate_pool = &candidate_pool;
     work.faces = faces;

@@ -21,7 +21,8 @@
 static struct shape shape_a, shape_b;
 static struct body bodies[2];
 static struct body_state states[2];
-static struct interfere work;
+static struct interfere_leaf leaf;
+static struct interfere work = {.leaf = &leaf};
 static struct carom_face_pair found[ROOM];
 
 static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES];
