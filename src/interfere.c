@@ -140,22 +140,57 @@ static bool place_leaf(struct interfere *w)
     return true;
 }
 
-/* Where the slab of the leaf is. */
-static void place_slab(struct interfere *w)
+/* A length in quanta, q15; what does not fit is as good as the largest that does. */
+static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
 {
-    struct interfere_leaf *l = w->leaf;
-    int32_t at_q18, reach_q18;
+    int64_t x_q15 = x_q18 * ((int64_t)1 << (mesh->raw.quantum_bits - 3));
 
-    carom_rotate(l->axis_q30, &w->to_b, l->leaf->axis.c);
-    at_q18 = interfere_dot(l->axis_q30, w->at.c);
-    /* low and high are those of a's own axes: to_b has them but for its skew */
-    reach_q18 = interfere_reach_q18(l, l->axis_q30) +
-                (int32_t)(fix_mul(w->a->radius_q22, w->skew_q30, 30) >> 4) + 1;
-    l->slab_low_q18 = at_q18 + (l->leaf->low_q22 >> 4) - reach_q18;
-    l->slab_high_q18 = at_q18 + (l->leaf->high_q22 >> 4) + reach_q18;
+    return x_q15 > INT32_MAX ? INT32_MAX : x_q15 < -INT32_MAX ? -INT32_MAX : (int32_t)x_q15;
 }
 
-/* Whether a face of b meets the box of the swept leaf. */
+/*
+ * Where the slab of the leaf is, seen along its axis from b's origin. A product of the axis and a
+ * vertex of b is below 2^15 times the length of the vertex, sqrt 3 2^15: 32 bits hold it. The axis is
+ * off by half a unit along each of b's, the product by half of the vertex's coordinates.
+ */
+static void place_slab(struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct interfere_leaf *l = w->leaf;
+    int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
+
+    carom_rotate(axis_q30, &w->to_b, l->leaf->axis.c);
+    at_q18 = interfere_dot(axis_q30, w->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
+    for (int k = 0; k < 3; k++) {
+        int32_t low = -mb->box[0][k], high = mb->box[1][k];
+
+        l->axis_q15[k] = (int32_t)carom_round(axis_q30[k], 15);
+        rounding_q15 += (low > high ? low : high) / 2 + 1;
+    }
+    /* low and high are those of a's own axes: to_b has them but for its skew */
+    reach_q18 = interfere_reach_q18(l, axis_q30) +
+                (int32_t)(fix_mul(w->a->radius_q22, w->skew_q30, 30) >> 4) + 2 +
+                (rounding_q15 >> (mb->raw.quantum_bits - 3));
+    l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
+    l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
+}
+
+static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16_t p[3])
+{
+    return l->axis_q15[0] * p[0] + l->axis_q15[1] * p[1] + l->axis_q15[2] * p[2];
+}
+
+/* Whether the swept slab of the leaf has all of a face of b on one side. */
+static bool beside_slab(const struct interfere_leaf *l, const int16_t p[3], const int16_t q[3],
+                        const int16_t r[3])
+{
+    int32_t a = along_slab_q15(l, p), b = along_slab_q15(l, q), c = along_slab_q15(l, r);
+
+    return (a > l->slab_high_q15 && b > l->slab_high_q15 && c > l->slab_high_q15) ||
+           (a < l->slab_low_q15 && b < l->slab_low_q15 && c < l->slab_low_q15);
+}
+
+/* Whether a face of b meets the box and the slab of the swept leaf. */
 static bool face_near(const struct interfere *w, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
@@ -172,7 +207,7 @@ static bool face_near(const struct interfere *w, uint16_t face)
             return false;
         }
     }
-    return true;
+    return !beside_slab(l, p, q, r);
 }
 
 /* Whether a face comes up for the first time, as far as is remembered. */

@@ -67,8 +67,8 @@ struct interfere_leaf {
     struct interfere_vec reach;                  /* it and half of the shift, along each axis */
     struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices in the middle of their ways */
     int32_t quanta_low[3], quanta_high[3];       /* around the ways, in b's quanta from its origin */
-    int32_t axis_q30[3];                         /* of its slab */
-    int32_t slab_low_q18, slab_high_q18;         /* along that, swept and grown, q18 */
+    int32_t axis_q15[3];                         /* of its slab */
+    int32_t slab_low_q15, slab_high_q15;         /* along that, around the ways, in b's quanta */
     bool listed;
     /* of each face, once listed: its corners, a bit each, and the box around its way */
     uint32_t corners[CAROM_LEAF_FACES];

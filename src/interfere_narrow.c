@@ -56,12 +56,15 @@ static void place_target(const struct interfere *w, struct target *t)
     }
 }
 
-static void bound(const struct interfere_vec *const p[3], struct interfere_vec *low,
-                  struct interfere_vec *high)
+static inline void bound(const struct interfere_vec *p, const struct interfere_vec *q,
+                         const struct interfere_vec *r, struct interfere_vec *low,
+                         struct interfere_vec *high)
 {
     for (int i = 0; i < 3; i++) {
-        low->c[i] = least(p[0]->c[i], least(p[1]->c[i], p[2]->c[i]));
-        high->c[i] = most(p[0]->c[i], most(p[1]->c[i], p[2]->c[i]));
+        int32_t x = p->c[i], y = q->c[i], z = r->c[i];
+
+        low->c[i] = least(x, least(y, z));
+        high->c[i] = most(x, most(y, z));
     }
 }
 
@@ -74,11 +77,10 @@ static void list_faces(struct interfere *w)
     l->placed = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
         const uint8_t *corner = interfere_corners(w, i);
-        const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]],
-                                                  &l->p[corner[2]]};
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-        bound(p, &l->face_low[i], &l->face_high[i]);
+        bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
+              &l->face_high[i]);
         for (int k = 0; k < 3; k++) {
             l->face_low[i].c[k] -= l->reach.c[k];
             l->face_high[i].c[k] += l->reach.c[k];
@@ -106,17 +108,6 @@ static uint32_t faces_near(const struct interfere *w, const struct target *t, ui
 }
 
 /* ------------------------------------------------------------------- planes */
-
-/* Whether the leaf's slab, swept, has all of b's face on one side. */
-static bool beside_slab(const struct interfere *w, const struct target *t)
-{
-    const struct interfere_leaf *l = w->leaf;
-    int32_t a = interfere_dot(l->axis_q30, t->p[0].c), b = interfere_dot(l->axis_q30, t->p[1].c),
-            c = interfere_dot(l->axis_q30, t->p[2].c);
-
-    return (a > l->slab_high_q18 && b > l->slab_high_q18 && c > l->slab_high_q18) ||
-           (a < l->slab_low_q18 && b < l->slab_low_q18 && c < l->slab_low_q18);
-}
 
 /* Which of these vertices of the leaf stay over the plane of b's face on their way, or under it. */
 static void part_by_plane(const struct interfere *w, struct target *t, uint32_t vertices)
@@ -433,19 +424,15 @@ bool interfere_features(struct interfere *w, const struct target *t, uint32_t i)
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    const struct interfere_vec *const p[3] = {&t.p[0], &t.p[1], &t.p[2]};
     uint32_t near, vertices, busy = 0;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
     place_target(w, &t);
-    if (beside_slab(w, &t)) {
-        return;
-    }
     if (!w->leaf->listed) {
         list_faces(w);
     }
-    bound(p, &t.low, &t.high);
+    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
     near = faces_near(w, &t, &vertices);
     if (near == 0) {
         return;
