@@ -81,25 +81,31 @@ static void predict_all(struct step *s, int32_t tau_q30)
 
 /*
  * Candidates are gathered for the paths at hand, and for what differs from them by no more than some
- * skins, the fall of a frame (whether contacts will take it up is not known yet) and a part of the
- * way. A hit that turns a body aside by more asks for others.
+ * skins and a part of the way. In flight only a hit leads a body aside, and by more than that:
+ * it asks for others in any case.
  */
+static int64_t room_q22(const struct body *b)
+{
+    int64_t way_q22, turn_q30;
+
+    body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+    return b->in_contact ? 10 * (int64_t)b->skin_q22 + way_q22 / 16
+                         : 3 * (int64_t)b->skin_q22 + way_q22 / 64;
+}
+
 static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30, room_q22 = 0;
+        int64_t room;
 
         if (!b->mesh || b->standing) {
             continue;
         }
-        if (broad_active(b, &s->next->bodies[i])) {
-            body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-            room_q22 = 10 * (int64_t)b->skin_q22 + (b->acceleration_q40 >> 18) + way_q22 / 16;
-        }
-        room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
-        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
         b->region.active = broad_active(b, &s->next->bodies[i]);
+        room = b->region.active ? room_q22(b) : 0;
+        room += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
+        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room);
     }
 }
 
