@@ -250,10 +250,8 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
     for (int k = 0; left >> k != 0; k++) {
         uint32_t v = w->b->mesh->raw.faces[t->number][k];
 
-        if ((left >> k & 1) &&
-            !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
-            !stays_beside(l, &t->p[k], p, n) &&
-            mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
+        if ((left >> k & 1) && !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
+            !stays_beside(l, &t->p[k], p, n) && mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
             emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
             any = true;
         }
@@ -343,8 +341,7 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     }
     sine_q30 = size_of(l->w) + 4; /* at least */
     d = difference(l->start_a, l->start_b);
-    limit = sine_q30 * (in->leaf.near_q20 + 4) +
-            carom_abs(carom_dot(l->w, in->leaf.shift.c)) / 2;
+    limit = sine_q30 * (in->leaf.near_q20 + 4) + carom_abs(carom_dot(l->w, in->leaf.shift.c)) / 2;
     if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
         return false;
     }
