@@ -506,7 +506,14 @@ static void test_queries(void)
 
     for (int i = 0; i < 3; i++) {
         begin(entries[i], 0, 1 << 15);
+        CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
+        shape_ball(&box, 12, 3000); /* of several leaves */
+        CHECK(box.mesh.leaf_count > 1);
+        CHECK_EQ(carom_body_add(world, &box_def), BOX);
         wave(20);
+        for (int v = 0; v < COUNT; v++) {
+            at[v][2] = (int16_t)(8 * at[v][2] + 4096);
+        }
         CHECK_EQ(put(), CAROM_OK);
         memcpy(flat.vertices, at, sizeof at);
         CHECK_EQ(carom_mesh_build(&flat.mesh, &flat.raw, flat.block, sizeof flat.block), CAROM_OK);
@@ -522,7 +529,7 @@ static void test_queries(void)
 
             s.position.c[0] = CAROM_RATIO(k, 10, 32);
             s.position.c[1] = CAROM_RATIO(k % 7, 3, 32);
-            s.position.c[2] = CAROM_RATIO(k % 3, 2, 32);
+            s.position.c[2] = CAROM_RATIO(k % 3 + 2, 2, 32);
             CHECK_EQ(carom_body_set(world, BOX, &s), CAROM_OK);
             ask(rigid);
             met += carom_query_faces(world, BOX, FLOOR, one, 1) != 0;
