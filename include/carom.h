@@ -238,7 +238,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_FACE_BYTES        4
 #define CAROM_ENTRY_BYTES       8
 #define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 3768
+#define CAROM_WORLD_FIXED_BYTES 3776
 #define CAROM_HEADS_BYTES       2048 /* once, for any entries at all */
 
 enum carom_pool {

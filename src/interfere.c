@@ -41,6 +41,18 @@ static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3
     };
 }
 
+/* The highest z in some cells that follow each other of lists that were made, or `top`. */
+static int32_t highest_made(const struct zlist *lists, const uint16_t *head, int32_t count,
+                            int32_t top)
+{
+    for (int32_t i = 0; i < count; i++) {
+        if (head[i] != ZLIST_NONE && lists->entry[head[i]].z1 > top) {
+            top = lists->entry[head[i]].z1;
+        }
+    }
+    return top;
+}
+
 /* The highest z of b in the cells under a box, quanta. */
 static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3])
 {
@@ -51,14 +63,13 @@ static int32_t highest_under(const struct interfere *w, const int32_t low[3], co
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         const uint32_t *start = &mb->cell_start[row * mb->grid_nx];
 
+        if (w->pooled) {
+            top = highest_made(&w->lists, &w->lists.head[row * mb->grid_nx + cells.col[0]],
+                               cells.col[1] - cells.col[0] + 1, top);
+            continue;
+        }
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
-            if (w->pooled) {
-                uint16_t first = w->lists.head[row * mb->grid_nx + col];
-
-                top = first != ZLIST_NONE && w->lists.entry[first].z1 > top
-                          ? w->lists.entry[first].z1
-                          : top;
-            } else if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
+            if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
                 top = mb->zrefs[start[col]].z1;
             }
         }
@@ -191,7 +202,7 @@ static bool beside_slab(const struct interfere_leaf *l, const int16_t p[3], cons
 }
 
 /* Whether a face of b meets the box and the slab of the swept leaf. */
-static bool face_near(const struct interfere *w, uint16_t face)
+static inline bool face_near(const struct interfere *w, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
     const struct interfere_leaf *l = w->leaf;
@@ -211,7 +222,7 @@ static bool face_near(const struct interfere *w, uint16_t face)
 }
 
 /* Whether a face comes up for the first time, as far as is remembered. */
-static bool is_new(struct interfere *w, uint16_t face)
+static inline bool is_new(struct interfere *w, uint16_t face)
 {
     uint16_t *seen = &w->seen[face % INTERFERE_SEEN];
 
@@ -222,7 +233,8 @@ static bool is_new(struct interfere *w, uint16_t face)
     return true;
 }
 
-void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face)
+/* A face of b in a cell, with the z that it spans there. */
+static inline void visit_entry(struct interfere *w, int16_t z0, uint16_t face)
 {
     if (z0 <= w->leaf->quanta_high[2] && is_new(w, face) && face_near(w, face)) {
         interfere_narrow(w, face);
@@ -238,7 +250,19 @@ static void visit_cell(struct interfere *w, uint32_t cell)
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
     for (; r < end && r->z1 >= low; r++) {
-        interfere_visit_entry(w, r->z0, r->face);
+        visit_entry(w, r->z0, r->face);
+    }
+}
+
+/* The same of the lists that were made. */
+static void visit_made(struct interfere *w, uint32_t cell)
+{
+    const struct zentry *entry = w->lists.entry;
+    int32_t low = w->leaf->quanta_low[2];
+
+    for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
+         i = entry[i].next) {
+        visit_entry(w, entry[i].z0, entry[i].face);
     }
 }
 
@@ -260,7 +284,7 @@ static void visit_leaf(struct interfere *w)
             uint32_t cell = (uint32_t)(row * mb->grid_nx + col);
 
             if (w->pooled) {
-                interfere_visit_made(w, cell);
+                visit_made(w, cell);
             } else {
                 visit_cell(w, cell);
             }

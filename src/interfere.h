@@ -66,17 +66,17 @@ struct interfere_leaf {
     int32_t near_q20;                            /* the tolerance */
     struct interfere_vec reach;                  /* it and half of the shift, along each axis */
     struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices in the middle of their ways */
-    int32_t quanta_low[3], quanta_high[3];       /* around the ways, in b's quanta from its origin */
-    int32_t axis_q15[3];                         /* of its slab */
-    int32_t slab_low_q15, slab_high_q15;         /* along that, around the ways, in b's quanta */
+    int32_t quanta_low[3], quanta_high[3]; /* around the ways, in b's quanta from its origin */
+    int32_t axis_q15[3];                   /* of its slab */
+    int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
     bool listed;
     /* of each face, once listed: its corners, a bit each, and the box around its way */
     uint32_t corners[CAROM_LEAF_FACES];
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
-    uint32_t busy;                      /* faces with candidates */
-    int32_t top;                        /* highest z of b in the cells under it */
+    uint32_t busy; /* faces with candidates */
+    int32_t top;   /* highest z of b in the cells under it */
 };
 
 struct target;
@@ -94,10 +94,6 @@ struct interfere {
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
     uint32_t enough;                   /* a gather that has more candidates stops */
-
-    bool pooled;                     /* b's z-lists are in `lists` */
-    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
-    struct interfere_area area;      /* where they hold all of it */
 
     bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
     bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
@@ -121,6 +117,10 @@ struct interfere {
     int32_t cone_q30;  /* cosine tolerance of normal cones */
     struct interfere_leaf *leaf; /* room for one, the caller's */
     uint16_t seen[INTERFERE_SEEN];
+
+    bool pooled;                     /* b's z-lists are in `lists` */
+    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
+    struct interfere_area area;      /* where they hold all of it */
 };
 
 /*

@@ -83,15 +83,3 @@ void interfere_forget_lists(struct interfere *w)
 {
     w->listed = NULL;
 }
-
-void interfere_visit_made(struct interfere *w, uint32_t cell)
-{
-    const struct zentry *entry = w->lists.entry;
-
-    for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE; i = entry[i].next) {
-        if (entry[i].z1 < w->leaf->quanta_low[2]) {
-            return;
-        }
-        interfere_visit_entry(w, entry[i].z0, entry[i].face);
-    }
-}

@@ -244,10 +244,8 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
     for (int k = 0; left >> k != 0; k++) {
         uint32_t v = w->b->mesh->raw.faces[t->number][k];
 
-        if ((left >> k & 1) &&
-            !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
-            !stays_beside(l, &t->p[k], p, n) &&
-            mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
+        if ((left >> k & 1) && !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
+            !stays_beside(l, &t->p[k], p, n) && mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
             emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
             any = true;
         }

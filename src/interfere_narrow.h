@@ -74,11 +74,6 @@ struct interfere_place {
 bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from);
 
-/* The faces of b in a cell of the lists that were made, from the highest z1 down to the leaf. */
-void interfere_visit_made(struct interfere *w, uint32_t cell);
-/* A face of b in a cell, with the z that it spans there. */
-void interfere_visit_entry(struct interfere *w, int16_t z0, uint16_t face);
-
 /* Note an interfering face; an error is left in w. */
 void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face);
 

@@ -126,7 +126,8 @@ static bool intervals_apart(struct meeting *m, const struct interfere_vec *const
 static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
 {
     struct interfere_query *q = w->query;
-    const struct carom_face_pair pair = {q->swapped ? face_b : face_a, q->swapped ? face_a : face_b};
+    const struct carom_face_pair pair = {q->swapped ? face_b : face_a,
+                                         q->swapped ? face_a : face_b};
 
     for (uint32_t i = q->first; i < q->count; i++) {
         if (q->out[i].a == pair.a && q->out[i].b == pair.b) {

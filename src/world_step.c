@@ -200,6 +200,11 @@ int carom_world_step(struct carom_world *w)
         step_idle(w);
     } else {
         status = step_frame(w, &cut_short);
+        if (status == CAROM_ERR_FACES_FULL) {
+            /* what was gathered for several frames may have more faces than this one: gather anew */
+            cut_short = false;
+            status = step_frame(w, &cut_short);
+        }
     }
     if (cut_short && status == CAROM_OK) {
         status = CAROM_SUBSTEP_CAP;

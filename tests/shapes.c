@@ -2,6 +2,8 @@
 #include "shapes.h"
 #include "real.h"
 
+_Alignas(8) uint8_t shape_scene_block[SCENE_MESH_BYTES];
+
 static void begin(struct shape *s, int quantum_bits, int kind)
 {
     s->raw.vertices = (const int16_t(*)[3])s->vertices;

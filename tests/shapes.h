@@ -9,6 +9,7 @@
 #define CAROM_TEST_SHAPES_H
 
 #include "interfere.h"
+#include "scene.h"
 #include "test.h"
 
 #define SHAPE_VERTICES 625
@@ -21,6 +22,9 @@ struct shape {
     struct carom_mesh mesh;
     _Alignas(8) uint8_t block[CAROM_MESH_BYTES(SHAPE_VERTICES, SHAPE_FACES)];
 };
+
+/* For the meshes of a scene; one for all tests, or a board's memory would not do. */
+extern uint8_t shape_scene_block[SCENE_MESH_BYTES];
 
 /* A box of sides x, y, z about the origin; its vertex i has the sign of bit k along axis k. */
 void shape_box(struct shape *s, int quantum_bits, int x, int y, int z);

@@ -6,6 +6,7 @@
 #include "meeting.h"
 #include "port.h"
 #include "scene.h"
+#include "shapes.h"
 #include "test.h"
 #include "world.h"
 
@@ -67,7 +68,7 @@ static bool timed_first(const struct boyse_pair *pair, const struct candidate *c
 
 /* ---------------------------------------------------------------------- misses */
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_CAPS)];
 
 /* The scene's bodies at the start of a frame, the falling one first. */
 struct fall {
@@ -133,7 +134,8 @@ static void test_misses(void)
 
     memset(&fall, 0, sizeof fall);
     fall.base.visit = time_all;
-    CHECK_EQ(scene_load(&scene, "head", NULL, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(scene_load(&scene, "head", NULL, shape_scene_block, sizeof shape_scene_block),
+             CAROM_OK);
     CHECK_EQ(scene_make(&scene, &config, world_block, sizeof world_block, &world), CAROM_OK);
     for (int frame = 0; frame < FRAMES; frame++) {
         struct carom_stats stats;

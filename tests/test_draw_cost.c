@@ -8,6 +8,7 @@
 #include "draw.h"
 #include "port.h"
 #include "scene.h"
+#include "shapes.h"
 #include "test.h"
 
 /*
@@ -17,7 +18,7 @@
 enum { WIDTH = 320, HEIGHT = 240, SIDE = 512, FRAMES = 120, EACH = 15 };
 enum { WORST_SMALL = 2230000, WORST_LARGE = 3110000, EMPTY_SMALL = 142000, EACH_BODY = 150 };
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
 static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
                                                       SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
 static uint8_t pixels[SIDE * SIDE], reference[WIDTH * HEIGHT];
@@ -28,7 +29,7 @@ static struct carom_world *new_scene(const char *name)
     struct carom_config config = scene_config();
     struct carom_world *world = NULL;
 
-    CHECK_EQ(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(scene_load(&scene, name, NULL, shape_scene_block, sizeof shape_scene_block), CAROM_OK);
     CHECK_EQ(scene_make(&scene, &config, world_block, sizeof world_block, &world), CAROM_OK);
     return world;
 }

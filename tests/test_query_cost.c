@@ -12,7 +12,7 @@
 
 enum { POSES = 24, ROOM = 2048 };
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_CAPS)];
 static struct scene scene;
 static struct carom_world *world;
 static struct carom_body_state state;
@@ -66,7 +66,8 @@ static void test_cost(void)
     struct test_random r = {1};
     uint32_t sum[3] = {0}, most[3] = {0}, found[3] = {0};
 
-    CHECK_EQ(scene_load(&scene, "head", NULL, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(scene_load(&scene, "head", NULL, shape_scene_block, sizeof shape_scene_block),
+             CAROM_OK);
     CHECK_EQ(scene_make(&scene, &config, world_block, sizeof world_block, &world), CAROM_OK);
     CHECK_EQ(carom_body_get(world, SCENE_BODY, &state), CAROM_OK);
     for (int i = 0; i < POSES; i++) {

@@ -25,7 +25,6 @@ static struct interfere_leaf leaf;
 static struct interfere work = {.leaf = &leaf};
 static struct carom_face_pair found[ROOM];
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES];
 static struct scene scene;
 
 static int32_t corner_a[SCENE_HEAD_VERTICES][3], corner_b[SCENE_FIELD_VERTICES][3];
@@ -156,7 +155,8 @@ static void test_head(void)
 {
     memset(bodies, 0, sizeof bodies);
     memset(states, 0, sizeof states);
-    CHECK_EQ(scene_load(&scene, "head", NULL, mesh_block, sizeof mesh_block), CAROM_OK);
+    CHECK_EQ(scene_load(&scene, "head", NULL, shape_scene_block, sizeof shape_scene_block),
+             CAROM_OK);
     bodies[0].mesh = &scene.body_mesh;
     bodies[0].radius_q22 = scene.body_mesh.radius_q22;
     bodies[1].mesh = &scene.ground_mesh;

@@ -14,7 +14,9 @@
 #define HELD 0
 #endif
 
-static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+#define BOX_BYTES (CAROM_MESH_BYTES(8, 12) + CAROM_MESH_BYTES(4, 2))
+static _Alignas(8) uint8_t mesh_block[BOX_BYTES];
+static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_CAPS)];
 
 /* The box scene after so many frames. */
 static struct carom_world *box_world(struct scene *scene, bool spin, uint32_t frames)

@@ -376,6 +376,169 @@ static void test_wild(void)
     }
 }
 
+/* A refusal while the box sleeps and something else does not: it stays where it lies. */
+static void test_refused_asleep(void)
+{
+    struct carom_body_def lid;
+    struct carom_body_state lies;
+
+    begin(MOST, 0, 1 << 15);
+    lid = box_def;
+    lid.stationary = true;
+    lid.position.c[2] = 3 * HALF + CAROM_RATIO(30, 100, 32);
+    CHECK_EQ(carom_body_add(world, &lid), 2);
+    settle();
+    lid.stationary = false;
+    lid.position.c[0] = CAROM_RATIO(3, 1, 32);
+    lid.position.c[2] = CAROM_RATIO(20, 1, 32);
+    CHECK_EQ(carom_body_add(world, &lid), 3);
+    CHECK_EQ(carom_world_step(world), CAROM_OK);
+    lies = state_of(BOX);
+    for (int v = 0; v < COUNT; v++) {
+        at[v][2] = 2200;
+    }
+    CHECK_EQ(move(), CAROM_ERR_BLOCKED);
+    for (int frame = 0; frame < 5; frame++) {
+        struct carom_body_state s;
+
+        CHECK_EQ(carom_world_step(world), CAROM_OK);
+        s = state_of(BOX);
+        CHECK(s.asleep);
+        CHECK(memcmp(&s.position, &lies.position, sizeof s.position) == 0);
+    }
+}
+
+static void test_no_entries(void)
+{
+    struct carom_config config = {.caps = {CAPS(0)}};
+    struct carom_body_def def;
+
+    begin(MOST, 0, 1 << 15);
+    CHECK_EQ(carom_world_init(block, CAROM_WORLD_BYTES(CAPS(0)), &config, &world), CAROM_OK);
+    def = box_def;
+    def.stationary = true;
+    def.mesh = &surface;
+    CHECK_EQ(carom_body_add(world, &def), CAROM_ERR_NO_ENTRIES);
+    def.mesh = &flat.mesh;
+    CHECK_EQ(carom_body_add(world, &def), FLOOR);
+}
+
+/* ----------------------------------------------------------------- worlds at rest */
+
+/* A move while nothing is awake lasts for a frame as any other; the next one does not know of it. */
+static void test_idle(void)
+{
+    begin(MOST, 0, 1 << 15);
+    CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
+    for (int frame = 0; frame < 3; frame++) {
+        CHECK_EQ(carom_world_step(world), CAROM_OK);
+    }
+    CHECK(world->idle);
+    for (int v = 0; v < COUNT; v++) {
+        at[v][2] = 400;
+    }
+    CHECK_EQ(move(), CAROM_OK);
+    CHECK_EQ(mesh_drift_most(&surface), 400 << 10);
+    CHECK_EQ(carom_world_step(world), CAROM_OK);
+    CHECK_EQ(mesh_drift_most(&surface), 0);
+    box_def.position.c[2] += 400 * QUANTUM_Q32;
+    CHECK_EQ(carom_body_add(world, &box_def), BOX);
+    settle();
+    CHECK_NEAR(state_of(BOX).position.c[2], HALF + 400 * QUANTUM_Q32, 4 * QUANTUM_Q32);
+}
+
+/* It comes from far below after it stood still for a while, and is found. */
+static void test_from_afar(void)
+{
+    begin(MOST, 0, 1 << 15);
+    box_def.position.c[2] = CAROM_RATIO(8, 1, 32);
+    CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
+    CHECK_EQ(carom_body_add(world, &box_def), BOX);
+    for (int frame = 0; frame < 10; frame++) {
+        CHECK_EQ(carom_world_step(world), CAROM_OK);
+    }
+    for (int v = 0; v < COUNT; v++) {
+        at[v][2] = 7 * 4096;
+    }
+    CHECK_EQ(put(), CAROM_OK);
+    settle();
+    CHECK_NEAR(state_of(BOX).position.c[2], HALF + CAROM_RATIO(7, 1, 32), 4 * QUANTUM_Q32);
+}
+
+/* ------------------------------------------------------------------------ queries */
+
+static bool listed(const struct carom_face_pair *list, int count, struct carom_face_pair pair)
+{
+    int i = 0;
+
+    while (i < count && (list[i].a != pair.a || list[i].b != pair.b)) {
+        i++;
+    }
+    return i < count;
+}
+
+/* What is asked of a surface that has moved is what a rigid mesh of its shape says. */
+static void ask(int rigid)
+{
+    enum { ROOM = 128 };
+    static struct carom_face_pair wanted[ROOM], found[ROOM];
+    int expected = carom_query_faces(world, BOX, rigid, wanted, ROOM);
+    int count = carom_query_faces(world, BOX, FLOOR, found, ROOM);
+
+    CHECK(expected >= 0);
+    CHECK_EQ(count, expected);
+    for (int i = 0; i < expected && i < count; i++) {
+        CHECK(listed(found, count, wanted[i]));
+    }
+    CHECK_EQ(carom_query_faces(world, FLOOR, BOX, found, ROOM), expected);
+    for (int i = 0; i < expected; i++) {
+        CHECK(listed(found, expected, (struct carom_face_pair){wanted[i].b, wanted[i].a}));
+    }
+    CHECK_EQ(carom_query_inside(world, BOX, FLOOR), carom_query_inside(world, BOX, rigid));
+}
+
+static void test_queries(void)
+{
+    static const uint32_t entries[] = {1, 12, MOST};
+    struct carom_body_state s;
+    struct carom_body_def def;
+    int met = 0, inside = 0, rigid;
+
+    for (int i = 0; i < 3; i++) {
+        begin(entries[i], 0, 1 << 15);
+        CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
+        shape_ball(&box, 12, 3000); /* of several leaves */
+        CHECK(box.mesh.leaf_count > 1);
+        CHECK_EQ(carom_body_add(world, &box_def), BOX);
+        wave(20);
+        for (int v = 0; v < COUNT; v++) {
+            at[v][2] = (int16_t)(8 * at[v][2] + 4096);
+        }
+        CHECK_EQ(put(), CAROM_OK);
+        memcpy(flat.vertices, at, sizeof at);
+        CHECK_EQ(carom_mesh_build(&flat.mesh, &flat.raw, flat.block, sizeof flat.block), CAROM_OK);
+        def = box_def;
+        def.stationary = true;
+        def.mesh = &flat.mesh;
+        def.position.c[2] = 0;
+        rigid = carom_body_add(world, &def);
+        s = state_of(BOX);
+        s.rotation = (carom_quat_q30){{900000000, 400000000, 300000000, 303000000}};
+        for (int k = -40; k <= 40; k++) {
+            static struct carom_face_pair one[1];
+
+            s.position.c[0] = CAROM_RATIO(k, 10, 32);
+            s.position.c[1] = CAROM_RATIO(k % 7, 3, 32);
+            s.position.c[2] = CAROM_RATIO(k % 3 + 2, 2, 32);
+            CHECK_EQ(carom_body_set(world, BOX, &s), CAROM_OK);
+            ask(rigid);
+            met += carom_query_faces(world, BOX, FLOOR, one, 1) != 0;
+            inside += carom_query_inside(world, BOX, FLOOR);
+        }
+    }
+    CHECK(met > 20 && inside > 20);
+}
+
 /* A snapshot goes back once the surface is where it was, and not before. */
 static void test_snapshot(void)
 {
@@ -428,6 +591,11 @@ const struct test tests_world_surface[] = {
     {"world_surface/all_or_nothing", test_all_or_nothing},
     {"world_surface/wild", test_wild},
     {"world_surface/refused", test_refused},
+    {"world_surface/refused_asleep", test_refused_asleep},
+    {"world_surface/no_entries", test_no_entries},
+    {"world_surface/idle", test_idle},
+    {"world_surface/from_afar", test_from_afar},
+    {"world_surface/queries", test_queries},
     {"world_surface/snapshot", test_snapshot},
     {0},
 };
