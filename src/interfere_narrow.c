@@ -335,8 +335,7 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     }
     sine_q30 = size_of(l->w) + 4; /* at least */
     d = difference(l->start_a, l->start_b);
-    limit = sine_q30 * (in->leaf->near_q20 + 4) +
-            carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
+    limit = sine_q30 * (in->leaf->near_q20 + 4) + carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
     if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
         return false;
     }

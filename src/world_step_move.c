@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The moving part of a step: candidates for the rest of the frame, paths, first hit, advance. */
+/* The moving part of a step: paths, first hit, advance. */
 #include "world_step_parts.h"
 
 #define REFINEMENTS 8
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
-#define REGION_PARTS 10
-#define REGION_PARTS_FREE 4
-#define REGION_ENOUGH 8
 /* What the gap of features changes by at most through rounding. */
 #define CHANGES_Q22 4
 
@@ -19,39 +16,6 @@ void step_mark(struct carom_world *w, enum carom_stage stage)
         w->stats.ticks[stage] += now - w->mark_tick;
         w->mark_tick = now;
     }
-}
-
-void step_select_pair(struct step_visitor *v, uint16_t number)
-{
-    if (v->pair_number != number) {
-        const struct pair *p = &v->step->w->pairs[number];
-
-        boyse_pair_init(&v->pair, &v->step->w->bodies[p->a], &v->step->w->bodies[p->b]);
-        v->pair_number = number;
-    }
-}
-
-int step_visit(struct step *s, struct step_visitor *v,
-               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
-{
-    struct carom_world *w = s->w;
-    int result;
-
-    v->base.visit = f;
-    v->step = s;
-    v->pair_number = -1;
-    v->found = false;
-    v->error = CAROM_OK;
-    result = interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
-                             &v->base);
-    return v->error ? v->error : result;
-}
-
-static void visit_nothing(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
-{
-    (void)self;
-    (void)c;
-    (void)n;
 }
 
 void step_place_all(struct step *s)
@@ -66,7 +30,7 @@ void step_place_all(struct step *s)
     s->path_q30 = 0;
 }
 
-static void predict_all(struct step *s, int32_t tau_q30)
+void step_predict_all(struct step *s, int32_t tau_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
@@ -79,193 +43,20 @@ static void predict_all(struct step *s, int32_t tau_q30)
     s->path_q30 = tau_q30;
 }
 
-/*
- * Candidates are gathered for the paths at hand, and for what differs from them by no more than some
- * skins and a part of the way. In flight only a hit leads a body aside, and by more than that:
- * it asks for others in any case.
- */
-static int64_t room_q22(const struct body *b)
-{
-    int64_t way_q22, turn_q30;
-
-    body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-    return b->in_contact ? 10 * (int64_t)b->skin_q22 + way_q22 / 16
-                         : 3 * (int64_t)b->skin_q22 + way_q22 / 64;
-}
-
-static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        struct body *b = &s->w->bodies[i];
-        int64_t room;
-
-        if (!b->mesh || b->standing) {
-            continue;
-        }
-        b->region.active = broad_active(b, &s->next->bodies[i]);
-        room = b->region.active ? room_q22(b) : 0;
-        room += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
-        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room);
-    }
-}
-
-/* Pairs, interfering faces and candidates for the paths at hand, which take slice_q30 of a frame. */
-static int gather(struct step *s, int32_t slice_q30, int64_t time_q30, uint32_t enough)
-{
-    struct carom_world *w = s->w;
-    struct step_visitor v;
-    int result;
-
-    set_regions(s, slice_q30, time_q30);
-    step_mark(w, CAROM_STAGE_PREDICT);
-    result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
-                         w->body_count);
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        struct body *b = &w->bodies[i];
-
-        b->standing = !broad_active(b, &s->next->bodies[i]);
-        if (!b->standing && w->pools[CAROM_POOL_pairs].used > 0) {
-            body_region_end(b);
-        }
-    }
-    step_mark(w, CAROM_STAGE_BROAD);
-    if (result < 0) {
-        return result;
-    }
-    if (w->interfere.gathers == 0) {
-        pool_clear(&w->pools[CAROM_POOL_faces]);
-    }
-    interfere_begin(&w->interfere);
-    w->interfere.enough = enough;
-    result = step_visit(s, &v, visit_nothing);
-    step_mark(w, CAROM_STAGE_INTERFERE);
-    return result;
-}
-
-/*
- * For how long regions may last, for what is swept grows with the time: while no part of a body goes
- * farther than a part of its radius. Bodies that nothing is near to may go farther.
- */
-static int64_t frames_allowed(const struct step *s, int32_t slice_q30)
-{
-    int64_t parts = s->w->interfere.candidate_pool->used == 0 ? REGION_PARTS_FREE : REGION_PARTS;
-    int64_t frames = BODY_REGION_FRAMES;
-
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30, way_frame_q22;
-
-        if (!broad_active(b, &s->next->bodies[i])) {
-            continue;
-        }
-        body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-        way_frame_q22 = (way_q22 << 30) / slice_q30 + 1;
-        if (frames * way_frame_q22 > b->radius_q22 / parts) {
-            frames = b->radius_q22 / parts / way_frame_q22;
-        }
-    }
-    return frames > 1 ? frames : 1;
-}
-
-/* As long as the last regions held and no longer than allowed, twice that when they held to their end. */
-static int64_t region_time(const struct step *s, int32_t slice_q30)
-{
-    int64_t frames = 1, allowed;
-
-    if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30) {
-        return slice_q30;
-    }
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body_region *region = &s->w->bodies[i].region;
-
-        if (region->active) {
-            int64_t held = region->elapsed_q30 >> 30;
-            bool to_end = region->time_q30 - region->elapsed_q30 < CAROM_ONE_Q30;
-
-            frames = held << to_end > frames ? held << to_end : frames;
-        }
-    }
-    allowed = frames_allowed(s, slice_q30);
-    frames = frames < allowed ? frames : allowed;
-    return s->left_q30 + ((frames - 1) << 30);
-}
-
-int step_gather(struct step *s)
-{
-    struct interfere *in = &s->w->interfere;
-    uint32_t faces = in->gathers > 0 ? in->face_pool->used : 0;
-    bool free = in->candidate_pool->used == 0;
-    int32_t slice_q30 = step_slice(s);
-    int64_t time_q30;
-    int result;
-
-    predict_all(s, slice_q30);
-    time_q30 = region_time(s, slice_q30);
-    if (time_q30 == slice_q30) {
-        return gather(s, slice_q30, slice_q30, UINT32_MAX);
-    }
-    result = gather(s, slice_q30, time_q30, free ? REGION_ENOUGH : UINT32_MAX);
-    if (result != CAROM_OK) {
-        /* a single frame will have less, and an error is one only if it has it too */
-        in->face_pool->used = faces;
-        result = gather(s, slice_q30, slice_q30, UINT32_MAX);
-    }
-    return result;
-}
-
-uint16_t step_pair_number(const struct carom_world *w, const struct pair *p)
-{
-    uint16_t n = 0;
-
-    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
-        n++;
-        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
-    }
-    return n;
-}
-
-/* Whether a body may leave the region on its path. */
-static bool leaves_region(const struct step *s, int32_t slice_q30)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        const struct body *b = &s->w->bodies[i];
-
-        if (b->region.active != broad_active(b, &s->next->bodies[i]) ||
-            (b->region.active && !body_region_holds(b, slice_q30))) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Set shorter paths than those of the region, which the hit at hand led to. */
 static int predict_hit(struct step *s, int32_t slice_q30)
 {
     const struct pair p = s->w->pairs[s->hit.candidate.pair];
     int result = CAROM_OK;
 
-    predict_all(s, slice_q30);
-    if (leaves_region(s, slice_q30)) {
-        result = gather(s, slice_q30, slice_q30, UINT32_MAX);
+    step_predict_all(s, slice_q30);
+    if (step_leaves_region(s, slice_q30)) {
+        result = step_gather_slice(s, slice_q30);
         if (result == CAROM_OK) {
             s->hit.candidate.pair = step_pair_number(s->w, &p);
         }
     }
     return result;
-}
-
-int step_gather_first(struct step *s)
-{
-    struct interfere *in = &s->w->interfere;
-
-    if (!in->stale && in->whole) {
-        step_place_all(s);
-        if (!leaves_region(s, 0)) {
-            in->candidate_count = in->candidate_pool->used;
-            return CAROM_OK;
-        }
-    }
-    return step_gather(s);
 }
 
 int32_t step_slice(const struct step *s)
@@ -286,8 +77,8 @@ int step_predict(struct step *s, int32_t *slice_q30)
 
     *slice_q30 = s->path_q30 > 0 ? s->path_q30 : step_slice(s);
     if (s->path_q30 == 0) {
-        predict_all(s, *slice_q30);
-        if (leaves_region(s, *slice_q30)) {
+        step_predict_all(s, *slice_q30);
+        if (step_leaves_region(s, *slice_q30)) {
             result = step_gather(s);
         }
     }
@@ -542,7 +333,7 @@ int step_go_to_hit(struct step *s, int32_t slice_q30, bool *met)
             t_q30 = CAROM_ONE_Q30;
             result = found ? refine(s, &end_q30, &t_q30) : CAROM_OK;
         } else {
-            predict_all(s, end_q30);
+            step_predict_all(s, end_q30);
         }
     }
     if (result == CAROM_OK) {

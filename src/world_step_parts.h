@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * world_step_parts - what the files of a step share. world_step.c is the pipeline; the others are
- * its stations: move (predict, first hit, advance), contacts (static check, solve), energy (of
- * contact over the frame), finish (events, statistics).
+ * its stations: gather (regions, candidates), move (predict, first hit, advance), contacts (static
+ * check, solve), energy (of contact over the frame), finish (events, statistics).
  */
 #ifndef CAROM_SRC_WORLD_STEP_PARTS_H
 #define CAROM_SRC_WORLD_STEP_PARTS_H
@@ -44,8 +44,18 @@ void step_mark(struct carom_world *w, enum carom_stage stage);
 /* Give every body a path of no motion at its present pose. */
 void step_place_all(struct step *s);
 
-/* Set the paths of a slice, and gather pairs, interfering faces and candidates for them. */
+/* Set the paths of a slice. */
+void step_predict_all(struct step *s, int32_t tau_q30);
+
+/*
+ * Set the paths of a slice, and gather pairs, interfering faces and candidates for a region around
+ * them that may last for some frames; or for the paths at hand, of a slice, alone.
+ */
 int step_gather(struct step *s);
+int step_gather_slice(struct step *s, int32_t slice_q30);
+
+/* Whether a body may leave its region on its path, which takes slice_q30. */
+bool step_leaves_region(const struct step *s, int32_t slice_q30);
 
 /* The same at the start of a frame, unless the last frame's still hold. */
 int step_gather_first(struct step *s);
