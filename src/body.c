@@ -123,7 +123,7 @@ static void angular_in_body(const struct body *b, const struct body_state *s, co
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                carom_v3_q40 *w)
 {
-    memset(w, 0, sizeof *w);
+    *w = (carom_v3_q40){{0, 0, 0}};
     if (b->moving) {
         angular_in_body(b, s, r, w->c);
         inverse_mul(b, w->c, w->c);

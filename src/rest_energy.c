@@ -98,6 +98,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide before)
         struct contact *c = rest_contact(r, i);
 
         c->wanted_q40 = c->impulse_q40;
+        rest_relative_velocity(c, &c->velocity_q40);
     }
     rest_solve_sweeps(r, &plastic, false);
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
