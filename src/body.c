@@ -162,6 +162,29 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
     return sum;
 }
 
+/*
+ * p.v + L.w is at most |p| |v| + |L| |w|. |v| is |p| / m, and an L of no more than 2^-n of the calm
+ * one turns by less than 2^-n half radians: see calm_angular_q40, which also leaves room for roundings.
+ */
+struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s)
+{
+    uint64_t p_q40 = fix_sum(s->momentum.c), l_q40 = fix_sum(s->angular.c);
+    int64_t speed_q40;
+    int n;
+
+    if (!b->moving || (p_q40 | l_q40) == 0) {
+        return (struct fix_wide){0, 0};
+    }
+    if (!body_calm(b, s)) {
+        return (struct fix_wide){INT64_MAX >> 20, 0}; /* far more than any has */
+    }
+    speed_q40 = fix_mul_scaled((int64_t)p_q40, b->inverse_mass);
+    speed_q40 += (speed_q40 >> 20) + 1;
+    n = fix_bits(b->calm_angular_q40) - 1 - fix_bits(l_q40);
+    return fix_wide_add(fix_wide_mul((int64_t)p_q40, speed_q40),
+                        fix_wide_mul((int64_t)l_q40, n < 39 ? (int64_t)1 << (39 - n) : 1));
+}
+
 struct fix_wide body_lift2(const struct body *b)
 {
     int64_t weight_q40 = fix_mul_scaled(b->acceleration_q40, b->mass);

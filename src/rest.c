@@ -276,7 +276,6 @@ static struct fix_wide lift2(const struct rest *r)
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
     struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST, true};
-    struct fix_wide before;
     bool impacts = prepare(r, tau_q30);
 
     if (impacts && r->count == 1) {
@@ -294,10 +293,10 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->resting = !impacts;
     }
-    before = rest_energy_before(r);
+    rest_save_momenta(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
-    rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
+    rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
     return CAROM_OK;
 }
 
