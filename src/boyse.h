@@ -58,8 +58,8 @@ struct boyse_pair {
 struct boyse_touch {
     int32_t gap_q22;     /* distance along the normal; negative: they overlap */
     carom_v3_q30 normal; /* N, from b into a; only when valid */
-    bool valid;  /* inside both features, normal in both cones, edges not parallel */
-    int8_t sign; /* edges: N = sign w / |w| */
+    bool valid;          /* inside both features, normal in both cones, edges not parallel */
+    int8_t sign;         /* edges: N = sign w / |w| */
 };
 
 struct boyse_hit {

@@ -64,11 +64,11 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             int64_t t = turn[i][k];
-            int32_t entry =
-                (int32_t)(down > 62 ? 0 : down > 0 ? carom_round(t, down) : carom_shl(t, -down));
+            int32_t entry = (int32_t)(down > 62  ? 0
+                                      : down > 0 ? carom_round(t, down)
+                                                 : carom_shl(t, -down));
 
-            side->turn[i][k] =
-                whole ? entry : carom_mul_q30(entry, side->share_q30);
+            side->turn[i][k] = whole ? entry : carom_mul_q30(entry, side->share_q30);
         }
     }
     /* what an impulse along axis i changes the velocity by */

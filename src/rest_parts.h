@@ -95,7 +95,7 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
  * What follows works on the island at hand.
  *
  * Sweep until the residual is reached; impulses go to impulse_q40 of the contacts, not to the
- * bodies.
+ * bodies. Takes velocity_q40 of the contacts, whose place they need.
  */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm);
 
