@@ -123,7 +123,7 @@ static void angular_in_body(const struct body *b, const struct body_state *s, co
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                carom_v3_q40 *w)
 {
-    memset(w, 0, sizeof *w);
+    *w = (carom_v3_q40){{0, 0, 0}};
     if (b->moving) {
         angular_in_body(b, s, r, w->c);
         inverse_mul(b, w->c, w->c);
@@ -160,6 +160,29 @@ struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
         fix_wide_add_product(&sum, s->angular.c[k], w.c[k]);
     }
     return sum;
+}
+
+/*
+ * p.v + L.w is at most |p| |v| + |L| |w|. |v| is |p| / m, and an L of no more than 2^-n of the calm
+ * one turns by less than 2^-n half radians: see calm_angular_q40, which also leaves room for roundings.
+ */
+struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s)
+{
+    uint64_t p_q40 = fix_sum(s->momentum.c), l_q40 = fix_sum(s->angular.c);
+    int64_t speed_q40;
+    int n;
+
+    if (!b->moving || (p_q40 | l_q40) == 0) {
+        return (struct fix_wide){0, 0};
+    }
+    if (!body_calm(b, s)) {
+        return (struct fix_wide){INT64_MAX >> 20, 0}; /* far more than any has */
+    }
+    speed_q40 = fix_mul_scaled((int64_t)p_q40, b->inverse_mass);
+    speed_q40 += (speed_q40 >> 20) + 1;
+    n = fix_bits(b->calm_angular_q40) - 1 - fix_bits(l_q40);
+    return fix_wide_add(fix_wide_mul((int64_t)p_q40, speed_q40),
+                        fix_wide_mul((int64_t)l_q40, n < 39 ? (int64_t)1 << (39 - n) : 1));
 }
 
 struct fix_wide body_lift2(const struct body *b)

@@ -127,6 +127,9 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
                               const carom_m3_q30 *r);
 
+/* No less than that, and sooner: for bodies that hardly move. */
+struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s);
+
 /*
  * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
  * is lifted by a part of its skin gains that much; anything above is not lifting.

@@ -54,13 +54,12 @@ struct boyse_pair {
     struct boyse_view view[2]; /* a seen from b, b seen from a */
 };
 
-/* Where two features meet, or nearly do. Points are relative to the origin of a's path. */
+/* How two features meet, or nearly do. */
 struct boyse_touch {
     int32_t gap_q22;     /* distance along the normal; negative: they overlap */
-    carom_v3_q30 normal; /* N, from b into a; it and the points only when valid */
-    carom_v3_q22 on_a, on_b;
-    bool valid;  /* inside both features, normal in both cones, edges not parallel */
-    int8_t sign; /* edges: N = sign w / |w| */
+    carom_v3_q30 normal; /* N, from b into a; only when valid */
+    bool valid;          /* inside both features, normal in both cones, edges not parallel */
+    int8_t sign;         /* edges: N = sign w / |w| */
 };
 
 struct boyse_hit {
@@ -75,7 +74,7 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b);
 
 /*
  * The exact test at time t: whether the features really face each other there, how far apart they
- * are and where.
+ * are and along which normal.
  */
 void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
                  struct boyse_touch *touch);

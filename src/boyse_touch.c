@@ -134,27 +134,11 @@ static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
     return p;
 }
 
-/* A direction, or a point about to's centre, from to's mesh axes to the world's. */
+/* A direction from to's mesh axes to the world's. */
 static void to_world(const struct moment *m, int32_t v[3])
 {
     apply(&m->to, v);
     carom_rotate(v, &m->view->to->path.start.r, v);
-}
-
-/* The same for a point, relative to the origin of a's path. */
-static carom_v3_q22 point_to_world(const struct boyse_pair *pair, const struct moment *m,
-                                   int32_t t_q30, carom_v3_q22 p)
-{
-    const struct body *to = m->view->to;
-
-    to_world(m, p.c);
-    for (int k = 0; k < 3; k++) {
-        int64_t way_q40 = fix_mul(to->path.v.c[k] + fix_mul(to->path.g.c[k], t_q30, 30), t_q30, 30);
-
-        p.c[k] += (int32_t)carom_round(to->path.start.x.c[k] + carom_round(way_q40, 8), 10) +
-                  (to == pair->b ? pair->offset_q22[k] : 0);
-    }
-    return p;
 }
 
 /* The features of a candidate at one time. */
@@ -227,14 +211,6 @@ static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
     return (int32_t)gap;
 }
 
-/*
- * Places of nearest approach along the two lines, q22. With b = e.f and D = 1 - b^2 = |w|^2:
- * s = (b d.f - d.e) / D and q = (d.f - b d.e) / D. False when either lies off its edge.
- */
-struct nearest {
-    int64_t s_q22, q_q22;
-};
-
 /* a b, rounded down; |a| < 2^61 */
 static int64_t times_q30(int64_t a, int32_t b_q30)
 {
@@ -250,18 +226,22 @@ static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse
     return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
 }
 
-static bool nearest_points(const struct boyse_places *p, struct inverse sine, struct nearest *at)
+/*
+ * Whether the places of nearest approach along the two lines are on the edges. With b = e.f and
+ * D = 1 - b^2 = |w|^2: s = (b d.f - d.e) / D and q = (d.f - b d.e) / D.
+ */
+static bool meet_on_edges(const struct boyse_places *p, struct inverse sine)
 {
     int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
     int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
     int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
+    int64_t s_q22 = -along(de_q32, b_q30, df_q32, sine);
+    int64_t q_q22 = along(df_q32, b_q30, de_q32, sine);
 
-    at->s_q22 = -along(de_q32, b_q30, df_q32, sine);
-    at->q_q22 = along(df_q32, b_q30, de_q32, sine);
-    return at->s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           at->s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
-           at->q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           at->q_q22 <= p->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
+    return s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
+           q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           q_q22 <= p->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
 }
 
 /* The unit normal w / |w| of two edges, in the mesh axes of both. */
@@ -341,9 +321,9 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
     return 0;
 }
 
-/* Returns |w|; `at` and `n` are set when the touch is valid. */
+/* Returns |w|; `n` is set when the touch is valid. */
 static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
-                          struct boyse_touch *touch, struct nearest *at, struct edge_normal *n)
+                          struct boyse_touch *touch, struct edge_normal *n)
 {
     int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
 
@@ -352,7 +332,7 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
 
     touch->valid = false;
     touch->sign = 1;
-    if (sine_q30 >= BOYSE_PARALLEL_Q30 && nearest_points(p, sine, at)) {
+    if (sine_q30 >= BOYSE_PARALLEL_Q30 && meet_on_edges(p, sine)) {
         int sign;
 
         set_normal(n, m, p, sine);
@@ -383,40 +363,15 @@ int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
 {
     struct moment m;
     struct boyse_places p;
-    struct nearest at;
     struct edge_normal n;
 
     set_moment(&m, boyse_view(pair, c), t_q30);
     place(&m, c, start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        return test_edges(&m, &p, touch, &at, &n);
+        return test_edges(&m, &p, touch, &n);
     }
     test_vertex_face(&m, c, &p, touch);
     return CAROM_ONE_Q30;
-}
-
-static void locate_vertex_face(const struct candidate *c, const struct boyse_places *p,
-                               struct boyse_touch *touch)
-{
-    bool on_a = c->kind == CANDIDATE_VERTEX_FACE; /* the vertex is a's, N the face's normal */
-    carom_v3_q22 foot;
-
-    for (int k = 0; k < 3; k++) {
-        foot.c[k] = p->vertex.c[k] - (int32_t)carom_round((int64_t)p->n[k] * touch->gap_q22, 30);
-        touch->normal.c[k] = on_a ? p->n[k] : -p->n[k];
-    }
-    touch->on_a = on_a ? p->vertex : foot;
-    touch->on_b = on_a ? foot : p->vertex;
-}
-
-static void locate_edges(const struct boyse_places *p, const struct nearest *at,
-                         const struct edge_normal *n, struct boyse_touch *touch)
-{
-    for (int k = 0; k < 3; k++) {
-        touch->normal.c[k] = touch->sign * n->on_b[k];
-        touch->on_a.c[k] = p->vertex.c[k] + (int32_t)carom_round(p->e[k] * at->s_q22, 30);
-        touch->on_b.c[k] = p->start_b.c[k] + (int32_t)carom_round(p->f[k] * at->q_q22, 30);
-    }
 }
 
 void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
@@ -424,26 +379,26 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
 {
     struct moment m;
     struct boyse_places start, p;
-    struct nearest at;
     struct edge_normal n;
+    const int32_t *normal = n.on_b;
+    int sign;
 
     boyse_place_start(pair, c, &start);
     set_moment(&m, boyse_view(pair, c), t_q30);
     place(&m, c, &start, &p);
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        (void)test_edges(&m, &p, touch, &at, &n);
+        (void)test_edges(&m, &p, touch, &n);
+        sign = touch->sign;
     } else {
         test_vertex_face(&m, c, &p, touch);
+        normal = p.n; /* of the face */
+        sign = c->kind == CANDIDATE_VERTEX_FACE ? 1 : -1;
     }
     if (!touch->valid) {
         return;
     }
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        locate_edges(&p, &at, &n, touch);
-    } else {
-        locate_vertex_face(c, &p, touch);
+    for (int k = 0; k < 3; k++) {
+        touch->normal.c[k] = sign * normal[k];
     }
     to_world(&m, touch->normal.c);
-    touch->on_a = point_to_world(pair, &m, t_q30, touch->on_a);
-    touch->on_b = point_to_world(pair, &m, t_q30, touch->on_b);
 }

@@ -27,7 +27,10 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
     return low;
 }
 
-/* Insert a contact; NULL when the pool is full. The new place is cleared. */
+/*
+ * Insert a contact; NULL when the pool is full. What the solver does not set for each that it takes
+ * up is cleared.
+ */
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
     struct contact *c = &list->contacts[place];
@@ -37,7 +40,8 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
         return NULL;
     }
     memmove(c + 1, c, behind * sizeof *c);
-    memset(c, 0, sizeof *c);
+    c->idle = c->resting = c->impact = c->roll.acts = false;
+    c->impulse_q40 = c->roll.moment_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
 }
 
@@ -198,17 +202,20 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
 
 void contact_merge(struct contact_list *list)
 {
-    uint32_t kept = 0;
+    uint32_t kept = 0, first = 0; /* what is kept, and of the pair at hand */
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
         carom_v3_q22 arm = contact_arm(c);
         uint32_t j;
 
-        for (j = 0; j < kept; j++) {
+        if (kept > 0 && list->contacts[kept - 1].key.pair != c->key.pair) {
+            first = kept;
+        }
+        for (j = first; j < kept; j++) {
             struct contact *k = &list->contacts[j];
 
-            if (k->key.pair == c->key.pair && distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
+            if (distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
                 cosine_q30(&k->normal, &c->normal) > SAME_NORMAL_Q30) {
                 break;
             }

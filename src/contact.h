@@ -76,7 +76,8 @@ struct contact {
         struct {
             int32_t gain[3], way[3]; /* change of it in two sweeps, and the way it is going */
         };
-        carom_v3_q40 impulse_q40; /* the result, when the sweeps are over: P on a, -P on b */
+        carom_v3_q40 velocity_q40; /* V before, until the sweeps begin */
+        carom_v3_q40 impulse_q40;  /* the result, when they are over: P on a, -P on b */
     };
     struct contact_roll roll;
 };

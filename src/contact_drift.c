@@ -9,7 +9,7 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
     carom_v3_q22 at;
     int64_t local[3];
 
-    memset(drift, 0, sizeof *drift);
+    *drift = (carom_v3_q40){{0, 0, 0}};
     if (mesh_drift_most(b->mesh) == 0) {
         return;
     }

@@ -290,7 +290,9 @@ void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
         r[k] = fix_mul_q30(v[0], m->c[k][0]) + fix_mul_q30(v[1], m->c[k][1]) +
                fix_mul_q30(v[2], m->c[k][2]);
     }
-    memcpy(out, r, sizeof r);
+    out[0] = r[0];
+    out[1] = r[1];
+    out[2] = r[2];
 }
 
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
@@ -301,7 +303,9 @@ void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
         r[k] = fix_mul_q30(v[0], m->c[0][k]) + fix_mul_q30(v[1], m->c[1][k]) +
                fix_mul_q30(v[2], m->c[2][k]);
     }
-    memcpy(out, r, sizeof r);
+    out[0] = r[0];
+    out[1] = r[1];
+    out[2] = r[2];
 }
 
 const uint8_t fix_sym3_at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};

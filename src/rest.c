@@ -132,7 +132,10 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
         return;
     }
     for (int k = 0; k < 3; k++) {
-        c->drift.c[k] -= fix_mul(rise_q40, c->normal.c[k], 30);
+        int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
+
+        c->drift.c[k] -= rise;
+        c->velocity_q40.c[k] += rise;
     }
     c->speed_q40 += rise_q40;
     c->target_q40 = least_q40;
@@ -226,7 +229,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     impact_side(&c->side[0], &in.a);
     impact_side(&c->side[1], &in.b);
     in.normal = c->normal;
-    rest_relative_velocity(c, &in.velocity);
+    in.velocity = c->velocity_q40;
     in.target_q40 = c->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
     result = impact_solve(r->gauss, &in, &out);
@@ -248,7 +251,8 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->speed_q40 = speed_along_normal_q40(c);
+        rest_relative_velocity(c, &c->velocity_q40);
+        c->speed_q40 = rest_along_q40(&c->velocity_q40, &c->normal);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
@@ -272,7 +276,6 @@ static struct fix_wide lift2(const struct rest *r)
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
     struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST, true};
-    struct fix_wide before;
     bool impacts = prepare(r, tau_q30);
 
     if (impacts && r->count == 1) {
@@ -290,10 +293,10 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->resting = !impacts;
     }
-    before = rest_energy_before(r);
+    rest_save_momenta(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
-    rest_energy_rule(r, impacts ? before : fix_wide_add(before, lift2(r)));
+    rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
     return CAROM_OK;
 }
 
@@ -340,6 +343,13 @@ void rest_keep_hits(struct rest *r, uint16_t pair)
     }
 }
 
+/* Whether a contact has a body that moves and has not taken gravity. */
+static bool may_enter(const struct contact *c)
+{
+    return (c->side[0].body && !c->side[0].body->in_contact) ||
+           (c->side[1].body && !c->side[1].body->in_contact);
+}
+
 /* Whether a body is on a side of the contact that newly took gravity. */
 static bool enters(const struct contact *c)
 {
@@ -355,7 +365,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
-        if (c->idle || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
+        if (c->idle || !may_enter(c) || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {

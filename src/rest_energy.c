@@ -14,7 +14,7 @@ static struct fix_wide kinetic2(const struct rest *r)
     return sum;
 }
 
-static void save_momenta(struct rest *r)
+void rest_save_momenta(struct rest *r)
 {
     for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
         r->bodies[i].saved_momentum = r->states[i].momentum;
@@ -71,25 +71,44 @@ static bool rises(const struct rest *r, struct fix_wide before)
     return fix_wide_sign(fix_wide_add(kinetic2(r), fix_wide_neg(limit))) > 0;
 }
 
-struct fix_wide rest_energy_before(struct rest *r)
+/* Twice the kinetic energy before the solve. */
+static struct fix_wide before2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    save_momenta(r);
     for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
-        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(r->states[i].angular.c, b->spin.c));
+        sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
+        sum = fix_wide_add(sum, fix_wide_dot(b->saved_angular.c, b->spin.c));
     }
     return sum;
 }
 
-void rest_energy_rule(struct rest *r, struct fix_wide before)
+/* Whether the energy may be above `allowed` and what surfaces that move have added. */
+static bool may_rise(const struct rest *r, struct fix_wide allowed)
+{
+    struct fix_wide sum = fix_wide_neg(allowed);
+
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        sum = fix_wide_add(sum, body_kinetic2_most(&r->bodies[i], &r->states[i]));
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        sum = fix_wide_add(sum, fix_wide_neg(rest_work2(rest_contact(r, i))));
+    }
+    return fix_wide_sign(sum) > 0;
+}
+
+void rest_energy_rule(struct rest *r, struct fix_wide lift)
 {
     struct rest_sweep plastic = {0, true, true, REST_RESIDUAL_IMPACT, false};
     int32_t low = 0, high = CAROM_ONE_Q30;
+    struct fix_wide before;
 
+    if (!may_rise(r, lift)) {
+        return; /* whatever it was before: not below 0 */
+    }
+    before = fix_wide_add(before2(r), lift);
     if (!rises(r, before)) {
         return;
     }
@@ -98,6 +117,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide before)
         struct contact *c = rest_contact(r, i);
 
         c->wanted_q40 = c->impulse_q40;
+        rest_relative_velocity(c, &c->velocity_q40);
     }
     rest_solve_sweeps(r, &plastic, false);
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */

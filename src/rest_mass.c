@@ -41,15 +41,16 @@ static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 /* The turn by an impulse on one side, and what it adds to K. */
 static void prepare_side(struct contact_side *side, int64_t k_q30[6])
 {
-    const struct carom_sym3 *t = &side->body->turning;
+    const struct carom_sym3 *turning = &side->body->turning;
     int64_t turn[3][3], part[3];
+    const bool whole = side->share_q30 == CAROM_ONE_Q30;
     uint64_t all = 0;
     int down;
 
     /* row i of T (arm x P) is P.(T_i x arm) */
     for (int i = 0; i < 3; i++) {
         const uint8_t *at = fix_sym3_at[i];
-        const int32_t row[3] = {t->m[at[0]], t->m[at[1]], t->m[at[2]]};
+        const int32_t row[3] = {turning->m[at[0]], turning->m[at[1]], turning->m[at[2]]};
 
         cross(turn[i], row, side->arm_q30);
         for (int k = 0; k < 3; k++) {
@@ -58,12 +59,17 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
     }
     /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
     down = fix_bits(all) - 30;
-    down = down > t->e - 20 ? down : t->e - 20;
-    side->turn_bits = 30 + t->e - down;
-    for (int i = 0; i < 9; i++) {
-        int32_t entry = (int32_t)impact_shift(turn[i / 3][i % 3], -down);
+    down = down > turning->e - 20 ? down : turning->e - 20;
+    side->turn_bits = 30 + turning->e - down;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            int64_t t = turn[i][k];
+            int32_t entry = (int32_t)(down > 62  ? 0
+                                      : down > 0 ? carom_round(t, down)
+                                                 : carom_shl(t, -down));
 
-        side->turn[i / 3][i % 3] = carom_mul_q30(entry, side->share_q30);
+            side->turn[i][k] = whole ? entry : carom_mul_q30(entry, side->share_q30);
+        }
     }
     /* what an impulse along axis i changes the velocity by */
     for (int i = 0; i < 3; i++) {

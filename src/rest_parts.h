@@ -55,9 +55,10 @@ static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 /* Twice what a surface that moves does by a contact's impulse, q80. */
 static inline struct fix_wide rest_work2(const struct contact *c)
 {
-    const int64_t twice[3] = {2 * c->drift.c[0], 2 * c->drift.c[1], 2 * c->drift.c[2]};
+    const int64_t *drift = c->drift.c, twice[3] = {2 * drift[0], 2 * drift[1], 2 * drift[2]};
 
-    return fix_wide_dot(c->impulse_q40.c, twice);
+    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(c->impulse_q40.c, twice)
+                                                 : (struct fix_wide){0, 0};
 }
 
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
@@ -94,7 +95,7 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw);
  * What follows works on the island at hand.
  *
  * Sweep until the residual is reached; impulses go to impulse_q40 of the contacts, not to the
- * bodies.
+ * bodies. Takes velocity_q40 of the contacts, whose place they need.
  */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm);
 
@@ -106,14 +107,14 @@ void rest_apply(struct rest *r);
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) before the solve. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
 
-/* Set the momenta of the island's bodies aside before a solve; twice their kinetic energy. */
-struct fix_wide rest_energy_before(struct rest *r);
+/* Set the momenta of the island's bodies aside before a solve. */
+void rest_save_momenta(struct rest *r);
 
 /*
  * The energy rule for several contacts, after the impulses were applied: if energy rose above what
- * it was before, go back towards the frictionless plastic solution as far as needed.
+ * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as far as needed.
  */
-void rest_energy_rule(struct rest *r, struct fix_wide before);
+void rest_energy_rule(struct rest *r, struct fix_wide lift);
 
 /* Keep the impulses of all resting contacts for the next frame. */
 void rest_store_warm(struct rest *r);

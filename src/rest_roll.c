@@ -73,7 +73,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     const struct body *a = c->side[0].body, *b = c->side[1].body;
     int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
 
-    memset(roll, 0, sizeof *roll);
+    roll->moment_q40 = (carom_v3_q40){{0, 0, 0}};
     if (!leads(r, i) || !may_roll(r, i) || c->friction_q16 == 0 ||
         rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
         return false;
@@ -96,6 +96,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     rest_cut(spin, INT32_MAX);
     for (int k = 0; k < 3; k++) {
         roll->spin[k] = (int32_t)spin[k];
+        roll->moment[k] = roll->gain[k] = roll->way[k] = 0;
     }
     roll->mass_q24 = rest_clamp(mass_q30 >> 6);
     roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (mass_q30 | 1));

@@ -48,13 +48,11 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
     int32_t error = (int32_t)impact_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
-    carom_v3_q40 v;
 
-    rest_relative_velocity(c, &v);
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = impact_shift(v.c[k] - along, -sw->unit);
+        slip[k] = impact_shift(c->velocity_q40.c[k] - along, -sw->unit);
     }
     rest_cut(slip, SLIP_MAX);
     for (int k = 0; k < 3; k++) {
@@ -78,8 +76,8 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
             struct body *b = c->side[s].body;
 
             if (b) {
-                memset(b->dv, 0, sizeof b->dv);
-                memset(b->dw, 0, sizeof b->dw);
+                b->dv[0] = b->dv[1] = b->dv[2] = 0;
+                b->dw[0] = b->dw[1] = b->dw[2] = 0;
             }
         }
     }
@@ -447,7 +445,7 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
                 g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
             }
             add(c, &g);
-            memset(c->gain, 0, sizeof c->gain);
+            c->gain[0] = c->gain[1] = c->gain[2] = 0;
         }
         if (c->roll.acts) {
             rest_roll_accelerate(c, part_q30);

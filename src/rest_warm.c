@@ -2,6 +2,24 @@
 /* Impulses kept from frame to frame, and where the next solve starts from. */
 #include "rest_parts.h"
 
+/* Where the impulses of a pair begin: they are in the order of pairs. */
+static uint32_t first_warm(const struct rest *r, const struct pair *p)
+{
+    uint32_t low = 0, high = r->warm_count;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        const struct rest_warm *w = &r->warm[middle];
+
+        if (w->a < p->a || (w->a == p->a && w->b < p->b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
 /* The last frame's contact that this one continues: same bodies, nearest place, similar normal. */
 static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
 {
@@ -12,11 +30,14 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
     carom_v3_q22 arm = contact_arm(c);
 
     carom_rotate_back(arm.c, &a->path.start.r, arm.c);
-    for (uint32_t i = 0; i < r->warm_count; i++) {
+    for (uint32_t i = first_warm(r, p); i < r->warm_count; i++) {
         struct rest_warm *w = &r->warm[i];
         int32_t distance = 0;
 
-        if (w->a != p->a || w->b != p->b || w->normal_q40 == 0 ||
+        if (w->a != p->a || w->b != p->b) {
+            break;
+        }
+        if (w->normal_q40 == 0 ||
             carom_dot(w->normal.c, c->normal.c) >> 30 < CAROM_ONE_Q30 / 10 * 9) {
             continue;
         }
@@ -90,7 +111,6 @@ void rest_store_warm(struct rest *r)
             continue;
         }
         r->warm_count++;
-        memset(w, 0, sizeof *w);
         w->a = r->pairs[c->key.pair].a;
         w->b = r->pairs[c->key.pair].b;
         w->normal = c->normal;

@@ -34,6 +34,32 @@ static struct fix_wide climbed2(const struct body *b, const struct body_state *f
     return sum;
 }
 
+/* What of a gain is height, less what surfaces and closing skins account for. */
+static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
+                               const struct body_state *to)
+{
+    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(b->work2));
+
+    return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
+}
+
+/* Whether an island may have gained anything: not when less is left than closing skins may add. */
+static bool may_gain(const struct step *s, uint32_t first)
+{
+    struct fix_wide most = {0, 0};
+
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body *b = &s->w->bodies[i];
+        const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
+
+        if (b->mesh && !from->out && !to->out) {
+            most = fix_wide_add(most, body_kinetic2_most(b, to));
+            most = fix_wide_add(most, lifted2(b, from, to));
+        }
+    }
+    return fix_wide_sign(most) > 0;
+}
+
 /* What an island has gained. A body that left the world in this frame took its own along. */
 static struct account audit(const struct step *s, uint32_t first)
 {
@@ -51,11 +77,7 @@ static struct account audit(const struct step *s, uint32_t first)
             continue;
         }
         sum.kinetic = fix_wide_add(sum.kinetic, kinetic2(b, to));
-        sum.excess = fix_wide_add(sum.excess, climbed2(b, from, to));
-        sum.excess = fix_wide_add(sum.excess, fix_wide_neg(b->work2));
-        if (b->in_contact) {
-            sum.excess = fix_wide_add(sum.excess, fix_wide_neg(body_lift2(b)));
-        }
+        sum.excess = fix_wide_add(sum.excess, lifted2(b, from, to));
     }
     sum.excess = fix_wide_add(sum.excess, sum.kinetic);
     return sum;
@@ -290,7 +312,9 @@ void step_limit_energy(struct step *s, bool cut_short)
             if (cut_short && !w->bodies[i].grounded) {
                 give_back_gravity(s, i);
             }
-            limit_island(s, i);
+            if (may_gain(s, i)) {
+                limit_island(s, i);
+            }
         }
     }
 }

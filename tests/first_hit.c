@@ -102,9 +102,7 @@ static bool same_hit(const struct boyse_hit *p, const struct boyse_hit *q)
     return p->t_q30 == q->t_q30 && p->root_q30 == q->root_q30 &&
            candidate_compare(&p->candidate, &q->candidate) == 0 && s->gap_q22 == t->gap_q22 &&
            s->valid == t->valid && s->sign == t->sign &&
-           memcmp(&s->normal, &t->normal, sizeof s->normal) == 0 &&
-           memcmp(&s->on_a, &t->on_a, sizeof s->on_a) == 0 &&
-           memcmp(&s->on_b, &t->on_b, sizeof s->on_b) == 0;
+           memcmp(&s->normal, &t->normal, sizeof s->normal) == 0;
 }
 
 /* The distance of the features where their lines cross, between a stop and a root behind that. */
