@@ -139,7 +139,9 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     /* between the ends two parabolas are farther apart by an eighth of their second derivatives */
     part_q30 = part_of(region, time_q30);
     off += ((fix_length_bound(path->g.c) >> 18) +
-            fix_mul(fix_mul(region->bend_q22, part_q30, 30), part_q30, 30)) / 4 + 1;
+            fix_mul(fix_mul(region->bend_q22, part_q30, 30), part_q30, 30)) /
+               4 +
+           1;
     off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;
 }

@@ -95,7 +95,6 @@ void world_wake_around(struct carom_world *world, uint32_t body);
 /* Wake the islands that have a contact in the list; returns whether there was any. */
 bool world_wake_touched(struct carom_world *world, struct body_state *states);
 
-
 /* Surfaces that were moved stand still again. */
 void world_halt_surfaces(struct carom_world *world);
 

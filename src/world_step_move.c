@@ -6,7 +6,7 @@
 /* Less than a thousandth of a frame is no time to go on for. */
 #define SLICE_MIN_Q30 (1 << 20)
 #ifndef REGION_WAY
-#define REGION_WAY 10
+#define REGION_WAY      10
 #define REGION_TURN_Q30 (CAROM_ONE_Q30 / 10)
 #endif
 /* What the gap of features changes by at most through rounding. */
@@ -152,11 +152,14 @@ static int64_t gather_time(const struct step *s, int32_t slice_q30)
 
         if (region->active && region->elapsed_q30 > held_q30) {
             held_q30 = region->elapsed_q30;
-            frames = (held_q30 >> 30) + (region->time_q30 - held_q30 < CAROM_ONE_Q30 ? (held_q30 >> 30) + 1 : 0);
+            frames = (held_q30 >> 30) +
+                     (region->time_q30 - held_q30 < CAROM_ONE_Q30 ? (held_q30 >> 30) + 1 : 0);
         }
     }
-    if (frames < 1) frames = 1;
-    if (frames > BODY_REGION_FRAMES) frames = BODY_REGION_FRAMES;
+    if (frames < 1)
+        frames = 1;
+    if (frames > BODY_REGION_FRAMES)
+        frames = BODY_REGION_FRAMES;
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
         int64_t way_q22, turn_q30;
@@ -167,8 +170,8 @@ static int64_t gather_time(const struct step *s, int32_t slice_q30)
         body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
         way_q22 = (way_q22 << 30) / slice_q30;
         turn_q30 = (turn_q30 << 30) / slice_q30;
-        while (frames > 1 &&
-               (frames * turn_q30 > REGION_TURN_Q30 || frames * way_q22 > b->radius_q22 / REGION_WAY)) {
+        while (frames > 1 && (frames * turn_q30 > REGION_TURN_Q30 ||
+                              frames * way_q22 > b->radius_q22 / REGION_WAY)) {
             frames--;
         }
     }
