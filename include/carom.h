@@ -303,8 +303,8 @@ struct carom_body_def {
 
 /*
  * Add a body. Returns its number (>= 0) or an error: CAROM_ERR_ARGUMENT for e, mu, mass or rotation
- * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL. A SURFACE
- * must be stationary.
+ * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL,
+ * CAROM_ERR_NO_ENTRIES. A SURFACE must be stationary.
  */
 int carom_body_add(struct carom_world *world, const struct carom_body_def *def);
 /* Take a body away; what touches it wakes. Its number may be given to the next one that is added. */

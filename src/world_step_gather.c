@@ -136,7 +136,8 @@ static int64_t region_time(const struct step *s, int32_t slice_q30)
 {
     int64_t frames = 1, allowed;
 
-    if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30) {
+    if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30 ||
+        s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -211,7 +212,8 @@ int step_gather_first(struct step *s)
 {
     struct interfere *in = &s->w->interfere;
 
-    if (!in->stale && in->whole) {
+    /* where nothing is near, to gather anew costs less than to ask whether regions hold */
+    if (!in->stale && in->whole && s->w->pools[CAROM_POOL_pairs].used > 0) {
         step_place_all(s);
         if (!step_leaves_region(s, 0)) {
             in->candidate_count = in->candidate_pool->used;

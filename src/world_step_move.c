@@ -132,7 +132,9 @@ void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30)
         if (!broad_active(b, &s->next->bodies[i])) {
             continue;
         }
-        body_region_advance(b, t_q30, slice_q30);
+        if (s->left_q30 > 0 || s->w->pools[CAROM_POOL_pairs].used > 0) {
+            body_region_advance(b, t_q30, slice_q30); /* a later frame may ask */
+        }
         body_advance(b, &s->next->bodies[i], t_q30, slice_q30,
                      b->in_contact ? NULL : &b->acceleration);
     }
