@@ -75,6 +75,7 @@ struct draw_view {
 struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
+    int sees; /* 2 when all of it lies inside of the part, else 1 */
     int shift;
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */

@@ -124,9 +124,10 @@ static void step_row(struct rows *r, int32_t row)
     struct draw_span *fresh = r->fresh;
     int32_t fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
 
+    int32_t last_x = INT32_MIN; /* of the rightmost one so far */
+
     for (; from < end; from++) {
         struct draw_span *span = *from;
-
         int32_t x0 = span->x_q15[0] + span->step_q15[0];
         int32_t x1 = span->x_q15[1] + span->step_q15[1];
 
@@ -139,13 +140,20 @@ static void step_row(struct rows *r, int32_t row)
                 continue;
             }
             turn_span(span, r->list->vertices, row);
+            x0 = span->x_q15[0];
         }
-        while (fresh_x < span->x_q15[0]) {
+        while (fresh_x < x0) {
             put(to++, fresh);
+            last_x = fresh_x > last_x ? fresh_x : last_x;
             fresh = fresh->next;
             fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
         }
-        put(to++, span);
+        if (x0 >= last_x) {
+            *to++ = span;
+            last_x = x0;
+        } else {
+            put(to++, span);
+        }
     }
     for (; fresh; fresh = fresh->next) {
         put(to++, fresh);
