@@ -253,10 +253,7 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 #define DRAW_PUT(p, word) memcpy(p, &(word), 4)
 #endif
 
-/*
- * Pixels from <= x < to of the row in one colour. Up to 3 bytes beyond may be written where the row
- * goes on: what is right of a run is always drawn after it.
- */
+/* Pixels from <= x < to of the row in one colour, and no others. */
 void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
 
 /* ---- draw_line.c */
