@@ -109,11 +109,10 @@ static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int6
 }
 
 /*
- * Whether a body may show, as `within` has it. In q16, since it is less than 2^15 units away in each direction; the
- * radius has room for what that cuts off.
+ * Whether a body may show, as `within` has it. In q16, since it is less than 2^15 units away in
+ * each direction; the radius has room for what that cuts off.
  */
-static int sees_body(const struct draw_view *view, const carom_v3_q32 *position,
-                      int32_t radius_q22)
+static int sees_body(const struct draw_view *view, const carom_v3_q32 *position, int32_t radius_q22)
 {
     int32_t at[3];
 
