@@ -75,6 +75,7 @@ struct draw_view {
 struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
+    int sees; /* 2 when all of it lies inside of the part, else 1 */
     int shift;
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
@@ -252,10 +253,7 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 #define DRAW_PUT(p, word) memcpy(p, &(word), 4)
 #endif
 
-/*
- * Pixels from <= x < to of the row in one colour. Up to 3 bytes beyond may be written where the row
- * goes on: what is right of a run is always drawn after it.
- */
+/* Pixels from <= x < to of the row in one colour, and no others. */
 void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
 
 /* ---- draw_line.c */

@@ -213,9 +213,11 @@ static bool see_part(struct flat *f)
         memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
             const struct carom_leaf *leaf = &mesh->leaves[l];
+            int sees = f->body.sees;
 
-            int sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
-
+            if (sees != 2) {
+                sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
+            }
             if (sees) {
                 if (room(&f->list) < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
                     f->list.face_count + LEAF_FACES > FACES_MAX) {

@@ -124,9 +124,10 @@ static void step_row(struct rows *r, int32_t row)
     struct draw_span *fresh = r->fresh;
     int32_t fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
 
+    int32_t last_x = INT32_MIN; /* of the rightmost one so far */
+
     for (; from < end; from++) {
         struct draw_span *span = *from;
-
         int32_t x0 = span->x_q15[0] + span->step_q15[0];
         int32_t x1 = span->x_q15[1] + span->step_q15[1];
 
@@ -139,13 +140,20 @@ static void step_row(struct rows *r, int32_t row)
                 continue;
             }
             turn_span(span, r->list->vertices, row);
+            x0 = span->x_q15[0];
         }
-        while (fresh_x < span->x_q15[0]) {
+        while (fresh_x < x0) {
             put(to++, fresh);
+            last_x = fresh_x > last_x ? fresh_x : last_x;
             fresh = fresh->next;
             fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
         }
-        put(to++, span);
+        if (x0 >= last_x) {
+            *to++ = span;
+            last_x = x0;
+        } else {
+            put(to++, span);
+        }
     }
     for (; fresh; fresh = fresh->next) {
         put(to++, fresh);
@@ -170,21 +178,30 @@ static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to,
 
 void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
 {
-    int32_t safe = to < s->safe ? to : s->safe;
     uint8_t *p = s->row + from * (1 << s->pixel_shift);
+    uint8_t *end = s->row + to * (1 << s->pixel_shift), *last = end - 4;
 
-    for (; from + 16 <= safe; from += 16 >> s->pixel_shift) {
+    if (end - p < 4) {
+        uint32_t word = pixel; /* so that the pixel itself needs no place in memory */
+
+        memcpy(p, &word, (size_t)(end > p ? end - p : 0));
+        return;
+    }
+    /* the last word covers some of the one before: all pixels are the same, and whole in a word */
+    for (; last - p >= 32; p += 32) {
         DRAW_PUT(p, pixel);
         DRAW_PUT(p + 4, pixel);
         DRAW_PUT(p + 8, pixel);
         DRAW_PUT(p + 12, pixel);
-        p += 16;
+        DRAW_PUT(p + 16, pixel);
+        DRAW_PUT(p + 20, pixel);
+        DRAW_PUT(p + 24, pixel);
+        DRAW_PUT(p + 28, pixel);
     }
-    fill(s->row, s->pixel_shift, from, safe, pixel);
-    from = from > safe ? from : safe;
-    for (; from < to; from++) {
-        memcpy(s->row + from * (1 << s->pixel_shift), &pixel, (size_t)1 << s->pixel_shift);
+    for (; p < last; p += 4) {
+        DRAW_PUT(p, pixel);
     }
+    DRAW_PUT(last, pixel);
 }
 
 /* Take in a span that begins where it is not free. */
@@ -250,7 +267,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
         }
         fill(row, pixel_shift, x, end, pixel);
         if (a > end) {
-            fill(row, pixel_shift, end, a, ground);
+            draw_fill(s, end, a, ground);
         }
         top = span;
         pixel = span->pixel;

@@ -109,18 +109,17 @@ static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int6
 }
 
 /*
- * Whether a body may show. In q16, since it is less than 2^15 units away in each direction; the
- * radius has room for what that cuts off.
+ * Whether a body may show, as `within` has it. In q16, since it is less than 2^15 units away in
+ * each direction; the radius has room for what that cuts off.
  */
-static bool sees_body(const struct draw_view *view, const carom_v3_q32 *position,
-                      int32_t radius_q22)
+static int sees_body(const struct draw_view *view, const carom_v3_q32 *position, int32_t radius_q22)
 {
     int32_t at[3];
 
     for (int k = 0; k < 3; k++) {
         at[k] = (int32_t)((position->c[k] - view->eye.c[k]) >> 16);
     }
-    return within(view->side, at, (radius_q22 >> 6) + 4) > 0;
+    return within(view->side, at, (radius_q22 >> 6) + 4);
 }
 
 /* The eye in mesh axes, and how far q22 must be shifted so that the body stays below 2^29. */
@@ -175,7 +174,8 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
 {
     carom_m3_q30 r;
 
-    if (!sees_body(view, &state->position, from->mesh->radius_q22)) {
+    body->sees = sees_body(view, &state->position, from->mesh->radius_q22);
+    if (body->sees == 0) {
         return false;
     }
     body->mesh = from->mesh;

@@ -16,7 +16,7 @@
  * nothing but the background, and of a body that is out of sight.
  */
 enum { WIDTH = 320, HEIGHT = 240, SIDE = 512, FRAMES = 120, EACH = 15 };
-enum { WORST_SMALL = 2230000, WORST_LARGE = 3110000, EMPTY_SMALL = 142000, EACH_BODY = 150 };
+enum { WORST_SMALL = 2180000, WORST_LARGE = 2971000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
 
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
 static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
