@@ -21,13 +21,10 @@ STAGES = [
     ("contact, impact, rest", ["contact", "impact", "rest"], "#7570b3"),
     ("the rest of the step", ["predict", "broad", "advance", "commit"], "#999999"),
     ("step, all stages", ["total"], "#000000"),
-    ("drawing, 512 x 512", ["draw-512x512"], "#e7298a"),
+    ("drawing, 512 x 512", [bench.DISPLAY], "#e7298a"),
 ]
-PAPER_STAGES = [
-    ("paper's way: interference", ["interfere"], "#1b9e77"),
-    ("paper's way: step", ["total"], "#000000"),
-]
-
+# the paper's way draws the same
+PAPER_STAGES = [("paper's way: " + title, names, colour) for title, names, colour in STAGES[:-1]]
 STYLE = """
 set terminal pngcairo size 1000,640 font "sans,11" background "#ffffff"
 set border 3 lc rgb "#666666"
@@ -56,7 +53,8 @@ def series(figures, stages, suffix):
 
 def figure7(figures, folder):
     blocks, plots = [], []
-    for suffix, stages, style in [("", STAGES, "dt 1 pt 7"), ("-paper", PAPER_STAGES, "dt 2 pt 6")]:
+    for suffix, stages, style in [("", STAGES, "dt 1 pt 7"),
+                                  ("-" + bench.PAPER_LABEL, PAPER_STAGES, "dt 2 pt 6")]:
         for title, names, colour in stages:
             points = list(series(figures, names, suffix))
             if points:
