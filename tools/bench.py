@@ -172,8 +172,8 @@ def print_paper(figures):
 
 
 def head_ram(entry, host, room):
-    """Bytes and pools of the smallest world that takes the head scene to the same state, with the
-    candidates that the rest of the room is enough for."""
+    """Bytes and pools of the smallest world that takes the head scene to the same state; what the
+    room leaves holds candidates, and the faces of a gather that keeps so many."""
     def caps(contacts, faces, candidates):
         return "2,1,%d,%d,1,%d" % (contacts, faces, candidates)
 
@@ -189,11 +189,13 @@ def head_ram(entry, host, room):
             low, high = (low, middle) if fits(middle) else (middle, high)
         return high
 
+    def pools(candidates):
+        return contacts, least(lambda n: world(contacts, n, candidates), 1024), candidates
+
     contacts = least(lambda n: world(n, 1024, 1), 64)
-    faces = least(lambda n: world(contacts, n, 1), 1024)
-    candidates = max(1, least(lambda n: world(contacts, faces, n) > room, 1024) - 1)
-    pools = contacts, faces, candidates
-    return world(*pools), caps(*pools)
+    most = least(lambda n: world(*pools(n)) > room, 1024) - 1
+    kept = pools(max(1, most))
+    return world(*kept), caps(*kept)
 
 
 def deepest_stack():
