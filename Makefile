@@ -32,7 +32,7 @@ ENGINE_SOURCES := $(wildcard src/*.c)
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
 ENGINE_SOURCES += $(wildcard src/paper/*.c)
-CFLAGS += -DUSER_VERTICES=4000
+CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
 ifdef CROSS
@@ -127,7 +127,7 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
 
-bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1
+bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf

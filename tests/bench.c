@@ -13,10 +13,14 @@
 #include "port.h"
 #include "scene.h"
 
+#ifndef BENCH_MESH_BYTES
+#define BENCH_MESH_BYTES SCENE_LARGE_MESH_BYTES
+#endif
+
 enum { SIZES = 2 };
 static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
 
-static _Alignas(8) uint8_t mesh_block[SCENE_LARGE_MESH_BYTES];
+static _Alignas(8) uint8_t mesh_block[BENCH_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static _Alignas(8) uint8_t draw_block[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
                                                        SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
