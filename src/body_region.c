@@ -2,6 +2,12 @@
 /* The region of motion that candidates are gathered for. */
 #include "body.h"
 
+/* x times a number of 16 fractional bits, which nearly always is one. */
+static int64_t longer(int64_t x, int32_t by_q16)
+{
+    return by_q16 == 1 << 16 ? x : fix_mul(x, by_q16, 16);
+}
+
 static void set_turn(struct body *b, int32_t longer_q16)
 {
     struct body_region *region = &b->region;
@@ -14,7 +20,7 @@ static void set_turn(struct body *b, int32_t longer_q16)
         return;
     }
     for (int k = 0; k < 3; k++) {
-        region->u.c[k] = (int32_t)fix_mul(b->path.u.c[k], longer_q16, 16);
+        region->u.c[k] = (int32_t)longer(b->path.u.c[k], longer_q16);
         u2_q60 += (int64_t)region->u.c[k] * region->u.c[k];
     }
     carom_rotate(region->turn.c, &region->r, region->u.c);
@@ -31,7 +37,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     const struct body_path *path = &b->path;
     int64_t turn_q30;
     /* 8 frames over the shortest slice, 2^-11 of a frame: below 2^31 */
-    int32_t longer_q16 = (int32_t)((time_q30 << 16) / slice_q30);
+    int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
     region->r = path->start.r;
@@ -40,8 +46,8 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     region->elapsed_q30 = 0;
     region->turned_off_q30 = 0;
     for (int k = 0; k < 3; k++) {
-        region->way.c[k] = fix_mul(path->v.c[k], longer_q16, 16);
-        region->bend.c[k] = fix_mul(fix_mul(path->g.c[k], longer_q16, 16), longer_q16, 16);
+        region->way.c[k] = longer(path->v.c[k], longer_q16);
+        region->bend.c[k] = longer(longer(path->g.c[k], longer_q16), longer_q16);
         region->end.c[k] = region->way.c[k] + region->bend.c[k];
     }
     set_turn(b, longer_q16);

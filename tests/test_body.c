@@ -583,9 +583,10 @@ static void test_inertia(void)
 static void test_calm(void)
 {
     struct test_random r = {23};
+    const int cases = 10 * CASES; /* few of thin boxes are calm */
     int calm = 0, thin = 0;
 
-    for (int n = 0; n < CASES; n++) {
+    for (int n = 0; n < cases; n++) {
         double most_v = n % 2 ? 120 : 1, most_w = n % 4 ? 0.05 : 0.6;
         carom_v3_q40 v, w;
         carom_m3_q30 m;
@@ -611,7 +612,7 @@ static void test_calm(void)
         CHECK(real_length((double[3]){real(v.c[0], 40), real(v.c[1], 40), real(v.c[2], 40)}) < 64);
         CHECK(real_length((double[3]){real(w.c[0], 40), real(w.c[1], 40), real(w.c[2], 40)}) < 0.5);
     }
-    CHECK(calm > CASES / 5 && thin > 0);
+    CHECK(calm > cases / 5 && thin > 0);
 }
 
 const struct test tests_body[] = {
