@@ -63,8 +63,8 @@ def figure7(figures, folder):
             if points:
                 blocks.append("$s%d << EOD\n%s\nEOD\n" % (
                     len(blocks), "\n".join("%d %d" % point for point in points)))
-                plots.append("$s%d with linespoints lw %d ps 1 %s lc rgb '%s' title \"%s\"" % (
-                    len(plots), 5 if names == ["total"] else 2, style, colour, title))
+                plots.append("$s%d with linespoints lw %g ps 1 %s lc rgb '%s' title \"%s\"" % (
+                    len(plots), 3 if names == ["total"] else 1.5, style, colour, title))
     if not plots:
         return
     for seconds, title, dash in [(bench.PAPER["head"], "the paper's 0.24 s at 16 MIPS", 1),
