@@ -165,11 +165,29 @@ static void step_row(struct rows *r, int32_t row)
     r->count = (uint32_t)(to - end) - 1;
 }
 
+#if defined __arm__ && !defined __ARM_FEATURE_UNALIGNED
+/* Where words at odd places are written byte by byte, pixels of a word are worth asking for. */
+static inline bool fill_words(uint8_t *p, const uint8_t *end, int pixel_shift, uint32_t pixel)
+{
+    uint32_t *to = (void *)p; /* a picture is aligned to its pixels */
+
+    for (; pixel_shift == 2 && to < (const uint32_t *)(const void *)end; to++) {
+        *to = pixel;
+    }
+    return pixel_shift == 2;
+}
+#else
+#define fill_words(p, end, pixel_shift, pixel) false
+#endif
+
 /* Pixels from <= x < to, and perhaps 3 bytes more. */
 static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
     uint8_t *p = row + from * (1 << pixel_shift), *end = row + to * (1 << pixel_shift);
 
+    if (fill_words(p, end, pixel_shift, pixel)) {
+        return;
+    }
     while (p < end) {
         DRAW_PUT(p, pixel);
         p += 4;
@@ -181,6 +199,9 @@ void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pi
     uint8_t *p = s->row + from * (1 << s->pixel_shift);
     uint8_t *end = s->row + to * (1 << s->pixel_shift), *last = end - 4;
 
+    if (fill_words(p, end, s->pixel_shift, pixel)) {
+        return;
+    }
     if (end - p < 4) {
         uint32_t word = pixel; /* so that the pixel itself needs no place in memory */
 
