@@ -406,7 +406,11 @@ int carom_events(const struct carom_world *world, const struct carom_event **eve
 struct carom_face_ref {
     uint16_t body, face;
 };
-/* Faces of the pairs handed to the collision test, sorted by body and face (paper figure 6). */
+/*
+ * Faces of the pairs handed to the collision test, sorted by body and face (paper figure 6). Pairs are
+ * found for some frames at once, as long as the bodies go on as they do: a frame may list those of
+ * the one before.
+ */
 int carom_interfering_faces(const struct carom_world *world, const struct carom_face_ref **faces);
 
 struct carom_contact {

@@ -124,8 +124,7 @@ struct interfere {
 };
 
 /*
- * Forget the candidates. Called at the start of a frame and whenever a body may leave its region,
- * after the region has been set in every body.
+ * Forget the candidates: the regions of all bodies have been set anew.
  */
 void interfere_begin(struct interfere *w);
 
