@@ -292,7 +292,7 @@ static void visit_leaf(struct interfere *w)
     }
     for (uint32_t i = 0; w->leaf->busy >> i != 0; i++) {
         if (w->leaf->busy >> i & 1) {
-            interfere_add_face(w, w->body_a, w->a->mesh->leaf_faces[w->leaf->leaf->first_face + i]);
+            interfere_add_face(w, w->body_a, (uint16_t)interfere_face(w, i));
         }
     }
 }
@@ -417,41 +417,12 @@ static void gather_pair(struct interfere *w, const struct body *bodies, const st
     interfere_leaves(w);
 }
 
-/* What bodies of pairs with b reach, seen from above in b's quanta. */
-static struct interfere_area area_under(const struct body *bodies, const struct pair *pairs,
-                                        uint32_t pair_count, uint16_t b)
-{
-    struct interfere_area area = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
-    const struct body *surface = &bodies[b];
-    int shift = 32 - surface->mesh->raw.quantum_bits;
-
-    for (uint32_t i = 0; i < pair_count; i++) {
-        const struct body *a = &bodies[pairs[i].a];
-        int64_t way[3], around_q22 = (int64_t)a->radius_q22 + a->reach_q22 + surface->reach_q22;
-        int32_t around = (int32_t)(around_q22 >> (shift - 10)) + 2;
-
-        for (int k = 0; k < 3; k++) {
-            way[k] = a->region.at.c[k] - surface->region.at.c[k];
-        }
-        fix_rotate_back(way, &surface->region.r, way);
-        for (int k = 0; pairs[i].b == b && k < 2; k++) {
-            /* places are below 2^14 units: 2^34 quanta */
-            int64_t at = way[k] >> shift;
-            int32_t middle = (int32_t)(at < -(1 << 20) ? -(1 << 20) : at > 1 << 20 ? 1 << 20 : at);
-
-            area.low[k] = middle - around < area.low[k] ? middle - around : area.low[k];
-            area.high[k] = middle + around > area.high[k] ? middle + around : area.high[k];
-        }
-    }
-    return area;
-}
-
 /* The pairs from the first on that have the same b, against each chunk of its lists. */
 static void gather_over(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                         uint32_t pair_count, uint32_t first)
 {
     const uint16_t b = pairs[first].b;
-    const struct interfere_area area = area_under(bodies, pairs, pair_count, b);
+    const struct interfere_area area = interfere_area_under(bodies, pairs, pair_count, b);
     struct interfere_place place = {0, 0};
     bool last = false;
 

@@ -62,6 +62,10 @@ static inline bool interfere_makes_lists(const struct carom_mesh *mesh)
     return mesh->surface && !mesh->surface->own_lists;
 }
 
+/* What bodies of pairs with b reach, seen from above in b's quanta. */
+struct interfere_area interfere_area_under(const struct body *bodies, const struct pair *pairs,
+                                           uint32_t pair_count, uint16_t b);
+
 /* Where the making of z-lists goes on. */
 struct interfere_place {
     uint32_t face, cells; /* the next face, and how many of its cells are done */

@@ -2,8 +2,6 @@
 /* The gathering part of a step: regions, and the pairs and candidates for them. */
 #include "world_step_parts.h"
 
-/* Slices below a thousandth of a frame are not gone on with. */
-#define SLICE_MIN_Q30 (1 << 20)
 /* A region ends when a body has gone this part of its radius; the other one while nothing is near. */
 #define REGION_PARTS      10
 #define REGION_PARTS_FREE 4
@@ -48,7 +46,7 @@ static void visit_nothing(struct candidate_visitor *self, const struct candidate
  * skins and a part of the way. In flight only a hit leads a body aside, and by more than that:
  * it asks for others in any case.
  */
-static int64_t room_q22(const struct body *b)
+static int64_t room_for(const struct body *b)
 {
     int64_t way_q22, turn_q30;
 
@@ -61,15 +59,15 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
-        int64_t room;
+        int64_t room_q22;
 
         if (!b->mesh || b->standing) {
             continue;
         }
         b->region.active = broad_active(b, &s->next->bodies[i]);
-        room = b->region.active ? room_q22(b) : 0;
-        room += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
-        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room);
+        room_q22 = b->region.active ? room_for(b) : 0;
+        room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
+        body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     }
 }
 
@@ -136,7 +134,7 @@ static int64_t region_time(const struct step *s, int32_t slice_q30)
 {
     int64_t frames = 1, allowed;
 
-    if (slice_q30 < s->left_q30 || slice_q30 < SLICE_MIN_Q30 ||
+    if (slice_q30 < s->left_q30 || slice_q30 < STEP_SLICE_MIN_Q30 ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }

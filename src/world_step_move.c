@@ -3,8 +3,6 @@
 #include "world_step_parts.h"
 
 #define REFINEMENTS 8
-/* Less than a thousandth of a frame is no time to go on for. */
-#define SLICE_MIN_Q30 (1 << 20)
 /* What the gap of features changes by at most through rounding. */
 #define CHANGES_Q22 4
 
@@ -233,7 +231,7 @@ static int only_path_closes(struct step *s, int32_t slice_q30, bool *only)
 /* Whether some time passes on the way to the hit. */
 static bool takes_time(int32_t slice_q30, int32_t t_q30)
 {
-    return ((int64_t)slice_q30 * t_q30) >> 30 >= SLICE_MIN_Q30;
+    return ((int64_t)slice_q30 * t_q30) >> 30 >= STEP_SLICE_MIN_Q30;
 }
 
 /*
@@ -249,7 +247,7 @@ static int shorten(struct step *s, int32_t *slice_q30, bool *gone, bool *found)
     int result = only_path_closes(s, *slice_q30, &only);
     struct boyse_hit hit = s->hit;
 
-    for (*gone = false; shorter_q30 > SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
+    for (*gone = false; shorter_q30 > STEP_SLICE_MIN_Q30 && result == CAROM_OK; shorter_q30 >>= 2) {
         s->hit = hit;
         result = predict_hit(s, shorter_q30);
         hit = s->hit; /* its pair may have a new number */

@@ -9,6 +9,9 @@
 
 #include "world.h"
 
+/* Less than a thousandth of a frame is no time to go on for. */
+#define STEP_SLICE_MIN_Q30 (1 << 20)
+
 /* What the whole step works on. */
 struct step {
     struct carom_world *w;

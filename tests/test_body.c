@@ -490,6 +490,23 @@ static void test_slice(void)
 
 /* ------------------------------------------------------------------ momenta */
 
+/* A box of any mass, thin or not, with a velocity and a spin of at most so much an axis. */
+static void throw_box(struct test_random *r, bool thin, double most_v, double most_w,
+                      carom_v3_q40 *v, carom_v3_q40 *w)
+{
+    if (thin) {
+        shape_box(&shape, 12, 8192, 82, 1000);
+        shape_body(&shape, true, &body, &state);
+    } else {
+        make_box();
+    }
+    body_set_mass(&body, fix_scale(test_random_range(r, 1 << 10, 1 << 30), 20));
+    random_state(r, 0, 0);
+    random_vector(r, most_v, v->c, 40);
+    random_vector(r, most_w, w->c, 40);
+    body_set_motion(&body, &state, v, w);
+}
+
 static void test_motion(void)
 {
     struct test_random r = {11};
@@ -499,17 +516,7 @@ static void test_motion(void)
         carom_v3_q40 v, w, v2, w2;
         carom_m3_q30 m;
 
-        if (n % 3 == 0) {
-            shape_box(&shape, 12, 8192, 82, 1000); /* thin */
-            shape_body(&shape, true, &body, &state);
-        } else {
-            make_box();
-        }
-        body_set_mass(&body, fix_scale(test_random_range(&r, 1 << 10, 1 << 30), 20));
-        random_state(&r, 0, 0);
-        random_vector(&r, most_v, v.c, 40);
-        random_vector(&r, most_w, w.c, 40);
-        body_set_motion(&body, &state, &v, &w);
+        throw_box(&r, n % 3 == 0, most_v, most_w, &v, &w);
         body_matrix(&m, &state.rotation);
         body_velocity(&body, &state, &v2);
         body_spin(&body, &state, &m, &w2);
@@ -591,17 +598,7 @@ static void test_calm(void)
         carom_v3_q40 v, w;
         carom_m3_q30 m;
 
-        if (n % 3 == 0) {
-            shape_box(&shape, 12, 8192, 82, 1000); /* thin */
-            shape_body(&shape, true, &body, &state);
-        } else {
-            make_box();
-        }
-        body_set_mass(&body, fix_scale(test_random_range(&r, 1 << 10, 1 << 30), 20));
-        random_state(&r, 0, 0);
-        random_vector(&r, most_v, v.c, 40);
-        random_vector(&r, most_w, w.c, 40);
-        body_set_motion(&body, &state, &v, &w);
+        throw_box(&r, n % 3 == 0, most_v, most_w, &v, &w);
         if (!body_calm(&body, &state)) {
             continue;
         }
