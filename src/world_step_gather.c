@@ -65,7 +65,7 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
             continue;
         }
         b->region.active = broad_active(b, &s->next->bodies[i]);
-        room_q22 = b->region.active ? room_for(b) : 0;
+        room_q22 = !b->region.active ? 0 : time_q30 == slice_q30 ? b->skin_q22 : room_for(b);
         room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
         body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     }
