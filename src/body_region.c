@@ -139,8 +139,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     for (int k = 0; k < 3; k++) {
         start[k] = carom_shl(path->origin_q22[k], 10) + path->start.x.c[k];
         end[k] = start[k] + ((path->v.c[k] + path->g.c[k]) >> 8);
-        bend[k] =
-            path->g.c[k] - fix_mul(fix_mul(region->bend.c[k], part_q30, 30), part_q30, 30);
+        bend[k] = path->g.c[k] - fix_mul(fix_mul(region->bend.c[k], part_q30, 30), part_q30, 30);
     }
     off = off_q22(region, start, region->elapsed_q30);
     at_end = off_q22(region, end, until_q30);

@@ -70,8 +70,8 @@ struct interfere_leaf {
     int32_t axis_q15[3];                   /* of its slab */
     int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
     bool listed;
-    /* of each face, once listed: its corners, a bit each, and the box around its way */
-    uint32_t corners[CAROM_LEAF_FACES];
+    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, once listed, a bit each */
+    uint32_t boxed;                     /* faces with boxes around their ways, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];

@@ -68,64 +68,71 @@ static inline void bound(const struct interfere_vec *p, const struct interfere_v
     }
 }
 
-/* Corners of the leaf's faces, and the boxes around their ways. */
+/* Corners of the leaf's faces. */
 static void list_faces(struct interfere *w)
 {
     struct interfere_leaf *l = w->leaf;
 
     l->listed = true;
-    l->placed = 0;
+    l->boxed = l->placed = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
         const uint8_t *corner = interfere_corners(w, i);
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-        bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
-              &l->face_high[i]);
-        for (int k = 0; k < 3; k++) {
-            l->face_low[i].c[k] -= l->reach.c[k];
-            l->face_high[i].c[k] += l->reach.c[k];
-        }
     }
 }
 
-/* The leaf's faces whose ways' boxes meet that of b's face, a bit each, and their vertices. */
-static uint32_t faces_near(const struct interfere *w, const struct target *t, uint32_t *vertices)
+/* The box around the way of a face of the leaf. */
+static void box_face(struct interfere *w, uint32_t i)
 {
-    const struct interfere_leaf *l = w->leaf;
-    uint32_t near = 0;
+    struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
 
-    *vertices = 0;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
-
-        if (low[2] <= t->high.c[2] && high[2] >= t->low.c[2] && low[0] <= t->high.c[0] &&
-            high[0] >= t->low.c[0] && low[1] <= t->high.c[1] && high[1] >= t->low.c[1]) {
-            near |= 1u << i;
-            *vertices |= l->corners[i];
-        }
+    l->boxed |= 1u << i;
+    bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i], &l->face_high[i]);
+    for (int k = 0; k < 3; k++) {
+        l->face_low[i].c[k] -= l->reach.c[k];
+        l->face_high[i].c[k] += l->reach.c[k];
     }
-    return near;
+}
+
+/* Whether the box around a leaf's face's way meets that of b's face. */
+static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
+{
+    struct interfere_leaf *l = w->leaf;
+    const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
+
+    if (!(l->boxed >> i & 1)) {
+        box_face(w, i);
+    }
+    return low[2] <= t->high.c[2] && high[2] >= t->low.c[2] && low[0] <= t->high.c[0] &&
+           high[0] >= t->low.c[0] && low[1] <= t->high.c[1] && high[1] >= t->low.c[1];
 }
 
 /* ------------------------------------------------------------------- planes */
 
-/* Which of these vertices of the leaf stay over the plane of b's face on their way, or under it. */
-static void part_by_plane(const struct interfere *w, struct target *t, uint32_t vertices)
+/*
+ * Which vertices of the leaf stay over the plane of b's face on their way, or under it. False when
+ * all of them do the same.
+ */
+static bool part_by_plane(const struct interfere *w, struct target *t)
 {
     const struct interfere_leaf *l = w->leaf;
     const int32_t *n = t->face->normal.c;
     int32_t offset_q18 = t->face->offset_q22 >> 4, reach_q18 = interfere_reach_q18(l, n);
     int32_t above_q18 = offset_q18 + reach_q18, below_q18 = offset_q18 - reach_q18;
+    uint32_t over = 0, under = 0, all = UINT32_MAX >> (32 - l->leaf->vertex_count);
 
-    t->over = t->under = 0;
-    for (uint32_t i = 0; vertices >> i != 0; i++) {
-        if (vertices >> i & 1) {
-            int32_t height_q18 = interfere_dot(n, l->p[i].c);
+    for (const struct interfere_vec *p = &l->p[l->leaf->vertex_count]; p-- > l->p;) {
+        int32_t height_q18 = interfere_dot(n, p->c);
 
-            t->over |= (uint32_t)(height_q18 > above_q18) << i;
-            t->under |= (uint32_t)(height_q18 < below_q18) << i;
-        }
+        /* the signs of the differences, which are below 2^31 */
+        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
+        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
     }
+    t->over = over;
+    t->under = under;
+    return over != all && under != all;
 }
 
 /* The plane of a face of the leaf. */
@@ -143,16 +150,17 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
     return plane;
 }
 
-/* Whether face i of the leaf and b's face may meet as far as their planes tell. */
-static bool planes_meet(struct interfere *w, struct target *t, uint32_t i)
+/* Whether face i of the leaf reaches to both sides of the plane of b's face, or near to it. */
+static inline bool reaches(const struct interfere_leaf *l, const struct target *t, uint32_t i)
 {
-    uint32_t corners = w->leaf->corners[i];
-    const struct interfere_plane *plane;
+    return (l->corners[i] & ~t->over) != 0 && (l->corners[i] & ~t->under) != 0;
+}
 
-    if ((corners & ~t->over) == 0 || (corners & ~t->under) == 0) {
-        return false;
-    }
-    plane = plane_of(w, i);
+/* The same of b's face and the plane of face i of the leaf. */
+static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
+{
+    const struct interfere_plane *plane = plane_of(w, i);
+
     t->corners_over = t->corners_under = 0;
     for (int k = 0; k < 3; k++) {
         int32_t height_q18 = interfere_dot(plane->n_q30, t->p[k].c) - plane->offset_q18;
@@ -420,28 +428,28 @@ bool interfere_features(struct interfere *w, const struct target *t, uint32_t i)
 
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
+    struct interfere_leaf *l = w->leaf;
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    uint32_t near, vertices, busy = 0;
+    uint32_t busy = 0;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
-    place_target(w, &t);
-    if (!w->leaf->listed) {
-        list_faces(w);
-    }
-    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
-    near = faces_near(w, &t, &vertices);
-    if (near == 0) {
+    if (!part_by_plane(w, &t)) {
         return;
     }
-    part_by_plane(w, &t, vertices);
-    for (uint32_t i = 0; near >> i != 0; i++) {
-        if ((near >> i & 1) && planes_meet(w, &t, i) && w->meet(w, &t, i)) {
+    place_target(w, &t);
+    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
+    if (!l->listed) {
+        list_faces(w);
+    }
+    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+        if (reaches(l, &t, i) && boxes_meet(w, &t, i) && is_reached(w, &t, i) &&
+            w->meet(w, &t, i)) {
             busy |= 1u << i;
         }
     }
     if (busy != 0) {
-        w->leaf->busy |= busy;
+        l->busy |= busy;
         interfere_add_face(w, w->body_b, face_b);
     }
 }
