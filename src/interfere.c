@@ -41,40 +41,37 @@ static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3
     };
 }
 
-/* The highest z in some cells that follow each other of lists that were made, or `top`. */
-static int32_t highest_made(const struct zlist *lists, const uint16_t *head, int32_t count,
-                            int32_t top)
-{
-    for (int32_t i = 0; i < count; i++) {
-        if (head[i] != ZLIST_NONE && lists->entry[head[i]].z1 > top) {
-            top = lists->entry[head[i]].z1;
-        }
-    }
-    return top;
-}
-
-/* The highest z of b in the cells under a box, quanta. */
-static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3])
+/* The highest z of b in a cell; below all of it when there is none. */
+static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    struct cells cells = cells_under(mb, low, high);
-    int32_t top = INT16_MIN;
+    const uint32_t *start = &mb->cell_start[cell];
+
+    if (w->pooled) {
+        uint16_t head = w->lists.head[cell];
+
+        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
+    }
+    return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
+}
+
+/* Whether b is as high as the leaf's box somewhere in the cells under it. */
+static bool reaches_leaf(const struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = w->leaf;
+    struct cells cells = cells_under(mb, l->quanta_low, l->quanta_high);
 
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
-        const uint32_t *start = &mb->cell_start[row * mb->grid_nx];
+        uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
 
-        if (w->pooled) {
-            top = highest_made(&w->lists, &w->lists.head[row * mb->grid_nx + cells.col[0]],
-                               cells.col[1] - cells.col[0] + 1, top);
-            continue;
-        }
-        for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
-            if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
-                top = mb->zrefs[start[col]].z1;
+        for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
+            if (cell_top(w, cell++) >= l->quanta_low[2]) {
+                return true;
             }
         }
     }
-    return top;
+    return false;
 }
 
 /* From b's frame to b's quanta along an axis. */
@@ -92,7 +89,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
     int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
-    int32_t radius = (leaf->radius_q22 >> 2) + 1, low[3], high[3];
+    int32_t radius = (leaf->radius_q22 >> 2) + 1;
 
     l->leaf = leaf;
     l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
@@ -103,14 +100,13 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 
         l->shift.c[k] = shift;
         l->reach.c[k] = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
-        low[k] = to_quanta(mb, x - radius - l->reach.c[k], k);
-        high[k] = to_quanta(mb, x + radius + l->reach.c[k], k) + 1;
-        if (high[k] < mb->box[0][k] || low[k] > mb->box[1][k]) {
+        l->quanta_low[k] = to_quanta(mb, x - radius - l->reach.c[k], k);
+        l->quanta_high[k] = to_quanta(mb, x + radius + l->reach.c[k], k) + 1;
+        if (l->quanta_high[k] < mb->box[0][k] || l->quanta_low[k] > mb->box[1][k]) {
             return false;
         }
     }
-    l->top = highest_under(w, low, high);
-    return low[2] <= l->top;
+    return reaches_leaf(w);
 }
 
 /* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
@@ -143,7 +139,7 @@ static bool place_leaf(struct interfere *w)
         local[i] = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
     }
     place_axis(w, local, 2);
-    if (w->leaf->quanta_low[2] > w->leaf->top) {
+    if (!reaches_leaf(w)) {
         return false;
     }
     place_axis(w, local, 0);

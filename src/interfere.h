@@ -76,7 +76,6 @@ struct interfere_leaf {
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
     uint32_t busy; /* faces with candidates */
-    int32_t top;   /* highest z of b in the cells under it */
 };
 
 struct target;
