@@ -114,13 +114,15 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
 {
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    const int32_t *row = w->to_b.c[k];
-    int32_t low = INT32_MAX, high = INT32_MIN;
+    /* copies: what is stored might be a part of w for all that a compiler knows */
+    const int32_t row[3] = {w->to_b.c[k][0], w->to_b.c[k][1], w->to_b.c[k][2]}, at = w->at.c[k];
+    const carom_v3_q22 *end = local + l->leaf->vertex_count;
+    int32_t low = INT32_MAX, high = INT32_MIN, *to = &l->p[0].c[k];
 
-    for (uint32_t i = 0; i < l->leaf->vertex_count; i++) {
-        int32_t x = interfere_dot(row, local[i].c) + w->at.c[k];
+    for (; local < end; local++, to += 3) {
+        int32_t x = interfere_dot(row, local->c) + at;
 
-        l->p[i].c[k] = x;
+        *to = x;
         low = x < low ? x : low;
         high = x > high ? x : high;
     }
@@ -133,10 +135,11 @@ static bool place_leaf(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
     const struct carom_leaf *leaf = w->leaf->leaf;
+    const uint16_t *vertices = &ma->leaf_vertices[leaf->first_vertex];
     carom_v3_q22 local[CAROM_LEAF_VERTICES];
 
     for (uint32_t i = 0; i < leaf->vertex_count; i++) {
-        local[i] = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
+        local[i] = mesh_vertex(ma, vertices[i]);
     }
     place_axis(w, local, 2);
     if (!reaches_leaf(w)) {
