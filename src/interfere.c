@@ -200,7 +200,10 @@ static bool beside_slab(const struct interfere_leaf *l, const int16_t p[3], cons
            (a < l->slab_low_q15 && b < l->slab_low_q15 && c < l->slab_low_q15);
 }
 
-/* Whether a face of b meets the box and the slab of the swept leaf. */
+/*
+ * Whether a face of b meets the box and the slab of the swept leaf: seen from above, for its z in the
+ * cell was looked at.
+ */
 static inline bool face_near(const struct interfere *w, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
@@ -209,7 +212,7 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
 
-    for (int k = 2; k >= 0; k--) {
+    for (int k = 0; k < 2; k++) {
         int32_t low = l->quanta_low[k], high = l->quanta_high[k];
 
         if ((p[k] < low && q[k] < low && r[k] < low) ||
