@@ -55,23 +55,36 @@ static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
     return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
 }
 
-/* Whether b is as high as the leaf's box somewhere in the cells under it. */
-static bool reaches_leaf(const struct interfere *w)
+/* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
+static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+                             int32_t enough)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    const struct interfere_leaf *l = w->leaf;
-    struct cells cells = cells_under(mb, l->quanta_low, l->quanta_high);
+    struct cells cells = cells_under(mb, low, high);
+    int32_t top = INT16_MIN - 1;
 
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
 
         for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
-            if (cell_top(w, cell++) >= l->quanta_low[2]) {
-                return true;
+            int32_t z = cell_top(w, cell++);
+
+            top = z > top ? z : top;
+            if (z >= enough) {
+                return z;
             }
         }
     }
-    return false;
+    return top;
+}
+
+/* Whether b is as high as the leaf's box somewhere in the cells under it. */
+static bool reaches_leaf(const struct interfere *w)
+{
+    const struct interfere_leaf *l = w->leaf;
+    int32_t low = l->quanta_low[2];
+
+    return highest_under(w, l->quanta_low, l->quanta_high, low) >= low;
 }
 
 /* From b's frame to b's quanta along an axis. */
@@ -80,29 +93,55 @@ static int32_t to_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
     return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
 }
 
-/*
- * Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it.
- */
-static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+/* The highest z of b in the cells under a on its way. */
+static int32_t highest_of_b(const struct interfere *w)
 {
-    static const int order[3] = {2, 0, 1}; /* most end above b */
+    int64_t around_q22 = w->a->radius_q22 + w->near_q22 +
+                         fix_mul(w->a->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
+    int32_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+
+    for (int k = 0; k < 2; k++) {
+        int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->moves.c[k]) / 2 +
+                        2 * PLACE_NOISE_Q20;
+
+        low[k] = to_quanta(w->b->mesh, w->at.c[k] - reach, k);
+        high[k] = to_quanta(w->b->mesh, w->at.c[k] + reach, k) + 1;
+    }
+    return highest_under(w, low, high, INT32_MAX);
+}
+
+/* A coordinate of the sphere around a leaf, swept along its way. */
+static inline void sweep_sphere(struct interfere *w, int k)
+{
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
+    int32_t radius = (l->leaf->radius_q22 >> 2) + 1;
+    int32_t x = interfere_dot(w->to_b.c[k], l->leaf->centre.c) + w->at.c[k];
+    int32_t shift = interfere_dot(w->change.c[k], l->leaf->centre.c) + w->moves.c[k];
+    int32_t reach = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
+
+    l->shift.c[k] = shift;
+    l->reach.c[k] = reach;
+    l->quanta_low[k] = to_quanta(mb, x - radius - reach, k);
+    l->quanta_high[k] = to_quanta(mb, x + radius + reach, k) + 1;
+}
+
+/* Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it. */
+static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+{
+    const int16_t(*box)[3] = w->b->mesh->box;
+    struct interfere_leaf *l = w->leaf;
     int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
-    int32_t radius = (leaf->radius_q22 >> 2) + 1;
 
     l->leaf = leaf;
     l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
-    for (int i = 0; i < 3; i++) {
-        int k = order[i];
-        int32_t x = interfere_dot(w->to_b.c[k], leaf->centre.c) + w->at.c[k];
-        int32_t shift = interfere_dot(w->change.c[k], leaf->centre.c) + w->moves.c[k];
-
-        l->shift.c[k] = shift;
-        l->reach.c[k] = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
-        l->quanta_low[k] = to_quanta(mb, x - radius - l->reach.c[k], k);
-        l->quanta_high[k] = to_quanta(mb, x + radius + l->reach.c[k], k) + 1;
-        if (l->quanta_high[k] < mb->box[0][k] || l->quanta_low[k] > mb->box[1][k]) {
+    sweep_sphere(w, 2);
+    if (l->quanta_low[2] > w->top || l->quanta_high[2] < box[0][2]) {
+        return false; /* most end above b */
+    }
+    for (int k = 0; k < 2; k++) {
+        sweep_sphere(w, k);
+        if (l->quanta_low[k] > box[1][k] || l->quanta_high[k] < box[0][k]) {
             return false;
         }
     }
@@ -388,6 +427,7 @@ void interfere_leaves(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
 
+    w->top = highest_of_b(w);
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {
             visit_leaf(w);

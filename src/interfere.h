@@ -114,6 +114,7 @@ struct interfere {
     int32_t angle_q30; /* how far one body turns as seen from the other */
     int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
     int32_t cone_q30;  /* cosine tolerance of normal cones */
+    int32_t top;       /* the highest z of b under a, quanta */
     struct interfere_leaf *leaf; /* room for one, the caller's */
     uint16_t seen[INTERFERE_SEEN];
 
