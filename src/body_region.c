@@ -117,6 +117,9 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
         d[k] = 2 * (int64_t)turn[k] - carom_mul_q30(region->turn.c[k], part_q30);
         turn[k] = (int32_t)carom_abs(turn[k]);
     }
+    if (region->elapsed_q30 == 0) {
+        return fix_length_bound(d) + 4; /* from one start on both turn about the same by any time */
+    }
     cubes_q30 = fix_mul((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30, 30);
     /* the region's rate of turn falls by its square on the way */
     cubes_q30 += fix_mul(carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30),
