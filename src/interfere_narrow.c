@@ -150,25 +150,24 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
     return plane;
 }
 
-/* Whether face i of the leaf reaches to both sides of the plane of b's face, or near to it. */
-static inline bool reaches(const struct interfere_leaf *l, const struct target *t, uint32_t i)
-{
-    return (l->corners[i] & ~t->over) != 0 && (l->corners[i] & ~t->under) != 0;
-}
-
-/* The same of b's face and the plane of face i of the leaf. */
+/* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
 static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
     const struct interfere_plane *plane = plane_of(w, i);
+    const int32_t n[3] = {plane->n_q30[0], plane->n_q30[1], plane->n_q30[2]};
+    int32_t above_q18 = plane->offset_q18 + plane->reach_q18;
+    int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
+    uint32_t over = 0, under = 0;
 
-    t->corners_over = t->corners_under = 0;
-    for (int k = 0; k < 3; k++) {
-        int32_t height_q18 = interfere_dot(plane->n_q30, t->p[k].c) - plane->offset_q18;
+    for (const struct interfere_vec *p = &t->p[3]; p-- > t->p;) {
+        int32_t height_q18 = interfere_dot(n, p->c);
 
-        t->corners_over |= (uint32_t)(height_q18 > plane->reach_q18) << k;
-        t->corners_under |= (uint32_t)(height_q18 < -plane->reach_q18) << k;
+        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
+        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
     }
-    return t->corners_over != 7 && t->corners_under != 7;
+    t->corners_over = over;
+    t->corners_under = under;
+    return over != 7 && under != 7;
 }
 
 /* ---------------------------------------------------------- vertices, faces */
@@ -442,9 +441,12 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     if (!l->listed) {
         list_faces(w);
     }
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        if (reaches(l, &t, i) && boxes_meet(w, &t, i) && is_reached(w, &t, i) &&
-            w->meet(w, &t, i)) {
+    for (uint32_t i = 0, over = t.over, under = t.under, n = l->leaf->face_count; i < n; i++) {
+        uint32_t corners = l->corners[i];
+
+        /* does it reach to both sides of the plane, or near to it? */
+        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, &t, i) &&
+            is_reached(w, &t, i) && w->meet(w, &t, i)) {
             busy |= 1u << i;
         }
     }
