@@ -105,8 +105,8 @@ static inline bool boxes_meet(struct interfere *w, const struct target *t, uint3
     if (!(l->boxed >> i & 1)) {
         box_face(w, i);
     }
-    return low[2] <= t->high.c[2] && high[2] >= t->low.c[2] && low[0] <= t->high.c[0] &&
-           high[0] >= t->low.c[0] && low[1] <= t->high.c[1] && high[1] >= t->low.c[1];
+    return low[0] <= t->high.c[0] && high[0] >= t->low.c[0] && low[1] <= t->high.c[1] &&
+           high[1] >= t->low.c[1] && low[2] <= t->high.c[2] && high[2] >= t->low.c[2];
 }
 
 /* ------------------------------------------------------------------- planes */
