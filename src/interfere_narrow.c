@@ -358,7 +358,7 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
 {
     const struct interfere_leaf *l = w->leaf;
 
-    for (int k = 2; k >= 0; k--) {
+    for (int k = 0; k < 3; k++) {
         int32_t reach = l->reach.c[k];
 
         if (most(p->c[k], q->c[k]) + reach < least(c->c[k], d->c[k]) ||
@@ -369,35 +369,46 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
     return false;
 }
 
-/* The edges that face i of the leaf owns against edge j of b's face. */
-static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, int j)
+/* An edge that face i of the leaf owns against one of b's face. */
+static bool edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j)
 {
-    const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_leaf *l = w->leaf;
-    const struct carom_face *face = &ma->faces[interfere_face(w, i)];
     const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_vec *p = &l->p[corner[k]], *q = &l->p[corner[k == 2 ? 0 : k + 1]];
     const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
-    bool any = false;
+    uint32_t edge_a, edge_b = t->face->edge[j];
+    struct lines lines;
 
-    for (int k = 0; k < 3; k++) {
-        uint32_t p = corner[k], q = corner[k == 2 ? 0 : k + 1], both = 1u << p | 1u << q;
-        struct lines lines;
+    if (boxes_miss(w, p, q, c, d)) {
+        return false;
+    }
+    edge_a = w->a->mesh->faces[interfere_face(w, i)].edge[k];
+    /* an owned edge runs with its face */
+    lines.a = &w->a->mesh->edges[edge_a];
+    lines.b = &w->b->mesh->edges[edge_b];
+    lines.start_a = p;
+    lines.start_b = c;
+    if (!edges_may_touch(w, &lines)) {
+        return false;
+    }
+    emit(w, CANDIDATE_EDGE_EDGE, edge_a, edge_b);
+    return true;
+}
 
-        if (!(face->own & 8 << k) || (t->over & both) == both || (t->under & both) == both ||
-            boxes_miss(w, &l->p[p], &l->p[q], c, d)) {
-            continue;
-        }
-        /* an owned edge runs with its face */
-        lines.a = &ma->edges[face->edge[k]];
-        lines.b = &w->b->mesh->edges[t->face->edge[j]];
-        lines.start_a = &l->p[p];
-        lines.start_b = c;
-        if (edges_may_touch(w, &lines)) {
-            emit(w, CANDIDATE_EDGE_EDGE, face->edge[k], t->face->edge[j]);
-            any = true;
+/* The edges that face i of the leaf owns and that reach the plane of b's face, a bit each. */
+static uint32_t edges_left(const struct interfere *w, const struct target *t, uint32_t i)
+{
+    const uint8_t *corner = interfere_corners(w, i);
+    uint32_t left = 0, own = w->a->mesh->faces[interfere_face(w, i)].own >> 3;
+
+    for (int k = 0; own >> k != 0; k++) {
+        uint32_t both = 1u << corner[k] | 1u << corner[k == 2 ? 0 : k + 1];
+
+        if ((own >> k & 1) && (both & ~t->over) != 0 && (both & ~t->under) != 0) {
+            left |= 1u << k;
         }
     }
-    return any;
+    return left;
 }
 
 static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
@@ -406,11 +417,12 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
     uint32_t over = t->corners_over & (t->corners_over >> 1 | t->corners_over << 2);
     uint32_t under = t->corners_under & (t->corners_under >> 1 | t->corners_under << 2);
     uint32_t left = (uint32_t)t->face->own >> 3 & ~over & ~under & 7;
+    uint32_t edges = left != 0 ? edges_left(w, t, i) : 0;
     bool any = false;
 
-    for (int j = 0; left >> j != 0; j++) {
-        if (left >> j & 1) {
-            any |= edges_edge(w, t, i, j);
+    for (int k = 0; edges >> k != 0; k++) {
+        for (int j = 0; (edges >> k & 1) && left >> j != 0; j++) {
+            any |= (left >> j & 1) && edge_edge(w, t, i, k, j);
         }
     }
     return any;
