@@ -131,7 +131,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
     const int16_t(*box)[3] = w->b->mesh->box;
     struct interfere_leaf *l = w->leaf;
-    int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
+    int32_t around_q22 = carom_mul_q30(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30);
 
     l->leaf = leaf;
     l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
@@ -229,14 +229,10 @@ static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16
     return l->axis_q15[0] * p[0] + l->axis_q15[1] * p[1] + l->axis_q15[2] * p[2];
 }
 
-/* Whether the swept slab of the leaf has all of a face of b on one side. */
-static bool beside_slab(const struct interfere_leaf *l, const int16_t p[3], const int16_t q[3],
-                        const int16_t r[3])
+/* Whether three places are all on one side of an interval. */
+static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32_t high)
 {
-    int32_t a = along_slab_q15(l, p), b = along_slab_q15(l, q), c = along_slab_q15(l, r);
-
-    return (a > l->slab_high_q15 && b > l->slab_high_q15 && c > l->slab_high_q15) ||
-           (a < l->slab_low_q15 && b < l->slab_low_q15 && c < l->slab_low_q15);
+    return (p < low && q < low && r < low) || (p > high && q > high && r > high);
 }
 
 /*
@@ -251,15 +247,10 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
 
-    for (int k = 0; k < 2; k++) {
-        int32_t low = l->quanta_low[k], high = l->quanta_high[k];
-
-        if ((p[k] < low && q[k] < low && r[k] < low) ||
-            (p[k] > high && q[k] > high && r[k] > high)) {
-            return false;
-        }
-    }
-    return !beside_slab(l, p, q, r);
+    return !is_beside(p[0], q[0], r[0], l->quanta_low[0], l->quanta_high[0]) &&
+           !is_beside(p[1], q[1], r[1], l->quanta_low[1], l->quanta_high[1]) &&
+           !is_beside(along_slab_q15(l, p), along_slab_q15(l, q), along_slab_q15(l, r),
+                      l->slab_low_q15, l->slab_high_q15);
 }
 
 /* Whether a face comes up for the first time, as far as is remembered. */
