@@ -177,7 +177,7 @@ static bool place_leaf(struct interfere *w)
     const uint16_t *vertices = &ma->leaf_vertices[leaf->first_vertex];
     carom_v3_q22 local[CAROM_LEAF_VERTICES];
 
-    for (uint32_t i = 0; i < leaf->vertex_count; i++) {
+    for (uint32_t i = 0, n = leaf->vertex_count; i < n; i++) {
         local[i] = mesh_vertex(ma, vertices[i]);
     }
     place_axis(w, local, 2);
@@ -265,10 +265,9 @@ static inline bool is_new(struct interfere *w, uint16_t face)
     return true;
 }
 
-/* A face of b in a cell, with the z that it spans there. */
-static inline void visit_entry(struct interfere *w, int16_t z0, uint16_t face)
+static inline void visit_face(struct interfere *w, uint16_t face)
 {
-    if (z0 <= w->leaf->quanta_high[2] && is_new(w, face) && face_near(w, face)) {
+    if (is_new(w, face) && face_near(w, face)) {
         interfere_narrow(w, face);
     }
 }
@@ -277,12 +276,14 @@ static inline void visit_entry(struct interfere *w, int16_t z0, uint16_t face)
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    int32_t low = w->leaf->quanta_low[2];
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
     for (; r < end && r->z1 >= low; r++) {
-        visit_entry(w, r->z0, r->face);
+        if (r->z0 <= high) {
+            visit_face(w, r->face);
+        }
     }
 }
 
@@ -290,11 +291,13 @@ static void visit_cell(struct interfere *w, uint32_t cell)
 static void visit_made(struct interfere *w, uint32_t cell)
 {
     const struct zentry *entry = w->lists.entry;
-    int32_t low = w->leaf->quanta_low[2];
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
 
     for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
          i = entry[i].next) {
-        visit_entry(w, entry[i].z0, entry[i].face);
+        if (entry[i].z0 <= high) {
+            visit_face(w, entry[i].face);
+        }
     }
 }
 
