@@ -14,6 +14,9 @@ ifeq ($(filter $(BOARD),$(BOARDS)),)
 $(error BOARD=$(BOARD) is none of: $(BOARDS))
 endif
 include port/$(BOARD)/board.mk
+ifdef FAMILY
+include port/$(FAMILY)/family.mk
+endif
 
 # ---------------------------------------------------------------- tools, flags
 
@@ -24,7 +27,7 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport -Iport/arm -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
+          -Iinclude -Isrc -Iport -Iport/bare -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
           $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
@@ -36,9 +39,10 @@ CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
 ifdef CROSS
-LDFLAGS += -Wl,-z,noexecstack --specs=nano.specs -nostartfiles -Llinker -T$(BOARD).ld
+CFLAGS += $(FAMILY_CFLAGS)
+LDFLAGS += -Wl,-z,noexecstack $(FAMILY_LDFLAGS) -nostartfiles -Llinker -T$(BOARD).ld
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
-PORT += port/newlib/syscalls.c port/arm/semihost.c port/arm/start.c port/arm/icount.c
+PORT += port/bare/semihost.c port/bare/start.c $(FAMILY_PORT)
 endif
 
 # ---------------------------------------------------------------------- files
