@@ -9,7 +9,7 @@
 #include "scene.h"
 #include "test.h"
 
-#define BOX_BYTES (CAROM_MESH_BYTES(8, 12) + CAROM_MESH_BYTES(4, 2))
+#define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 /* A pair, a few contacts: what one box on one plane needs, and some more. */
 #define CAPS 3, 2, 64, 64, 64, 256
 
