@@ -114,7 +114,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle bench figures compare check size build need clean force
+.PHONY: help run test budget accuracy oracle bench figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -191,6 +191,10 @@ check: ## the gates: format, layers, symbols, sizes, stack
 size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
 	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready
+
+boards: ## the table of boards in README.md, with the figures that budget and size left in out/
+	@tools/need python3
+	@tools/board_table.py
 
 build: $(PROGRAMS) $(RUNNER) ## the programs of BOARD, without running them
 

@@ -151,6 +151,17 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
+/* The memory of the world, and the stack of this program, as far as the port knows it. */
+static void print_memory(const struct carom_caps *caps)
+{
+    port_print("world %lu\n",
+               (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
+                                                caps->faces, caps->entries, caps->candidates));
+    if (port_stack()) {
+        port_print("stack %lu\n", (unsigned long)port_stack());
+    }
+}
+
 /* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
 static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera)
 {
@@ -199,6 +210,7 @@ int main(void)
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
+    print_memory(&scene.caps);
     port_print("hash ");
     print_hash(world);
     port_exit(0);

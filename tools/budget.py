@@ -12,17 +12,11 @@ which the paper speaks; the worst is that of all.
 """
 import argparse
 import collections
-import csv
 import os
 import sys
 
+import results
 import run_board
-
-FILES = {
-    "out/budget.csv": "board,scene,frames,worst,budget,ok",
-    "out/budget_stages.csv": "board,scene,phase,stage,frames,mean,worst",
-    "out/budget_over.csv": "board,scene,frame,cost,stage,instructions",
-}
 
 
 class Scene:
@@ -85,19 +79,6 @@ def print_row(scene):
             spent, stage))
 
 
-def write(path, rows, keep):
-    """The rows of the boards that ran; of the others those that are there, if they are kept."""
-    header, kept = FILES[path].split(","), []
-    boards = {row[0] for row in rows} | set(keep or [])
-    if keep is not None and os.path.exists(path):
-        with open(path, newline="") as file:
-            kept = [row for row in csv.reader(file) if row != header and row[0] not in boards]
-    os.makedirs(os.path.dirname(path), exist_ok=True)
-    with open(path, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([header, *sorted(kept + rows, key=lambda row: row[0])])
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--frames", type=int, default=600)
@@ -113,12 +94,14 @@ def main():
             if run_board.budget(board, name):
                 scenes.append(measure(board, name, arguments.frames))
                 print_row(scenes[-1])
-    keep = arguments.boards if arguments.keep else None
-    write("out/budget.csv", [[s.board, s.name, len(s.counted), s.worst, s.budget, int(s.ok)]
-                             for s in scenes], keep)
-    write("out/budget_stages.csv", [[s.board, s.name, *row] for s in scenes
-                                    for row in s.summary()], keep)
-    write("out/budget_over.csv", [[s.board, s.name, *row] for s in scenes for row in s.over()], keep)
+    measured = arguments.boards if arguments.keep else None
+    results.write("out/budget.csv", "board,scene,frames,worst,budget,ok",
+                  [[s.board, s.name, len(s.counted), s.worst, s.budget, int(s.ok)] for s in scenes],
+                  measured)
+    results.write("out/budget_stages.csv", "board,scene,phase,stage,frames,mean,worst",
+                  [[s.board, s.name, *row] for s in scenes for row in s.summary()], measured)
+    results.write("out/budget_over.csv", "board,scene,frame,cost,stage,instructions",
+                  [[s.board, s.name, *row] for s in scenes for row in s.over()], measured)
     over = sum(not scene.ok for scene in scenes)
     print("%d scenes held, %d over" % (len(scenes) - over, over))
     return over > 0

@@ -64,6 +64,7 @@ class Run:
     def __init__(self):
         self.columns, self.rows, self.usage = [], [], []
         self.hash = self.unit = None
+        self.bytes = {}  # of the world, and of the stack
 
 
 def png_name(out, frame):
@@ -106,6 +107,8 @@ def follow(process, camera, out, frames):
             run.usage.append(rest.split(","))
         elif word == "hash":
             run.hash = rest
+        elif word in ("world", "stack"):
+            run.bytes[word] = int(rest)
         elif word == "unit":
             run.unit = rest
         else:
@@ -196,6 +199,9 @@ def print_table(run, budget):
     print("\n%-24s %12s %12s %12s" % ("pools", "size", "peak", "refused"))
     for name, size, _, peak, refused in run.usage:
         print("  %-22s %12s %12s %12s" % (name, size, peak, refused))
+    print("\n%-24s %12s" % ("bytes", "in use"))
+    for name, size in run.bytes.items():
+        print("  %-22s %12d" % (name, size))
     frames = len(run.rows)
     print("\nframes %d, with a contact %d" % (frames, sum(c > 0 for c in column(run, "contacts"))))
     if budget:
