@@ -14,7 +14,7 @@
 #define HELD 0
 #endif
 
-#define BOX_BYTES (CAROM_MESH_BYTES(8, 12) + CAROM_MESH_BYTES(4, 2))
+#define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 static _Alignas(8) uint8_t mesh_block[BOX_BYTES];
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_CAPS)];
 
