@@ -18,15 +18,20 @@
 #include "port.h"
 #include "world.h"
 
-#ifndef MATRIX_MESH_BYTES
-#define MATRIX_MESH_BYTES  SCENE_MESH_BYTES
-#define MATRIX_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#ifdef SCENE_ROM
+#define MESH_BYTES 8
+#else
+#define MESH_BYTES SCENE_MESH_BYTES
 #endif
-#define SNAPSHOT_BYTES 40000
+#ifdef BOARD_CAPS
+#define WORLD_BYTES SCENE_WORLD_BYTES
+#else
+#define WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#endif
 
-static _Alignas(8) uint8_t mesh_block[MATRIX_MESH_BYTES];
-static _Alignas(8) uint8_t world_block[MATRIX_WORLD_BYTES];
-static uint8_t snapshot[SNAPSHOT_BYTES];
+static _Alignas(8) uint8_t mesh_block[MESH_BYTES];
+static _Alignas(8) uint8_t world_block[WORLD_BYTES];
+static uint8_t snapshot[8192];
 
 /* What a run is asked for. */
 static struct {
@@ -217,9 +222,6 @@ static int load(struct run *run, const struct play *play)
     scene->other_count = play->bodies ? play->bodies - 1 : scene->other_count;
     run->bodies = 1 + scene->other_count;
     scene->body.mass_q20 = 1 << 20;
-    for (int i = 0; i < scene->other_count; i++) {
-        scene->others[i].mass_q20 = 1 << 20;
-    }
     if (play->arrange) {
         play->arrange(scene);
     }
@@ -234,10 +236,10 @@ static void go_on(struct run *run)
     long bytes = port_read_file(wanted.load, snapshot, sizeof snapshot);
     int result = CAROM_OK;
 
-    if (run->scene.waves) {
-        scene_sheet_shape(run->scene.sheet.vertices, wanted.at);
+    if (run->scene.sheet) {
+        scene_sheet_shape(run->scene.sheet->vertices, wanted.at);
         result = carom_surface_set(run->world, SCENE_GROUND,
-                                   (const int16_t(*)[3])run->scene.sheet.vertices);
+                                   (const int16_t(*)[3])run->scene.sheet->vertices);
     }
     expect(run, wanted.at, result, "surface");
     expect(run, wanted.at, bytes < 0 ? CAROM_ERR_FORMAT : CAROM_OK, wanted.load);

@@ -105,12 +105,32 @@ static int lean(struct carom_world *world, int bodies, int frame)
 /* Where those that meet in the air meet: far above the ground, which nothing pulls them to. */
 #define MEET_MM 500000
 
-/* Each is drawn to the middle by 7 units / s^2 a unit; from time to time both are thrown. */
+static int take_up(struct carom_world *world, int bodies)
+{
+    int result = CAROM_OK;
+
+    for (int body = SCENE_BODY; body <= bodies && result >= 0; body++) {
+        struct carom_body_state state;
+
+        result = carom_body_get(world, body, &state);
+        state.position.c[2] += CAROM_POSITION_MM(MEET_MM);
+        state.spin.c[1] += CAROM_SPIN_MRAD_S(900, FPS) * body;
+        if (result >= 0) {
+            result = carom_body_set(world, body, &state);
+        }
+    }
+    return result;
+}
+
+/* Each is drawn to the middle by 7 units / s^2 a unit; from time to time all are thrown. */
 static int draw_together(struct carom_world *world, int bodies, int frame)
 {
     const carom_v3_q40 none = {{0, 0, 0}};
-    int result = carom_world_set_gravity(world, &none);
+    int result = frame == 1 ? take_up(world, bodies) : CAROM_OK;
 
+    if (result >= 0) {
+        result = carom_world_set_gravity(world, &none);
+    }
     for (int body = SCENE_BODY; body <= bodies && result >= 0; body++) {
         struct carom_body_state state;
         carom_v3_q40 force;
@@ -215,38 +235,17 @@ static void slide(struct scene *scene)
     scene->body.velocity = scene->body.spin = (carom_v3_q40){{0, 0, 0}};
 }
 
-/* On top of each other, each a little askew. */
-static void stack(struct scene *scene)
-{
-    for (int i = 0; i <= scene->other_count; i++) {
-        struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
-
-        def->position.c[0] = CAROM_POSITION_MM(20 * i);
-        def->position.c[1] = CAROM_POSITION_MM(-15 * i);
-        def->position.c[2] = CAROM_POSITION_MM(260 + 520 * i);
-    }
-}
-
-/* Two in the air. */
-static void meet(struct scene *scene)
-{
-    stack(scene);
-    scene->body.position.c[2] += CAROM_POSITION_MM(MEET_MM);
-    scene->others[0].position.c[2] += CAROM_POSITION_MM(MEET_MM + 900);
-    scene->body.spin.c[0] = CAROM_SPIN_MRAD_S(1300, FPS);
-    scene->others[0].spin.c[1] = CAROM_SPIN_MRAD_S(-1700, FPS);
-    scene->others[0].velocity.c[0] = CAROM_VELOCITY_MM_S(400, FPS);
-}
-
 const struct play plays[PLAYS] = {
     {"box", "box", 0, NULL, throw_often, NULL},
     {"bounce", "box", 0, bounce, NULL, NULL},
     {"slide", "box", 0, slide, lean, NULL},
-    {"meet", "boxes10", 2, meet, draw_together, ask_pairs},
-    {"stack", "boxes10", 4, stack, throw_one, NULL},
+    {"pictures", "box", 0, NULL, throw_often, ask_picture},
+    {"pair", "pair", 0, NULL, throw_often, ask_pairs},
+    {"meet", "pair", 0, NULL, draw_together, ask_pairs},
+    {"boxes4", "boxes4", 0, NULL, throw_one, NULL},
     {"pile", "pile", 6, NULL, throw_sometimes, ask_pairs},
     {"sheet", "sheet", 0, NULL, NULL, NULL},
-    {"pictures", "box", 0, NULL, throw_often, ask_picture},
+    {"head100", "head100", 0, NULL, throw_often, NULL},
     {"head450", "head450", 0, NULL, throw_sometimes, NULL},
     {"head", "head", 0, NULL, throw_sometimes, NULL},
 };

@@ -35,7 +35,7 @@ CROSSED = ["pile", "sheet"]  # scenes that are gone on with elsewhere
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
 PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
-           "port/option.c", "port/assert.c"]
+           "examples/scene_built.c", "port/option.c", "port/assert.c"]
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
@@ -268,16 +268,17 @@ def other_kinds(builds):
                 yield there[0], to, "%s to %s" % (getattr(there[0], kind), getattr(to, kind))
 
 
+def snapshot_path(build, scene):
+    return os.path.join(WORK, "%s-%s.snapshot" % (build.target, scene))
+
+
 def cross(source, to, scene, frames):
     """What is wrong with going on from another's snapshot, or None."""
-    path = os.path.join(WORK, "%s-%s-%s.snapshot" % (source.target, to.target, scene))
-    with open(path, "wb") as file:
-        file.write(source.snapshots[scene])
-    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames, "load=" + path)[-1]
+    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames,
+                   "load=" + snapshot_path(source, scene))[-1]
     if words[0] != "scene" or words[-1] != source.scenes[scene][-1]:
         return "%s, gone on with from frame %d of %s: %s ends in %s, not in %s" % (
             to, AT, source, scene, words[-1], source.scenes[scene][-1])
-    os.remove(path)
     return None
 
 
@@ -337,6 +338,10 @@ def cross_all(kept, frames, jobs):
     tasks = [(source, to, kind, scene) for source, to, kind in other_kinds(kept)
              for scene in CROSSED if scene in source.snapshots and scene in to.scenes]
     found = {}
+    for build in kept:
+        for scene in filter(build.snapshots.get, CROSSED):
+            with open(snapshot_path(build, scene), "wb") as file:
+                file.write(build.snapshots[scene])
 
     def one(task):
         source, to, kind, scene = task
