@@ -18,10 +18,15 @@ def board_of(image):
     return os.path.basename(os.path.dirname(os.path.abspath(image))).removesuffix("-debug")
 
 
-def settings(board):
-    """The variables of a board's board.mk."""
-    with open(os.path.join(ROOT, "port", board, "board.mk")) as file:
+def variables(*path):
+    with open(os.path.join(ROOT, "port", *path)) as file:
         return dict(re.findall(r"^(\w+) *:= *(.*?) *$", file.read(), re.M))
+
+
+def settings(board):
+    """The variables of a board's board.mk and of its family's family.mk."""
+    found = variables(board, "board.mk")
+    return {**variables(found["FAMILY"], "family.mk"), **found} if "FAMILY" in found else found
 
 
 def command(image, arguments, monitor=None):
