@@ -286,7 +286,10 @@ static uint64_t fold_frame(struct run *run, int frame, int status, uint64_t dige
         digest = play_fold(digest, (uint64_t)events[i].speed_q40);
         digest = play_fold(digest, (uint64_t)events[i].impulse_q40);
     }
-    return run->play->ask ? run->play->ask(run->world, &run->scene, frame, digest) : digest;
+    if (run->play->ask) {
+        expect(run, frame, run->play->ask(run->world, &run->scene, frame, &digest), "ask");
+    }
+    return digest;
 }
 
 static void step(struct run *run, int frame)

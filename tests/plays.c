@@ -148,24 +148,31 @@ static int draw_together(struct carom_world *world, int bodies, int frame)
 
 /* ----------------------------------------------------------------- after a frame */
 
-/* Which faces interfere and what is inside of what, of every two bodies that move. */
-static uint64_t ask_pairs(struct carom_world *world, const struct scene *scene, int frame,
-                          uint64_t digest)
+/* Which faces of two bodies interfere, and what is inside of what. */
+static int ask_pair(struct carom_world *world, int a, int b, uint64_t *digest)
 {
     static struct carom_face_pair found[256];
+    int count = carom_query_faces(world, a, b, found, 256);
+    int inside = carom_query_inside(world, a, b);
+
+    for (int i = 0; i < count; i++) {
+        *digest = play_fold(*digest, (uint64_t)found[i].a << 16 | found[i].b);
+    }
+    *digest = play_fold(*digest, (uint64_t)(int64_t)inside);
+    return count < 0 ? count : inside;
+}
+
+static int ask_pairs(struct carom_world *world, const struct scene *scene, int frame,
+                     uint64_t *digest)
+{
+    int result = CAROM_OK;
 
     for (int a = SCENE_BODY; frame % 20 == 0 && a <= 1 + scene->other_count; a++) {
-        for (int b = SCENE_GROUND; b < a; b++) {
-            int count = carom_query_faces(world, a, b, found, 256);
-
-            digest = play_fold(digest, (uint64_t)(int64_t)count);
-            for (int i = 0; i < count; i++) {
-                digest = play_fold(digest, (uint64_t)found[i].a << 16 | found[i].b);
-            }
-            digest = play_fold(digest, (uint64_t)(int64_t)carom_query_inside(world, a, b));
+        for (int b = SCENE_GROUND; b < a && result >= 0; b++) {
+            result = ask_pair(world, a, b, digest);
         }
     }
-    return digest;
+    return result;
 }
 
 enum { WIDTH = 80, HEIGHT = 60 };
@@ -185,10 +192,10 @@ static uint64_t fold_picture(const struct carom_picture *picture, uint64_t diges
 }
 
 /* Small pictures, in every format and style in turn. */
-static uint64_t ask_picture(struct carom_world *world, const struct scene *scene, int frame,
-                            uint64_t digest)
+static int ask_picture(struct carom_world *world, const struct scene *scene, int frame,
+                       uint64_t *digest)
 {
-    static uint32_t pixels[WIDTH * HEIGHT];
+    static _Alignas(4) uint32_t pixels[WIDTH * HEIGHT]; /* m68k would have it at any even place */
     static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES_LEAST(
         SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES, SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
     const int number = frame / 25;
@@ -202,12 +209,14 @@ static uint64_t ask_picture(struct carom_world *world, const struct scene *scene
     int result;
 
     if (frame % 25 != 0) {
-        return digest;
+        return CAROM_OK;
     }
     result =
         carom_draw(world, &scene->camera, &picture, number % 2 ? CAROM_DRAW_FLAT : CAROM_DRAW_WIRE);
-    digest = play_fold(digest, (uint64_t)(int64_t)result);
-    return result < 0 ? digest : fold_picture(&picture, digest);
+    if (result >= 0) {
+        *digest = fold_picture(&picture, *digest);
+    }
+    return result;
 }
 
 /* ------------------------------------------------------------------- arrangements */

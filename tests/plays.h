@@ -15,9 +15,8 @@ struct play {
     void (*arrange)(struct scene *);
     /* What is done before a frame, 1 being the first. Returns CAROM_OK or an error. */
     int (*act)(struct carom_world *world, int bodies, int frame);
-    /* What is asked after a frame: folded into a digest, which is returned. */
-    uint64_t (*ask)(struct carom_world *world, const struct scene *scene, int frame,
-                    uint64_t digest);
+    /* What is asked after a frame, folded into a digest. Returns CAROM_OK or an error. */
+    int (*ask)(struct carom_world *world, const struct scene *scene, int frame, uint64_t *digest);
 };
 
 #define PLAYS 12

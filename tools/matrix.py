@@ -22,6 +22,7 @@ import subprocess
 import sys
 import time
 
+import gate
 import run_board
 
 ROOT = run_board.ROOT
@@ -97,6 +98,7 @@ def call(command, what, folder=ROOT):
 
 class Build:
     """One way to make the program, and what it said."""
+    need = []  # what tools/need is asked for
 
     def __init__(self, target, compiler, options, bits, order):
         self.target, self.compiler, self.options = target, compiler, options
@@ -154,6 +156,8 @@ class Linux(Build):
         triple, emulator, bits, order, _ = LINUX.get(
             target, (None, None, struct.calcsize("P") * 8, sys.byteorder, True))
         super().__init__(target, compiler, options, bits, order)
+        self.need = ([triple, "qemu-user"] if triple else ["cc", "libc"]) + \
+            (["clang", "lld"] if compiler == "clang" else [])
         gcc = [triple + "-gcc-12" if triple else "gcc"]
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
@@ -172,6 +176,7 @@ class Wasm(Build):
     command = ["clang", "--target=wasm32"]
     linker = [*command, "-nostdlib", "-Wl,--no-entry,--export=main,-z,stack-size=262144"]
     runner = ["node", "port/wasm/run.mjs"]
+    need = ["clang", "lld", "node"]
 
     def __init__(self, options):
         super().__init__("wasm32", "clang", options, 32, "little")
@@ -182,6 +187,7 @@ class Board(Build):
 
     def __init__(self, board, settings):
         super().__init__(board, settings["CROSS"] + "gcc", "-O2", 32, "little")
+        self.need = settings["NEED"].split()
         self.image = os.path.join("build", board, "matrix.elf")
 
     def make(self):
@@ -399,13 +405,13 @@ def main():
     parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
                         help="for a target, the engine in another folder")
     arguments = parser.parse_args()
-    os.chdir(ROOT)
     builds = list(every_build(arguments.short))
     if arguments.targets:
         builds = [build for build in builds if build.target in arguments.targets.split(",")]
     for target, folder in (text.split("=") for text in arguments.engine):
         for build in builds:
             build.engine = folder if build.target == target else build.engine
+    gate.need(*sorted({thing for build in builds for thing in build.need}))
     failures, done, kept = do_all(builds, arguments.frames, arguments.jobs)
     wrong, crossings = cross_all(kept, arguments.frames, arguments.jobs)
     write_csv(done)
