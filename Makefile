@@ -81,7 +81,7 @@ TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
@@ -114,7 +114,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle bench figures compare check size boards build need clean force
+.PHONY: help run test budget accuracy oracle bench matrix figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -172,6 +172,11 @@ bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELI
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
 	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
+
+matrix: ## one state hash from every instruction set, compiler and option, to out/matrix.csv; SHORT=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/matrix.elf
+	@tools/matrix.py $(if $(SHORT),--short)
 
 figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@tools/need python3 gnuplot
