@@ -521,7 +521,9 @@ struct carom_camera {
 enum carom_pixel_format {
     CAROM_PALETTE8, /* indices into carom_draw_palette */
     CAROM_RGB565,
-    CAROM_XRGB8888
+    CAROM_XRGB8888,
+    CAROM_GREY4, /* two pixels a byte, the left one in its upper half; 0 is black */
+    CAROM_BGR555 /* 16 bits, red in the lowest; as RGB565, written by 2 and 4 bytes at a time only */
 };
 
 /* 256 colours as 0x00RRGGBB, in ramps of 32; 160 to 254 are not used, 255 is white. */

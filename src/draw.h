@@ -9,7 +9,7 @@
  *           that nothing that belongs to the body is longer than 2^29
  *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
  *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
- *           and y from 7/16 above the top side of the pixel (width / 2, height / 2), so that a
+ *           and y from 7/16 above the top side of the pixel `middle`, so that a
  *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
  *           row before
  *
@@ -65,7 +65,7 @@ struct draw_view {
     int64_t focal_q16; /* pixels */
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
-    int32_t middle[2];     /* the pixel from which pixels are counted */
+    int32_t middle[2];     /* the pixel from which pixels are counted; in an even column */
     int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
     struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
@@ -153,7 +153,7 @@ int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
-              const struct carom_picture *picture);
+              const struct carom_picture *picture, struct draw_rect rect);
 
 /* ---- draw_rows.c: their pixels, row by row */
 
@@ -199,9 +199,9 @@ struct draw_span {
 struct draw_sweep {
     const struct draw_view *view;
     const struct draw_vertex *vertices;
-    uint8_t *row;    /* its pixel 0 */
-    int32_t safe;    /* a run that ends here may write 3 bytes more */
-    int pixel_shift; /* a pixel is 2^pixel_shift bytes */
+    uint8_t *row; /* its pixel 0 */
+    int32_t safe; /* a run that ends here may write 3 bytes more */
+    int pixel_shift;
     int32_t y, x;
     uint32_t ground;       /* the background */
     struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
@@ -246,27 +246,66 @@ void draw_advance(struct draw_sweep *s, int32_t to);
 /* Take in a span of which the first pixel is not before x. */
 void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 
-/* Words of 4 bytes at any place; a whole picture has 8-bit pixels at odd addresses. */
-#if defined __GNUC__
-#define DRAW_PUT(p, word) __builtin_memcpy(p, &(word), 4)
+/* ---- draw_pixels.c: runs of pixels in memory */
+
+/*
+ * Stores of 2 and 4 bytes into memory of any type. Where the processor takes words at odd places they
+ * may lie there; where it does not, a compiler would make four byte stores of one, so that runs are
+ * written by what their ends allow. Pixels of two bytes or four are never written by the byte: the
+ * video memory of some machines does not take that.
+ */
+#if defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__
+#define DRAW_ANYWHERE 1
+#define DRAW_ALIGNED  aligned(1)
 #else
-#define DRAW_PUT(p, word) memcpy(p, &(word), 4)
+#define DRAW_ANYWHERE 0
+#define DRAW_ALIGNED
+#endif
+#if defined __GNUC__
+typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
+typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
+#else
+typedef uint16_t draw_half;
+typedef uint32_t draw_word;
 #endif
 
-/* Pixels from <= x < to of the row in one colour, and no others. */
-void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
+/* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */
+int draw_pixel_shift(uint8_t format);
 
-/* ---- draw_line.c */
+/* Where pixel x of a row is, or the byte that it is in. */
+static inline uint8_t *draw_pixel(uint8_t *row, int pixel_shift, int32_t x)
+{
+    return row + (pixel_shift < 0 ? x >> 1 : x * (1 << pixel_shift));
+}
 
-/* Pixels x0 <= x < x1 of the background. */
-void draw_ground(const struct carom_picture *picture, int32_t y, int32_t x0, int32_t x1);
+/* Pixel 0 of row y, both counted from the middle of the picture. */
+uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
-void draw_line(const struct carom_picture *picture, const struct draw_vertex *a,
-               const struct draw_vertex *b, uint32_t colour);
+/* Pixels from <= x < to of a row in one colour, and no others. */
+void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel);
+
+/* The background of row y of the view's part. */
+uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
+
+/* ---- draw_wire.c */
+
+void draw_wire(const struct carom_world *world, struct draw_view *view,
+               const struct carom_picture *picture, struct draw_rect part);
 
 /* ---- draw_palette.c */
 
-/* A palette entry as a pixel of the format, over a whole word. */
+/* A palette entry as a pixel of the format, over a whole word as often as it fits. */
 uint32_t draw_colour(uint8_t format, uint32_t index);
+
+/* ---- draw.c: a picture and its parts */
+
+/* Check what a picture is to be, and set the camera. Returns what carom_draw does. */
+int draw_begin(struct draw_view *view, const struct carom_camera *camera,
+               const struct carom_picture *picture, enum carom_draw_style style);
+
+/* Draw a part of the picture; nothing outside of it changes. */
+int draw_part(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture, enum carom_draw_style style,
+              struct draw_rect part);
 
 #endif

@@ -267,8 +267,8 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
  * Draw a part of the picture; false when the workspace is too small for it, unless it must be
  * drawn.
  */
-static bool draw_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
-                      bool must)
+static bool try_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
+                     bool must)
 {
     draw_view_rect(f->view, part);
     if (!see_part(f) && !must) {
@@ -284,23 +284,22 @@ static bool draw_part(struct flat *f, const struct carom_picture *picture, struc
  * for: some 60 in front of each other when it is smallest.
  */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
-              const struct carom_picture *picture)
+              const struct carom_picture *picture, struct draw_rect rect)
 {
     struct flat f = {.world = world, .view = view};
-    const struct draw_rect whole = draw_whole(view, picture);
-    int32_t x = whole.x0, y = whole.y0, columns = picture->width, rows = picture->height;
+    int32_t x = rect.x0, y = rect.y0, columns = rect.x1 - rect.x0, rows = rect.y1 - rect.y0;
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    while (y < whole.y1) {
+    while (y < rect.y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 
-        part.x1 = part.x1 < whole.x1 ? part.x1 : whole.x1;
-        part.y1 = part.y1 < whole.y1 ? part.y1 : whole.y1;
-        if (draw_part(&f, picture, part, rows == 1 && columns == 1)) {
-            x = part.x1 < whole.x1 ? part.x1 : whole.x0;
-            y = part.x1 < whole.x1 ? y : part.y1;
+        part.x1 = part.x1 < rect.x1 ? part.x1 : rect.x1;
+        part.y1 = part.y1 < rect.y1 ? part.y1 : rect.y1;
+        if (try_part(&f, picture, part, rows == 1 && columns == 1)) {
+            x = part.x1 < rect.x1 ? part.x1 : rect.x0;
+            y = part.x1 < rect.x1 ? y : part.y1;
         } else if (rows > 1) {
             rows = (rows + 1) / 2;
         } else {

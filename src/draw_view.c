@@ -48,9 +48,9 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
         return CAROM_ERR_ARGUMENT;
     }
     view->eye = camera->eye;
-    view->middle[0] = width / 2;
+    view->middle[0] = width / 4 * 2;
     view->middle[1] = height / 2;
-    view->round_q29[0] = (1 << 14) + (width & 1) * (8 << 15);
+    view->round_q29[0] = (1 << 14) + (width - 2 * view->middle[0]) * (8 << 15);
     view->round_q29[1] = (1 << 14) + (height & 1) * (8 << 15) + (7 << 15);
     /*
      * x : z must become (focal / DRAW_GUARD) x : z. A power of two taken off z keeps the factor of
@@ -67,8 +67,8 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
 
 void draw_view_rect(struct draw_view *view, struct draw_rect rect)
 {
-    /* from the middle of the picture */
-    const int32_t half_q4[2] = {view->round_q29[0] >> 15 & 8, view->round_q29[1] >> 15 & 8};
+    /* from the middle of the picture, which is up to a pixel and a half from that of `middle` */
+    const int32_t half_q4[2] = {view->round_q29[0] >> 15 & 24, view->round_q29[1] >> 15 & 8};
     const int32_t edge_q4[2][2] = {{rect.x0 * 16 - half_q4[0], rect.x1 * 16 - half_q4[0]},
                                    {rect.y0 * 16 - half_q4[1], rect.y1 * 16 - half_q4[1]}};
 
