@@ -149,6 +149,23 @@ bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vert
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
 
+/* ---- draw_divide.c: quotients for processors that cannot divide */
+
+/* n / d by a table of inverses and products; n < 2^31, 0 < d < 2^16. */
+uint32_t draw_quotient(uint32_t n, uint32_t d);
+
+/* The same, of a signed n, by what is quicker. */
+static inline int32_t draw_divide(int32_t n, int32_t d)
+{
+#if defined __arm__ && !defined __ARM_FEATURE_IDIV
+    int32_t quotient = (int32_t)draw_quotient((uint32_t)(n < 0 ? -n : n), (uint32_t)d);
+
+    return n < 0 ? -quotient : quotient;
+#else
+    return n / d;
+#endif
+}
+
 /* ---- draw_flat.c: the faces that show, part by part */
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */

@@ -24,7 +24,7 @@ struct rows {
  */
 static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t b, int32_t row)
 {
-    int32_t slope_q15 = (draw_x(b) - draw_x(a)) * (1 << 15) / (draw_y(b) - draw_y(a));
+    int32_t slope_q15 = draw_divide((draw_x(b) - draw_x(a)) * (1 << 15), draw_y(b) - draw_y(a));
     int32_t below_q4 = row * 16 + 15 - draw_y(a);
 
     span->x_q15[side] =

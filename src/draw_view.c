@@ -256,7 +256,7 @@ static inline struct draw_vertex project(const struct draw_body *body, const int
     uint32_t z = (uint32_t)at[2];
     int up = 32 - fix_bits32(z);
     uint32_t s = z << up;
-    int32_t r = (int32_t)(0x7fffffffu / (s >> 16));
+    int32_t r = draw_divide(0x7fffffff, (int32_t)(s >> 16));
     int32_t rest = (1 << 30) - (int32_t)((s * (uint64_t)((uint32_t)r << 15)) >> 32);
     int32_t inverse = r * (1 << 15) + ((r * (rest >> 1)) >> 14);
     int32_t x_q4 = pixels_q4(at[0], up, inverse, body->round_q29[0]);
