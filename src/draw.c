@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
-/* What carom.h says of a picture. */
-static int check_picture(const struct carom_picture *picture, enum carom_draw_style style)
+int draw_check(const struct carom_world *world, const struct carom_camera *camera,
+               const struct carom_picture *picture, enum carom_draw_style style)
 {
     int32_t each, row; /* bytes */
     int shift;
 
+    if (world == NULL || camera == NULL || picture == NULL || picture->pixels == NULL ||
+        (style == CAROM_DRAW_FLAT && picture->workspace == NULL)) {
+        return CAROM_ERR_NULL;
+    }
     if (style != CAROM_DRAW_FLAT && style != CAROM_DRAW_WIRE) {
         return CAROM_ERR_ARGUMENT;
     }
@@ -26,17 +30,6 @@ static int check_picture(const struct carom_picture *picture, enum carom_draw_st
     return CAROM_OK;
 }
 
-int draw_begin(struct draw_view *view, const struct carom_camera *camera,
-               const struct carom_picture *picture, enum carom_draw_style style)
-{
-    int result = check_picture(picture, style);
-
-    if (result == CAROM_OK) {
-        result = draw_view_init(view, camera, picture->width, picture->height);
-    }
-    return result;
-}
-
 int draw_part(const struct carom_world *world, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
               struct draw_rect part)
@@ -52,13 +45,11 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
                const struct carom_picture *picture, enum carom_draw_style style)
 {
     struct draw_view view;
-    int result;
+    int result = draw_check(world, camera, picture, style);
 
-    if (world == NULL || camera == NULL || picture == NULL || picture->pixels == NULL ||
-        (style == CAROM_DRAW_FLAT && picture->workspace == NULL)) {
-        return CAROM_ERR_NULL;
+    if (result == CAROM_OK) {
+        result = draw_view_init(&view, camera, picture->width, picture->height);
     }
-    result = draw_begin(&view, camera, picture, style);
     if (result != CAROM_OK) {
         return result;
     }

@@ -140,6 +140,17 @@ int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, i
 /* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
 
+/* How far some vertices reach on the picture. */
+struct draw_extent {
+    int32_t low[2][2], high[2][2]; /* of view x / z and y / z, as two numbers */
+    bool near;                     /* one of them is too near to say */
+};
+
+void draw_extent_begin(struct draw_extent *extent);
+void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, uint32_t number);
+/* A pixel more on each side, within the view's part; nothing of no vertices. */
+struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view);
+
 /*
  * Clip a face, or an edge as a polygon of two corners, given by its vertices.
  *   out  what is left, on the picture; of an edge, the first two
@@ -316,8 +327,8 @@ uint32_t draw_colour(uint8_t format, uint32_t index);
 
 /* ---- draw.c: a picture and its parts */
 
-/* Check what a picture is to be, and set the camera. Returns what carom_draw does. */
-int draw_begin(struct draw_view *view, const struct carom_camera *camera,
+/* Whether a picture can be drawn, but for the camera. Returns what carom_draw does. */
+int draw_check(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);
 
 /* Draw a part of the picture; nothing outside of it changes. */
