@@ -58,6 +58,16 @@ struct draw_rect {
 
 #define DRAW_SIDES 5
 
+/* Pixels that the largest body covers: what is further away than w there is hidden. */
+struct draw_cover {
+    uint32_t body;
+    uint32_t radius2_q8; /* of a circle on the picture; 0: none */
+    int32_t x_q4, y_q4;
+    uint32_t w_q26;
+    carom_v3_q30 axis; /* from the eye through its middle, in the world */
+    int32_t slope_q16; /* how fast what is covered opens along that */
+};
+
 /* The camera, and the part of the picture that is being drawn. */
 struct draw_view {
     carom_v3_q32 eye;
@@ -69,6 +79,7 @@ struct draw_view {
     int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
     struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
+    struct draw_cover cover;
 };
 
 /* A body as the camera sees it. */
@@ -80,6 +91,7 @@ struct draw_body {
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
+    carom_v3_q30 cover;            /* its axis, in the same */
     uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
     carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
     /* view = (to_view (vertex << up) + origin) / 2^30 */
@@ -169,12 +181,31 @@ uint32_t draw_quotient(uint32_t n, uint32_t d);
 static inline int32_t draw_divide(int32_t n, int32_t d)
 {
 #if defined __arm__ && !defined __ARM_FEATURE_IDIV
-    int32_t quotient = (int32_t)draw_quotient((uint32_t)(n < 0 ? -n : n), (uint32_t)d);
+    uint32_t size = (uint32_t)(n < 0 ? -n : n);
+    int32_t quotient = (int32_t)draw_quotient(size, (uint32_t)d);
 
     return n < 0 ? -quotient : quotient;
 #else
     return n / d;
 #endif
+}
+
+/* ---- draw_cover.c: what a body surely hides */
+
+/* Find the view's cover. */
+void draw_cover_init(struct draw_view *view, const struct carom_world *world);
+
+/* Whether some of a leaf may be covered. */
+bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
+                    const struct carom_leaf *leaf);
+
+static inline bool draw_covers(const struct draw_cover *cover, const struct draw_vertex *vertex)
+{
+    /* both are within 1026 pixels of the middle: a sum below 2^32 */
+    int32_t dx = draw_x(vertex->yx_q4) - cover->x_q4, dy = draw_y(vertex->yx_q4) - cover->y_q4;
+
+    return (uint32_t)(dx * dx) + (uint32_t)(dy * dy) < cover->radius2_q8 &&
+           vertex->w_q26 < cover->w_q26;
 }
 
 /* ---- draw_flat.c: the faces that show, part by part */
@@ -243,17 +274,13 @@ struct draw_sweep {
 /* The least and the most of a face's depth, when they are needed first. */
 void draw_depths(const struct draw_sweep *s, struct draw_span *span);
 
-/* Whether the top span ends right of where another one begins and is in front of all of it. */
-static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, int32_t end,
-                              struct draw_span *span, int32_t from)
+/* Whether the top span is in front of all of another one, which can wait until it ends. */
+static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, struct draw_span *span)
 {
-    if (span->w_high == 0) {
-        draw_depths(s, span);
-    }
     if (top->w_high == 0) {
         draw_depths(s, top);
     }
-    if (from < end && top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
+    if (top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
         s->under[s->under_count++] = span;
         if (s->under_high < span->w_high) {
             s->under_high = span->w_high;

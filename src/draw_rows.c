@@ -171,12 +171,14 @@ static void step_row(struct rows *r, int32_t row)
  */
 static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
-    uint8_t *p = draw_pixel(row, pixel_shift, from), *end = draw_pixel(row, pixel_shift, to);
+    uint8_t *p, *end;
 
     if (pixel_shift < 0) {
         draw_run(row, pixel_shift, from, to, pixel);
         return;
     }
+    p = row + from * (1 << pixel_shift);
+    end = row + to * (1 << pixel_shift);
     if (!DRAW_ANYWHERE && (uintptr_t)p & 1) {
         *p++ = (uint8_t)pixel;
     }
@@ -227,7 +229,10 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
             gate = INT32_MAX;
         }
         if (a < gate) {
-            if (top && draw_hides(s, top, end, span, a)) {
+            if (top && span->w_high == 0) {
+                draw_depths(s, span);
+            }
+            if (top && a < end && draw_hides(s, top, span)) {
                 gate = INT32_MAX;
                 continue;
             }

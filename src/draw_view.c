@@ -48,6 +48,7 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
         return CAROM_ERR_ARGUMENT;
     }
     view->eye = camera->eye;
+    view->cover = (struct draw_cover){.radius2_q8 = 0};
     view->middle[0] = width / 4 * 2;
     view->middle[1] = height / 2;
     view->round_q29[0] = (1 << 14) + (width - 2 * view->middle[0]) * (8 << 15);
@@ -206,6 +207,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
         carom_rotate_back(body->side[s].c, &r, view->side[s].c);
     }
     carom_rotate_back(body->light.c, &r, light.c);
+    carom_rotate_back(body->cover.c, &r, view->cover.axis.c);
     return true;
 }
 
