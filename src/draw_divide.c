@@ -33,15 +33,17 @@ static const uint32_t inverses[257] = {
  */
 uint32_t draw_quotient(uint32_t n, uint32_t d)
 {
-    int shift = fix_bits32(d) - 8;
-    uint32_t quotient = 0, part, inverse;
+    uint32_t quotient, part, inverse;
+    int shift;
 
     CAROM_ASSERT(n >> 31 == 0 && d > 0 && d >> 16 == 0);
-    if (shift <= 0) {
+    if (d < 256) {
         quotient = (uint32_t)((uint64_t)n * inverses[d] >> 32);
         return quotient + (n - quotient * d >= d);
     }
+    shift = fix_bits32(d) - 8;
     inverse = inverses[(d >> shift) + 1];
+    quotient = 0;
     do {
         part = (uint32_t)((uint64_t)(n >> shift) * inverse >> 32);
         quotient += part;

@@ -6,7 +6,8 @@ struct rows {
     const struct draw_view *view;
     const struct draw_list *list;
     uint8_t format;
-    struct draw_span *free;
+    struct draw_span *free, *unused,
+        *unused_end;          /* room for further ones: some again, all others */
     struct draw_span *fresh;  /* those that begin in the row at hand, from left to right */
     struct draw_span **spans; /* those of the row, from left to right; a sentinel at the end */
     struct draw_span **last;  /* the list of the row before, in the same way */
@@ -88,10 +89,13 @@ static bool begin_faces(struct rows *r, int32_t row)
         const struct draw_face *face = &r->list->faces[-(int32_t)number];
         struct draw_span *span = r->free, **place = &r->fresh;
 
-        if (span == NULL) {
+        if (span) {
+            r->free = span->next;
+        } else if (r->unused < r->unused_end) {
+            span = r->unused++;
+        } else {
             return false;
         }
-        r->free = span->next;
         span->face = face;
         span->pixel = r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
                                                   : draw_colour(r->format, face->colour);
@@ -277,10 +281,8 @@ static void make_room(struct rows *r, struct draw_span *low)
     size_t room = r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
 
     r->free = NULL;
-    for (size_t i = 0; i < n; i++) {
-        low[i].next = r->free;
-        r->free = &low[i];
-    }
+    r->unused = low;
+    r->unused_end = low + n;
     r->spans = (struct draw_span **)(void *)(low + n);
     r->last = r->spans + n + 2;
     r->sentinel.x_q15[0] = r->view->rect.x1 * (1 << 15);
