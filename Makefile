@@ -2,7 +2,6 @@
 # Everything that is built goes to build/, everything that is found out to out/. See `make help`.
 
 BOARD ?= versatilepb
-SCENE ?= $(if $(MESH),user,head)
 FRAMES ?= 600
 OPT ?= -O2
 LABEL ?= $(if $(PAPER),paper)
@@ -14,6 +13,11 @@ ifeq ($(filter $(BOARD),$(BOARDS)),)
 $(error BOARD=$(BOARD) is none of: $(BOARDS))
 endif
 include port/$(BOARD)/board.mk
+ifdef FAMILY
+include port/$(FAMILY)/family.mk
+endif
+# the scene that a board shows when it is not told
+SCENE ?= $(if $(MESH),user,$(firstword $(ROM_SCENES) head))
 
 # ---------------------------------------------------------------- tools, flags
 
@@ -24,8 +28,10 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport -Iport/arm -Iexamples $(if $(DEBUG),-DCAROM_DEBUG) \
-          $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT))
+          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
+          $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
+          $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
+          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
@@ -36,9 +42,8 @@ CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
 ifdef CROSS
-LDFLAGS += -Wl,-z,noexecstack --specs=nano.specs -nostartfiles -Llinker -T$(BOARD).ld
+LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld $(FAMILY_LDFLAGS)
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
-PORT += port/newlib/syscalls.c port/arm/semihost.c port/arm/start.c port/arm/icount.c
 endif
 
 # ---------------------------------------------------------------------- files
@@ -52,10 +57,15 @@ ALSO := $(call objects,port/null/null.c)
 EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 # what the generators make, by the number of faces; without one, that of the paper
-HEADS := head head48 head80 head450 head836
-FIELDS := field field386 field512 field12012 field49928
-SCENE_FILES := $(call objects,$(wildcard examples/scene*.c) \
+HEADS := head head48 head80 head100 head450 head836
+FIELDS := field field128 field386 field512 field12012 field49928
+# the scenes, with meshes that are indexed when a scene is loaded
+SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
+# or, on a board that says which, with indexed ones in ROM
+SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
+    $(ROM_SCENES:%=build/gen/rom/%.c))
+SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
@@ -79,6 +89,7 @@ SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
+NEED_THIS := $(or $(NEED),$(NEED_HOST))
 NEED_COMPARE := ode bullet fcl valgrind
 
 # Scenes of the comparison: what moves, what stands still.
@@ -96,7 +107,7 @@ help: ## list the commands
 	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
 
 run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
-	@tools/need $(NEED_MESHES) $(if $(CROSS),$(NEED_BOARD),$(NEED_HOST)) pil
+	@tools/need $(NEED_MESHES) $(NEED_THIS) pil
 	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
 	@tools/run_scene.py --board $(BOARD) --frames $(FRAMES) --out out/$(SCENE) \
@@ -222,6 +233,18 @@ build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
 
+# Indexed meshes of scenes for ROM, and the list of those that a board has.
+build/gen/rom/%.c: build/tools/rom_scene
+	@mkdir -p $(@D)
+	@echo '  mesh  $@'
+	build/tools/rom_scene $* > $@
+
+rom_id = $(subst -,_,$(1))
+$(B)/gen/rom_scenes.h: port/$(BOARD)/board.mk
+	@mkdir -p $(@D)
+	printf 'ROM_SCENE(%s)\n' $(call rom_id,$(ROM_SCENES)) > $@
+$(B)/examples/scene_rom.o: $(B)/gen/rom_scenes.h
+
 build/gen/%.crm: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) -b $@ $<
@@ -238,9 +261,27 @@ build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 
-build/tools/carom-mesh: tools/mesh_convert.cpp
+# The part of the engine that indexes meshes, and the scenes, for tools.
+build/tools/%.o: %.c
 	@mkdir -p $(@D)
-	@echo '  c++   $@'
-	$(CXX) -std=c++17 -O2 -Wall -Wextra -Iinclude -MMD -MP -MF $@.d -o $@ $< -lassimp
+	@echo '  cc    $< for tools'
+	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -MMD -MP -c -o $@ $<
+
+TOOL_ENGINE := $(wildcard src/fix*.c src/arena.c src/scan.c src/zlist.c src/mass.c src/mesh*.c \
+                 src/world_report.c)
+build/tools/libmesh.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
+	@echo '  ar    $@'
+	rm -f $@
+	$(AR) rcs $@ $^
+
+build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libmesh.a)
+	@echo '  link  $@'
+	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp
+
+# What only a world needs is left out at the link.
+build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
+                       $(SCENES_BUILT:$(B)/%=build/tools/%) build/tools/libmesh.a
+	@echo '  link  $@'
+	$(CXX) -Wl,--gc-sections -o $@ $^
 
 -include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)

@@ -10,22 +10,31 @@
 #include "port.h"
 #include "scene.h"
 
-/* The largest mesh that `mesh=` may bring; a board with less memory says less. */
+#ifdef SCENE_ROM
+/* A board with meshes in ROM has no memory for others. */
+static uint8_t mesh_block[1];
+#else
+/* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
 #endif
 #define USER_FACES (2 * USER_VERTICES)
 #define USER_MESH_BYTES                                                                            \
-    (CAROM_MESH_BYTES(USER_VERTICES, USER_FACES) +                                                 \
-     CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
-
+    (SCENE_MESH(USER_VERTICES, USER_FACES) + SCENE_MESH(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
 static _Alignas(8) uint8_t
     mesh_block[USER_MESH_BYTES > SCENE_LARGE_MESH_BYTES ? USER_MESH_BYTES : SCENE_LARGE_MESH_BYTES];
-static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES,
-                                                       USER_FACES + SCENE_FIELD_FACES)];
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
+#endif
+
+/* Enough for any scene to be drawn at once, or what the board has. */
+#ifndef BOARD_DRAW_BYTES
+#define BOARD_DRAW_BYTES                                                                           \
+    CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
+#endif
+
+static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
+static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES];
 
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
@@ -51,26 +60,40 @@ static void print_hash(const struct carom_world *world)
     port_print("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffff));
 }
 
+/* The mesh that the option mesh=file names; whether there is the option. */
+static bool read_mesh(struct carom_mesh_raw *user)
+{
+    const char *file = port_option("mesh");
+
+    if (!file) {
+        return false;
+    }
+#ifdef SCENE_ROM
+    (void)user;
+    port_print("mesh=: this board has no memory for it\n");
+    port_exit(1);
+#else
+    long bytes = port_read_file(file, file_block, sizeof file_block);
+
+    if (bytes < 0) {
+        port_print("%s: cannot be read\n", file);
+        port_exit(1);
+    }
+    expect(carom_mesh_read(user, file_block, (size_t)bytes, user_block, sizeof user_block), file);
+    return true;
+#endif
+}
+
 static void load(struct scene *scene)
 {
     const char *name = port_option("scene") ? port_option("scene") : "head";
-    const char *file = port_option("mesh");
     struct carom_mesh_raw user;
+    bool is_user = read_mesh(&user);
 
-    if (file) {
-        long bytes = port_read_file(file, file_block, sizeof file_block);
-
-        if (bytes < 0) {
-            port_print("%s: cannot be read\n", file);
-            port_exit(1);
-        }
-        expect(carom_mesh_read(&user, file_block, (size_t)bytes, user_block, sizeof user_block),
-               file);
-    }
-    expect(scene_load(scene, name, file ? &user : NULL, mesh_block, sizeof mesh_block), name);
+    expect(scene_load(scene, name, is_user ? &user : NULL, mesh_block, sizeof mesh_block), name);
     port_print("scene %s: %d x %lu faces on %lu\n", name, 1 + scene->other_count,
-               (unsigned long)scene->body_mesh.raw.face_count,
-               (unsigned long)scene->ground_mesh.raw.face_count);
+               (unsigned long)scene->body.mesh->raw.face_count,
+               (unsigned long)scene->ground.mesh->raw.face_count);
 }
 
 static void print_columns(void)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # ARM MPS2 with application note 385, in QEMU: Cortex-M3 at 25 MHz, headless.
-CROSS := arm-none-eabi-
+FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
 PORT := port/mps2-an385/mps2.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an385

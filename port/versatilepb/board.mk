@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # ARM Versatile/PB in QEMU: ARM926EJ-S at 210 MHz, PL110 LCD.
-CROSS := arm-none-eabi-
+FAMILY := arm
 ARCH := -mcpu=arm926ej-s -marm
 PORT := port/versatilepb/versatile.c port/arm/classic.S
 QEMU := qemu-system-arm -M versatilepb -audiodev none,id=none -global pl041.audiodev=none
