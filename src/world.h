@@ -20,6 +20,18 @@ struct world_state {
     uint32_t touching_count;
 };
 
+/*
+ * What stages work in while they run: who looks for candidates and who solves, never at the same time.
+ * Contacts to solve take as much as the capacities say: the room is the larger of both.
+ */
+union world_scratch {
+    struct {
+        struct interfere_leaf leaf;
+        struct boyse_pair pair; /* of the candidates at hand */
+    } gather;
+    struct gauss gauss;
+};
+
 struct carom_world {
     struct carom_config config;
     size_t bytes;
@@ -37,11 +49,7 @@ struct carom_world {
     /* set by broad */
     struct pair *pairs;
 
-    /* what interfere and the solvers each work in while they run: never at the same time */
-    union {
-        struct interfere_leaf leaf;
-        struct gauss gauss;
-    } scratch;
+    union world_scratch *scratch;
 
     /* set by interfere */
     struct interfere interfere;

@@ -8,12 +8,18 @@
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
 
+struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p)
+{
+    struct boyse_pair *pair = &w->scratch->gather.pair;
+
+    boyse_pair_init(pair, &w->bodies[p->a], &w->bodies[p->b]);
+    return pair;
+}
+
 void step_select_pair(struct step_visitor *v, uint16_t number)
 {
     if (v->pair_number != number) {
-        const struct pair *p = &v->step->w->pairs[number];
-
-        boyse_pair_init(&v->pair, &v->step->w->bodies[p->a], &v->step->w->bodies[p->b]);
+        v->pair = step_set_pair(v->step->w, &v->step->w->pairs[number]);
         v->pair_number = number;
     }
 }
