@@ -290,6 +290,7 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     out->same = rest.energy_rules == 0 && (!out->slid || slip > 0.05);
     rest.first = 0;
     CHECK(rest_take_island(&rest));
+    contacts[0].work = works; /* as it was prepared: the elimination has other room here */
     rest_relative_velocity(contacts, &contacts[0].velocity_q40); /* the impulse is in its place */
     rest_solve_sweeps(&rest, &sweep, false);
     impulse(swept);
