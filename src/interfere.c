@@ -340,14 +340,18 @@ static bool set_motion(struct interfere *w)
 {
     const struct body_region *a = &w->a->region, *b = &w->b->region;
     const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
+    const carom_v3_q40 way_a = body_region_way(a), way_b = body_region_way(b);
     int64_t start[3], end[3], distance = 0;
+    carom_m3_q30 r_a, r_b, end_a, end_b;
 
+    body_region_axes(a, &r_a, &end_a);
+    body_region_axes(b, &r_b, &end_b);
     for (int k = 0; k < 3; k++) {
         start[k] = a->at.c[k] - b->at.c[k];
-        end[k] = start[k] + ((a->end.c[k] - b->end.c[k]) >> 8);
+        end[k] = start[k] + ((way_a.c[k] - way_b.c[k]) >> 8);
     }
-    fix_rotate_back(start, &b->r, start);
-    fix_rotate_back(end, &b->end_r, end);
+    fix_rotate_back(start, &r_b, start);
+    fix_rotate_back(end, &end_b, end);
     for (int k = 0; k < 3; k++) {
         if (carom_abs(start[k]) > (int64_t)400 << 32) {
             return false;
@@ -356,10 +360,10 @@ static bool set_motion(struct interfere *w)
         w->at.c[k] = (int32_t)(start[k] >> 12) + w->moves.c[k] / 2;
         distance += carom_abs(start[k]) >> 10;
     }
-    interfere_relate(&w->to_b, &b->r, &a->r);
+    interfere_relate(&w->to_b, &r_b, &r_a);
     memset(&w->change, 0, sizeof w->change);
     if (a->u_q30 > 0 || b->u_q30 > 0) {
-        interfere_relate(&w->change, &b->end_r, &a->end_r);
+        interfere_relate(&w->change, &end_b, &end_a);
         for (int i = 0; i < 9; i++) {
             w->change.c[i / 3][i % 3] -= w->to_b.c[i / 3][i % 3];
             w->to_b.c[i / 3][i % 3] += w->change.c[i / 3][i % 3] / 2;

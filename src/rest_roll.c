@@ -123,7 +123,7 @@ static void twist(struct contact *c, const int32_t moment[3])
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+            side->body->path.dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }
@@ -142,7 +142,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dw = b->dw[k] >> (REST_FINER_BITS + finer(c, b));
+            int64_t dw = b->path.dw[k] >> (REST_FINER_BITS + finer(c, b));
 
             spin[k] += s == 0 ? dw : -dw;
         }

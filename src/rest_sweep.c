@@ -76,8 +76,8 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
             struct body *b = c->side[s].body;
 
             if (b) {
-                b->dv[0] = b->dv[1] = b->dv[2] = 0;
-                b->dw[0] = b->dw[1] = b->dw[2] = 0;
+                b->path.dv[0] = b->path.dv[1] = b->path.dv[2] = 0;
+                b->path.dw[0] = b->path.dw[1] = b->path.dw[2] = 0;
             }
         }
     }
@@ -123,11 +123,11 @@ static void change_at(const struct contact_side *side, int64_t out[3])
     int64_t dw[3];
 
     for (int k = 0; k < 3; k++) {
-        dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
+        dw[k] = b->path.dw[k] >> (REST_FINER_BITS - 2);
     }
     wrapping_cross(out, dw, side->arm_q30);
     for (int k = 0; k < 3; k++) {
-        out[k] = b->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+        out[k] = b->path.dv[k] + (out[k] >> (32 - REST_FINER_BITS));
     }
 }
 
@@ -164,8 +164,8 @@ static void push_side(struct body *b, const struct contact_lever *lever, const i
     int down = lever->turn_bits - REST_FINER_BITS;
 
     for (int k = 0; k < 3; k++) {
-        b->dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
-        b->dw[k] += carom_dot(lever->turn[k], impulse) >> down;
+        b->path.dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
+        b->path.dw[k] += carom_dot(lever->turn[k], impulse) >> down;
     }
 }
 

@@ -94,12 +94,10 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     arena_init(&arena, mem, bytes);
     w = arena_carve(&arena, sizeof *w);
     w->config = *config;
-    w->bytes = bytes;
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
     CAROM_POOLS(SET_SIZE)
 #undef SET_SIZE
     carve(w, &arena);
-    world_now(w)->gravity = config->gravity;
     w->rest.gauss = &w->scratch->gauss;
     w->interfere.leaf = &w->scratch->gather.leaf;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];

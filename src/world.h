@@ -12,7 +12,6 @@
  * current one and exchanges them last, so that an error leaves the world as it was, bit for bit.
  */
 struct world_state {
-    carom_v3_q40 gravity;
     struct body_state *bodies;
     struct rest_warm *warm; /* impulses of the last frame's resting contacts */
     uint32_t warm_count;
@@ -33,9 +32,8 @@ union world_scratch {
 };
 
 struct carom_world {
-    struct carom_config config;
-    size_t bytes;
-    uint32_t body_count; /* places in use, free ones in between included */
+    struct carom_config config; /* gravity: the present one */
+    uint32_t body_count;        /* places in use, free ones in between included */
     struct pool pools[CAROM_POOL_COUNT];
 
     /* set by add and remove */
