@@ -31,7 +31,7 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY)) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
-          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES))
+          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) $(if $(UNIT),-DBOARD_UNIT=$(UNIT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
@@ -42,8 +42,8 @@ CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
 ifdef CROSS
-LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld $(FAMILY_LDFLAGS)
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
+LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld $(FAMILY_LDFLAGS)
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard port/$(BOARD)/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
@@ -108,7 +108,7 @@ help: ## list the commands
 
 run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_THIS) pil
-	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
+	@$(SUBMAKE) $(B)/head.elf $(RUNNER) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
 	@tools/run_scene.py --board $(BOARD) --frames $(FRAMES) --out out/$(SCENE) \
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(if $(BUDGET),--budget $(BUDGET)) \
@@ -202,7 +202,8 @@ $(B)/lib%.a:
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
 
-link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)
+link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
+    $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))
 PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
@@ -277,6 +278,13 @@ build/tools/libmesh.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
 build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libmesh.a)
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp
+
+# What runs a board's programs where QEMU does not.
+build/tools/gba_run: tools/gba_run.c
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) \
+	    -DMGBA_CORE='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro/mgba_libretro.so"' -o $@ $<
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \

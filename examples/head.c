@@ -33,6 +33,13 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
+/* What a tick is, where the port knows no instructions. */
+#ifndef BOARD_UNIT
+#define BOARD_UNIT nanoseconds
+#endif
+#define TEXT_OF(name) #name
+#define TEXT(macro)   TEXT_OF(macro)
+
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES];
 
@@ -98,7 +105,7 @@ static void load(struct scene *scene)
 
 static void print_columns(void)
 {
-    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : TEXT(BOARD_UNIT));
     port_print("columns frame,status,substeps,hits,contacts,candidates,faces");
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
