@@ -30,7 +30,7 @@ SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fn
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY)) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
-          $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
+          $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
           $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) $(if $(UNIT),-DBOARD_UNIT=$(UNIT))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
@@ -78,6 +78,8 @@ SHELL_TESTS := $(wildcard tests/*.sh)
 # ------------------------------------------------------------------- commands
 
 export PYTHONDONTWRITEBYTECODE := 1
+# no rules but those below
+MAKEFLAGS += -r
 
 # V=1 shows the commands themselves.
 ifndef V
@@ -209,6 +211,8 @@ PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
+
+$(B)/head.elf: $(call objects,examples/scene_play.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'

@@ -8,7 +8,7 @@ FAMILY_LDFLAGS := --specs=nano.specs
 IMAGE_SUFFIX := .gba
 RUNNER := build/tools/gba_run
 ROM_SCENES := head450
-CAPS := 2,1,16,64,0,64
+CAPS := 2,1,32,256,0,256
 DRAW_BYTES := 26000
 UNIT := cycles
 # A frame at 15 frames a second, drawing included.
