@@ -5,12 +5,14 @@
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
+ *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
 #include <stdlib.h>
 
 #include "carom.h"
 #include "port.h"
 #include "scene.h"
+#include "scene_play.h"
 
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
@@ -28,6 +30,16 @@ static _Alignas(8) uint8_t
 static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES)];
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
+
+/* The scene when none is asked for, and what a tick is where the port knows no instructions. */
+#ifndef BOARD_SCENE
+#define BOARD_SCENE head
+#endif
+#ifndef BOARD_UNIT
+#define BOARD_UNIT nanoseconds
+#endif
+#define TEXT_OF(name) #name
+#define TEXT(macro)   TEXT_OF(macro)
 
 /* Enough for any scene to be drawn at once, or what the board has. */
 #ifndef BOARD_DRAW_BYTES
@@ -101,7 +113,7 @@ static bool read_mesh(struct carom_mesh_raw *user)
 
 static void load(struct scene *scene)
 {
-    const char *name = port_option("scene") ? port_option("scene") : "head";
+    const char *name = port_option("scene") ? port_option("scene") : TEXT(BOARD_SCENE);
     struct carom_mesh_raw user;
     bool is_user = read_mesh(&user);
 
@@ -113,7 +125,7 @@ static void load(struct scene *scene)
 
 static void print_columns(void)
 {
-    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : TEXT(BOARD_UNIT));
     port_print("columns frame,status,substeps,hits,contacts,candidates,faces");
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
@@ -162,56 +174,104 @@ static void print_memory(const struct carom_caps *caps)
     }
 }
 
-/* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
-static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera)
+/* Draw into the upper `height` rows of a framebuffer, if there is one; returns the ticks it took. */
+static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
+                     const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    struct port_fb fb = port_fb();
-    struct carom_picture picture = {.pixels = fb.pixels,
-                                    .width = fb.width,
-                                    .height = fb.height,
-                                    .stride = fb.stride,
-                                    .format = fb.format,
+    struct carom_picture picture = {.pixels = fb->pixels,
+                                    .width = fb->width,
+                                    .height = height,
+                                    .stride = fb->stride,
+                                    .format = fb->format,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (!fb.pixels) {
+    if (!fb->pixels) {
         return 0;
     }
-    expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
+    expect(carom_draw(world, camera, &picture, style), "draw");
     return port_ticks() - start;
+}
+
+static struct carom_world *make(const struct scene *scene, const struct carom_config *config)
+{
+    struct carom_world *world;
+
+    expect(scene_make(scene, config, world_block, sizeof world_block, &world), "world");
+    return world;
+}
+
+/* A row of figures a frame. */
+static void report(struct scene *scene, const struct carom_config *config, int frames)
+{
+    struct carom_world *world = make(scene, config);
+    struct port_fb fb = port_fb();
+
+    print_columns();
+    for (int frame = 1; frame <= frames; frame++) {
+        int status;
+
+        expect(scene_before(scene, world, frame), "scene");
+        status = expect(carom_world_step(world), "step");
+        uint32_t draw_ticks = draw(world, &scene->camera, &fb, fb.height, CAROM_DRAW_FLAT);
+
+        port_present();
+        print_frame(world, frame, status, draw_ticks);
+    }
+    print_usage(world);
+    print_memory(&scene->caps);
+    port_print("hash ");
+    print_hash(world);
+}
+
+/* With the pad; frames 0: without end. */
+static void play(struct scene *scene, const struct carom_config *config, int frames)
+{
+    struct carom_world *world = make(scene, config);
+    struct port_fb fb = port_fb();
+    struct scene_play play = {.due = port_ticks()};
+    uint32_t draw_ticks = 0;
+    struct carom_stats stats;
+
+    for (int frame = 1; frames == 0 || frame <= frames; frame++) {
+        /* what the hands did to it may be too much for the pools */
+        if (!scene_play_keys(&play, scene, world, port_input()) ||
+            scene_before(scene, world, frame) < 0 || carom_world_step(world) < 0) {
+            world = make(scene, config);
+        }
+        if (scene_play_draws(&play)) {
+            expect(carom_stats(world, &stats), "stats");
+            draw_ticks =
+                draw(world, &scene->camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+                     play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+            if (!play.plain) {
+                scene_play_figures(&fb, stats.total_ticks, draw_ticks);
+            }
+            port_present();
+        }
+    }
+    port_print("hash ");
+    print_hash(world);
 }
 
 int main(void)
 {
     static struct scene scene;
     struct carom_config config = scene_config();
-    struct carom_world *world;
     int frames;
 
     port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
+    frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
     config.ticks = port_ticks;
     config.budget_ticks =
         port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
     config.sleep = port_option("awake") == NULL;
     load(&scene);
-    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
-
-    print_columns();
-    for (int frame = 1; frame <= frames; frame++) {
-        int status;
-
-        expect(scene_before(&scene, world, frame), "scene");
-        status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &scene.camera);
-
-        port_present();
-        print_frame(world, frame, status, draw_ticks);
+    if (frames == 0 || port_option("play")) {
+        play(&scene, &config, frames);
+    } else {
+        report(&scene, &config, frames);
     }
-    print_usage(world);
-    print_memory(&scene.caps);
-    port_print("hash ");
-    print_hash(world);
     port_exit(0);
 }
