@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * ARM's MPS2 board with application note 385: Cortex-M3, no display that QEMU models.
+ * ARM's MPS2 boards with a Cortex-M (application notes 385, 386, 500): no display that QEMU models.
  *
  * With the option pictures=DIRECTORY there is a framebuffer, and port_present writes it by
  * semihosting as DIRECTORY/frame-0001.ppm and so on.
