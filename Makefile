@@ -284,4 +284,6 @@ build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^
 
+# Nothing is to be tried to make one of these.
+%.d: ;
 -include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)

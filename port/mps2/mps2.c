@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * ARM's MPS2 boards with a Cortex-M (application notes 385, 386, 500): no display that QEMU models.
- *
- * With the option pictures=DIRECTORY there is a framebuffer, and port_present writes it by
- * semihosting as DIRECTORY/frame-0001.ppm and so on.
+ * ARM's MPS2 boards with a Cortex-M (application notes 385, 386, 500): no display that QEMU models,
+ * so there is a framebuffer only when pictures of it are to be written (picture.h).
  */
-#include <stdio.h>
-
-#include "port.h"
-#include "semihost.h"
+#include "picture.h"
 
 enum { WIDTH = 512, HEIGHT = 512 };
 
@@ -43,29 +38,9 @@ struct port_fb port_fb(void)
 
 void port_present(void)
 {
-    static unsigned frame;
-    static uint8_t row[WIDTH][3];
-    static char text[256];
-    const char *directory = port_option("pictures");
-    intptr_t file;
-    int length;
+    struct port_fb fb = port_fb();
 
-    if (!directory) {
-        return;
-    }
-    snprintf(text, sizeof text, "%s/frame-%04u.ppm", directory, ++frame);
-    file = semihost_create(text);
-    length = snprintf(text, sizeof text, "P6 %d %d 255\n", WIDTH, HEIGHT);
-    semihost_write(file, text, (size_t)length);
-    for (int y = 0; y < HEIGHT; y++) {
-        for (int x = 0; x < WIDTH; x++) {
-            row[x][0] = (uint8_t)(pixels[y][x] >> 16);
-            row[x][1] = (uint8_t)(pixels[y][x] >> 8);
-            row[x][2] = (uint8_t)pixels[y][x];
-        }
-        semihost_write(file, row, sizeof row);
-    }
-    semihost_close(file);
+    picture_write(&fb);
 }
 
 uint32_t port_ticks(void)
