@@ -113,6 +113,20 @@ static void wide_pile(int i, struct carom_body_def *def)
     pour(i, 3, 1900, 0, def);
 }
 
+/* In a row, each higher than the one before: they land one after the other. */
+static void scatter(int i, struct carom_body_def *def)
+{
+    def->position.c[0] = CAROM_POSITION_MM(-1500 + 1000 * i);
+    def->position.c[1] = CAROM_POSITION_MM(200 - 300 * (i % 2));
+    def->position.c[2] = CAROM_POSITION_MM(1500 + 600 * i);
+    def->velocity.c[0] = CAROM_VELOCITY_MM_S(500 - 400 * i, FPS);
+    def->velocity.c[1] = CAROM_VELOCITY_MM_S(100, FPS);
+    def->velocity.c[2] = 0;
+    def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 900 * i, FPS);
+    def->spin.c[1] = CAROM_SPIN_MRAD_S(700, FPS);
+    def->spin.c[2] = CAROM_SPIN_MRAD_S(400 * i, FPS);
+}
+
 /* Thrown up from just above the field. */
 static void fly(int i, struct carom_body_def *def)
 {
@@ -135,29 +149,31 @@ static const struct scene_recipe {
     const struct carom_body_def *start;
     void (*arrange)(int i, struct carom_body_def *def); /* NULL: one body, at start */
     uint8_t others;                                     /* bodies but the first */
+    /* what bounds a frame on a small board; 0: as the engine chooses */
+    uint8_t substep_cap, sweep_cap;
 } recipes[] = {
-    {"head", &head_start, NULL, 0},
-    {"head-spin", &spin_starts[0], NULL, 0},
-    {"head-spin2", &spin_starts[1], NULL, 0},
-    {"head-spin3", &spin_starts[2], NULL, 0},
-    {"head-spin4", &spin_starts[3], NULL, 0},
-    {"head100", &head_start, NULL, 0},
-    {"head450", &head_start, NULL, 0},
-    {"head836", &head_start, NULL, 0},
-    {"apart", &far_start, NULL, 0},
-    {"box", &box_start, NULL, 0},
-    {"pair", &head_start, pile, 1},
-    {"boxes4", &head_start, pile, 3},
-    {"boxes10", &box_start, lay, 9},
-    {"pile", &head_start, pile, 15},
-    {"pile32", &head_start, wide_pile, 31},
-    {"flight32", &head_start, fly, 31},
-    {"growth-512", &growth_starts[0], NULL, 0},
-    {"growth-3034", &growth_starts[1], NULL, 0},
-    {"growth-12012", &growth_starts[2], NULL, 0},
-    {"growth-49928", &growth_starts[3], NULL, 0},
-    {"sheet", &box_start, NULL, 0},
-    {"user", &head_start, NULL, 0},
+    {"head", &head_start, NULL, 0, 0, 0},
+    {"head-spin", &spin_starts[0], NULL, 0, 0, 0},
+    {"head-spin2", &spin_starts[1], NULL, 0, 0, 0},
+    {"head-spin3", &spin_starts[2], NULL, 0, 0, 0},
+    {"head-spin4", &spin_starts[3], NULL, 0, 0, 0},
+    {"head100", &head_start, NULL, 0, 3, 10},
+    {"head450", &head_start, NULL, 0, 0, 0},
+    {"head836", &head_start, NULL, 0, 0, 0},
+    {"apart", &far_start, NULL, 0, 0, 0},
+    {"box", &box_start, NULL, 0, 0, 0},
+    {"pair", &head_start, scatter, 1, 3, 10},
+    {"boxes4", &head_start, scatter, 3, 3, 10},
+    {"boxes10", &box_start, lay, 9, 0, 0},
+    {"pile", &head_start, pile, 15, 0, 0},
+    {"pile32", &head_start, wide_pile, 31, 0, 0},
+    {"flight32", &head_start, fly, 31, 0, 0},
+    {"growth-512", &growth_starts[0], NULL, 0, 0, 0},
+    {"growth-3034", &growth_starts[1], NULL, 0, 0, 0},
+    {"growth-12012", &growth_starts[2], NULL, 0, 0, 0},
+    {"growth-49928", &growth_starts[3], NULL, 0, 0, 0},
+    {"sheet", &box_start, NULL, 0, 0, 0},
+    {"user", &head_start, NULL, 0, 0, 0},
 };
 
 static const struct scene_recipe *find(const char *name)
@@ -227,6 +243,10 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 
     if (scene->other_count > 0 || scene->sheet) {
         own.caps = scene->caps;
+    }
+    if (scene->recipe) {
+        own.substep_cap = own.substep_cap ? own.substep_cap : scene->recipe->substep_cap;
+        own.sweep_cap = own.sweep_cap ? own.sweep_cap : scene->recipe->sweep_cap;
     }
     result = carom_world_init(block, bytes, &own, world);
     if (result >= 0) {

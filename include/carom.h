@@ -275,6 +275,8 @@ struct carom_config {
     carom_v3_q40 gravity;    /* at first; units / frame^2, each component within +-1 */
     bool sleep;              /* bodies at rest sleep until something wakes them */
     uint8_t substep_cap;     /* sub-steps a frame; 0: 8 + 2 for each moving body that is awake */
+    uint8_t sweep_cap;       /* sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of a
+                                frame; what has not settled goes on in the next */
     uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
 };

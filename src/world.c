@@ -92,6 +92,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     carve(w, &arena);
     world_now(w)->gravity = config->gravity;
     w->rest.gauss = &w->scratch.gauss;
+    w->rest.sweep_cap = config->sweep_cap;
     w->interfere.leaf = &w->scratch.leaf;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
