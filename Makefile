@@ -30,6 +30,7 @@ SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fn
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY)) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
+          $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
           $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections

@@ -60,6 +60,16 @@ int semihost_getc(void)
     return (int)call(SYS_READC, NULL);
 }
 
+void semihost_picture(void)
+{
+    if (port_option("pictures")) {
+        for (const char *text = "picture\n"; *text; text++) {
+            port_putc(*text);
+        }
+        semihost_getc();
+    }
+}
+
 static intptr_t open_file(const char *name, intptr_t mode)
 {
     intptr_t block[3] = {(intptr_t)name, mode, (intptr_t)strlen(name)};

@@ -17,6 +17,12 @@ void semihost_flush(void);
 /* Wait for one character of the console and return it. */
 int semihost_getc(void);
 
+/*
+ * What port_present does on a board whose display the runner can photograph: with the option
+ * pictures=..., print the line "picture" and wait for a character from the console.
+ */
+void semihost_picture(void);
+
 /* Files to write on the host: a handle, or -1. */
 intptr_t semihost_create(const char *name);
 void semihost_write(intptr_t file, const void *bytes, size_t count);
