@@ -32,7 +32,8 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
-          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES))
+          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
+          $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)

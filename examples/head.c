@@ -27,14 +27,14 @@ static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
-/* Enough for any scene to be drawn at once, or what the board has. */
+/* Enough for any scene to be drawn at once, or what the board has; 0: it shows nothing. */
 #ifndef BOARD_DRAW_BYTES
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES];
+static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES > 0 ? BOARD_DRAW_BYTES : 1];
 
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
@@ -133,6 +133,8 @@ static void print_usage(const struct carom_world *world)
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
     }
+    port_print("usage stack bytes,%lu,0,%lu,0\n", (unsigned long)port_stack().size,
+               (unsigned long)port_stack().peak);
 }
 
 /* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
@@ -148,34 +150,51 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (!fb.pixels) {
+    if (BOARD_DRAW_BYTES == 0 || !fb.pixels) {
         return 0;
     }
     expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
     return port_ticks() - start;
 }
 
-int main(void)
+/* What frames need of a scene; a small board has no room for the rest while it steps. */
+struct show {
+    struct carom_camera camera;
+    struct scene_sheet *sheet;
+};
+
+static struct carom_world *make(struct show *show)
 {
-    static struct scene scene;
     struct carom_config config = scene_config();
     struct carom_world *world;
-    int frames;
+    struct scene scene;
 
-    port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
     config.ticks = port_ticks;
     config.sleep = port_option("awake") == NULL;
     load(&scene);
     expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
+    show->camera = scene.camera;
+    show->sheet = scene.sheet;
+    return world;
+}
+
+int main(void)
+{
+    struct carom_world *world;
+    struct show show;
+    int frames;
+
+    port_init();
+    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
+    world = make(&show);
 
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        expect(scene_before(&scene, world, frame), "scene");
+        expect(scene_sheet_move(show.sheet, world, frame), "scene");
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &scene.camera);
+        uint32_t draw_ticks = draw(world, &show.camera);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
