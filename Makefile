@@ -28,7 +28,7 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
+          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY) -Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
           $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES))
@@ -71,7 +71,7 @@ TESTS := $(call objects,$(TEST_RUNNER))
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/bare_% tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
 SHELL_TESTS := $(wildcard tests/*.sh)
 
