@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* A program of a bare board that asks for memory in vain: status 0 when there is no byte of heap. */
+#include <stddef.h>
 #include <stdlib.h>
 
 #ifdef __PICOLIBC__

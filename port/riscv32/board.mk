@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# QEMU's virt with a 32-bit RISC-V that multiplies, and bochs-display on its PCI bus.
+# QEMU's virt with a 32-bit RISC-V that multiplies, and a display on its PCI bus.
 FAMILY := riscv
 ARCH := -march=rv32im -mabi=ilp32 -misa-spec=2.2
 PORT := port/riscv32/virt.c
@@ -7,8 +7,8 @@ QEMU := qemu-system-riscv32 -M virt -bios none -device bochs-display,romfile=
 ICOUNT_SHIFT := 0
 # There is no timer that the emulator could skip to while a picture is taken.
 ICOUNT_SLEEP := on
+PICTURES := 1
 CPU := RV32IM
 CLOCK_MHZ := 100
-DISPLAY := framebuffer 320 x 240
+DISPLAY := bochs-display
 SCENES := head:15
-PICTURES := 1
