@@ -72,63 +72,14 @@ static const struct carom_camera camera = {
     .focal_q16 = 1 << 16,
 };
 
-/* A box of 1 x 0.7 x 0.5 units; a quantum is 1/4096 unit. */
-#define BOX_X 2048
-#define BOX_Y 1434
-#define BOX_Z 1024
-static const int16_t box_vertices[8][3] = {
-    {-BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, BOX_Y, -BOX_Z},
-    {-BOX_X, BOX_Y, -BOX_Z},  {-BOX_X, -BOX_Y, BOX_Z}, {BOX_X, -BOX_Y, BOX_Z},
-    {BOX_X, BOX_Y, BOX_Z},    {-BOX_X, BOX_Y, BOX_Z},
-};
-static const uint16_t box_faces[12][3] = {
-    {0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-    {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7},
-};
-static const struct carom_mesh_raw box_mesh = {
-    box_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
-};
-
-/* A tetrahedron and an L of three cubes, for piles; all smaller by half than the box. */
-#define PILE_BITS 13
-#define TIP       1900
-static const int16_t tetrahedron_vertices[4][3] = {
-    {TIP, TIP, TIP}, {TIP, -TIP, -TIP}, {-TIP, TIP, -TIP}, {-TIP, -TIP, TIP}};
-static const uint16_t tetrahedron_faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-static const struct carom_mesh_raw tetrahedron_mesh = {
-    tetrahedron_vertices, tetrahedron_faces, 4, 4, PILE_BITS, CAROM_SOLID,
-};
-#define CUBE 1600
-static const int16_t l_vertices[12][3] = {
-    {-CUBE, -CUBE, 0}, {CUBE, -CUBE, 0}, {CUBE, 0, 0},         {0, 0, 0},
-    {0, CUBE, 0},      {-CUBE, CUBE, 0}, {-CUBE, -CUBE, CUBE}, {CUBE, -CUBE, CUBE},
-    {CUBE, 0, CUBE},   {0, 0, CUBE},     {0, CUBE, CUBE},      {-CUBE, CUBE, CUBE},
-};
-static const uint16_t l_faces[20][3] = {
-    {0, 2, 1},   {0, 3, 2},  {0, 4, 3},  {0, 5, 4},   {6, 7, 8}, {6, 8, 9},  {6, 9, 10},
-    {6, 10, 11}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9},  {2, 9, 8},
-    {3, 4, 10},  {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11},
-};
-static const struct carom_mesh_raw l_mesh = {
-    l_vertices, l_faces, 12, 20, PILE_BITS, CAROM_SOLID,
-};
-
-/* 12 to 80 faces each. */
-#define SMALL_BODIES &box_mesh, &l_mesh, &head48_mesh, &head80_mesh
-
-/* A plane of 8 x 8 units. */
-#define PLANE 16384
-static const int16_t plane_vertices[4][3] = {
-    {-PLANE, -PLANE, 0}, {PLANE, -PLANE, 0}, {PLANE, PLANE, 0}, {-PLANE, PLANE, 0}};
-static const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
-static const struct carom_mesh_raw plane_mesh = {
-    plane_vertices, plane_faces, 4, 2, 12, CAROM_SURFACE,
-};
-
 struct carom_config scene_config(void)
 {
     struct carom_config config = {
+#ifdef BOARD_CAPS
+        .caps = {BOARD_CAPS},
+#else
         .caps = {SCENE_CAPS},
+#endif
         .gravity = {{0, 0, CAROM_GRAVITY_MM_S2(-9810, FPS)}},
         .sleep = true,
     };
@@ -136,136 +87,96 @@ struct carom_config scene_config(void)
     return config;
 }
 
-/*
- * The same mesh with the quantum that makes its largest side 1.25 to 2.5 units; the head is 2.1
- * wide. Powers of two only, so that the vertices stay as they are.
- */
-static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
-{
-    struct carom_mesh_raw mesh = *user;
-    int32_t side = 1;
-
-    for (int k = 0; k < 3; k++) {
-        int32_t low = INT16_MAX, high = INT16_MIN;
-
-        for (uint32_t v = 0; v < mesh.vertex_count; v++) {
-            low = mesh.vertices[v][k] < low ? mesh.vertices[v][k] : low;
-            high = mesh.vertices[v][k] > high ? mesh.vertices[v][k] : high;
-        }
-        side = high - low > side ? high - low : side;
-    }
-    mesh.quantum_bits = 7;
-    while (mesh.quantum_bits < 20 && side * 2 > 5 << mesh.quantum_bits) {
-        mesh.quantum_bits++;
-    }
-    return mesh;
-}
-
-/* The next of the caller's memory for a mesh, built from it. */
-static int build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, uint8_t **mem,
-                 size_t *bytes)
-{
-    size_t wanted = CAROM_MESH_BYTES(raw->vertex_count, raw->face_count);
-    int result = *bytes < wanted ? CAROM_ERR_MEMORY : carom_mesh_build(mesh, raw, *mem, wanted);
-
-    if (result >= 0) {
-        *mem += wanted;
-        *bytes -= wanted;
-    }
-    return result;
-}
-
-/* The same for the sheet, which is going to move. */
-static int build_sheet(struct scene *scene, uint8_t **mem, size_t *bytes)
-{
-    struct carom_mesh_raw raw = scene_sheet_raw(&scene->sheet);
-    size_t wanted = CAROM_SURFACE_BYTES(SCENE_SHEET_VERTICES, SCENE_SHEET_FACES);
-    int result = *bytes < wanted ? CAROM_ERR_MEMORY
-                                 : carom_surface_build(&scene->ground_mesh, &raw, *mem, wanted);
-
-    if (result >= 0) {
-        *mem += wanted;
-        *bytes -= wanted;
-    }
-    return result;
-}
-
 /* Layers of side x side bodies, each turned and shifted against the one below, close together. */
-static void pour(struct scene *scene, int side, int z_mm, int up_mm_s)
+static void pour(int i, int side, int z_mm, int up_mm_s, struct carom_body_def *def)
 {
-    for (int i = 0; i <= scene->other_count; i++) {
-        struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
-        int cell = i % (side * side), layer = i / (side * side), column = i % 4;
+    int cell = i % (side * side), layer = i / (side * side), column = i % 4;
 
-        def->position.c[0] = CAROM_POSITION_MM(50 - 375 * side + 750 * (cell % side) + 90 * layer);
-        def->position.c[1] = CAROM_POSITION_MM(250 - 375 * side + 750 * (cell / side) - 70 * layer);
-        def->position.c[2] = CAROM_POSITION_MM(z_mm + 800 * layer + 60 * column);
-        def->velocity.c[0] = CAROM_VELOCITY_MM_S(100 * (2 - column), FPS);
-        def->velocity.c[1] = CAROM_VELOCITY_MM_S(150 - 100 * layer, FPS);
-        def->velocity.c[2] = CAROM_VELOCITY_MM_S(up_mm_s, FPS);
-        def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 400 * column, FPS);
-        def->spin.c[1] = CAROM_SPIN_MRAD_S(300 * layer, FPS);
-        def->spin.c[2] = CAROM_SPIN_MRAD_S(250 * (i % 5), FPS);
-    }
+    def->position.c[0] = CAROM_POSITION_MM(50 - 375 * side + 750 * (cell % side) + 90 * layer);
+    def->position.c[1] = CAROM_POSITION_MM(250 - 375 * side + 750 * (cell / side) - 70 * layer);
+    def->position.c[2] = CAROM_POSITION_MM(z_mm + 800 * layer + 60 * column);
+    def->velocity.c[0] = CAROM_VELOCITY_MM_S(100 * (2 - column), FPS);
+    def->velocity.c[1] = CAROM_VELOCITY_MM_S(150 - 100 * layer, FPS);
+    def->velocity.c[2] = CAROM_VELOCITY_MM_S(up_mm_s, FPS);
+    def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 400 * column, FPS);
+    def->spin.c[1] = CAROM_SPIN_MRAD_S(300 * layer, FPS);
+    def->spin.c[2] = CAROM_SPIN_MRAD_S(250 * (i % 5), FPS);
 }
 
-static void pile(struct scene *scene)
+static void pile(int i, struct carom_body_def *def)
 {
-    pour(scene, scene->other_count < 16 ? 2 : 3, 1900, 0);
+    pour(i, 2, 1900, 0, def);
+}
+
+static void wide_pile(int i, struct carom_body_def *def)
+{
+    pour(i, 3, 1900, 0, def);
+}
+
+/* In a row, each higher than the one before: they land one after the other. */
+static void scatter(int i, struct carom_body_def *def)
+{
+    def->position.c[0] = CAROM_POSITION_MM(-1500 + 1000 * i);
+    def->position.c[1] = CAROM_POSITION_MM(200 - 300 * (i % 2));
+    def->position.c[2] = CAROM_POSITION_MM(1500 + 600 * i);
+    def->velocity.c[0] = CAROM_VELOCITY_MM_S(500 - 400 * i, FPS);
+    def->velocity.c[1] = CAROM_VELOCITY_MM_S(100, FPS);
+    def->velocity.c[2] = 0;
+    def->spin.c[0] = CAROM_SPIN_MRAD_S(1500 - 900 * i, FPS);
+    def->spin.c[1] = CAROM_SPIN_MRAD_S(700, FPS);
+    def->spin.c[2] = CAROM_SPIN_MRAD_S(400 * i, FPS);
 }
 
 /* Thrown up from just above the field. */
-static void fly(struct scene *scene)
+static void fly(int i, struct carom_body_def *def)
 {
-    pour(scene, 6, 1000, 1500);
+    pour(i, 6, 1000, 1500, def);
 }
 
 /* In two rows on the plane. */
-static void lay(struct scene *scene)
+static void lay(int i, struct carom_body_def *def)
 {
-    for (int i = 0; i <= scene->other_count; i++) {
-        struct carom_body_def *def = i == 0 ? &scene->body : &scene->others[i - 1];
-
-        def->position.c[0] = CAROM_POSITION_MM(-3000 + 1500 * (i % 5));
-        def->position.c[1] = CAROM_POSITION_MM(-1000 + 2000 * (i / 5));
-        def->position.c[2] = CAROM_POSITION_MM(252);
-        def->spin = (carom_v3_q40){{0, 0, 0}};
-        def->velocity = def->spin;
-    }
+    def->position.c[0] = CAROM_POSITION_MM(-3000 + 1500 * (i % 5));
+    def->position.c[1] = CAROM_POSITION_MM(-1000 + 2000 * (i / 5));
+    def->position.c[2] = CAROM_POSITION_MM(252);
+    def->spin = (carom_v3_q40){{0, 0, 0}};
+    def->velocity = def->spin;
 }
 
-/* What a scene is made of. */
-static const struct recipe {
+/* How a scene's bodies start; their meshes are scene_meshes' business. */
+static const struct scene_recipe {
     const char *name;
-    const struct carom_mesh_raw *ground;               /* NULL: the sheet */
-    const struct carom_mesh_raw *bodies[SCENE_MESHES]; /* the bodies take them in turn */
     const struct carom_body_def *start;
-    void (*arrange)(struct scene *); /* where further bodies are */
-    uint8_t others;                  /* bodies but the first */
-    uint8_t quantum_bits;            /* of the bodies; 0: as they have */
+    void (*arrange)(int i, struct carom_body_def *def); /* NULL: one body, at start */
+    uint8_t others;                                     /* bodies but the first */
+    /* what bounds a frame on a small board; 0: as the engine chooses */
+    uint8_t substep_cap, sweep_cap;
 } recipes[] = {
-    {"head", &field_mesh, {&head_mesh}, &head_start, NULL, 0, 0},
-    {"head-spin", &field_mesh, {&head_mesh}, &spin_starts[0], NULL, 0, 0},
-    {"head-spin2", &field_mesh, {&head_mesh}, &spin_starts[1], NULL, 0, 0},
-    {"head-spin3", &field_mesh, {&head_mesh}, &spin_starts[2], NULL, 0, 0},
-    {"head-spin4", &field_mesh, {&head_mesh}, &spin_starts[3], NULL, 0, 0},
-    {"head450", &field386_mesh, {&head450_mesh}, &head_start, NULL, 0, 0},
-    {"head836", &field512_mesh, {&head836_mesh}, &head_start, NULL, 0, 0},
-    {"apart", &field_mesh, {&head_mesh}, &far_start, NULL, 0, 0},
-    {"box", &plane_mesh, {&box_mesh}, &box_start, NULL, 0, 0},
-    {"boxes10", &plane_mesh, {&box_mesh}, &box_start, lay, 9, 0},
-    {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, &head_start, pile, 15, 13},
-    {"pile32", &field_mesh, {SMALL_BODIES}, &head_start, pile, 31, 13},
-    {"flight32", &field_mesh, {SMALL_BODIES}, &head_start, fly, 31, 13},
-    {"growth-512", &field512_mesh, {&head_mesh}, &growth_starts[0], NULL, 0, 0},
-    {"growth-3034", &field_mesh, {&head_mesh}, &growth_starts[1], NULL, 0, 0},
-    {"growth-12012", &field12012_mesh, {&head_mesh}, &growth_starts[2], NULL, 0, 0},
-    {"growth-49928", &field49928_mesh, {&head_mesh}, &growth_starts[3], NULL, 0, 0},
-    {"sheet", NULL, {&box_mesh}, &box_start, NULL, 0, 0},
-    {"user", &field_mesh, {NULL}, &head_start, NULL, 0, 0},
+    {"head", &head_start, NULL, 0, 0, 0},
+    {"head-spin", &spin_starts[0], NULL, 0, 0, 0},
+    {"head-spin2", &spin_starts[1], NULL, 0, 0, 0},
+    {"head-spin3", &spin_starts[2], NULL, 0, 0, 0},
+    {"head-spin4", &spin_starts[3], NULL, 0, 0, 0},
+    {"head100", &head_start, NULL, 0, 3, 10},
+    {"head450", &head_start, NULL, 0, 0, 0},
+    {"head836", &head_start, NULL, 0, 0, 0},
+    {"apart", &far_start, NULL, 0, 0, 0},
+    {"box", &box_start, NULL, 0, 0, 0},
+    {"pair", &head_start, scatter, 1, 3, 10},
+    {"boxes4", &head_start, scatter, 3, 3, 10},
+    {"boxes10", &box_start, lay, 9, 0, 0},
+    {"pile", &head_start, pile, 15, 0, 0},
+    {"pile32", &head_start, wide_pile, 31, 0, 0},
+    {"flight32", &head_start, fly, 31, 0, 0},
+    {"growth-512", &growth_starts[0], NULL, 0, 0, 0},
+    {"growth-3034", &growth_starts[1], NULL, 0, 0, 0},
+    {"growth-12012", &growth_starts[2], NULL, 0, 0, 0},
+    {"growth-49928", &growth_starts[3], NULL, 0, 0, 0},
+    {"sheet", &box_start, NULL, 0, 0, 0},
+    {"user", &head_start, NULL, 0, 0, 0},
 };
 
-static const struct recipe *find(const char *name)
+static const struct scene_recipe *find(const char *name)
 {
     for (size_t i = 0; i < sizeof recipes / sizeof recipes[0]; i++) {
         if (strcmp(name, recipes[i].name) == 0) {
@@ -275,61 +186,52 @@ static const struct recipe *find(const char *name)
     return NULL;
 }
 
-static struct carom_mesh *mesh_of(struct scene *scene, int number)
+void scene_body(const struct scene *scene, int i, struct carom_body_def *def)
 {
-    return number == 0 ? &scene->body_mesh : &scene->other_mesh[number - 1];
+    *def = scene->body;
+    if (i > 0) {
+        def->mesh = scene->mesh[i % scene->mesh_count];
+        scene->recipe->arrange(i, def);
+    }
 }
 
-/* Build the meshes and hand them to the bodies in turn. */
-static int build_bodies(struct scene *scene, const struct recipe *recipe,
-                        const struct carom_mesh_raw *user, uint8_t **mem, size_t *bytes)
+/* The capacities that suffice for any scene of its kind. */
+static struct carom_caps caps_of(const struct scene *scene)
 {
-    int count = 0, result = CAROM_OK;
-
-    while (count < SCENE_MESHES && result >= 0 &&
-           (user ? count == 0 : recipe->bodies[count] != NULL)) {
-        struct carom_mesh_raw raw = user ? scaled(user) : *recipe->bodies[count];
-
-        raw.quantum_bits = recipe->quantum_bits ? recipe->quantum_bits : raw.quantum_bits;
-        result = build(mesh_of(scene, count++), &raw, mem, bytes);
-    }
-    scene->body = *recipe->start;
-    scene->body.mesh = &scene->body_mesh;
-    scene->other_count = recipe->others;
-    for (int i = 0; i < scene->other_count; i++) {
-        scene->others[i] = scene->body;
-        scene->others[i].mesh = mesh_of(scene, (i + 1) % count);
-    }
-    return result;
+#ifdef BOARD_CAPS
+    (void)scene;
+    return (struct carom_caps){BOARD_CAPS};
+#else
+    return scene->sheet ? (struct carom_caps){SCENE_SHEET_CAPS}
+           : scene->other_count == 0 ? (struct carom_caps){SCENE_CAPS}
+           : scene->other_count < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
+                                     : (struct carom_caps){SCENE_LARGE_CAPS};
+#endif
 }
 
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes)
 {
-    const struct recipe *recipe = find(name);
-    uint8_t *next = mem;
+    const struct scene_recipe *recipe = find(name);
     int result;
 
-    if (!recipe || (recipe->bodies[0] == NULL) != (user != NULL)) {
+    if (!recipe) {
         return CAROM_ERR_ARGUMENT;
     }
     memset(scene, 0, sizeof *scene);
+    scene->recipe = recipe;
     scene->ground = ground_start;
-    scene->ground.mesh = &scene->ground_mesh;
+    scene->body = *recipe->start;
+    scene->other_count = recipe->others;
     scene->camera = camera;
-    scene->waves = recipe->ground == NULL;
-    result = scene->waves ? build_sheet(scene, &next, &bytes)
-                          : build(&scene->ground_mesh, recipe->ground, &next, &bytes);
+    result = scene_meshes(scene, name, user, mem, bytes);
     if (result >= 0) {
-        result = build_bodies(scene, recipe, user, &next, &bytes);
+        scene->body.mesh = scene->mesh[0];
+        scene->caps = caps_of(scene);
     }
     if (recipe->arrange) {
-        recipe->arrange(scene);
+        recipe->arrange(0, &scene->body);
     }
-    scene->caps = scene->waves          ? (struct carom_caps){SCENE_SHEET_CAPS}
-                  : recipe->others == 0 ? (struct carom_caps){SCENE_CAPS}
-                  : recipe->others < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
-                                        : (struct carom_caps){SCENE_LARGE_CAPS};
     return result;
 }
 
@@ -339,27 +241,36 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
     struct carom_config own = *config;
     int result;
 
-    if (scene->other_count > 0 || scene->waves) {
+    if (scene->other_count > 0 || scene->sheet) {
         own.caps = scene->caps;
+    }
+    if (scene->recipe) {
+        own.substep_cap = own.substep_cap ? own.substep_cap : scene->recipe->substep_cap;
+        own.sweep_cap = own.sweep_cap ? own.sweep_cap : scene->recipe->sweep_cap;
     }
     result = carom_world_init(block, bytes, &own, world);
     if (result >= 0) {
         result = carom_body_add(*world, &scene->ground);
     }
-    if (result >= 0) {
-        result = carom_body_add(*world, &scene->body);
-    }
-    for (int i = 0; i < scene->other_count && result >= 0; i++) {
-        result = carom_body_add(*world, &scene->others[i]);
+    for (int i = 0; i <= scene->other_count && result >= 0; i++) {
+        struct carom_body_def def;
+
+        scene_body(scene, i, &def);
+        result = carom_body_add(*world, &def);
     }
     return result < 0 ? result : CAROM_OK;
 }
 
 int scene_before(struct scene *scene, struct carom_world *world, int frame)
 {
-    if (!scene->waves) {
+    return scene_sheet_move(scene->sheet, world, frame);
+}
+
+int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame)
+{
+    if (!sheet) {
         return CAROM_OK;
     }
-    scene_sheet_shape(scene->sheet.vertices, frame);
-    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])scene->sheet.vertices);
+    scene_sheet_shape(sheet->vertices, frame);
+    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])sheet->vertices);
 }

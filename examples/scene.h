@@ -5,10 +5,13 @@
  *   head        the paper's: a bumpy head of 1876 faces, dropped with spin on a field of 3034
  *   head450     the same with 450 faces on a field of 386
  *   head836     with 836 on 512
+ *   head100     with 100 on 128
  *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; other ways: head-spin2 .. 4
  *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces
  *   apart       the head a thousand units above the field
  *   box         a box of three different sides, dropped on a plane
+ *   pair        a tetrahedron and a box, dropped on the plane
+ *   boxes4      four boxes, poured on a field of 128 faces
  *   boxes10     ten of them, put on the plane
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
  *   pile32      32 bodies of 12 to 80 faces, poured on the field
@@ -34,7 +37,6 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
-#define SCENE_OTHERS 31
 #define SCENE_MESHES 4 /* of bodies, in one scene */
 
 /* A sheet of squares, two faces each. */
@@ -47,14 +49,14 @@ struct scene_sheet {
 };
 
 struct scene {
-    struct carom_mesh ground_mesh, body_mesh, other_mesh[SCENE_MESHES - 1];
-    struct carom_body_def ground, body; /* refer to the meshes: a scene stays where it was loaded */
-    struct carom_body_def others[SCENE_OTHERS]; /* of a scene of many */
-    int other_count;
+    struct carom_body_def ground, body;
+    int other_count;                             /* bodies but these two */
+    const struct carom_mesh *mesh[SCENE_MESHES]; /* the moving bodies take them in turn */
+    int mesh_count;
+    const struct scene_recipe *recipe;
     struct carom_camera camera;
     struct carom_caps caps;
-    bool waves; /* the ground is this sheet */
-    struct scene_sheet sheet;
+    struct scene_sheet *sheet; /* the ground, when it waves; else NULL */
 };
 
 /*
@@ -62,35 +64,46 @@ struct scene {
  * a world of any scene.
  */
 #define SCENE_MESH_BYTES                                                                           \
-    (CAROM_MESH_BYTES(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                     \
-     CAROM_MESH_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
+    (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
+     SCENE_MESH(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
 #define SCENE_LARGE_MESH_BYTES                                                                     \
-    (CAROM_MESH_BYTES(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) + CAROM_MESH_BYTES(25281, 49928))
+    (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) + SCENE_MESH(25281, 49928))
+/* A mesh and what it refers to. */
+#define SCENE_MESH(vertices, faces)                                                                \
+    ((sizeof(struct carom_mesh) + 7) / 8 * 8 + CAROM_MESH_BYTES(vertices, faces))
 #define SCENE_HEAD_VERTICES  940
 #define SCENE_HEAD_FACES     1876
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
 
 /* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet */
-#define SCENE_CAPS        2, 1, 64, 1024, 256, 1024
-#define SCENE_PILE_CAPS   17, 128, 384, 2048, 256, 2048
-#define SCENE_LARGE_CAPS  33, 256, 768, 4096, 1, 4096
-#define SCENE_SHEET_CAPS  2, 1, 64, 1024, 512, 1024
+#define SCENE_CAPS       2, 1, 64, 1024, 256, 1024
+#define SCENE_PILE_CAPS  17, 128, 384, 2048, 256, 2048
+#define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
+#define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
+
+/* A board with little memory has capacities of its own for all of its scenes (board.mk). */
+#ifdef BOARD_CAPS
+#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(BOARD_CAPS)
+#else
 #define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
+#endif
 
 /* The raw meshes, generated; a number is that of the faces. */
-extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head450_mesh, head836_mesh,
-    field_mesh, field386_mesh, field512_mesh, field12012_mesh, field49928_mesh;
+extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_mesh, head450_mesh,
+    head836_mesh, field_mesh, field128_mesh, field386_mesh, field512_mesh, field12012_mesh,
+    field49928_mesh;
 
 /* SCENE_CAPS, gravity, sleep on, no timing; scene_make takes a pile's own. */
 struct carom_config scene_config(void);
 
 /*
- * Build the meshes of a scene and say where its bodies start.
+ * Build the meshes of a scene, or find them in ROM, and say where its bodies start.
  *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else NULL
- *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, CAROM_MESH_BYTES of its counts and of the field
+ *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, SCENE_MESH of its counts and of the field; for
+ *         meshes in ROM, not used
  *
- * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of these, or what
+ * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of these or is not in ROM, or what
  *          carom_mesh_build returned.
  */
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
@@ -100,8 +113,27 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
 
+/* The i-th moving body as it starts, 0 being scene->body. */
+void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
+
 /* What happens before a frame, 1 being the first: the sheet moves. Returns CAROM_OK or an error. */
 int scene_before(struct scene *scene, struct carom_world *world, int frame);
+/* The same for scene->sheet, all that it needs of a scene. */
+int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame);
+
+/*
+ * The part of scene_load that is about meshes: scene->ground.mesh, mesh, mesh_count and sheet. One of
+ * two files defines it: scene_built.c builds them in mem, scene_rom.c has them.
+ */
+int scene_meshes(struct scene *scene, const char *name, const struct carom_mesh_raw *user,
+                 void *mem, size_t bytes);
+
+/* The indexed meshes of a scene, as tools/rom_scene writes them. */
+struct scene_rom {
+    const char *name;
+    const struct carom_mesh *ground;
+    const struct carom_mesh *mesh[SCENE_MESHES]; /* NULL after the last */
+};
 
 /* The sheet: where its vertices are before a frame, and the raw mesh of the first. */
 void scene_sheet_shape(int16_t (*vertices)[3], int32_t frame);

@@ -286,6 +286,8 @@ struct carom_config {
     carom_v3_q40 gravity;    /* at first; units / frame^2, each component within +-1 */
     bool sleep;              /* bodies at rest sleep until something wakes them */
     uint8_t substep_cap;     /* sub-steps a frame; 0: 8 + 2 for each moving body that is awake */
+    uint8_t sweep_cap;       /* sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of a
+                                frame; what has not settled goes on in the next */
     uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
 };
@@ -532,7 +534,9 @@ struct carom_camera {
 enum carom_pixel_format {
     CAROM_PALETTE8, /* indices into carom_draw_palette */
     CAROM_RGB565,
-    CAROM_XRGB8888
+    CAROM_XRGB8888,
+    CAROM_GREY4, /* two pixels a byte, the left one in its upper half; 0 is black */
+    CAROM_BGR555 /* 16 bits, red in the lowest; as RGB565, written by 2 and 4 bytes at a time only */
 };
 
 /* 256 colours as 0x00RRGGBB, in ramps of 32; 160 to 254 are not used, 255 is white. */
@@ -567,6 +571,55 @@ struct carom_picture {
  */
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);
+
+/* Pixels of a picture; x1 and y1 are outside. */
+struct carom_rect {
+    int16_t x0, y0, x1, y1;
+};
+
+/* What pixels show of a body. Carom's own. */
+struct carom_drawn_body {
+    const struct carom_mesh *mesh;
+    carom_v3_q32 position;
+    carom_quat_q30 rotation;
+    uint32_t moves;        /* of its surface */
+    struct carom_rect all; /* what shows of it is in here, and of its interfering faces in there */
+    struct carom_rect hot;
+    bool moving;
+};
+
+/*
+ * What pixels show of a world, so that the next picture need not be drawn from nothing: one for each
+ * buffer that is shown in turn. Zero it, but for the first two members, before the first picture
+ * and whenever something else has written to the pixels or built a mesh anew.
+ */
+#define CAROM_DRAWN_RECTS 8
+struct carom_drawn {
+    struct carom_drawn_body *bodies; /* the caller's: one for each body that the world may hold */
+    uint32_t room;                   /* so many */
+
+    struct carom_rect changed[CAROM_DRAWN_RECTS]; /* out: what was drawn last; may overlap */
+    int changed_count;
+
+    /* Carom's own */
+    bool shows; /* a whole picture, with what follows */
+    uint8_t style;
+    uint32_t count; /* of bodies */
+    struct carom_camera camera;
+    struct carom_picture picture;
+};
+
+/*
+ * As carom_draw, with the same pixels in the end, but only what may differ from the picture that
+ * `drawn` tells of is drawn: where bodies that moved, came or went are and were, and faces that
+ * interfere or did. All is drawn when camera, picture or style are others. A world that stands
+ * still costs hardly anything.
+ *
+ * Returns  what carom_draw does; CAROM_ERR_MEMORY too when the world has more bodies than `room`
+ */
+int carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                       const struct carom_picture *picture, enum carom_draw_style style,
+                       struct carom_drawn *drawn);
 
 #ifdef __cplusplus
 }

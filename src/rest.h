@@ -39,6 +39,7 @@ struct rest {
     struct body *bodies;
     struct body_state *states;
     uint32_t body_count;
+    uint8_t sweep_cap; /* 0: none but those above */
 
     struct rest_warm *warm; /* read and written; NULL: no warm start */
     uint32_t warm_count;

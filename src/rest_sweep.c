@@ -466,12 +466,21 @@ static void into_cones(struct rest *r)
     }
 }
 
+static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
+{
+    int rounds = !sw->rolls        ? REST_SWEEPS_MAX
+                 : r->count <= FEW ? REST_SWEEPS_FEW
+                                   : REST_SWEEPS_MANY;
+
+    return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
+}
+
 static void sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
     bool coupled = n > 1 || rest_contact(r, 0)->work->rolls;
-    int rounds = sw->rolls ? (n <= FEW ? REST_SWEEPS_FEW : REST_SWEEPS_MANY) : REST_SWEEPS_MAX;
+    int rounds = most_rounds(r, sw);
     int64_t before = 0;
 
     for (int round = 0; round < rounds; round++) {

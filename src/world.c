@@ -107,6 +107,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 #undef SET_SIZE
     carve(w, &arena);
     w->rest.gauss = &w->scratch->gauss;
+    w->rest.sweep_cap = config->sweep_cap;
     w->interfere.leaf = &w->scratch->gather.leaf;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];

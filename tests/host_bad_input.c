@@ -444,8 +444,8 @@ static void test_blobs(struct lab *lab)
     }
     REFUSED(carom_mesh_read(&raw, blob, bytes, memory, sizeof memory), CAROM_OK);
     REFUSED(carom_mesh_build(&mesh, &raw, block, BLOCK_BYTES), CAROM_OK);
-    check(mesh.mass.volume_q32 == lab->scene.body_mesh.mass.volume_q32, "the same volume", __LINE__,
-          0);
+    check(mesh.mass.volume_q32 == lab->scene.body.mesh->mass.volume_q32, "the same volume",
+          __LINE__, 0);
     end("bad_input/blobs");
 }
 

@@ -13,6 +13,7 @@
 #define EVERY 50 /* frames from one line to the next */
 #define LINES 64
 
+static struct carom_mesh meshes[2];
 static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static unsigned count, failed;
@@ -25,13 +26,12 @@ static int load(struct scene *scene, const struct carom_mesh_raw *ground,
     int result;
 
     memset(scene, 0, sizeof *scene);
-    scene->ground.mesh = &scene->ground_mesh;
+    scene->ground.mesh = &meshes[0];
     scene->ground.stationary = true;
-    scene->body.mesh = &scene->body_mesh;
-    result = carom_mesh_build(&scene->ground_mesh, ground, mesh_block, bytes);
+    scene->body.mesh = &meshes[1];
+    result = carom_mesh_build(&meshes[0], ground, mesh_block, bytes);
     if (result >= 0) {
-        result = carom_mesh_build(&scene->body_mesh, body, mesh_block + bytes,
-                                  sizeof mesh_block - bytes);
+        result = carom_mesh_build(&meshes[1], body, mesh_block + bytes, sizeof mesh_block - bytes);
     }
     return result;
 }

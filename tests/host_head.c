@@ -26,13 +26,13 @@ static double moved(const struct lab *lab, const struct oracle_body *from,
         turn += pow(to->quaternion[k] - from->quaternion[k], 2);
     }
     /* a turn by an angle moves the quaternion by half of it */
-    return sqrt(way) + 2 * sqrt(turn) * lab_double(lab->scene.body_mesh.radius_q22, 22);
+    return sqrt(way) + 2 * sqrt(turn) * lab_double(lab->scene.body.mesh->radius_q22, 22);
 }
 
 /* The engine's mass properties against those of lab.c, which the energies rest on. */
 static void test_mass(const struct lab *lab)
 {
-    const struct carom_mass *mass = &lab->scene.body_mesh.mass;
+    const struct carom_mass *mass = &lab->scene.body.mesh->mass;
     double worst = fabs(lab_double(mass->volume_q32, 32) / lab->mass - 1);
     double largest = fmax(lab->inertia[0], fmax(lab->inertia[1], lab->inertia[2]));
 

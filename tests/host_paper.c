@@ -87,7 +87,7 @@ static void test_pairs(const char *name, const struct carom_mesh_raw *raw)
 {
     struct lab *lab = lab_load(&lab_sheet, raw);
     struct found found = {.base.visit = note};
-    struct paper_placed a = {.mesh = &lab->scene.body_mesh}, b = {.mesh = &lab->scene.ground_mesh};
+    struct paper_placed a = {.mesh = lab->scene.body.mesh}, b = {.mesh = lab->scene.ground.mesh};
     unsigned long crossing = 0, missed = 0, above = 0;
     carom_m3_q30 axes_a, axes_b;
     uint64_t state = 7;

@@ -53,7 +53,7 @@ static void step(struct lab *lab, int time, struct sheet_tally *t)
     double fastest, energy, impulse = 0;
 
     lab_expect(scene_before(&lab->scene, lab->world, time), "move");
-    fastest = follow(&lab->scene.ground_mesh, &lab->ground);
+    fastest = follow(lab->scene.ground.mesh, &lab->ground);
     lifted = lab_body(lab);
     energy = lab_energy(lab);
     t->crossed_before += lab_crossings(lab).pairs != 0;

@@ -264,9 +264,9 @@ static void prepare(struct lab *lab)
     struct oracle_body weight;
 
     lab->config = scene_config();
-    lab->ground = lab_doubles(&lab->scene.ground_mesh.raw);
-    lab->body = lab_doubles(&lab->scene.body_mesh.raw);
-    lab->skin = lab_double(lab->scene.body_mesh.radius_q22, 22) / 2048;
+    lab->ground = lab_doubles(&lab->scene.ground.mesh->raw);
+    lab->body = lab_doubles(&lab->scene.body.mesh->raw);
+    lab->skin = lab_double(lab->scene.body.mesh->radius_q22, 22) / 2048;
     weight = lab_weigh(&lab->body, lab->centre);
     lab->mass = weight.mass;
     memcpy(lab->inertia, weight.inertia, sizeof lab->inertia);
@@ -288,15 +288,15 @@ struct lab *lab_load(const struct carom_mesh_raw *ground, const struct carom_mes
     size_t ground_bytes = CAROM_MESH_BYTES(ground->vertex_count, ground->face_count);
     size_t body_bytes = CAROM_MESH_BYTES(body->vertex_count, body->face_count);
 
-    lab->mesh_block = lab_need(ground_bytes + body_bytes);
-    lab_expect(carom_mesh_build(&lab->scene.ground_mesh, ground, lab->mesh_block, ground_bytes),
-               "ground");
-    lab_expect(carom_mesh_build(&lab->scene.body_mesh, body, (char *)lab->mesh_block + ground_bytes,
-                                body_bytes),
-               "body");
-    lab->scene.ground.mesh = &lab->scene.ground_mesh;
+    struct carom_mesh *meshes = lab_need(2 * sizeof *meshes + ground_bytes + body_bytes);
+    char *index = (char *)(meshes + 2);
+
+    lab->mesh_block = meshes;
+    lab_expect(carom_mesh_build(&meshes[0], ground, index, ground_bytes), "ground");
+    lab_expect(carom_mesh_build(&meshes[1], body, index + ground_bytes, body_bytes), "body");
+    lab->scene.ground.mesh = &meshes[0];
     lab->scene.ground.stationary = true;
-    lab->scene.body.mesh = &lab->scene.body_mesh;
+    lab->scene.body.mesh = &meshes[1];
     prepare(lab);
     lab_surface(lab, 0.5, 0.5);
     return lab;
@@ -403,7 +403,7 @@ struct oracle_pose lab_pose_of(const struct carom_world *world, int body,
 struct oracle_pose lab_pose(const struct lab *lab, int body)
 {
     return lab_pose_of(lab->world, body,
-                       body == SCENE_BODY ? &lab->scene.body_mesh : &lab->scene.ground_mesh);
+                       body == SCENE_BODY ? lab->scene.body.mesh : lab->scene.ground.mesh);
 }
 
 struct oracle_crossings lab_crossings(const struct lab *lab)

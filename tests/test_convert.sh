@@ -307,6 +307,59 @@ accepts field '--surface -o field.c field.obj' 'SURFACE' '2^-10 ' \
 same field.obj field.c
 report $? field_keeps_its_order
 
+# an indexed mesh is what carom_mesh_build makes of it
+cat >index.c <<'END'
+#include <string.h>
+#include "carom.h"
+extern const struct carom_mesh indexed;
+static _Alignas(8) uint8_t memory[CAROM_MESH_BYTES(2000, 4000)];
+#define SAME(part, n) same &= memcmp(mesh.part, indexed.part, (n) * sizeof *mesh.part) == 0
+int main(void)
+{
+    struct carom_mesh mesh;
+    int same = carom_mesh_build(&mesh, &indexed.raw, memory, sizeof memory) == CAROM_OK;
+    size_t cells = (size_t)mesh.grid_nx * mesh.grid_ny;
+    const struct carom_leaf *last = &mesh.leaves[mesh.leaf_count - 1];
+
+    same &= mesh.mass.volume_q32 == indexed.mass.volume_q32;
+    same &= memcmp(&mesh.mass.centre, &indexed.mass.centre, sizeof mesh.mass.centre) == 0;
+    same &= memcmp(&mesh.mass.inertia, &indexed.mass.inertia, sizeof mesh.mass.inertia) == 0;
+    same &= mesh.edge_count == indexed.edge_count && mesh.leaf_count == indexed.leaf_count;
+    same &= mesh.zref_count == indexed.zref_count && mesh.radius_q22 == indexed.radius_q22;
+    same &= memcmp(mesh.box, indexed.box, sizeof mesh.box) == 0 && !indexed.surface;
+    same &= mesh.grid_x0 == indexed.grid_x0 && mesh.grid_y0 == indexed.grid_y0;
+    same &= mesh.grid_shift == indexed.grid_shift && mesh.grid_nx == indexed.grid_nx;
+    same &= mesh.grid_ny == indexed.grid_ny;
+    for (uint32_t i = 0; i < mesh.raw.face_count; i++) {
+        const struct carom_face *a = &mesh.faces[i], *b = &indexed.faces[i];
+        same &= memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 && a->own == b->own;
+        same &= a->offset_q22 == b->offset_q22 && memcmp(a->edge, b->edge, sizeof a->edge) == 0;
+    }
+    for (uint32_t i = 0; i < mesh.leaf_count; i++) {
+        same &= memcmp(&mesh.leaves[i], &indexed.leaves[i], offsetof(struct carom_leaf, face_count)) == 0;
+        same &= mesh.leaves[i].face_count == indexed.leaves[i].face_count;
+        same &= mesh.leaves[i].vertex_count == indexed.leaves[i].vertex_count;
+    }
+    SAME(edges, mesh.edge_count);
+    SAME(ring_start, mesh.raw.vertex_count + 1);
+    SAME(ring, mesh.ring_start[mesh.raw.vertex_count]);
+    SAME(leaf_faces, last->first_face + last->face_count);
+    SAME(leaf_vertices, last->first_vertex + last->vertex_count);
+    SAME(leaf_corners, last->first_face + last->face_count);
+    SAME(cell_start, cells + 1);
+    SAME(zrefs, mesh.zref_count);
+    return !same;
+}
+END
+for kind in head field; do
+    [ $kind = field ] && option=--surface || option=
+    # shellcheck disable=SC2086
+    "$convert" $option --index --name indexed -o indexed.c $kind.obj >said 2>&1 &&
+        cc -std=c11 -I"$root/include" -o index index.c indexed.c "$root"/src/*.c >>said 2>&1 &&
+        ./index
+    report $? "${kind}_indexed"
+done
+
 if [ -d "$meshes" ]; then
     for kind in head field; do
         [ $kind = field ] && option=--surface || option=

@@ -157,12 +157,12 @@ static void test_head(void)
     memset(states, 0, sizeof states);
     CHECK_EQ(scene_load(&scene, "head", NULL, shape_scene_block, sizeof shape_scene_block),
              CAROM_OK);
-    bodies[0].mesh = &scene.body_mesh;
-    bodies[0].radius_q22 = scene.body_mesh.radius_q22;
-    bodies[1].mesh = &scene.ground_mesh;
+    bodies[0].mesh = scene.body.mesh;
+    bodies[0].radius_q22 = scene.body.mesh->radius_q22;
+    bodies[1].mesh = scene.ground.mesh;
     states[1].rotation.c[0] = CAROM_ONE_Q30;
     check_recall(50, SCENE_POSES, true);
-    bodies[1].mesh = &scene.body_mesh;
+    bodies[1].mesh = scene.body.mesh;
     check_recall(60, SCENE_POSES, true);
 }
 

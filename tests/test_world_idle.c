@@ -12,7 +12,7 @@
 
 #define CAPS      3, 2, 64, 64, 0, 256
 #define FAR       2
-#define BOX_BYTES (CAROM_MESH_BYTES(8, 12) + CAROM_MESH_BYTES(4, 2))
+#define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 
 static _Alignas(8) uint8_t mesh_block[BOX_BYTES];
 static _Alignas(8) uint8_t blocks[2][CAROM_WORLD_BYTES(CAPS)];

@@ -10,6 +10,7 @@
  *
  * It runs on the host, so it may use floating point.
  */
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -24,6 +25,7 @@
 #include "mesh_check.hpp"
 #include "mesh_mend.hpp"
 #include "mesh_read.hpp"
+#include "mesh_rom.hpp"
 
 namespace
 {
@@ -32,7 +34,7 @@ using namespace mend;
 
 struct Options {
     std::string in, out_c, out_blob, name;
-    bool surface = false, check_only = false;
+    bool surface = false, check_only = false, indexed = false;
     int bits = 0; /* 0: choose */
     double scale = 1;
 };
@@ -73,15 +75,18 @@ template <typename Triple> void write_triples(std::ostream &out, const std::vect
     }
 }
 
+std::string c_head(const std::string &from)
+{
+    return "/* SPDX-License-Identifier: MIT */\n/* Made by carom-mesh from " +
+           std::filesystem::path(from).filename().string() +
+           ": do not edit. */\n#include \"carom.h\"\n\n";
+}
+
 std::string c_source(const Mesh &mesh, const std::string &name, const std::string &from)
 {
     std::ostringstream out;
 
-    out << "/* SPDX-License-Identifier: MIT */\n"
-        << "/* Made by carom-mesh from " << std::filesystem::path(from).filename().string()
-        << ": do not edit. */\n"
-        << "#include \"carom.h\"\n\n"
-        << "extern const struct carom_mesh_raw " << name << ";\n\n"
+    out << c_head(from) << "extern const struct carom_mesh_raw " << name << ";\n\n"
         << "static const int16_t vertices[" << mesh.vertices.size() << "][3] = {\n";
     write_triples(out, mesh.vertices);
     out << "};\n\nstatic const uint16_t faces[" << mesh.faces.size() << "][3] = {\n";
@@ -95,6 +100,35 @@ std::string c_source(const Mesh &mesh, const std::string &name, const std::strin
         << "    .kind = " << (mesh.surface ? "CAROM_SURFACE" : "CAROM_SOLID") << ",\n"
         << "};\n";
     return out.str();
+}
+
+/* The same, indexed. */
+std::string c_source_indexed(const Mesh &mesh, const std::string &name, const std::string &from)
+{
+    std::vector<std::array<int16_t, 3>> vertices;
+    std::vector<std::array<uint16_t, 3>> faces;
+    std::vector<uint64_t> memory;
+    carom_mesh indexed;
+
+    for (const Vertex &v : mesh.vertices) {
+        vertices.push_back({int16_t(v[0]), int16_t(v[1]), int16_t(v[2])});
+    }
+    for (const Face &f : mesh.faces) {
+        faces.push_back({uint16_t(f[0]), uint16_t(f[1]), uint16_t(f[2])});
+    }
+
+    const carom_mesh_raw raw = {reinterpret_cast<const int16_t(*)[3]>(vertices.data()),
+                                reinterpret_cast<const uint16_t(*)[3]>(faces.data()),
+                                uint32_t(vertices.size()),
+                                uint32_t(faces.size()),
+                                uint8_t(mesh.bits),
+                                uint8_t(mesh.surface ? CAROM_SURFACE : CAROM_SOLID)};
+
+    if (const int result = rom::index(indexed, raw, memory)) {
+        throw Refusal(carom_result_text(result));
+    }
+    return c_head(from) + "extern const struct carom_mesh " + name + ";\n\n" +
+           rom::c_source(indexed, name, false);
 }
 
 /* Append the low bytes of a number, lowest first. */
@@ -157,7 +191,8 @@ void write_outputs(const Options &options, const Mesh &mesh)
     }
     if (!options.out_c.empty()) {
         try {
-            write_file(options.out_c, c_source(mesh, options.name, options.in));
+            write_file(options.out_c, (options.indexed ? c_source_indexed
+                                                       : c_source)(mesh, options.name, options.in));
         } catch (const Refusal &) {
             std::remove(options.out_blob.c_str());
             throw;
@@ -198,6 +233,7 @@ const char usage[] =
     "usage: carom-mesh [options] FILE       (obj, stl, ply, gltf, glb and what else assimp reads)\n"
     "  -o, --output FILE.c     write a C source\n"
     "  -b, --blob FILE.crm     write a binary blob\n"
+    "      --index             the C source has the mesh indexed, for ROM: a struct carom_mesh\n"
     "      --check             write nothing\n"
     "      --surface           a height field, open, z up; otherwise a closed solid\n"
     "      --name NAME         of the mesh in the C source; otherwise the file's\n"
@@ -239,6 +275,7 @@ Options parse(int argc, char **argv)
     static const option long_options[] = {
         {"output", required_argument, nullptr, 'o'},
         {"blob", required_argument, nullptr, 'b'},
+        {"index", no_argument, nullptr, 'i'},
         {"check", no_argument, nullptr, 'c'},
         {"surface", no_argument, nullptr, 's'},
         {"name", required_argument, nullptr, 'n'},
@@ -257,6 +294,9 @@ Options parse(int argc, char **argv)
             break;
         case 'b':
             options.out_blob = optarg;
+            break;
+        case 'i':
+            options.indexed = true;
             break;
         case 'c':
             options.check_only = true;

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+/* The meshes of the scenes, built when a scene is loaded. */
+#include <string.h>
+
+#include "scene.h"
+
+/* A box of 1 x 0.7 x 0.5 units; a quantum is 1/4096 unit. */
+#define BOX_X 2048
+#define BOX_Y 1434
+#define BOX_Z 1024
+static const int16_t box_vertices[8][3] = {
+    {-BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, BOX_Y, -BOX_Z},
+    {-BOX_X, BOX_Y, -BOX_Z},  {-BOX_X, -BOX_Y, BOX_Z}, {BOX_X, -BOX_Y, BOX_Z},
+    {BOX_X, BOX_Y, BOX_Z},    {-BOX_X, BOX_Y, BOX_Z},
+};
+static const uint16_t box_faces[12][3] = {
+    {0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+    {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7},
+};
+static const struct carom_mesh_raw box_mesh = {
+    box_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
+};
+
+/* A tetrahedron and an L of three cubes, for piles; all smaller by half than the box. */
+#define PILE_BITS 13
+#define TIP       1900
+static const int16_t tetrahedron_vertices[4][3] = {
+    {TIP, TIP, TIP}, {TIP, -TIP, -TIP}, {-TIP, TIP, -TIP}, {-TIP, -TIP, TIP}};
+static const uint16_t tetrahedron_faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+static const struct carom_mesh_raw tetrahedron_mesh = {
+    tetrahedron_vertices, tetrahedron_faces, 4, 4, PILE_BITS, CAROM_SOLID,
+};
+#define CUBE 1600
+static const int16_t l_vertices[12][3] = {
+    {-CUBE, -CUBE, 0}, {CUBE, -CUBE, 0}, {CUBE, 0, 0},         {0, 0, 0},
+    {0, CUBE, 0},      {-CUBE, CUBE, 0}, {-CUBE, -CUBE, CUBE}, {CUBE, -CUBE, CUBE},
+    {CUBE, 0, CUBE},   {0, 0, CUBE},     {0, CUBE, CUBE},      {-CUBE, CUBE, CUBE},
+};
+static const uint16_t l_faces[20][3] = {
+    {0, 2, 1},   {0, 3, 2},  {0, 4, 3},  {0, 5, 4},   {6, 7, 8}, {6, 8, 9},  {6, 9, 10},
+    {6, 10, 11}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9},  {2, 9, 8},
+    {3, 4, 10},  {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11},
+};
+static const struct carom_mesh_raw l_mesh = {
+    l_vertices, l_faces, 12, 20, PILE_BITS, CAROM_SOLID,
+};
+
+/* 12 to 80 faces each. */
+#define SMALL_BODIES &box_mesh, &l_mesh, &head48_mesh, &head80_mesh
+
+/* A plane of 8 x 8 units. */
+#define PLANE 16384
+static const int16_t plane_vertices[4][3] = {
+    {-PLANE, -PLANE, 0}, {PLANE, -PLANE, 0}, {PLANE, PLANE, 0}, {-PLANE, PLANE, 0}};
+static const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
+static const struct carom_mesh_raw plane_mesh = {
+    plane_vertices, plane_faces, 4, 2, 12, CAROM_SURFACE,
+};
+
+/*
+ * The same mesh with the quantum that makes its largest side 1.25 to 2.5 units; the head is 2.1
+ * wide. Powers of two only, so that the vertices stay as they are.
+ */
+static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
+{
+    struct carom_mesh_raw mesh = *user;
+    int32_t side = 1;
+
+    for (int k = 0; k < 3; k++) {
+        int32_t low = INT16_MAX, high = INT16_MIN;
+
+        for (uint32_t v = 0; v < mesh.vertex_count; v++) {
+            low = mesh.vertices[v][k] < low ? mesh.vertices[v][k] : low;
+            high = mesh.vertices[v][k] > high ? mesh.vertices[v][k] : high;
+        }
+        side = high - low > side ? high - low : side;
+    }
+    mesh.quantum_bits = 7;
+    while (mesh.quantum_bits < 20 && side * 2 > 5 << mesh.quantum_bits) {
+        mesh.quantum_bits++;
+    }
+    return mesh;
+}
+
+/* Room in the caller's memory, from its start; NULL when there is too little. */
+static void *take(uint8_t **mem, size_t *left, size_t bytes)
+{
+    void *taken = *mem;
+
+    if (*left < bytes) {
+        return NULL;
+    }
+    *mem += bytes;
+    *left -= bytes;
+    return taken;
+}
+
+/* The next mesh in the caller's memory, and behind it what it refers to. */
+static int build(const struct carom_mesh **built, const struct carom_mesh_raw *raw, uint8_t **mem,
+                 size_t *left)
+{
+    size_t index_bytes = CAROM_MESH_BYTES(raw->vertex_count, raw->face_count);
+    struct carom_mesh *mesh = take(mem, left, SCENE_MESH(raw->vertex_count, raw->face_count));
+
+    if (!mesh) {
+        return CAROM_ERR_MEMORY;
+    }
+    *built = mesh;
+    return carom_mesh_build(mesh, raw, *mem - index_bytes, index_bytes);
+}
+
+/* The same for the sheet, which is going to move, and its vertices before that. */
+static int build_sheet(struct scene *scene, uint8_t **mem, size_t *left)
+{
+    size_t index_bytes = CAROM_SURFACE_BYTES(SCENE_SHEET_VERTICES, SCENE_SHEET_FACES);
+    struct scene_sheet *sheet = take(mem, left, (sizeof *sheet + 7) / 8 * 8);
+    struct carom_mesh *mesh = take(mem, left, SCENE_MESH(0, 0) - CAROM_MESH_BYTES(0, 0));
+    void *index = take(mem, left, index_bytes);
+    struct carom_mesh_raw raw;
+
+    if (!sheet || !mesh || !index) {
+        return CAROM_ERR_MEMORY;
+    }
+    raw = scene_sheet_raw(sheet);
+    scene->sheet = sheet;
+    scene->ground.mesh = mesh;
+    return carom_surface_build(mesh, &raw, index, index_bytes);
+}
+
+/* What a scene's meshes are. */
+static const struct materials {
+    const char *name;
+    const struct carom_mesh_raw *ground; /* NULL: the sheet */
+    const struct carom_mesh_raw *bodies[SCENE_MESHES];
+    uint8_t quantum_bits; /* of the bodies; 0: as they have */
+} materials[] = {
+    {"head", &field_mesh, {&head_mesh}, 0},
+    {"head-spin", &field_mesh, {&head_mesh}, 0},
+    {"head-spin2", &field_mesh, {&head_mesh}, 0},
+    {"head-spin3", &field_mesh, {&head_mesh}, 0},
+    {"head-spin4", &field_mesh, {&head_mesh}, 0},
+    {"head100", &field128_mesh, {&head100_mesh}, 0},
+    {"head450", &field386_mesh, {&head450_mesh}, 0},
+    {"head836", &field512_mesh, {&head836_mesh}, 0},
+    {"apart", &field_mesh, {&head_mesh}, 0},
+    {"box", &plane_mesh, {&box_mesh}, 0},
+    {"pair", &plane_mesh, {&tetrahedron_mesh, &box_mesh}, 13},
+    {"boxes4", &field128_mesh, {&box_mesh}, 13},
+    {"boxes10", &plane_mesh, {&box_mesh}, 0},
+    {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, 13},
+    {"pile32", &field_mesh, {SMALL_BODIES}, 13},
+    {"flight32", &field_mesh, {SMALL_BODIES}, 13},
+    {"growth-512", &field512_mesh, {&head_mesh}, 0},
+    {"growth-3034", &field_mesh, {&head_mesh}, 0},
+    {"growth-12012", &field12012_mesh, {&head_mesh}, 0},
+    {"growth-49928", &field49928_mesh, {&head_mesh}, 0},
+    {"sheet", NULL, {&box_mesh}, 0},
+    {"user", &field_mesh, {NULL}, 0},
+};
+
+static const struct materials *find(const char *name)
+{
+    for (size_t i = 0; i < sizeof materials / sizeof materials[0]; i++) {
+        if (strcmp(name, materials[i].name) == 0) {
+            return &materials[i];
+        }
+    }
+    return NULL;
+}
+
+int scene_meshes(struct scene *scene, const char *name, const struct carom_mesh_raw *user,
+                 void *mem, size_t bytes)
+{
+    const struct materials *of = find(name);
+    uint8_t *next = mem;
+    int result;
+
+    if (!of || (of->bodies[0] == NULL) != (user != NULL)) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    result = of->ground ? build(&scene->ground.mesh, of->ground, &next, &bytes)
+                        : build_sheet(scene, &next, &bytes);
+    while (result >= 0 && scene->mesh_count < SCENE_MESHES &&
+           (user ? scene->mesh_count == 0 : of->bodies[scene->mesh_count] != NULL)) {
+        struct carom_mesh_raw raw = user ? scaled(user) : *of->bodies[scene->mesh_count];
+
+        raw.quantum_bits = of->quantum_bits ? of->quantum_bits : raw.quantum_bits;
+        result = build(&scene->mesh[scene->mesh_count++], &raw, &next, &bytes);
+    }
+    return result;
+}
