@@ -231,15 +231,23 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(entries, CAROM_ENTRY_BYTES, 0, 65535)                                                        \
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
-/* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1096
-#define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     552
-#define CAROM_FACE_BYTES        4
-#define CAROM_ENTRY_BYTES       8
-#define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 3776
-#define CAROM_HEADS_BYTES       2048 /* once, for any entries at all */
+/*
+ * Bytes for one of each, its share of the lists that follow it included, where a pointer has 32 bits
+ * or fewer, and 64; held by assertions.
+ */
+#define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
+#define CAROM_BODY_BYTES           CAROM_BYTES_(888, 896)
+#define CAROM_PAIR_BYTES           CAROM_BYTES_(84, 84)
+#define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
+#define CAROM_FACE_BYTES           4
+#define CAROM_ENTRY_BYTES          8
+#define CAROM_CANDIDATE_BYTES      12
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(624, 800)
+#define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
+/* What stages work in one after the other: so much, or for each contact and pair that is solved. */
+#define CAROM_SCRATCH_BYTES 2696
+#define CAROM_WORK_BYTES    CAROM_BYTES_(224, 224)
+#define CAROM_ROLL_BYTES    64
 
 enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
@@ -264,7 +272,10 @@ struct carom_caps {
     ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES)
+     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +                       \
+     (CAROM_SOLVE_BYTES_(p, c) > CAROM_SCRATCH_BYTES ? CAROM_SOLVE_BYTES_(p, c)                    \
+                                                     : (size_t)CAROM_SCRATCH_BYTES))
+#define CAROM_SOLVE_BYTES_(p, c) ((size_t)(p)*CAROM_ROLL_BYTES + (size_t)(c)*CAROM_WORK_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 

@@ -5,6 +5,8 @@ ARCH := -march=rv32im -mabi=ilp32 -misa-spec=2.2
 PORT := port/riscv32/virt.c
 QEMU := qemu-system-riscv32 -M virt -bios none -device bochs-display,romfile=
 ICOUNT_SHIFT := 0
-# Half of a frame at 15 frames a second, the other half being the program's own.
-BUDGET := 3330000
 PICTURES := 1
+CPU := RV32IM
+CLOCK_MHZ := 100
+DISPLAY := bochs-display
+SCENES := head:15
