@@ -5,10 +5,36 @@
 
 #include "port.h"
 
-enum { ARGUMENTS_MAX = 64 };
+enum { ARGUMENTS_MAX = 64, PAINT = 0xa5, PAINT_BYTES = 65536 };
+
+static uintptr_t paint_start;
+
+/* The array goes when this returns; what is called later has its stack in the same memory. */
+__attribute__((noinline)) static void paint_stack(void)
+{
+    volatile uint8_t area[PAINT_BYTES];
+
+    for (uint32_t i = 0; i < PAINT_BYTES; i++) {
+        area[i] = PAINT;
+    }
+    paint_start = (uintptr_t)area;
+}
+
+/* What is painted and stays so was never in use. */
+uint32_t port_stack(void)
+{
+    const volatile uint8_t *low = (const volatile uint8_t *)paint_start;
+    uint32_t untouched = 0;
+
+    while (untouched < PAINT_BYTES && low[untouched] == PAINT) {
+        untouched++;
+    }
+    return PAINT_BYTES - untouched;
+}
 
 void port_init(void)
 {
+    paint_stack();
     setvbuf(stdout, NULL, _IOLBF, 0); /* a runner follows what is printed */
 }
 
