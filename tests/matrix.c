@@ -11,8 +11,8 @@
  *
  * A scene's line is "scene NAME FRAMES AWAKE HASH FUTURE": frames, and those that end with a body
  * awake; a hash over the state hash of every frame, its status, its events and what was asked of the
- * world; the same over as many frames after `at` as before. "absent NAME ..." is a scene that the memory at hand
- * does not hold.
+ * world; the same over as many frames after `at` as before. "absent NAME ..." is a scene that the
+ * memory at hand does not hold.
  */
 #include "plays.h"
 #include "port.h"
