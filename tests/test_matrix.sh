@@ -12,7 +12,8 @@ unset MAKEFLAGS MAKELEVEL MFLAGS
 # matrix OPTION...: a few quick builds
 matrix()
 {
-    tools/matrix.py --targets "$(uname -m),m68k" --options=-O0 --frames 1000 "$@" >"$work/said" 2>&1
+    tools/matrix.py --targets "$(uname -m),m68k" --compilers gcc --options=-O0 --frames 1000 "$@" \
+        >"$work/said" 2>&1
 }
 
 # report STATUS NAME: a line of TAP; after a failure, what the tool said last
@@ -56,7 +57,7 @@ stage == CAROM_STAGE_$2) {\n        $3;\n    }\n    frame += stage == CAROM_STAG
 # Two scenes go on from a snapshot, from either machine to the other.
 matrix
 status=$?
-says '3 builds, 12 scenes, 1 hash each' \
+says '2 builds, 12 scenes, 1 hash each' \
     '8 snapshots gone on with elsewhere' '2 from big to little' '2 from little to big' \
     '2 from 32 to 64' '2 from 64 to 32' && [ "$status" -eq 0 ]
 report $? 'one hash, and snapshots go from one machine to another'
@@ -68,7 +69,7 @@ spoil 137 REST 'w->states[1 - w->now].bodies[1].momentum.c[0] += 1' &&
 report $? 'a state that differs by a bit: its frame and stage'
 
 # What a stage has found is in no state yet; the state differs after advance only.
-spoil 41 PREDICT 'w->bodies[1].path.v.c[0] += 1' &&
+spoil 41 PREDICT 'w->bodies[1].path.v.c[0] += 1 << 20' &&
     { matrix --scene slide --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'first in frame 41, after stage predict'
 report $? 'a path that differs: the stage that made it'
@@ -83,7 +84,7 @@ report $? 'a snapshot of another byte order is refused'
 
 copy
 echo 'int one = "one";' >>"$work/src/fix.c"
-{ matrix --scene box --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
-    says 'FAIL m68k gcc -O0: compile: ' '2 builds, 1 scenes, 1 failures'
+{ matrix --targets m68k --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
+    says 'FAIL m68k gcc -O0: compile: ' '0 builds, 0 scenes, 1 failures'
 report $? 'a build that cannot be made is a failure'
 echo "1..$tests"

@@ -458,6 +458,8 @@ def chosen(arguments):
     builds = list(every_build(arguments.short))
     if arguments.targets:
         builds = [build for build in builds if build.target in arguments.targets.split(",")]
+    if arguments.compilers:
+        builds = [build for build in builds if build.compiler in arguments.compilers.split(",")]
     if arguments.options:
         builds = [build for build in builds if build.options == arguments.options]
     for target, folder in (text.split("=") for text in arguments.engine):
@@ -472,6 +474,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--frames", type=int, default=2000)
     parser.add_argument("--targets", help="only these, with commas")
+    parser.add_argument("--compilers", help="only these, with commas")
     parser.add_argument("--options", help="only builds with these")
     parser.add_argument("--scene", help="only this one")
     parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
@@ -485,7 +488,7 @@ def main():
     wrong, crossings = cross_all(kept, arguments.jobs)
     failures += wrong
     report(done, failures, crossings)
-    if not (arguments.targets or arguments.options or arguments.scene or arguments.engine):
+    if len(builds) == len(list(every_build(arguments.short))) and not arguments.scene:
         write_csv(done)
         if not arguments.short and not failures:
             write_docs(done, crossings)
