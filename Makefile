@@ -36,8 +36,10 @@ SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fn
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
-          $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
-          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) $(if $(CYCLES),-DBOARD_UNIT=cycles)
+          $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
+          $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
+          $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
+          $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
@@ -50,8 +52,8 @@ endif
 LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
-LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
+LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard port/$(BOARD)/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
@@ -88,6 +90,8 @@ SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 # ------------------------------------------------------------------- commands
 
 export PYTHONDONTWRITEBYTECODE := 1
+# no rules but those below
+MAKEFLAGS += -r
 
 # V=1 shows the commands themselves.
 ifndef V
@@ -240,12 +244,15 @@ $(B)/lib%.a:
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
 
-link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)
+link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
+    $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))
 PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
+
+$(B)/head.elf: $(call objects,examples/scene_play.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
@@ -325,6 +332,12 @@ build/tools/count.so: tools/count.c port/linux/count.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
+# What runs a board's programs where QEMU does not.
+build/tools/gba_run: tools/gba_run.c
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) \
+	    -DMGBA_CORE='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro/mgba_libretro.so"' -o $@ $<
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
@@ -332,4 +345,6 @@ build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^
 
+# Nothing is to be tried to make one of these.
+%.d: ;
 -include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)
