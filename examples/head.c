@@ -3,6 +3,8 @@
  * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
  *
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
+ *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
+ *          stage of one that takes more)
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
 #include <stdlib.h>
@@ -64,6 +66,19 @@ static unsigned long cost(uint32_t ticks)
     return (unsigned long)(port_instructions(port_ticks_hz) ? port_instructions(ticks) : ticks);
 }
 
+/* The most ticks that cost no more than so much. */
+static uint32_t ticks_of(unsigned long most)
+{
+    uint32_t ticks = 0;
+
+    for (uint32_t bit = (uint32_t)1 << 31; bit; bit >>= 1) {
+        if (cost(ticks | bit) <= most) {
+            ticks |= bit;
+        }
+    }
+    return ticks;
+}
+
 static void print_hash(const struct carom_world *world)
 {
     uint64_t hash = carom_world_hash(world);
@@ -115,7 +130,7 @@ static void print_columns(void)
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
     }
-    port_print(",total,draw,hash\n");
+    port_print(",total,draw,over,hash\n");
 }
 
 static void print_frame(const struct carom_world *world, int frame, int status, uint32_t draw_ticks)
@@ -131,7 +146,8 @@ static void print_frame(const struct carom_world *world, int frame, int status, 
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%lu", cost(stats.ticks[stage]));
     }
-    port_print(",%lu,%lu,", cost(stats.total_ticks), cost(draw_ticks));
+    port_print(",%lu,%lu,%s,", cost(stats.total_ticks), cost(draw_ticks),
+               status & CAROM_OVER_BUDGET ? carom_stage_name((int)stats.over_stage) : "-");
     print_hash(world);
 }
 
@@ -144,6 +160,17 @@ static void print_usage(const struct carom_world *world)
         port_print("usage %s,%lu,%lu,%lu,%lu\n", usage[pool].name, (unsigned long)usage[pool].size,
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
+    }
+}
+
+/* The memory of the world, and the stack of this program, as far as the port knows it. */
+static void print_memory(const struct carom_caps *caps)
+{
+    port_print("world %lu\n",
+               (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
+                                                caps->faces, caps->entries, caps->candidates));
+    if (port_stack()) {
+        port_print("stack %lu\n", (unsigned long)port_stack());
     }
 }
 
@@ -193,6 +220,7 @@ static void report(struct scene *scene, const struct carom_config *config, int f
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
+    print_memory(&scene->caps);
     port_print("hash ");
     print_hash(world);
 }
@@ -236,6 +264,8 @@ int main(void)
     port_init();
     frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
     config.ticks = port_ticks;
+    config.budget_ticks =
+        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
     config.sleep = port_option("awake") == NULL;
     load(&scene);
     if (frames == 0 || port_option("play")) {

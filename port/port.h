@@ -77,6 +77,9 @@ const char *port_option(const char *name);
  */
 long port_read_file(const char *name, void *buffer, size_t max);
 
+/* Bytes of stack that were in use at most so far; 0 where that is not known. */
+uint32_t port_stack(void);
+
 /* Leave with an exit status. */
 _Noreturn void port_exit(int status);
 

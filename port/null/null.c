@@ -54,6 +54,11 @@ long port_read_file(const char *name, void *buffer, size_t max)
     return -1;
 }
 
+uint32_t port_stack(void)
+{
+    return 0;
+}
+
 _Noreturn void port_exit(int status)
 {
     (void)status;
