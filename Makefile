@@ -52,7 +52,8 @@ LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
 LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(firstword $(wildcard port/$(BOARD)/fast.ld) linker/fast.ld)
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld \
+    $(firstword $(wildcard port/$(BOARD)/fast.ld) linker/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
@@ -326,17 +327,17 @@ build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libme
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp
 
+# What counts the instructions of a program in QEMU's user mode.
+build/tools/count.so: tools/count.c port/linux/count.h
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
 # What runs a board's programs where QEMU does not.
 build/tools/gba_run: tools/gba_run.c
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) \
 	    -DMGBA_CORE='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro/mgba_libretro.so"' -o $@ $<
-# What counts the instructions of a program in QEMU's user mode.
-build/tools/count.so: tools/count.c port/linux/count.h
-	@mkdir -p $(@D)
-	@echo '  cc    $@'
-	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \

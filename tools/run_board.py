@@ -90,7 +90,7 @@ def command(image, arguments, monitor=None):
     if "QEMU_USER" in board:
         return [board["QEMU_USER"], "-plugin", os.path.join(ROOT, board["RUNNER"]),
                 os.path.abspath(image)] + arguments
-    if "RUNNER" in board:
+    if "QEMU" not in board and "RUNNER" in board:
         return [os.path.join(ROOT, board["RUNNER"]), image] + arguments
     if "QEMU" not in board:
         return [os.path.abspath(image)] + arguments
