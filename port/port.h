@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888 };
+enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888, PORT_GREY4, PORT_BGR555 };
 
 struct port_fb {
     void *pixels; /* NULL: no display */

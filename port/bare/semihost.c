@@ -19,10 +19,13 @@ enum {
 enum { OPEN_READ_BINARY = 1, OPEN_WRITE_BINARY = 5 };
 #define APPLICATION_EXIT 0x20026 /* ADP_Stopped_ApplicationExit */
 
-#define ARGUMENTS_MAX 16
+/* Room for the arguments; a small board has less (board.mk). */
+#ifndef BOARD_LINE_BYTES
+#define BOARD_LINE_BYTES 512
+#endif
 
 static struct {
-    char line[128]; /* one call a line is much faster than one a character */
+    char line[64]; /* one call for many characters is much faster than one for each */
     size_t length;
 } console;
 
@@ -89,37 +92,50 @@ long port_read_file(const char *name, void *buffer, size_t max)
     return (long)((intptr_t)max - left);
 }
 
-/* Cut the command line at its spaces; the pointers stay valid. */
-static int split(char *line, const char *argument[ARGUMENTS_MAX])
+/* Put the arguments of a command line one behind the other, each ended by a zero; returns how many. */
+static int split(char *line)
 {
+    char *end = line;
     int count = 0;
 
-    while (*line && count < ARGUMENTS_MAX) {
-        while (*line == ' ') {
-            *line++ = '\0';
-        }
-        if (*line) {
-            argument[count++] = line;
+    while (*line) {
+        if (*line == ' ') {
+            line++;
+            continue;
         }
         while (*line && *line != ' ') {
-            line++;
+            *end++ = *line++;
         }
+        line += *line == ' ';
+        *end++ = '\0';
+        count++;
     }
     return count;
 }
 
 const char *port_arg(int n)
 {
-    static char line[512];
-    static const char *argument[ARGUMENTS_MAX];
+    static char line[BOARD_LINE_BYTES];
     static int count = -1;
+    const char *argument = line;
 
     if (count < 0) {
         intptr_t block[2] = {(intptr_t)line, (intptr_t)sizeof line};
 
-        count = semihost_call(SYS_GET_CMDLINE, block) == 0 ? split(line, argument) : 0;
+        if (semihost_call(SYS_GET_CMDLINE, block) != 0) {
+            port_print("the command line is longer than %u characters\n",
+                       (unsigned)sizeof line - 1);
+            port_exit(1);
+        }
+        count = split(line);
     }
-    return n >= 0 && n < count ? argument[n] : NULL;
+    if (n < 0 || n >= count) {
+        return NULL;
+    }
+    while (n-- > 0) {
+        argument += strlen(argument) + 1;
+    }
+    return argument;
 }
 
 _Noreturn void port_exit(int status)
