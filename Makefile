@@ -34,7 +34,7 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
+          -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
