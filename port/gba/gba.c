@@ -65,7 +65,7 @@ struct port_fb port_fb(void)
                          .width = WIDTH,
                          .height = HEIGHT,
                          .stride = 2 * WIDTH,
-                         .format = PORT_RGB565};
+                         .format = PORT_BGR555};
 
     return fb;
 }
