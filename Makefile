@@ -53,7 +53,8 @@ LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
 LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard port/$(BOARD)/fast.ld)
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld \
+    $(firstword $(wildcard port/$(BOARD)/fast.ld) linker/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
