@@ -8,7 +8,13 @@ LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
 
+# of `make bench`, before the board says which scenes it shows
+BENCH_SCENES := $(SCENES)
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
+# those that have scenes to show
+SHOWN := $(patsubst port/%/board.mk,%,$(sort $(shell grep -l '^SCENES' port/*/board.mk)))
+# a board that was asked for, not the one that is there when none was
+ASKED := $(if $(filter command environment,$(origin BOARD)),$(BOARD))
 ifeq ($(filter $(BOARD),$(BOARDS)),)
 $(error BOARD=$(BOARD) is none of: $(BOARDS))
 endif
@@ -17,7 +23,7 @@ ifdef FAMILY
 include port/$(FAMILY)/family.mk
 endif
 # the scene that a board shows when it is not told
-SCENE ?= $(if $(MESH),user,$(firstword $(ROM_SCENES) head))
+SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
 # ---------------------------------------------------------------- tools, flags
 
@@ -28,11 +34,11 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY)) -Iexamples \
+          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
-          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
+          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) $(if $(CYCLES),-DBOARD_UNIT=cycles) \
           $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
@@ -43,8 +49,10 @@ ENGINE_SOURCES += $(wildcard src/paper/*.c)
 CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
-ifdef CROSS
-LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld $(FAMILY_LDFLAGS)
+LDFLAGS += $(FAMILY_LDFLAGS)
+# a board that has no operating system
+ifneq ($(if $(HOSTED),,$(CROSS)),)
+LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
 endif
 
@@ -69,13 +77,15 @@ SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples
     $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
-TESTS := $(call objects,$(TEST_RUNNER))
+# A board runs those suites for which it has room, in one image or in one each
+SUITES ?= $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
+TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
 TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
-SHELL_TESTS := $(wildcard tests/*.sh)
+SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
 # ------------------------------------------------------------------- commands
 
@@ -91,6 +101,11 @@ SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
+# Boards are built for a command one after another; one whose tools cannot be installed is left out.
+build_boards = ready=; for board in $(1); do \
+    if $(MAKE) BOARD=$$board need; then \
+        $(SUBMAKE) BOARD=$$board build || exit 1; ready="$$ready $$board"; \
+    else echo "$$board is left out: its tools are not there"; fi; done
 NEED_THIS := $(or $(NEED),$(NEED_HOST))
 NEED_COMPARE := ode bullet fcl valgrind
 
@@ -101,28 +116,41 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test accuracy oracle bench figures compare check size build clean force
+.PHONY: help run test budget accuracy oracle bench figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
-	@echo '  BOARD is one of: $(filter-out null,$(BOARDS))'
+	@echo '  BOARD is one of: $(SHOWN)'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
-	@tools/need $(NEED_MESHES) $(NEED_THIS) pil
-	@$(SUBMAKE) $(B)/head.elf $(if $(MESH),build/tools/carom-mesh)
+run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
+	@tools/need pil
+	@$(SUBMAKE) $(B)/head.elf $(RUNNER) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
-	@tools/run_scene.py --board $(BOARD) --frames $(FRAMES) --out out/$(SCENE) \
-	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(if $(BUDGET),--budget $(BUDGET)) \
-	    $(B)/head.elf scene=$(SCENE) $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
+	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
+	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
+	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
 
-test: ## every test, on the host and on a board; TEST= selects by a part of a name
+ifneq ($(ASKED),)
+test: need
+	@$(SUBMAKE) BOARD=host build
+	@$(SUBMAKE) BOARD=$(BOARD) build $(TEST_IMAGES)
+	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
+else
+test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/tests.elf
-	@tools/run_tests.py --select '$(TEST)' $(HOST_TESTS) $(SHELL_TESTS) \
+	@$(call build_boards,$(SHOWN)); \
+	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
+	    $(HOST_TESTS) $(SCRIPT_TESTS) \
 	    build/host/tests.elf build/host-debug/tests.elf build/mps2-an385/tests.elf
+endif
+
+budget: ## the worst frame of every scene that a board is to hold, to out/budget.csv; BOARD= of one
+	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
+	    tools/budget.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready
 
 accuracy: ## the integer kernels against independent oracles, to out/accuracy.csv
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
@@ -145,7 +173,7 @@ bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELI
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
-	    --scenes '$(SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
+	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
 
 figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@tools/need python3 gnuplot
@@ -162,13 +190,18 @@ check: ## the gates: format, layers, symbols, sizes, stack
 	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
 	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status
 
-size: ## code and data of the engine, by board
-	@tools/need $(NEED_HOST) arm newlib
-	@for board in host mps2-an385 versatilepb; do \
-	    $(SUBMAKE) BOARD=$$board build/$$board/libcarom.a >/dev/null && \
-	    echo "== $$board" && size -t build/$$board/libcarom.a || exit 1; done
+size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; BOARD= of one
+	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
+	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready
 
-build: $(PROGRAMS) ## the programs of BOARD, without running them
+boards: ## the table of boards in README.md, with the figures that budget and size left in out/
+	@tools/need python3
+	@tools/board_table.py
+
+build: $(PROGRAMS) $(RUNNER) ## the programs of BOARD, without running them
+
+need:
+	@tools/need $(NEED_MESHES) $(NEED_THIS)
 
 clean: ## remove build/ and out/
 	rm -rf build out
@@ -215,7 +248,11 @@ $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-$(B)/tests.elf: $(TESTS) $(B)/libtests.a $(PROGRAM)
+$(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/libtests.a $(PROGRAM)
+	@echo '  link  $@'
+	$(link)
+
+$(B)/suite_%.elf: $(B)/tests/test_%.o $(B)/tests/main.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
@@ -279,6 +316,12 @@ build/tools/libmesh.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
 build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libmesh.a)
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp
+
+# What counts the instructions of a program in QEMU's user mode.
+build/tools/count.so: tools/count.c port/linux/count.h
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \

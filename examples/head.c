@@ -3,6 +3,8 @@
  * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
  *
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
+ *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
+ *          stage of one that takes more)
  */
 #include <stdlib.h>
 
@@ -50,6 +52,19 @@ static int expect(int result, const char *what)
 static unsigned long cost(uint32_t ticks)
 {
     return (unsigned long)(port_instructions(port_ticks_hz) ? port_instructions(ticks) : ticks);
+}
+
+/* The most ticks that cost no more than so much. */
+static uint32_t ticks_of(unsigned long most)
+{
+    uint32_t ticks = 0;
+
+    for (uint32_t bit = (uint32_t)1 << 31; bit; bit >>= 1) {
+        if (cost(ticks | bit) <= most) {
+            ticks |= bit;
+        }
+    }
+    return ticks;
 }
 
 static void print_hash(const struct carom_world *world)
@@ -103,7 +118,7 @@ static void print_columns(void)
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
     }
-    port_print(",total,draw,hash\n");
+    port_print(",total,draw,over,hash\n");
 }
 
 static void print_frame(const struct carom_world *world, int frame, int status, uint32_t draw_ticks)
@@ -119,7 +134,8 @@ static void print_frame(const struct carom_world *world, int frame, int status, 
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%lu", cost(stats.ticks[stage]));
     }
-    port_print(",%lu,%lu,", cost(stats.total_ticks), cost(draw_ticks));
+    port_print(",%lu,%lu,%s,", cost(stats.total_ticks), cost(draw_ticks),
+               status & CAROM_OVER_BUDGET ? carom_stage_name((int)stats.over_stage) : "-");
     print_hash(world);
 }
 
@@ -133,8 +149,6 @@ static void print_usage(const struct carom_world *world)
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
     }
-    port_print("usage stack bytes,%lu,0,%lu,0\n", (unsigned long)port_stack().size,
-               (unsigned long)port_stack().peak);
 }
 
 /* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
@@ -157,6 +171,12 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
     return port_ticks() - start;
 }
 
+static size_t world_bytes(const struct carom_caps *caps)
+{
+    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
+                             caps->candidates);
+}
+
 /* What frames need of a scene; a small board has no room for the rest while it steps. */
 struct show {
     struct carom_camera camera;
@@ -170,9 +190,12 @@ static struct carom_world *make(struct show *show)
     struct scene scene;
 
     config.ticks = port_ticks;
+    config.budget_ticks =
+        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
     config.sleep = port_option("awake") == NULL;
     load(&scene);
     expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
+    port_print("world %lu\n", (unsigned long)world_bytes(&scene.caps));
     show->camera = scene.camera;
     show->sheet = scene.sheet;
     return world;
@@ -200,6 +223,9 @@ int main(void)
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
+    if (port_stack()) {
+        port_print("stack %lu\n", (unsigned long)port_stack());
+    }
     port_print("hash ");
     print_hash(world);
     port_exit(0);

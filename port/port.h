@@ -64,11 +64,8 @@ const char *port_option(const char *name);
  */
 long port_read_file(const char *name, void *buffer, size_t max);
 
-/* The stack: bytes that were ever in use, and all there are; 0 and 0 where that is not known. */
-struct port_stack {
-    uint32_t peak, size;
-};
-struct port_stack port_stack(void);
+/* Bytes of stack that were in use at most so far; 0 where that is not known. */
+uint32_t port_stack(void);
 
 /* Leave with an exit status. */
 _Noreturn void port_exit(int status);

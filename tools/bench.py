@@ -16,7 +16,6 @@ import argparse
 import csv
 import os
 import re
-import subprocess
 import sys
 
 import gate
@@ -28,7 +27,6 @@ BASELINE = "tests/bench_baseline.csv"
 SCENES = "tests/bench_scenes.csv"
 PHASES = ["apart", "near", "contact", "asleep", "all"]
 DISPLAY = "draw-512x512"
-TIMEOUT = 900  # seconds a run
 
 # scene, phase, stage, mean or worst, at most
 BARS = [
@@ -61,17 +59,6 @@ PAPER_SCENES = [*PAPER, "growth-512", "growth-3034", "growth-12012"]  # a larger
 PAPER_FRAMES = 200  # the first impacts; a frame takes some 40 million instructions
 
 
-def run(image, options):
-    """Run a scene: its process, a row a frame by column, and what it said by the word before it."""
-    done = subprocess.run(run_board.command(image, options), stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, text=True, timeout=TIMEOUT)
-    words = [line.partition(" ") for line in done.stdout.splitlines()]
-    said = {word: rest for word, _, rest in words}
-    columns = said.get("columns", "").split(",")
-    rows = [dict(zip(columns, rest.split(","))) for word, _, rest in words if word == "frame"]
-    return done, rows, said
-
-
 def options_of(entry, *without):
     every = ["scene=" + entry["scene"], "frames=" + entry["frames"]] + entry["options"].split()
     return [option for option in every if not option.startswith(without)]
@@ -88,24 +75,24 @@ def measure(entry, host, board):
     """The rows of an entry of SCENES, from the board; the state must be as committed, if it is."""
     expected, source = entry["hash"], SCENES
     for image, options in [(host, options_of(entry, "draw=")), (board, options_of(entry, "-"))]:
-        done, rows, said = run(image, options)
-        if done.returncode or "hash" not in said:
-            sys.exit("%s: %s ended with status %d\n%s" % (entry["scene"], image, done.returncode,
-                                                         done.stdout[-300:]))
+        result = run_board.run(image, options)
+        found = result.said.get("hash")
+        if result.status or not found:
+            sys.exit("%s: %s ended with status %d\n%s" % (entry["scene"], image, result.status,
+                                                         result.text[-300:]))
         if expected is None:
-            expected, source = said["hash"], image
-        if said["hash"] != expected:
+            expected, source = found, image
+        if found != expected:
             sys.exit("%s: the state after %s frames of %s is %s; %s has %s. No figures."
-                     % (entry["scene"], entry["frames"], image, said["hash"], source,
+                     % (entry["scene"], entry["frames"], image, found, source,
                         expected or "none"))
     if entry["hash"] is None:
         print("  %s: host and board agree on %s after %s frames; it is not compared with Carom's"
               % (entry["scene"], expected, entry["frames"]))
-    for row in rows:
-        row.update((name, int(text)) for name, text in row.items() if name != "phase")
+    for row in result.rows:
         if DISPLAY in row:
             row["whole"] = row["total"] + row[DISPLAY]
-    return rows
+    return result.rows
 
 
 def summary(label, rows):
@@ -178,9 +165,9 @@ def head_ram(entry, host, room):
         return "2,1,%d,%d,1,%d" % (contacts, faces, candidates)
 
     def world(*pools):
-        done, _, said = run(host, options_of(entry, "draw=") + ["caps=" + caps(*pools)])
-        same = done.returncode == 0 and said.get("hash") == entry["hash"]
-        return int(said["world"]) if same else None
+        result = run_board.run(host, options_of(entry, "draw=") + ["caps=" + caps(*pools)])
+        same = result.status == 0 and result.said.get("hash") == entry["hash"]
+        return int(result.said["world"]) if same else None
 
     def least(fits, most):
         low, high = 0, most  # it does not, it does
@@ -209,8 +196,8 @@ def memory_bars(entries, host, board):
     stack = deepest_stack()
     block, caps = head_ram(entry, host, RAM - stack)
     yield "head, world of %s: %d bytes, and stack: %d" % (caps, block, stack), RAM, block + stack
-    _, rows, _ = run(board, options_of(entry, "draw=") + ["caps=" + caps])
-    totals = [int(row["total"]) for row in rows]
+    rows = run_board.run(board, options_of(entry, "draw=") + ["caps=" + caps]).rows
+    totals = [row["total"] for row in rows]
     yield "head in that world, mean", None, round(sum(totals) / len(totals))
     yield "head in that world, worst", None, max(totals)
     for level in ["-Os", "-O2"]:

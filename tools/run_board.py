@@ -18,15 +18,77 @@ def board_of(image):
     return os.path.basename(os.path.dirname(os.path.abspath(image))).removesuffix("-debug")
 
 
-def settings(board):
-    """The variables of a board's board.mk."""
-    with open(os.path.join(ROOT, "port", board, "board.mk")) as file:
+def variables(path):
+    """What a file of the Makefile's sets with := and nothing computed."""
+    with open(os.path.join(ROOT, "port", path)) as file:
         return dict(re.findall(r"^(\w+) *:= *(.*?) *$", file.read(), re.M))
+
+
+def settings(board):
+    """The variables of a board's board.mk, and of its family's family.mk."""
+    own = variables(board + "/board.mk")
+    return {**variables(own["FAMILY"] + "/family.mk"), **own} if "FAMILY" in own else own
+
+
+def boards():
+    """The boards that have scenes to show."""
+    found = sorted(os.listdir(os.path.join(ROOT, "port")))
+    return [name for name in found
+            if os.path.exists(os.path.join(ROOT, "port", name, "board.mk")) and scenes(name)]
+
+
+def scenes(board):
+    """{scene: frames a second}, the first being what a board shows when it is not told; 0: no rate."""
+    pairs = (text.partition(":") for text in settings(board).get("SCENES", "").split())
+    return {scene: int(rate or 0) for scene, _, rate in pairs}
+
+
+def budget(board, scene):
+    """
+    What a frame of a scene may take on a board: half of it, the other half being the program's own; the
+    whole where CYCLES are modelled, or where MIPS is what a machine was measured to do. None: no rate.
+    """
+    its, rate = settings(board), scenes(board).get(scene)
+    if not rate:
+        return None
+    if "MIPS" in its:
+        return int(float(its["MIPS"]) * 1e6 / rate)
+    return int(float(its["CLOCK_MHZ"]) * 1e6 / rate / (1 if "CYCLES" in its else 2))
+
+
+class Result:
+    """What a program said that ran a scene: its exit status, a row a frame, and the rest by its first word."""
+
+    def __init__(self, done):
+        words = [line.partition(" ") for line in done.stdout.splitlines()]
+        self.status, self.text = done.returncode, done.stdout
+        self.said = {word: rest for word, _, rest in words}
+        self.columns = self.said.get("columns", "").split(",")
+        self.rows = [dict(zip(self.columns, map(number, rest.split(","))))
+                     for word, _, rest in words if word == "frame"]
+
+
+def number(text):
+    """A number of a row, or the word that it is: a state hash has 16 digits, and is none."""
+    return int(text) if text.isdecimal() and len(text) < 16 else text
+
+
+def run(image, arguments, seconds=900):
+    """Run an image without a display to photograph; returns a Result."""
+    try:
+        return Result(subprocess.run(command(image, arguments), stdin=subprocess.DEVNULL, text=True,
+                                     stdout=subprocess.PIPE, timeout=seconds, errors="replace"))
+    except subprocess.TimeoutExpired as late:
+        said = (late.stdout or b"").decode(errors="replace")
+        return Result(subprocess.CompletedProcess(late.cmd, 124, said))
 
 
 def command(image, arguments, monitor=None):
     """The command that runs an image with arguments; monitor: a socket for QEMU's QMP."""
     board = settings(board_of(image))
+    if "QEMU_USER" in board:
+        return [board["QEMU_USER"], "-plugin", os.path.join(ROOT, board["RUNNER"]),
+                os.path.abspath(image)] + arguments
     if "QEMU" not in board:
         return [os.path.abspath(image)] + arguments
     config = "enable=on,target=native,chardev=console"

@@ -64,6 +64,7 @@ class Run:
     def __init__(self):
         self.columns, self.rows, self.usage = [], [], []
         self.hash = self.unit = None
+        self.bytes = {}  # of the world, and of the stack
 
 
 def png_name(out, frame):
@@ -106,6 +107,8 @@ def follow(process, camera, out, frames):
             run.usage.append(rest.split(","))
         elif word == "hash":
             run.hash = rest
+        elif word in ("world", "stack"):
+            run.bytes[word] = int(rest)
         elif word == "unit":
             run.unit = rest
         else:
@@ -113,10 +116,12 @@ def follow(process, camera, out, frames):
     return run
 
 
-def execute(arguments, out):
+def execute(arguments, budget, out):
     with tempfile.TemporaryDirectory() as folder:
         monitor = os.path.join(folder, "qmp")
-        options = arguments.options + ["frames=%d" % arguments.frames]
+        options = ["scene=" + arguments.scene, "frames=%d" % arguments.frames] + arguments.options
+        if budget:
+            options.append("budget=%d" % budget)
         if arguments.pictures:
             options.append("pictures=" + out)
         process = subprocess.Popen(
@@ -134,14 +139,14 @@ def execute(arguments, out):
 
 
 def stages(run):
-    return run.columns[run.columns.index("faces") + 1:run.columns.index("hash")]
+    return run.columns[run.columns.index("faces") + 1:run.columns.index("over")]
 
 
 def write_csv(run, out, budget):
-    """A row a frame; with a budget, whether the frame's physics held it."""
+    """A row a frame; with a budget, whether the frame held it."""
     columns, rows = list(run.columns), run.rows
     if budget:
-        rows = [row + [int(total <= budget)] for row, total in zip(rows, column(run, "total"))]
+        rows = [row + [int(cost <= budget)] for row, cost in zip(rows, costs(run))]
     if run.unit == "nanoseconds":
         columns = [name + "_ns" if name in stages(run) else name for name in columns]
     with open(os.path.join(out, "frames.csv"), "w", newline="") as file:
@@ -170,6 +175,11 @@ def column(run, name):
     return [int(row[run.columns.index(name)]) for row in run.rows]
 
 
+def costs(run):
+    """Of a frame: the step and, where there is a display, its picture."""
+    return [sum(pair) for pair in zip(column(run, "total"), column(run, "draw"))]
+
+
 def mean(values):
     return sum(values) / len(values)
 
@@ -189,12 +199,16 @@ def print_table(run, budget):
     print("\n%-24s %12s %12s %12s" % ("pools", "size", "peak", "refused"))
     for name, size, _, peak, refused in run.usage:
         print("  %-22s %12s %12s %12s" % (name, size, peak, refused))
+    print("\n%-24s %12s" % ("bytes", "in use"))
+    for name, size in run.bytes.items():
+        print("  %-22s %12d" % (name, size))
     frames = len(run.rows)
     print("\nframes %d, with a contact %d" % (frames, sum(c > 0 for c in column(run, "contacts"))))
     if budget:
-        held = sum(total <= budget for total in column(run, "total"))
-        print("frame budget %d instructions, drawing apart: held by %d of %d frames, %s"
-              % (budget, held, frames, "pass" if held == frames else "fail"))
+        held = sum(cost <= budget for cost in costs(run))
+        print("frame budget %d %s, %s: held by %d of %d frames, %s"
+              % (budget, run.unit, "with drawing" if any(column(run, "draw")) else "physics",
+                 held, frames, "pass" if held == frames else "fail"))
 
 
 def main():
@@ -203,23 +217,24 @@ def main():
     parser.add_argument("--frames", type=int, required=True)
     parser.add_argument("--pictures", type=int, required=True)
     parser.add_argument("--out", required=True)
-    parser.add_argument("--budget", type=int)
+    parser.add_argument("--scene", required=True)
     parser.add_argument("image")
     parser.add_argument("options", nargs="*")
     arguments = parser.parse_args()
+    budget = run_board.budget(arguments.board, arguments.scene)
     out = arguments.out
 
     os.makedirs(out, exist_ok=True)
     for old in glob.glob(os.path.join(out, "frame-*.p[np][gm]")):
         os.remove(old)
-    run, status = execute(arguments, out)
+    run, status = execute(arguments, budget, out)
     if not run.rows:
         return status or 1
-    write_csv(run, out, arguments.budget)
+    write_csv(run, out, budget)
     if arguments.pictures:
         write_gif(out, os.path.basename(out))
     if status == 0:
-        print_table(run, arguments.budget)
+        print_table(run, budget)
         print("hash " + run.hash)
     return status
 

@@ -6,6 +6,9 @@ A .elf file is run by run_board.py, on the board it was built for. The last line
 "N passed, M failed"; the exit status is 1 when M > 0 or N = 0. With --select, the runner of the
 suites (tests.elf) runs the tests whose names contain PART; of the other files only those run whose
 own names match it.
+
+With --boards, every scene of those boards (or with --first the first one) runs there and on the
+host, and after so many frames both must be in the same state.
 """
 import argparse
 import os
@@ -23,14 +26,21 @@ def stem(path):
     return os.path.splitext(os.path.basename(path))[0].removeprefix("host_").removeprefix("test_")
 
 
+def is_runner(path):
+    """Whether a program has the runner of the suites, which takes the selection itself."""
+    return stem(path) == "tests" or stem(path).startswith("suite_")
+
+
 def wanted(path, select):
-    return stem(path) == "tests" or select in path or select.split("/")[0] == stem(path)
+    return is_runner(path) or select in path or select.split("/")[0] == stem(path)
 
 
 def command(path, select):
     if path.endswith(".sh"):
         return ["sh", path]
-    return run_board.command(path, [select] if select and stem(path) == "tests" else [])
+    if path.endswith(".py"):
+        return [sys.executable, "-B", path]
+    return run_board.command(path, [select] if select and is_runner(path) else [])
 
 
 def run(path, select):
@@ -54,12 +64,47 @@ def run(path, select):
     return passed, failed
 
 
+def scene_ends(board, scene, frames):
+    """The state that a scene ends in on a board, or what went wrong."""
+    image = os.path.join(run_board.ROOT, "build", board, "head.elf")
+    result = run_board.run(image, ["scene=" + scene, "frames=%d" % frames], SECONDS)
+    if result.status or len(result.rows) != frames:
+        return "status %d after %d frames" % (result.status, len(result.rows))
+    return result.said.get("hash", "no state")
+
+
+def run_scenes(boards, first, frames, select):
+    """Compare boards with the host, scene by scene; returns how many passed and failed."""
+    expected, passed, failed = {}, 0, 0
+    for board in boards:
+        for scene in list(run_board.scenes(board))[:1 if first else None]:
+            name = "%s/%s" % (board, scene)
+            if select not in name or board == "host":
+                continue
+            if scene not in expected:
+                expected[scene] = scene_ends("host", scene, frames)
+            found = scene_ends(board, scene, frames)
+            ok = found == expected[scene] and re.fullmatch("[0-9a-f]{16}", found)
+            passed, failed = passed + bool(ok), failed + (not ok)
+            print("%s %d - %s %s (%d frames)%s" % (
+                "ok" if ok else "not ok", passed + failed, name, found, frames,
+                "" if ok else ", on the host " + expected[scene]), flush=True)
+    return passed, failed
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--select", default="")
-    parser.add_argument("files", nargs="+")
+    parser.add_argument("--boards", default="", help="names, with spaces")
+    parser.add_argument("--frames", type=int, default=600)
+    parser.add_argument("--first", action="store_true")
+    parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
     passed = failed = 0
+    if arguments.boards:
+        print("# scenes on boards, against the host", flush=True)
+        passed, failed = run_scenes(arguments.boards.split(), arguments.first, arguments.frames,
+                                    arguments.select)
     for path in arguments.files:
         if wanted(path, arguments.select):
             print("# " + path, flush=True)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
 # The machine that compiles: Linux, a framebuffer in memory, pictures by libpng.
-PORT := port/host/host.c
+PORT := port/host/host.c port/linux/console.c
 LIBS := -lpng -lm
+CPU := of the machine that compiles
+DISPLAY := memory 512 x 512
+SCENES := head pile sheet box
 PICTURES := 1

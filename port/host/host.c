@@ -8,21 +8,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include <png.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <time.h>
 
 #include "port.h"
 
-enum { WIDTH = 512, HEIGHT = 512, ARGUMENTS_MAX = 64 };
+enum { WIDTH = 512, HEIGHT = 512 };
 
 const uint32_t port_ticks_hz = 1000000000;
 
 static uint32_t pixels[HEIGHT][WIDTH];
-
-void port_init(void)
-{
-    setvbuf(stdout, NULL, _IOLBF, 0); /* a runner follows what is printed */
-}
 
 struct port_fb port_fb(void)
 {
@@ -78,55 +72,7 @@ uint32_t port_instructions(uint32_t ticks)
     return 0;
 }
 
-void port_putc(char c)
-{
-    putchar(c);
-}
-
 uint32_t port_input(void)
 {
     return 0;
-}
-
-/* main takes no arguments on any board; Linux keeps them, each ended by a zero, in a file. */
-const char *port_arg(int n)
-{
-    static char text[4096];
-    static const char *argument[ARGUMENTS_MAX];
-    static int count = -1;
-
-    if (count < 0) {
-        long bytes = port_read_file("/proc/self/cmdline", text, sizeof text - 1);
-
-        count = 0;
-        for (long k = 0; k < bytes && count < ARGUMENTS_MAX; k++) {
-            if (k == 0 || text[k - 1] == '\0') {
-                argument[count++] = &text[k];
-            }
-        }
-    }
-    return n >= 0 && n < count ? argument[n] : NULL;
-}
-
-long port_read_file(const char *name, void *buffer, size_t max)
-{
-    FILE *file = fopen(name, "rb");
-    long bytes;
-
-    if (!file) {
-        return -1;
-    }
-    bytes = (long)fread(buffer, 1, max, file);
-    fclose(file);
-    return bytes;
-}
-
-struct port_stack port_stack(void)
-{
-    return (struct port_stack){0, 0};
-}
-
-_Noreturn void port_exit(int status)
-{
-    exit(status);
 }

@@ -6,7 +6,7 @@ CLOCK_MHZ := 168
 SCENES := head:60 head450:60
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
-PORT := port/netduinoplus2/netduino.c port/arm/picture.c port/arm/cortex_m.c
+PORT := port/netduinoplus2/netduino.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M netduinoplus2
 # The counter runs at 1 GHz: one tick is one instruction.
 ICOUNT_SHIFT := 0

@@ -54,9 +54,9 @@ long port_read_file(const char *name, void *buffer, size_t max)
     return -1;
 }
 
-struct port_stack port_stack(void)
+uint32_t port_stack(void)
 {
-    return (struct port_stack){0, 0};
+    return 0;
 }
 
 _Noreturn void port_exit(int status)

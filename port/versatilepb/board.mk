@@ -5,6 +5,8 @@ ARCH := -mcpu=arm926ej-s -marm
 PORT := port/versatilepb/versatile.c port/arm/classic.S
 QEMU := qemu-system-arm -M versatilepb -audiodev none,id=none -global pl041.audiodev=none
 ICOUNT_SHIFT := 10
-# Half of a frame at 30 frames a second, the other half being the program's own.
-BUDGET := 3500000
+CPU := ARM926EJ-S
+CLOCK_MHZ := 210
+DISPLAY := LCD 512 x 512
+SCENES := head:15 head450:30 sheet:20 pile:2 box:30
 PICTURES := 1

@@ -5,30 +5,32 @@
 #include "port.h"
 #include "start.h"
 
+#define PAINT       0xa5
+#define PAINT_CLEAR 64 /* bytes below start() that memset itself may use */
+
 extern char data_load[], data_start[], data_end[], bss_start[], bss_end[];
 extern char stack_bottom[], stack_top[];
 int main(void);
 
-/* What the stack holds before it is used: no address and no small number. */
-#define UNUSED 0xa5
+/* What is painted and stays so was never in use. */
+uint32_t port_stack(void)
+{
+    const volatile char *low = stack_bottom;
+
+    while (low < stack_top && *low == (char)PAINT) {
+        low++;
+    }
+    return (uint32_t)(stack_top - low);
+}
 
 _Noreturn void start(void)
 {
-    /* below what this function and memset itself use */
-    memset(stack_bottom, UNUSED, (size_t)((char *)__builtin_frame_address(0) - 64 - stack_bottom));
+    const char *here = __builtin_frame_address(0);
+
+    memset(stack_bottom, PAINT, (size_t)(here - PAINT_CLEAR - stack_bottom));
     memcpy(data_start, data_load, (size_t)(data_end - data_start));
     memset(bss_start, 0, (size_t)(bss_end - bss_start));
     port_exit(main());
-}
-
-struct port_stack port_stack(void)
-{
-    const char *used = stack_bottom;
-
-    while (used < stack_top && *used == (char)UNUSED) {
-        used++;
-    }
-    return (struct port_stack){(uint32_t)(stack_top - used), (uint32_t)(stack_top - stack_bottom)};
 }
 
 static void put_text(const char *text)

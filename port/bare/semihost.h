@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * semihost.h - ARM semihosting: the debugger or emulator does input and output for the program.
+ * semihost.h - semihosting: the debugger or emulator does input and output for the program.
  *
- * semihost.c gives every ARM board the console, arguments, files and exit status of port.h; what is
+ * semihost.c gives a bare board the console, arguments, files and exit status of port.h; what is
  * below is for the boards' own use.
  */
-#ifndef CAROM_PORT_ARM_SEMIHOST_H
-#define CAROM_PORT_ARM_SEMIHOST_H
+#ifndef CAROM_PORT_BARE_SEMIHOST_H
+#define CAROM_PORT_BARE_SEMIHOST_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Write out what port_putc has kept back. */
-void semihost_flush(void);
-
-/* Wait for one character of the console and return it. */
-int semihost_getc(void);
+/*
+ * The trap itself, which a family of processors brings: an operation on a block or a string; returns
+ * its result.
+ */
+intptr_t semihost_call(intptr_t operation, const void *block);
 
 /*
  * What port_present does on a board whose display the runner can photograph: with the option

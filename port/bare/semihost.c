@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Console, arguments, files and exit status by ARM semihosting, for every ARM board. */
+/* Console, arguments, files and exit status by semihosting, for every processor that has it. */
 #include <string.h>
 
 #include "port.h"
 #include "semihost.h"
 
-/* Operations, by ARM's "Semihosting for AArch32 and AArch64". */
+/* Operations, by ARM's "Semihosting for AArch32 and AArch64"; RISC-V has taken them over. */
 enum {
     SYS_OPEN = 0x01,
     SYS_CLOSE = 0x02,
@@ -29,23 +29,10 @@ static struct {
     size_t length;
 } console;
 
-static intptr_t call(int operation, const void *block)
-{
-    register intptr_t r0 __asm__("r0") = operation;
-    register const void *r1 __asm__("r1") = block;
-
-#if __ARM_ARCH_PROFILE == 'M'
-    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
-#else
-    __asm__ volatile("svc 0x123456" : "+r"(r0) : "r"(r1) : "memory", "lr");
-#endif
-    return r0;
-}
-
-void semihost_flush(void)
+static void flush(void)
 {
     console.line[console.length] = '\0';
-    call(SYS_WRITE0, console.line);
+    semihost_call(SYS_WRITE0, console.line);
     console.length = 0;
 }
 
@@ -53,14 +40,8 @@ void port_putc(char c)
 {
     console.line[console.length++] = c;
     if (c == '\n' || console.length == sizeof console.line - 1) {
-        semihost_flush();
+        flush();
     }
-}
-
-int semihost_getc(void)
-{
-    semihost_flush();
-    return (int)call(SYS_READC, NULL);
 }
 
 void semihost_picture(void)
@@ -69,7 +50,7 @@ void semihost_picture(void)
         for (const char *text = "picture\n"; *text; text++) {
             port_putc(*text);
         }
-        semihost_getc();
+        semihost_call(SYS_READC, NULL);
     }
 }
 
@@ -77,7 +58,7 @@ static intptr_t open_file(const char *name, intptr_t mode)
 {
     intptr_t block[3] = {(intptr_t)name, mode, (intptr_t)strlen(name)};
 
-    return call(SYS_OPEN, block);
+    return semihost_call(SYS_OPEN, block);
 }
 
 intptr_t semihost_create(const char *name)
@@ -89,12 +70,12 @@ void semihost_write(intptr_t file, const void *bytes, size_t count)
 {
     intptr_t block[3] = {file, (intptr_t)bytes, (intptr_t)count};
 
-    call(SYS_WRITE, block);
+    semihost_call(SYS_WRITE, block);
 }
 
 void semihost_close(intptr_t file)
 {
-    call(SYS_CLOSE, &file);
+    semihost_call(SYS_CLOSE, &file);
 }
 
 long port_read_file(const char *name, void *buffer, size_t max)
@@ -106,7 +87,7 @@ long port_read_file(const char *name, void *buffer, size_t max)
     if (file == -1) {
         return -1;
     }
-    left = call(SYS_READ, block); /* the bytes that were not read */
+    left = semihost_call(SYS_READ, block); /* the bytes that were not read */
     semihost_close(file);
     return (long)((intptr_t)max - left);
 }
@@ -141,7 +122,7 @@ const char *port_arg(int n)
     if (count < 0) {
         intptr_t block[2] = {(intptr_t)line, (intptr_t)sizeof line};
 
-        if (call(SYS_GET_CMDLINE, block) != 0) {
+        if (semihost_call(SYS_GET_CMDLINE, block) != 0) {
             port_print("the command line is longer than %u characters\n",
                        (unsigned)sizeof line - 1);
             port_exit(1);
@@ -161,8 +142,8 @@ _Noreturn void port_exit(int status)
 {
     intptr_t block[2] = {APPLICATION_EXIT, status};
 
-    semihost_flush();
+    flush();
     for (;;) {
-        call(SYS_EXIT_EXTENDED, block);
+        semihost_call(SYS_EXIT_EXTENDED, block);
     }
 }
