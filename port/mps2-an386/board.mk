@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # ARM MPS2 with application note 386, in QEMU: Cortex-M4 at 25 MHz, headless.
 CPU := Cortex-M4
-DISPLAY := none, frames by semihosting
+DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 25
 SCENES := head:7 head836:15 head450:25
 FAMILY := arm

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # ARM MPS2 with application note 500, in QEMU: Cortex-M7 at 25 MHz, headless.
 CPU := Cortex-M7
-DISPLAY := none, frames by semihosting
+DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 25
 SCENES := head:7 head836:15 head450:25
 FAMILY := arm

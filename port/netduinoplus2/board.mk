@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Netduino Plus 2 in QEMU: STM32F405, Cortex-M4 at 168 MHz, headless.
 CPU := Cortex-M4
-DISPLAY := none, frames by semihosting
+DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 168
 SCENES := head:60 head450:60
 FAMILY := arm
