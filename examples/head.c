@@ -5,12 +5,14 @@
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
+ *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
 #include <stdlib.h>
 
 #include "carom.h"
 #include "port.h"
 #include "scene.h"
+#include "scene_play.h"
 
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
@@ -29,14 +31,26 @@ static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
+/* The scene when none is asked for, and what a tick is where the port knows no instructions. */
+#ifndef BOARD_SCENE
+#define BOARD_SCENE head
+#endif
+#ifndef BOARD_UNIT
+#define BOARD_UNIT nanoseconds
+#endif
+#define TEXT_OF(name) #name
+#define TEXT(macro)   TEXT_OF(macro)
+
 /* Enough for any scene to be drawn at once, or what the board has; 0: it shows nothing. */
 #ifndef BOARD_DRAW_BYTES
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
+#define BOARD_DRAWS (BOARD_DRAW_BYTES > 0)
+
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES > 0 ? BOARD_DRAW_BYTES : 1];
+static _Alignas(8) uint8_t draw_block[BOARD_DRAWS ? BOARD_DRAW_BYTES : 1];
 
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
@@ -101,7 +115,7 @@ static bool read_mesh(struct carom_mesh_raw *user)
 
 static void load(struct scene *scene)
 {
-    const char *name = port_option("scene") ? port_option("scene") : "head";
+    const char *name = port_option("scene") ? port_option("scene") : TEXT(BOARD_SCENE);
     struct carom_mesh_raw user;
     bool is_user = read_mesh(&user);
 
@@ -113,7 +127,7 @@ static void load(struct scene *scene)
 
 static void print_columns(void)
 {
-    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : TEXT(BOARD_UNIT));
     port_print("columns frame,status,substeps,hits,contacts,candidates,faces");
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
@@ -151,30 +165,37 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
-/* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
-static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera)
+/* Draw into the upper `height` rows of a framebuffer, if there is one; returns the ticks it took. */
+static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
+                     const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    struct port_fb fb = port_fb();
-    struct carom_picture picture = {.pixels = fb.pixels,
-                                    .width = fb.width,
-                                    .height = fb.height,
-                                    .stride = fb.stride,
-                                    .format = fb.format,
+    struct carom_picture picture = {.pixels = fb->pixels,
+                                    .width = fb->width,
+                                    .height = height,
+                                    .stride = fb->stride,
+                                    .format = fb->format,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (BOARD_DRAW_BYTES == 0 || !fb.pixels) {
+    if (!BOARD_DRAWS || !fb->pixels) {
         return 0;
     }
-    expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
+    expect(carom_draw(world, camera, &picture, style), "draw");
     return port_ticks() - start;
 }
 
-static size_t world_bytes(const struct carom_caps *caps)
+static struct carom_world *make(const struct scene *scene)
 {
-    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
-                             caps->candidates);
+    struct carom_config config = scene_config();
+    struct carom_world *world;
+
+    config.ticks = port_ticks;
+    config.budget_ticks =
+        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
+    config.sleep = port_option("awake") == NULL;
+    expect(scene_make(scene, &config, world_block, sizeof world_block, &world), "world");
+    return world;
 }
 
 /* What frames need of a scene; a small board has no room for the rest while it steps. */
@@ -183,33 +204,29 @@ struct show {
     struct scene_sheet *sheet;
 };
 
-static struct carom_world *make(struct show *show)
+/* A function of its own, so that the scene is off the stack when it returns. */
+__attribute__((noinline)) static struct carom_world *start(struct show *show)
 {
-    struct carom_config config = scene_config();
     struct carom_world *world;
     struct scene scene;
+    const struct carom_caps *caps = &scene.caps;
 
-    config.ticks = port_ticks;
-    config.budget_ticks =
-        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
-    config.sleep = port_option("awake") == NULL;
     load(&scene);
-    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
-    port_print("world %lu\n", (unsigned long)world_bytes(&scene.caps));
+    world = make(&scene);
+    port_print("world %lu\n",
+               (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
+                                                caps->faces, caps->entries, caps->candidates));
     show->camera = scene.camera;
     show->sheet = scene.sheet;
     return world;
 }
 
-int main(void)
+/* A row of figures a frame. */
+static void report(int frames)
 {
-    struct carom_world *world;
     struct show show;
-    int frames;
-
-    port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
-    world = make(&show);
+    struct carom_world *world = start(&show);
+    struct port_fb fb = port_fb();
 
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
@@ -217,7 +234,7 @@ int main(void)
 
         expect(scene_sheet_move(show.sheet, world, frame), "scene");
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &show.camera);
+        uint32_t draw_ticks = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
@@ -228,5 +245,51 @@ int main(void)
     }
     port_print("hash ");
     print_hash(world);
+}
+
+/* With the pad; frames 0: without end. */
+static void play(int frames)
+{
+    static struct scene scene;
+    struct carom_world *world;
+    struct port_fb fb = port_fb();
+    struct scene_play play = {.due = port_ticks()};
+    uint32_t draw_ticks = 0;
+    struct carom_stats stats;
+
+    load(&scene);
+    world = make(&scene);
+    for (int frame = 1; frames == 0 || frame <= frames; frame++) {
+        /* what the hands did to it may be too much for the pools */
+        if (!scene_play_keys(&play, &scene, world, port_input()) ||
+            scene_before(&scene, world, frame) < 0 || carom_world_step(world) < 0) {
+            world = make(&scene);
+        }
+        if (scene_play_draws(&play)) {
+            expect(carom_stats(world, &stats), "stats");
+            draw_ticks =
+                draw(world, &scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+                     play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+            if (!play.plain) {
+                scene_play_figures(&fb, stats.total_ticks, draw_ticks);
+            }
+            port_present();
+        }
+    }
+    port_print("hash ");
+    print_hash(world);
+}
+
+int main(void)
+{
+    int frames;
+
+    port_init();
+    frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
+    if (BOARD_DRAWS && (frames == 0 || port_option("play"))) {
+        play(frames);
+    } else {
+        report(frames);
+    }
     port_exit(0);
 }
