@@ -250,7 +250,7 @@ static void report(int frames)
 /* With the pad; frames 0: without end. */
 static void play(int frames)
 {
-    static struct scene scene;
+    struct scene scene;
     struct carom_world *world;
     struct port_fb fb = port_fb();
     struct scene_play play = {.due = port_ticks()};
