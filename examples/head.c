@@ -7,8 +7,6 @@
  *          stage of one that takes more)
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
-#include <stdlib.h>
-
 #include "carom.h"
 #include "port.h"
 #include "scene.h"
@@ -191,8 +189,7 @@ static struct carom_world *make(const struct scene *scene)
     struct carom_world *world;
 
     config.ticks = port_ticks;
-    config.budget_ticks =
-        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
+    config.budget_ticks = port_option("budget") ? ticks_of(port_number("budget", 0)) : 0;
     config.sleep = port_option("awake") == NULL;
     expect(scene_make(scene, &config, world_block, sizeof world_block, &world), "world");
     return world;
@@ -285,7 +282,7 @@ int main(void)
     int frames;
 
     port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
+    frames = (int)port_number("frames", port_arg(0) ? 600 : 0);
     if (BOARD_DRAWS && (frames == 0 || port_option("play"))) {
         play(frames);
     } else {
