@@ -34,10 +34,12 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/$(FAMILY)) -Iexamples \
+          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
-          $(if $(ROM_SCENES),-DSCENE_ROM -I$(B)/gen) $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) \
-          $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) $(if $(CYCLES),-DBOARD_UNIT=cycles)
+          $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
+          $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
+          $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
+          $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
@@ -50,8 +52,8 @@ endif
 LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
-LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld
+LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard port/$(BOARD)/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
@@ -81,13 +83,15 @@ TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/host_% tests/accuracy_%,\
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/host_% tests/accuracy_%,\
                 $(wildcard tests/*.c)))
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
 # ------------------------------------------------------------------- commands
 
 export PYTHONDONTWRITEBYTECODE := 1
+# no rules but those below
+MAKEFLAGS += -r
 
 # V=1 shows the commands themselves.
 ifndef V
@@ -114,7 +118,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle bench figures compare check size boards build need clean force
+.PHONY: help run test budget accuracy oracle bench matrix figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -172,6 +176,11 @@ bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELI
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
 	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
+
+matrix: ## one state hash from every instruction set, compiler and option, to out/matrix.csv; SHORT=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/matrix.elf
+	@tools/matrix.py $(if $(SHORT),--short)
 
 figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@tools/need python3 gnuplot
@@ -235,12 +244,15 @@ $(B)/lib%.a:
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
 
-link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)
+link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
+    $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))
 PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
+
+$(B)/head.elf: $(call objects,examples/scene_play.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
@@ -320,6 +332,12 @@ build/tools/count.so: tools/count.c port/linux/count.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
+# What runs a board's programs where QEMU does not.
+build/tools/gba_run: tools/gba_run.c
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) \
+	    -DMGBA_CORE='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro/mgba_libretro.so"' -o $@ $<
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
@@ -327,4 +345,6 @@ build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^
 
+# Nothing is to be tried to make one of these.
+%.d: ;
 -include $(shell find $(B) build/tools -name '*.d' 2>/dev/null)

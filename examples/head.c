@@ -5,12 +5,14 @@
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
+ *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
 #include <stdlib.h>
 
 #include "carom.h"
 #include "port.h"
 #include "scene.h"
+#include "scene_play.h"
 
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
@@ -31,14 +33,24 @@ static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
-/* Enough for any scene to be drawn at once, or what the board has. */
+/* The scene when none is asked for, and what a tick is where the port knows no instructions. */
+#ifndef BOARD_SCENE
+#define BOARD_SCENE head
+#endif
+#ifndef BOARD_UNIT
+#define BOARD_UNIT nanoseconds
+#endif
+#define TEXT_OF(name) #name
+#define TEXT(macro)   TEXT_OF(macro)
+
+/* Enough for any scene to be drawn at once, or what the board has; 0: it shows nothing. */
 #ifndef BOARD_DRAW_BYTES
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES];
+static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES > 0 ? BOARD_DRAW_BYTES : 1];
 
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
@@ -103,7 +115,7 @@ static bool read_mesh(struct carom_mesh_raw *user)
 
 static void load(struct scene *scene)
 {
-    const char *name = port_option("scene") ? port_option("scene") : "head";
+    const char *name = port_option("scene") ? port_option("scene") : TEXT(BOARD_SCENE);
     struct carom_mesh_raw user;
     bool is_user = read_mesh(&user);
 
@@ -115,7 +127,7 @@ static void load(struct scene *scene)
 
 static void print_columns(void)
 {
-    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : "nanoseconds");
+    port_print("unit %s\n", port_instructions(port_ticks_hz) ? "instructions" : TEXT(BOARD_UNIT));
     port_print("columns frame,status,substeps,hits,contacts,candidates,faces");
     for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
         port_print(",%s", carom_stage_name(stage));
@@ -151,69 +163,139 @@ static void print_usage(const struct carom_world *world)
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
     }
+    port_print("usage stack bytes,%lu,0,%lu,0\n", (unsigned long)port_stack().size,
+               (unsigned long)port_stack().peak);
 }
 
 /* The memory of the world, and the stack of this program, as far as the port knows it. */
-static void print_memory(const struct carom_caps *caps)
+static void print_memory(size_t world_bytes)
 {
-    port_print("world %lu\n",
-               (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
-                                                caps->faces, caps->entries, caps->candidates));
+    port_print("world %lu\n", (unsigned long)world_bytes);
     if (port_stack()) {
         port_print("stack %lu\n", (unsigned long)port_stack());
     }
 }
 
-/* Draw into the board's framebuffer, if it has one; returns the ticks that took. */
-static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera)
+/* Draw into the upper `height` rows of a framebuffer, if there is one; returns the ticks it took. */
+static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
+                     const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    struct port_fb fb = port_fb();
-    struct carom_picture picture = {.pixels = fb.pixels,
-                                    .width = fb.width,
-                                    .height = fb.height,
-                                    .stride = fb.stride,
-                                    .format = fb.format,
+    struct carom_picture picture = {.pixels = fb->pixels,
+                                    .width = fb->width,
+                                    .height = height,
+                                    .stride = fb->stride,
+                                    .format = fb->format,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (!fb.pixels) {
+    if (BOARD_DRAW_BYTES == 0 || !fb->pixels) {
         return 0;
     }
-    expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
+    expect(carom_draw(world, camera, &picture, style), "draw");
     return port_ticks() - start;
 }
 
-int main(void)
+static struct carom_world *make(const struct scene *scene)
 {
-    static struct scene scene;
     struct carom_config config = scene_config();
     struct carom_world *world;
-    int frames;
 
-    port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : 600;
     config.ticks = port_ticks;
     config.budget_ticks =
         port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
     config.sleep = port_option("awake") == NULL;
+    expect(scene_make(scene, &config, world_block, sizeof world_block, &world), "world");
+    return world;
+}
+
+/* What frames need of a scene; a small board has no room for the rest while it steps. */
+struct show {
+    struct carom_camera camera;
+    struct scene_sheet *sheet;
+    size_t world_bytes;
+};
+
+static struct carom_world *make_show(struct show *show)
+{
+    struct scene scene;
+
     load(&scene);
-    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
+    show->camera = scene.camera;
+    show->sheet = scene.sheet;
+    show->world_bytes = CAROM_WORLD_BYTES(scene.caps.bodies, scene.caps.pairs, scene.caps.contacts,
+                                          scene.caps.faces, scene.caps.entries,
+                                          scene.caps.candidates);
+    return make(&scene);
+}
+
+/* A row of figures a frame. */
+static void report(int frames)
+{
+    struct show show;
+    struct carom_world *world = make_show(&show);
+    struct port_fb fb = port_fb();
 
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        expect(scene_before(&scene, world, frame), "scene");
+        expect(scene_sheet_move(show.sheet, world, frame), "scene");
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &scene.camera);
+        uint32_t draw_ticks = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
-    print_memory(&scene.caps);
+    print_memory(show.world_bytes);
     port_print("hash ");
     print_hash(world);
+}
+
+/* With the pad; frames 0: without end. */
+static void play(int frames)
+{
+    struct scene scene;
+    struct carom_world *world;
+    struct port_fb fb = port_fb();
+    struct scene_play play = {.due = port_ticks()};
+    uint32_t draw_ticks = 0;
+    struct carom_stats stats;
+
+    load(&scene);
+    world = make(&scene);
+    for (int frame = 1; frames == 0 || frame <= frames; frame++) {
+        /* what the hands did to it may be too much for the pools */
+        if (!scene_play_keys(&play, &scene, world, port_input()) ||
+            scene_before(&scene, world, frame) < 0 || carom_world_step(world) < 0) {
+            world = make(&scene);
+        }
+        if (scene_play_draws(&play)) {
+            expect(carom_stats(world, &stats), "stats");
+            draw_ticks =
+                draw(world, &scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+                     play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+            if (!play.plain) {
+                scene_play_figures(&fb, stats.total_ticks, draw_ticks);
+            }
+            port_present();
+        }
+    }
+    port_print("hash ");
+    print_hash(world);
+}
+
+int main(void)
+{
+    int frames;
+
+    port_init();
+    frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
+    if (BOARD_DRAW_BYTES > 0 && (frames == 0 || port_option("play"))) {
+        play(frames);
+    } else {
+        report(frames);
+    }
     port_exit(0);
 }

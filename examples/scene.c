@@ -263,9 +263,14 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 
 int scene_before(struct scene *scene, struct carom_world *world, int frame)
 {
-    if (!scene->sheet) {
+    return scene_sheet_move(scene->sheet, world, frame);
+}
+
+int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame)
+{
+    if (!sheet) {
         return CAROM_OK;
     }
-    scene_sheet_shape(scene->sheet->vertices, frame);
-    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])scene->sheet->vertices);
+    scene_sheet_shape(sheet->vertices, frame);
+    return carom_surface_move(world, SCENE_GROUND, (const int16_t(*)[3])sheet->vertices);
 }

@@ -118,6 +118,8 @@ void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
 
 /* What happens before a frame, 1 being the first: the sheet moves. Returns CAROM_OK or an error. */
 int scene_before(struct scene *scene, struct carom_world *world, int frame);
+/* The same for scene->sheet, all that it needs of a scene. */
+int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame);
 
 /*
  * The part of scene_load that is about meshes: scene->ground.mesh, mesh, mesh_count and sheet. One of

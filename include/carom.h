@@ -231,15 +231,23 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(entries, CAROM_ENTRY_BYTES, 0, 65535)                                                        \
     X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
 
-/* Bytes for one of each, its share of the lists that follow it included; held by assertions. */
-#define CAROM_BODY_BYTES        1096
-#define CAROM_PAIR_BYTES        88
-#define CAROM_CONTACT_BYTES     552
-#define CAROM_FACE_BYTES        4
-#define CAROM_ENTRY_BYTES       8
-#define CAROM_CANDIDATE_BYTES   12
-#define CAROM_WORLD_FIXED_BYTES 3776
-#define CAROM_HEADS_BYTES       2048 /* once, for any entries at all */
+/*
+ * Bytes for one of each, its share of the lists that follow it included, where a pointer has 32 bits
+ * or fewer, and 64; held by assertions.
+ */
+#define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
+#define CAROM_BODY_BYTES           CAROM_BYTES_(888, 896)
+#define CAROM_PAIR_BYTES           CAROM_BYTES_(84, 84)
+#define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
+#define CAROM_FACE_BYTES           4
+#define CAROM_ENTRY_BYTES          8
+#define CAROM_CANDIDATE_BYTES      12
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(624, 800)
+#define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
+/* What stages work in one after the other: so much, or for each contact and pair that is solved. */
+#define CAROM_SCRATCH_BYTES 2696
+#define CAROM_WORK_BYTES    CAROM_BYTES_(224, 224)
+#define CAROM_ROLL_BYTES    64
 
 enum carom_pool {
 #define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
@@ -264,7 +272,10 @@ struct carom_caps {
     ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES)
+     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +                       \
+     (CAROM_SOLVE_BYTES_(p, c) > CAROM_SCRATCH_BYTES ? CAROM_SOLVE_BYTES_(p, c)                    \
+                                                     : (size_t)CAROM_SCRATCH_BYTES))
+#define CAROM_SOLVE_BYTES_(p, c) ((size_t)(p)*CAROM_ROLL_BYTES + (size_t)(c)*CAROM_WORK_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 
@@ -523,7 +534,9 @@ struct carom_camera {
 enum carom_pixel_format {
     CAROM_PALETTE8, /* indices into carom_draw_palette */
     CAROM_RGB565,
-    CAROM_XRGB8888
+    CAROM_XRGB8888,
+    CAROM_GREY4, /* two pixels a byte, the left one in its upper half; 0 is black */
+    CAROM_BGR555 /* 16 bits, red in the lowest; as RGB565, written by 2 and 4 bytes at a time only */
 };
 
 /* 256 colours as 0x00RRGGBB, in ramps of 32; 160 to 254 are not used, 255 is white. */
@@ -558,6 +571,55 @@ struct carom_picture {
  */
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);
+
+/* Pixels of a picture; x1 and y1 are outside. */
+struct carom_rect {
+    int16_t x0, y0, x1, y1;
+};
+
+/* What pixels show of a body. Carom's own. */
+struct carom_drawn_body {
+    const struct carom_mesh *mesh;
+    carom_v3_q32 position;
+    carom_quat_q30 rotation;
+    uint32_t moves;        /* of its surface */
+    struct carom_rect all; /* what shows of it is in here, and of its interfering faces in there */
+    struct carom_rect hot;
+    bool moving;
+};
+
+/*
+ * What pixels show of a world, so that the next picture need not be drawn from nothing: one for each
+ * buffer that is shown in turn. Zero it, but for the first two members, before the first picture
+ * and whenever something else has written to the pixels or built a mesh anew.
+ */
+#define CAROM_DRAWN_RECTS 8
+struct carom_drawn {
+    struct carom_drawn_body *bodies; /* the caller's: one for each body that the world may hold */
+    uint32_t room;                   /* so many */
+
+    struct carom_rect changed[CAROM_DRAWN_RECTS]; /* out: what was drawn last; may overlap */
+    int changed_count;
+
+    /* Carom's own */
+    bool shows; /* a whole picture, with what follows */
+    uint8_t style;
+    uint32_t count; /* of bodies */
+    struct carom_camera camera;
+    struct carom_picture picture;
+};
+
+/*
+ * As carom_draw, with the same pixels in the end, but only what may differ from the picture that
+ * `drawn` tells of is drawn: where bodies that moved, came or went are and were, and faces that
+ * interfere or did. All is drawn when camera, picture or style are others. A world that stands
+ * still costs hardly anything.
+ *
+ * Returns  what carom_draw does; CAROM_ERR_MEMORY too when the world has more bodies than `room`
+ */
+int carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                       const struct carom_picture *picture, enum carom_draw_style style,
+                       struct carom_drawn *drawn);
 
 #ifdef __cplusplus
 }

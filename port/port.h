@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888 };
+enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888, PORT_GREY4, PORT_BGR555 };
 
 struct port_fb {
     void *pixels; /* NULL: no display */
@@ -45,10 +45,23 @@ void port_putc(char c);
 /* printf over port_putc, in every port; at most 319 characters. */
 void port_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Pad bits; 0 where there is none. */
+/* Pad bits, of what is held; 0 where there is none. */
+enum port_pad {
+    PORT_PAD_A = 1,
+    PORT_PAD_B = 2,
+    PORT_PAD_SELECT = 4,
+    PORT_PAD_START = 8,
+    PORT_PAD_RIGHT = 16,
+    PORT_PAD_LEFT = 32,
+    PORT_PAD_UP = 64,
+    PORT_PAD_DOWN = 128
+};
 uint32_t port_input(void);
 
-/* The n-th argument of the program, n = 0 being its name; NULL past the last. */
+/*
+ * The n-th argument of the program, n = 0 being its name; NULL past the last, and for all of a program
+ * that nobody gave any: one that is switched on, not run.
+ */
 const char *port_arg(int n);
 
 /*

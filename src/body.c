@@ -365,7 +365,7 @@ void body_place(struct body *b, const struct body_state *s)
 
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
-        path->start.x.c[k] = (int32_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+        path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
         path->v.c[k] = path->g.c[k] = 0;
         path->u.c[k] = 0;
     }
@@ -421,12 +421,12 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     return (int32_t)((((int64_t)BODY_TURN_MAX_Q30 << 30)) / (rate_q40 >> 10));
 }
 
-void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r)
+void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r)
 {
-    carom_quat_q30 q;
+    carom_quat_q30 turned;
 
-    turn(&q, &b->path.start.q, u);
-    body_matrix(r, &q);
+    turn(&turned, q, u->c);
+    body_matrix(r, &turned);
 }
 
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)

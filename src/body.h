@@ -29,7 +29,6 @@ struct body_state {
     carom_v3_q32 position;
     carom_v3_q40 momentum; /* m v */
     carom_v3_q40 angular;  /* I w, world axes, about the centre of mass */
-    carom_v3_q40 force;    /* through the centre of mass, until the caller changes it */
     carom_quat_q30 rotation;
     uint8_t asleep, out;
     uint8_t quiet; /* frames in a row that the body was slow in contact */
@@ -38,17 +37,25 @@ struct body_state {
 
 struct body_path {
     int64_t origin_q22[3];
-    carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
-    carom_v3_q30 u;    /* the Cayley vector, in the body's axes */
-    int32_t u2_q30;    /* |u|^2 */
-    bool turns;
-    struct {
+    union {
         struct {
-            int32_t c[3];
-        } x; /* q32, what the origin leaves of the position */
+            carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
+        };
+        struct {
+            int64_t dv[3],
+                dw[3]; /* what a solve changes velocities by, in its units: before a path is set */
+        };
+    };
+    carom_v3_q30 u; /* the Cayley vector, in the body's axes */
+    int32_t u2_q30; /* |u|^2 */
+    struct {
         carom_quat_q30 q;
         carom_m3_q30 r;
+        struct {
+            int16_t c[3];
+        } x; /* q32, what the origin leaves of the position */
     } start;
+    bool turns;
 };
 
 /*
@@ -56,19 +63,16 @@ struct body_path {
  * Every point of the body must be within `room` of where it is on that path at the same time.
  */
 struct body_region {
-    carom_v3_q32 at; /* the pose at its start */
-    carom_m3_q30 r;
+    carom_v3_q32 at;        /* the pose at its start */
     carom_v3_q40 way, bend; /* of the centre over its time: way t + bend t^2 */
-    carom_v3_q40 end;       /* the centre at its end, relative to `at` */
-    carom_m3_q30 end_r;
-    carom_v3_q30 u;     /* its turn's Cayley vector, in the body's axes */
+    carom_quat_q30 q;
+    carom_v3_q30 u;     /* its turn's Cayley vector, in the body's axes; if it turns */
     carom_v3_q30 turn;  /* twice that, in world axes */
     int32_t u_q30;      /* |u|, rounded up */
     int32_t length_q22; /* of the centre's way, rounded up */
     int32_t bend_q22;   /* |bend|, rounded up */
-    int64_t time_q30;   /* frames, at most BODY_REGION_FRAMES */
     int32_t room_q22;
-    bool active; /* whether the body was to move */
+    int64_t time_q30; /* frames, at most BODY_REGION_FRAMES */
     /* used up */
     int64_t elapsed_q30;
     int64_t turned_off_q30; /* angle between the body and the path, at most */
@@ -78,6 +82,20 @@ struct body {
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
     bool standing; /* still, and the path, the region and the box are those of where it is */
+
+    /* of a step; the rest of that is below */
+    bool active;                     /* was to move when its region was set */
+    bool boxed;                      /* its box is around its mesh's; else around its sphere */
+    bool in_contact;                 /* took the frame's acceleration at once; moves straight */
+    bool touched;                    /* had a contact in this step */
+    bool grounded;                   /* and one with a body that stands still */
+    bool entering;                   /* in_contact is new */
+    bool rewound;                    /* is back where the frame found it */
+    bool woke;                       /* in the static check at hand */
+    bool solving;                    /* has a contact in the solve at hand */
+    uint16_t island, next_in_island; /* its lowest body, and the next higher one */
+    uint16_t contacts;               /* where the island's contacts are listed */
+
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     struct carom_sym3 inverse_inertia, inverse_rest; /* their sum: of the mesh's inertia by mass */
@@ -86,31 +104,26 @@ struct body {
     int32_t radius_q22;
     int32_t skin_q22;  /* EPS: a resting contact keeps half of this gap to all */
     int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
-
-    /* scratch of a step */
+    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
+
+    /* scratch of a step */
     struct body_path path;
     struct body_region region;
-    int32_t reach_q22;               /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;                /* and how far the body may turn, radians */
-    int32_t box_q18[2][3];           /* in world axes around it, grown by the reach */
-    bool boxed;                      /* around its mesh's box; else around its sphere */
-    uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-    uint16_t contacts;               /* where the island's contacts are listed */
-    bool in_contact;                 /* took the frame's acceleration at once; moves straight */
-    bool touched;                    /* had a contact in this step */
-    bool grounded;                   /* and one with a body that stands still */
-    bool entering;                   /* in_contact is new */
-    bool rewound;                    /* is back where the frame found it */
-    bool woke;                       /* in the static check at hand */
-    bool solving;                    /* has a contact in the solve at hand */
-    carom_v3_q40 velocity, spin;     /* before a solve */
-    struct carom_sym3 turning;       /* R J^-1 R^T by the solver's unit of length squared */
-    int64_t dv[3], dw[3];            /* what a solve changes them by, in its units */
-    carom_v3_q40 saved_momentum, saved_angular; /* before it, for the energy rule */
-    int64_t lift_q32;      /* what surfaces lift an island by, at its lowest body */
-    struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
+    int32_t reach_q22;         /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;          /* and how far the body may turn, radians */
+    struct carom_sym3 turning; /* R J^-1 R^T by the solver's unit of length squared */
+    union {
+        int32_t box_q18[2][3];       /* in world axes around it, grown by the reach: by broad */
+        carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
+    };
+    carom_v3_q40 saved_angular;
+    carom_v3_q40 velocity, spin; /* before a solve */
+    union {
+        struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
+        int64_t lift_q32;      /* between steps: what they lift an island by, at its lowest body */
+    };
 };
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
@@ -169,8 +182,8 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
 /* How far the centre is at t of the path from its start, and the rotation there. */
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30);
 carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30);
-/* The rotation at the end of a path with another Cayley vector, |u| <= 0.31. */
-void body_turned(const struct body *b, const int32_t u[3], carom_m3_q30 *r);
+/* The axes of a rotation, turned on by a Cayley vector in them, |u| <= 0.31. */
+void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r);
 /* Take the pose at t as the new state, with the momentum that gravity gave over it. */
 void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
@@ -185,8 +198,9 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22);
-/* Where the region's path turns to, while it begins with the present one. Interfere asks for that. */
-void body_region_end(struct body *b);
+/* Where the centre of the region goes in its time, and the axes at its start and at its end. */
+carom_v3_q40 body_region_way(const struct body_region *region);
+void body_region_axes(const struct body_region *region, carom_m3_q30 *start, carom_m3_q30 *end);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
 /* Go on by t of the present path. */

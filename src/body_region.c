@@ -13,7 +13,6 @@ static void set_turn(struct body *b, int32_t longer_q16)
     struct body_region *region = &b->region;
     int64_t u2_q60 = 0;
 
-    region->end_r = region->r;
     if (!b->path.turns) {
         memset(&region->turn, 0, sizeof region->turn);
         region->u_q30 = 0;
@@ -23,7 +22,7 @@ static void set_turn(struct body *b, int32_t longer_q16)
         region->u.c[k] = (int32_t)longer(b->path.u.c[k], longer_q16);
         u2_q60 += (int64_t)region->u.c[k] * region->u.c[k];
     }
-    carom_rotate(region->turn.c, &region->r, region->u.c);
+    carom_rotate(region->turn.c, &b->path.start.r, region->u.c);
     for (int k = 0; k < 3; k++) {
         region->turn.c[k] *= 2;
     }
@@ -40,7 +39,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
-    region->r = path->start.r;
+    region->q = path->start.q;
     region->time_q30 = time_q30;
     region->room_q22 = room_q22;
     region->elapsed_q30 = 0;
@@ -48,7 +47,6 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     for (int k = 0; k < 3; k++) {
         region->way.c[k] = longer(path->v.c[k], longer_q16);
         region->bend.c[k] = longer(longer(path->g.c[k], longer_q16), longer_q16);
-        region->end.c[k] = region->way.c[k] + region->bend.c[k];
     }
     set_turn(b, longer_q16);
     region->bend_q22 = (int32_t)(fix_length_bound(region->bend.c) >> 18) + 1;
@@ -60,10 +58,23 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }
 
-void body_region_end(struct body *b)
+carom_v3_q40 body_region_way(const struct body_region *region)
 {
-    if (b->path.turns) {
-        body_turned(b, b->region.u.c, &b->region.end_r);
+    carom_v3_q40 way;
+
+    for (int k = 0; k < 3; k++) {
+        way.c[k] = region->way.c[k] + region->bend.c[k];
+    }
+    return way;
+}
+
+void body_region_axes(const struct body_region *region, carom_m3_q30 *start, carom_m3_q30 *end)
+{
+    body_matrix(start, &region->q);
+    if (region->u_q30 > 0) {
+        body_turned(&region->q, &region->u, end);
+    } else {
+        *end = *start;
     }
 }
 

@@ -40,8 +40,9 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
         return NULL;
     }
     memmove(c + 1, c, behind * sizeof *c);
-    c->idle = c->resting = c->impact = c->roll.acts = false;
-    c->impulse_q40 = c->roll.moment_q40 = (carom_v3_q40){{0, 0, 0}};
+    c->work = NULL;
+    c->idle = c->resting = c->impact = false;
+    c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
 }
 

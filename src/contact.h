@@ -8,56 +8,48 @@
 
 #include "boyse.h"
 
-/* One of a contact's two bodies, in the solver's units (rest.h). Index 0 is a, 1 is b. */
+/* One of a contact's two bodies. Index 0 is a, 1 is b. */
 struct contact_side {
     struct body *body; /* NULL: stationary; the rest is then without meaning */
     /* from the centre of mass to the contact, over the body's unit of length */
     int32_t arm_q30[3];
-    /* filled in by the solver */
+};
+
+/* What an impulse at a contact does to one of its bodies, in the solver's units (rest.h). */
+struct contact_lever {
     int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
     int32_t turn[3][3]; /* change of spin by an impulse, times 2^-turn_bits */
     int32_t turn_bits;
 };
 
-/* Rolling friction of a pair, kept with its first contact in an island; rest_roll.c. */
+/* Rolling friction of a pair, at its first contact in an island; rest_roll.c. */
 struct contact_roll {
-    bool acts;
-    int8_t unit_bits;  /* of length: the shorter of the two bodies' */
+    int32_t unit_bits; /* of length: the shorter of the two bodies' */
     int32_t arm_q30;   /* the patch over which contacts press, in that unit */
     int32_t mass_q24;  /* change of spin by a unit moment, at most */
     int32_t step_q30;  /* its inverse */
-    int32_t moment[3]; /* accumulated */
     union {
         struct {
             int32_t spin[3]; /* relative, before the solve, in solver units */
             int32_t gain[3], way[3];
+            int32_t moment[3]; /* accumulated */
         };
         carom_v3_q40 moment_q40; /* the result, when the sweeps are over: on a, its opposite on b */
     };
 };
 
-struct contact {
-    /* found by the static check */
-    struct candidate key;
-    carom_v3_q30 normal; /* N, from b into a */
-    int32_t gap_q22;
-    int32_t skin_q22;   /* of the pair */
-    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
-    struct contact_side side[2];
-
-    /* worked out by the solver */
-    uint16_t
-        order;    /* contacts[n].order is the n-th contact when islands come one after the other */
-    bool idle;    /* nothing asks for its island to be solved now */
-    bool resting; /* solved without any impact in its island */
-    bool impact;
-    bool inverted; /* false: K is too uneven for an inverse in 30 bits */
+/*
+ * What the solver works out of a contact of the island at hand, and needs no longer than that. It
+ * lies apart from the contact, where other stages have their own.
+ */
+struct contact_work {
+    struct contact_lever lever[2];
+    struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
+    bool rolls;                /* and it takes part in the sweeps at hand */
+    bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
     int8_t fine_bits;
-    int32_t
-        chord_q28;    /* how fast the gap opens on the path, from its start to its end, at most 8 */
-    int32_t band_q30; /* slip that friction does not resist: what closing the gap asks for */
-    int64_t speed_q40;           /* V.N before */
-    int64_t target_q40;          /* wanted V'.N */
+    int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
+    int64_t target_q40; /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
     int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
     int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
@@ -72,14 +64,35 @@ struct contact {
     int32_t before[3]; /* V - wanted N before, with a slip that sweeps can follow */
     int32_t band;      /* band_q30 */
     int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
+};
+
+struct contact {
+    /* found by the static check */
+    struct candidate key;
+    carom_v3_q30 normal; /* N, from b into a */
+    int32_t gap_q22;
+    int32_t skin_q22;   /* of the pair */
+    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
+    struct contact_side side[2];
+
+    /* worked out by the solver */
+    struct contact_work *work; /* NULL: not yet taken up */
+    /* contacts[n].order is the n-th contact when islands come one after the other */
+    uint16_t order;
+    bool idle;    /* nothing asks for its island to be solved now */
+    bool resting; /* solved without any impact in its island */
+    bool impact;
+    int32_t
+        chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
+    int64_t speed_q40; /* V.N before */
     union {
         struct {
-            int32_t gain[3], way[3]; /* change of it in two sweeps, and the way it is going */
+            /* change of the impulse in two sweeps, and the way it is going */
+            int32_t gain[3], way[3];
         };
         carom_v3_q40 velocity_q40; /* V before, until the sweeps begin */
         carom_v3_q40 impulse_q40;  /* the result, when they are over: P on a, -P on b */
     };
-    struct contact_roll roll;
 };
 
 /* The contacts of a world at the present poses, sorted by key, with their pool. */

@@ -9,7 +9,7 @@
  *           that nothing that belongs to the body is longer than 2^29
  *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
  *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
- *           and y from 7/16 above the top side of the pixel (width / 2, height / 2), so that a
+ *           and y from 7/16 above the top side of the pixel `middle`, so that a
  *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
  *           row before
  *
@@ -58,6 +58,16 @@ struct draw_rect {
 
 #define DRAW_SIDES 5
 
+/* Pixels that the largest body covers: what is further away than w there is hidden. */
+struct draw_cover {
+    uint32_t body;
+    uint32_t radius2_q8; /* of a circle on the picture; 0: none */
+    int32_t x_q4, y_q4;
+    uint32_t w_q26;
+    carom_v3_q30 axis; /* from the eye through its middle, in the world */
+    int32_t slope_q16; /* how fast what is covered opens along that */
+};
+
 /* The camera, and the part of the picture that is being drawn. */
 struct draw_view {
     carom_v3_q32 eye;
@@ -65,10 +75,11 @@ struct draw_view {
     int64_t focal_q16; /* pixels */
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
-    int32_t middle[2];     /* the pixel from which pixels are counted */
+    int32_t middle[2];     /* the pixel from which pixels are counted; in an even column */
     int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
     struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
+    struct draw_cover cover;
 };
 
 /* A body as the camera sees it. */
@@ -80,6 +91,7 @@ struct draw_body {
     int32_t near;                  /* view z of the near plane */
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
+    carom_v3_q30 cover;            /* its axis, in the same */
     uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
     carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
     /* view = (to_view (vertex << up) + origin) / 2^30 */
@@ -140,6 +152,17 @@ int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, i
 /* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
 
+/* How far some vertices reach on the picture. */
+struct draw_extent {
+    int32_t low[2][2], high[2][2]; /* of view x / z and y / z, as two numbers */
+    bool near;                     /* one of them is too near to say */
+};
+
+void draw_extent_begin(struct draw_extent *extent);
+void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, uint32_t number);
+/* A pixel more on each side, within the view's part; nothing of no vertices. */
+struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view);
+
 /*
  * Clip a face, or an edge as a polygon of two corners, given by its vertices.
  *   out  what is left, on the picture; of an edge, the first two
@@ -149,11 +172,47 @@ bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vert
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
 
+/* ---- draw_divide.c: quotients for processors that cannot divide */
+
+/* n / d by a table of inverses and products; n < 2^31, 0 < d < 2^16. */
+uint32_t draw_quotient(uint32_t n, uint32_t d);
+
+/* The same, of a signed n, by what is quicker. */
+static inline int32_t draw_divide(int32_t n, int32_t d)
+{
+#if defined __arm__ && !defined __ARM_FEATURE_IDIV
+    uint32_t size = (uint32_t)(n < 0 ? -n : n);
+    int32_t quotient = (int32_t)draw_quotient(size, (uint32_t)d);
+
+    return n < 0 ? -quotient : quotient;
+#else
+    return n / d;
+#endif
+}
+
+/* ---- draw_cover.c: what a body surely hides */
+
+/* Find the view's cover. */
+void draw_cover_init(struct draw_view *view, const struct carom_world *world);
+
+/* Whether some of a leaf may be covered. */
+bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
+                    const struct carom_leaf *leaf);
+
+static inline bool draw_covers(const struct draw_cover *cover, const struct draw_vertex *vertex)
+{
+    /* both are within 1026 pixels of the middle: a sum below 2^32 */
+    int32_t dx = draw_x(vertex->yx_q4) - cover->x_q4, dy = draw_y(vertex->yx_q4) - cover->y_q4;
+
+    return (uint32_t)(dx * dx) + (uint32_t)(dy * dy) < cover->radius2_q8 &&
+           vertex->w_q26 < cover->w_q26;
+}
+
 /* ---- draw_flat.c: the faces that show, part by part */
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
-              const struct carom_picture *picture);
+              const struct carom_picture *picture, struct draw_rect rect);
 
 /* ---- draw_rows.c: their pixels, row by row */
 
@@ -199,9 +258,9 @@ struct draw_span {
 struct draw_sweep {
     const struct draw_view *view;
     const struct draw_vertex *vertices;
-    uint8_t *row;    /* its pixel 0 */
-    int32_t safe;    /* a run that ends here may write 3 bytes more */
-    int pixel_shift; /* a pixel is 2^pixel_shift bytes */
+    uint8_t *row; /* its pixel 0 */
+    int32_t safe; /* a run that ends here may write 3 bytes more */
+    int pixel_shift;
     int32_t y, x;
     uint32_t ground;       /* the background */
     struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
@@ -215,17 +274,13 @@ struct draw_sweep {
 /* The least and the most of a face's depth, when they are needed first. */
 void draw_depths(const struct draw_sweep *s, struct draw_span *span);
 
-/* Whether the top span ends right of where another one begins and is in front of all of it. */
-static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, int32_t end,
-                              struct draw_span *span, int32_t from)
+/* Whether the top span is in front of all of another one, which can wait until it ends. */
+static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, struct draw_span *span)
 {
-    if (span->w_high == 0) {
-        draw_depths(s, span);
-    }
     if (top->w_high == 0) {
         draw_depths(s, top);
     }
-    if (from < end && top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
+    if (top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
         s->under[s->under_count++] = span;
         if (s->under_high < span->w_high) {
             s->under_high = span->w_high;
@@ -246,27 +301,66 @@ void draw_advance(struct draw_sweep *s, int32_t to);
 /* Take in a span of which the first pixel is not before x. */
 void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 
-/* Words of 4 bytes at any place; a whole picture has 8-bit pixels at odd addresses. */
-#if defined __GNUC__
-#define DRAW_PUT(p, word) __builtin_memcpy(p, &(word), 4)
+/* ---- draw_pixels.c: runs of pixels in memory */
+
+/*
+ * Stores of 2 and 4 bytes into memory of any type. Where the processor takes words at odd places they
+ * may lie there; where it does not, a compiler would make four byte stores of one, so that runs are
+ * written by what their ends allow. Pixels of two bytes or four are never written by the byte: the
+ * video memory of some machines does not take that.
+ */
+#if defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__
+#define DRAW_ANYWHERE 1
+#define DRAW_ALIGNED  aligned(1)
 #else
-#define DRAW_PUT(p, word) memcpy(p, &(word), 4)
+#define DRAW_ANYWHERE 0
+#define DRAW_ALIGNED
+#endif
+#if defined __GNUC__
+typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
+typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
+#else
+typedef uint16_t draw_half;
+typedef uint32_t draw_word;
 #endif
 
-/* Pixels from <= x < to of the row in one colour, and no others. */
-void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel);
+/* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */
+int draw_pixel_shift(uint8_t format);
 
-/* ---- draw_line.c */
+/* Where pixel x of a row is, or the byte that it is in. */
+static inline uint8_t *draw_pixel(uint8_t *row, int pixel_shift, int32_t x)
+{
+    return row + (pixel_shift < 0 ? x >> 1 : x * (1 << pixel_shift));
+}
 
-/* Pixels x0 <= x < x1 of the background. */
-void draw_ground(const struct carom_picture *picture, int32_t y, int32_t x0, int32_t x1);
+/* Pixel 0 of row y, both counted from the middle of the picture. */
+uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
-void draw_line(const struct carom_picture *picture, const struct draw_vertex *a,
-               const struct draw_vertex *b, uint32_t colour);
+/* Pixels from <= x < to of a row in one colour, and no others. */
+void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel);
+
+/* The background of row y of the view's part. */
+uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
+
+/* ---- draw_wire.c */
+
+void draw_wire(const struct carom_world *world, struct draw_view *view,
+               const struct carom_picture *picture, struct draw_rect part);
 
 /* ---- draw_palette.c */
 
-/* A palette entry as a pixel of the format, over a whole word. */
+/* A palette entry as a pixel of the format, over a whole word as often as it fits. */
 uint32_t draw_colour(uint8_t format, uint32_t index);
+
+/* ---- draw.c: a picture and its parts */
+
+/* Whether a picture can be drawn, but for the camera. Returns what carom_draw does. */
+int draw_check(const struct carom_world *world, const struct carom_camera *camera,
+               const struct carom_picture *picture, enum carom_draw_style style);
+
+/* Draw a part of the picture; nothing outside of it changes. */
+int draw_part(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture, enum carom_draw_style style,
+              struct draw_rect part);
 
 #endif

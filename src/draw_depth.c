@@ -154,12 +154,12 @@ void draw_advance(struct draw_sweep *s, int32_t to)
             find_top(s);
         }
         if (s->top == NULL) {
-            draw_fill(s, s->x, to, s->ground);
+            draw_run(s->row, s->pixel_shift, s->x, to, s->ground);
             s->x = to;
             return;
         }
         end = find_crossing(s, s->end < to ? s->end : to, &which);
-        draw_fill(s, s->x, end, s->top->pixel);
+        draw_run(s->row, s->pixel_shift, s->x, end, s->top->pixel);
         s->x = end;
         if (which >= 0) {
             struct draw_span *next = s->under[which];

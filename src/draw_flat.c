@@ -106,8 +106,19 @@ static uint32_t see_vertex(struct flat *f, uint32_t number)
     return place;
 }
 
+/* Whether a face is covered: its corners are, and what covers is round. */
+static bool hidden(const struct flat *f, const struct draw_cover *cover, uint32_t i, uint32_t j,
+                   uint32_t k)
+{
+    const struct draw_vertex *vertices = f->list.vertices;
+
+    return draw_covers(cover, &vertices[i]) && draw_covers(cover, &vertices[j]) &&
+           draw_covers(cover, &vertices[k]);
+}
+
 /* A face that looks at the eye. */
-static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside)
+static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside,
+                            const struct draw_cover *cover)
 {
     const uint16_t *numbers = f->body.mesh->raw.faces[number];
     uint32_t i = f->seen[numbers[0]], j = f->seen[numbers[1]], k = f->seen[numbers[2]];
@@ -123,7 +134,7 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
     }
     if ((i | j | k) & OUTSIDE) {
         list_clipped(f, numbers, colour);
-    } else {
+    } else if (!(cover && hidden(f, cover, i, j, k))) {
         list_face(&f->view->rect, &f->list, i, j, k, colour, inside);
     }
 }
@@ -140,7 +151,8 @@ static inline uint32_t face_colour(const struct draw_body *body, const carom_v3_
 }
 
 /* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
-static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside)
+static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
+                     const struct draw_cover *cover)
 {
     const struct draw_body *body = &f->body;
     const struct carom_face *faces = body->mesh->faces;
@@ -160,7 +172,7 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside)
             if (f->hot && f->hot[number >> 5] >> (number & 31) & 1) {
                 colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
             }
-            see_face(f, number, colour, inside);
+            see_face(f, number, colour, inside, cover);
         }
     }
 }
@@ -204,6 +216,7 @@ static bool see_part(struct flat *f)
     for (uint32_t i = 0; i < world->body_count; i++) {
         const struct body *from = &world->bodies[i];
         const struct carom_mesh *mesh = from->mesh;
+        bool covered = f->view->cover.radius2_q8 > 0 && i != f->view->cover.body;
 
         if (mesh == NULL ||
             !draw_body_init(&f->body, f->view, from, &world_now(world)->bodies[i])) {
@@ -214,6 +227,7 @@ static bool see_part(struct flat *f)
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
             const struct carom_leaf *leaf = &mesh->leaves[l];
             int sees = f->body.sees;
+            bool may;
 
             if (sees != 2) {
                 sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
@@ -223,7 +237,8 @@ static bool see_part(struct flat *f)
                     f->list.face_count + LEAF_FACES > FACES_MAX) {
                     return false;
                 }
-                see_leaf(f, leaf, sees == 2);
+                may = covered && draw_may_cover(f->view, &f->body, leaf);
+                see_leaf(f, leaf, sees == 2, may ? &f->view->cover : NULL);
             }
         }
     }
@@ -267,8 +282,8 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
  * Draw a part of the picture; false when the workspace is too small for it, unless it must be
  * drawn.
  */
-static bool draw_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
-                      bool must)
+static bool try_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
+                     bool must)
 {
     draw_view_rect(f->view, part);
     if (!see_part(f) && !must) {
@@ -284,23 +299,23 @@ static bool draw_part(struct flat *f, const struct carom_picture *picture, struc
  * for: some 60 in front of each other when it is smallest.
  */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
-              const struct carom_picture *picture)
+              const struct carom_picture *picture, struct draw_rect rect)
 {
     struct flat f = {.world = world, .view = view};
-    const struct draw_rect whole = draw_whole(view, picture);
-    int32_t x = whole.x0, y = whole.y0, columns = picture->width, rows = picture->height;
+    int32_t x = rect.x0, y = rect.y0, columns = rect.x1 - rect.x0, rows = rect.y1 - rect.y0;
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    while (y < whole.y1) {
+    draw_cover_init(view, world);
+    while (y < rect.y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 
-        part.x1 = part.x1 < whole.x1 ? part.x1 : whole.x1;
-        part.y1 = part.y1 < whole.y1 ? part.y1 : whole.y1;
-        if (draw_part(&f, picture, part, rows == 1 && columns == 1)) {
-            x = part.x1 < whole.x1 ? part.x1 : whole.x0;
-            y = part.x1 < whole.x1 ? y : part.y1;
+        part.x1 = part.x1 < rect.x1 ? part.x1 : rect.x1;
+        part.y1 = part.y1 < rect.y1 ? part.y1 : rect.y1;
+        if (try_part(&f, picture, part, rows == 1 && columns == 1)) {
+            x = part.x1 < rect.x1 ? part.x1 : rect.x0;
+            y = part.x1 < rect.x1 ? y : part.y1;
         } else if (rows > 1) {
             rows = (rows + 1) / 2;
         } else {

@@ -29,6 +29,17 @@ const uint32_t carom_draw_palette[256] = {
     [255] = 0xffffff,
 };
 
+/* First grey of each ramp, and what it gains up to the last. */
+static const uint8_t greys[DRAW_RAMPS][2] = {{0, 2}, {1, 5}, {5, 7}, {14, 1}, {15, 0}};
+
+static uint32_t grey(uint32_t index)
+{
+    const uint8_t *ramp = greys[index / DRAW_SHADES];
+
+    return ramp[0] +
+           (ramp[1] * (index % DRAW_SHADES) * 2 + DRAW_SHADES - 1) / (2 * DRAW_SHADES - 2);
+}
+
 uint32_t draw_colour(uint8_t format, uint32_t index)
 {
     uint32_t rgb = carom_draw_palette[index];
@@ -38,6 +49,10 @@ uint32_t draw_colour(uint8_t format, uint32_t index)
         return index * 0x01010101u;
     case CAROM_RGB565:
         return ((rgb >> 8 & 0xf800) | (rgb >> 5 & 0x07e0) | (rgb >> 3 & 0x001f)) * 0x00010001u;
+    case CAROM_BGR555:
+        return ((rgb << 7 & 0x7c00) | (rgb >> 6 & 0x03e0) | (rgb >> 19 & 0x001f)) * 0x00010001u;
+    case CAROM_GREY4:
+        return grey(index) * 0x11111111u;
     default:
         return rgb;
     }

@@ -6,7 +6,8 @@ struct rows {
     const struct draw_view *view;
     const struct draw_list *list;
     uint8_t format;
-    struct draw_span *free;
+    struct draw_span *free, *unused,
+        *unused_end;          /* room for further ones: some again, all others */
     struct draw_span *fresh;  /* those that begin in the row at hand, from left to right */
     struct draw_span **spans; /* those of the row, from left to right; a sentinel at the end */
     struct draw_span **last;  /* the list of the row before, in the same way */
@@ -24,7 +25,7 @@ struct rows {
  */
 static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t b, int32_t row)
 {
-    int32_t slope_q15 = (draw_x(b) - draw_x(a)) * (1 << 15) / (draw_y(b) - draw_y(a));
+    int32_t slope_q15 = draw_divide((draw_x(b) - draw_x(a)) * (1 << 15), draw_y(b) - draw_y(a));
     int32_t below_q4 = row * 16 + 15 - draw_y(a);
 
     span->x_q15[side] =
@@ -88,10 +89,13 @@ static bool begin_faces(struct rows *r, int32_t row)
         const struct draw_face *face = &r->list->faces[-(int32_t)number];
         struct draw_span *span = r->free, **place = &r->fresh;
 
-        if (span == NULL) {
+        if (span) {
+            r->free = span->next;
+        } else if (r->unused < r->unused_end) {
+            span = r->unused++;
+        } else {
             return false;
         }
-        r->free = span->next;
         span->face = face;
         span->pixel = r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
                                                   : draw_colour(r->format, face->colour);
@@ -165,64 +169,30 @@ static void step_row(struct rows *r, int32_t row)
     r->count = (uint32_t)(to - end) - 1;
 }
 
-#if defined __arm__ && !defined __ARM_FEATURE_UNALIGNED
-/* Where words at odd places are written byte by byte, pixels of a word are worth asking for. */
-static inline bool fill_words(uint8_t *p, const uint8_t *end, int pixel_shift, uint32_t pixel)
-{
-    uint32_t *to = (void *)p; /* a picture is aligned to its pixels */
-
-    for (; pixel_shift == 2 && to < (const uint32_t *)(const void *)end; to++) {
-        *to = pixel;
-    }
-    return pixel_shift == 2;
-}
-#else
-#define fill_words(p, end, pixel_shift, pixel) false
-#endif
-
-/* Pixels from <= x < to, and perhaps 3 bytes more. */
+/*
+ * Pixels from <= x < to, and perhaps 3 bytes more. Here most runs are of a few pixels, and it costs
+ * less to write whole words than to see where they end.
+ */
 static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
-    uint8_t *p = row + from * (1 << pixel_shift), *end = row + to * (1 << pixel_shift);
+    uint8_t *p, *end;
 
-    if (fill_words(p, end, pixel_shift, pixel)) {
+    if (pixel_shift < 0) {
+        draw_run(row, pixel_shift, from, to, pixel);
         return;
     }
-    while (p < end) {
-        DRAW_PUT(p, pixel);
-        p += 4;
+    p = row + from * (1 << pixel_shift);
+    end = row + to * (1 << pixel_shift);
+    if (!DRAW_ANYWHERE && (uintptr_t)p & 1) {
+        *p++ = (uint8_t)pixel;
     }
-}
-
-void draw_fill(const struct draw_sweep *s, int32_t from, int32_t to, uint32_t pixel)
-{
-    uint8_t *p = s->row + from * (1 << s->pixel_shift);
-    uint8_t *end = s->row + to * (1 << s->pixel_shift), *last = end - 4;
-
-    if (fill_words(p, end, s->pixel_shift, pixel)) {
-        return;
+    if (!DRAW_ANYWHERE && (uintptr_t)p & 2) {
+        *(draw_half *)(void *)p = (uint16_t)pixel;
+        p += 2;
     }
-    if (end - p < 4) {
-        uint32_t word = pixel; /* so that the pixel itself needs no place in memory */
-
-        memcpy(p, &word, (size_t)(end > p ? end - p : 0));
-        return;
+    for (; p < end; p += 4) {
+        *(draw_word *)(void *)p = pixel;
     }
-    /* the last word covers some of the one before: all pixels are the same, and whole in a word */
-    for (; last - p >= 32; p += 32) {
-        DRAW_PUT(p, pixel);
-        DRAW_PUT(p + 4, pixel);
-        DRAW_PUT(p + 8, pixel);
-        DRAW_PUT(p + 12, pixel);
-        DRAW_PUT(p + 16, pixel);
-        DRAW_PUT(p + 20, pixel);
-        DRAW_PUT(p + 24, pixel);
-        DRAW_PUT(p + 28, pixel);
-    }
-    for (; p < last; p += 4) {
-        DRAW_PUT(p, pixel);
-    }
-    DRAW_PUT(last, pixel);
 }
 
 /* Take in a span that begins where it is not free. */
@@ -263,7 +233,10 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
             gate = INT32_MAX;
         }
         if (a < gate) {
-            if (top && draw_hides(s, top, end, span, a)) {
+            if (top && span->w_high == 0) {
+                draw_depths(s, span);
+            }
+            if (top && a < end && draw_hides(s, top, span)) {
                 gate = INT32_MAX;
                 continue;
             }
@@ -288,7 +261,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
         }
         fill(row, pixel_shift, x, end, pixel);
         if (a > end) {
-            draw_fill(s, end, a, ground);
+            draw_run(row, pixel_shift, end, a, ground);
         }
         top = span;
         pixel = span->pixel;
@@ -308,10 +281,8 @@ static void make_room(struct rows *r, struct draw_span *low)
     size_t room = r->list->room, n = (room - 4 * sizeof(struct draw_span *)) / each;
 
     r->free = NULL;
-    for (size_t i = 0; i < n; i++) {
-        low[i].next = r->free;
-        r->free = &low[i];
-    }
+    r->unused = low;
+    r->unused_end = low + n;
     r->spans = (struct draw_span **)(void *)(low + n);
     r->last = r->spans + n + 2;
     r->sentinel.x_q15[0] = r->view->rect.x1 * (1 << 15);
@@ -329,23 +300,20 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 
     make_room(&r, (struct draw_span *)(void *)(list->vertices + list->vertex_count));
     r.spans[0] = r.last[0] = &lowest;
-    s.pixel_shift = picture->format;
+    s.pixel_shift = draw_pixel_shift(picture->format);
     for (int32_t y = rect->y0; y < rect->y1; y++) {
         if (!begin_faces(&r, y) && !must) {
             return false;
         }
         step_row(&r, y);
-        s.row = (uint8_t *)picture->pixels +
-                (size_t)(y + view->middle[1]) * (size_t)picture->stride +
-                ((size_t)view->middle[0] << s.pixel_shift);
+        s.row = draw_pixels(view, picture, y);
         s.safe = rect->x1 - 3;
         s.y = y;
         s.x = rect->x0;
         s.top = NULL;
         s.under_count = 0;
         s.under_high = 0;
-        s.ground = draw_colour(picture->format,
-                               (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height));
+        s.ground = draw_ground(view, picture, y);
         fill_row(&s, r.spans + 1, rect->x1);
     }
     return true;

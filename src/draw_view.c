@@ -48,9 +48,10 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
         return CAROM_ERR_ARGUMENT;
     }
     view->eye = camera->eye;
-    view->middle[0] = width / 2;
+    view->cover = (struct draw_cover){.radius2_q8 = 0};
+    view->middle[0] = width / 4 * 2;
     view->middle[1] = height / 2;
-    view->round_q29[0] = (1 << 14) + (width & 1) * (8 << 15);
+    view->round_q29[0] = (1 << 14) + (width - 2 * view->middle[0]) * (8 << 15);
     view->round_q29[1] = (1 << 14) + (height & 1) * (8 << 15) + (7 << 15);
     /*
      * x : z must become (focal / DRAW_GUARD) x : z. A power of two taken off z keeps the factor of
@@ -65,19 +66,25 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     return CAROM_OK;
 }
 
+/* The middle of the picture from that corner of the pixel `middle` from which pixels are counted. */
+static void find_halves(const struct draw_view *view, int32_t half_q4[2])
+{
+    half_q4[0] = view->round_q29[0] >> 15 & 24;
+    half_q4[1] = view->round_q29[1] >> 15 & 8;
+}
+
 void draw_view_rect(struct draw_view *view, struct draw_rect rect)
 {
-    /* from the middle of the picture */
-    const int32_t half_q4[2] = {view->round_q29[0] >> 15 & 8, view->round_q29[1] >> 15 & 8};
-    const int32_t edge_q4[2][2] = {{rect.x0 * 16 - half_q4[0], rect.x1 * 16 - half_q4[0]},
-                                   {rect.y0 * 16 - half_q4[1], rect.y1 * 16 - half_q4[1]}};
+    const int32_t edges[2][2] = {{rect.x0, rect.x1}, {rect.y0, rect.y1}};
+    int32_t half_q4[2];
 
+    find_halves(view, half_q4);
     view->rect = rect;
     memcpy(view->side[4].c, view->axes.c[2], sizeof view->side[4].c);
     for (int s = 0; s < 4; s++) {
         /* Inside of a low edge e is focal x - e z >= 0; of a high edge the negative. */
-        int64_t sign = s & 1 ? -1 : 1;
-        int64_t v[3] = {0, 0, -sign * edge_q4[s >> 1][s & 1] * (1 << 12)};
+        int64_t sign = s & 1 ? -1 : 1, edge_q4 = edges[s >> 1][s & 1] * 16 - half_q4[s >> 1];
+        int64_t v[3] = {0, 0, -sign * edge_q4 * (1 << 12)};
         carom_v3_q30 plane;
 
         v[s >> 1] = sign * view->focal_q16;
@@ -200,6 +207,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
         carom_rotate_back(body->side[s].c, &r, view->side[s].c);
     }
     carom_rotate_back(body->light.c, &r, light.c);
+    carom_rotate_back(body->cover.c, &r, view->cover.axis.c);
     return true;
 }
 
@@ -256,7 +264,7 @@ static inline struct draw_vertex project(const struct draw_body *body, const int
     uint32_t z = (uint32_t)at[2];
     int up = 32 - fix_bits32(z);
     uint32_t s = z << up;
-    int32_t r = (int32_t)(0x7fffffffu / (s >> 16));
+    int32_t r = draw_divide(0x7fffffff, (int32_t)(s >> 16));
     int32_t rest = (1 << 30) - (int32_t)((s * (uint64_t)((uint32_t)r << 15)) >> 32);
     int32_t inverse = r * (1 << 15) + ((r * (rest >> 1)) >> 14);
     int32_t x_q4 = pixels_q4(at[0], up, inverse, body->round_q29[0]);
@@ -280,6 +288,64 @@ bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vert
     }
     *vertex = project(body, at);
     return true;
+}
+
+/* ------------------------------------------------------------------ extents */
+
+void draw_extent_begin(struct draw_extent *extent)
+{
+    /* infinities the wrong way round */
+    *extent = (struct draw_extent){.low = {{1, 0}, {1, 0}}, .high = {{-1, 0}, {-1, 0}}};
+}
+
+void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, uint32_t number)
+{
+    int32_t at[3];
+
+    place(body, number, at);
+    if (at[2] < body->near) {
+        extent->near = true;
+        return;
+    }
+    /* coordinates are below 2^31, and a product below 2^62 */
+    for (int k = 0; k < 2; k++) {
+        int32_t *low = extent->low[k], *high = extent->high[k];
+
+        if ((int64_t)at[k] * low[1] < (int64_t)low[0] * at[2]) {
+            low[0] = at[k], low[1] = at[2];
+        }
+        if ((int64_t)at[k] * high[1] > (int64_t)high[0] * at[2]) {
+            high[0] = at[k], high[1] = at[2];
+        }
+    }
+}
+
+/* The pixel, counted from the middle, that has x / z of the guard band; or the end that is nearer. */
+static int32_t pixel_at(const int32_t x[2], int32_t half_q4, int32_t low, int32_t high)
+{
+    int64_t pixel = ((int64_t)x[0] * (DRAW_GUARD * 16) / x[1] + half_q4) >> 4;
+
+    return pixel < low ? low : pixel > high ? high : (int32_t)pixel;
+}
+
+struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view)
+{
+    const struct draw_rect *rect = &view->rect;
+    int32_t half_q4[2];
+
+    if (extent->near) {
+        return *rect;
+    }
+    if (extent->low[0][1] == 0) {
+        return (struct draw_rect){0, 0, 0, 0};
+    }
+    find_halves(view, half_q4);
+    return (struct draw_rect){
+        pixel_at(extent->low[0], half_q4[0], rect->x0 + 1, rect->x1) - 1,
+        pixel_at(extent->low[1], half_q4[1], rect->y0 + 1, rect->y1) - 1,
+        pixel_at(extent->high[0], half_q4[0], rect->x0 - 2, rect->x1 - 2) + 2,
+        pixel_at(extent->high[1], half_q4[1], rect->y0 - 2, rect->y1 - 2) + 2,
+    };
 }
 
 /* ----------------------------------------------------------------- clipping */

@@ -75,8 +75,24 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3]);
 /* Everything of a problem but w, in, frame and wanted_q70. */
 void impact_prepare(struct impact_problem *p);
 
+/* to + s difference, in both parts of an answer; a - b in the unit of a, which is not the finer one. */
+void impact_add_scaled(struct impact_answer *to, const struct impact_answer *difference,
+                       struct fix_scaled s);
+struct impact_answer impact_subtract(const struct impact_answer *a, const struct impact_answer *b);
+
 /* The impulse without slip, and the one that slides along -v. Return 0, or -1: no solution. */
 int impact_stick(const struct impact_problem *p, struct impact_answer *out);
 int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out);
+
+/* Whether Coulomb's limit allows an impulse: |P_t| <= mu P.N, in exact squares. */
+bool impact_in_cone(const struct impact_problem *p, const struct impact_answer *x);
+/*
+ * Coulomb's limit is passed: the impulse along the slip, or where there is none to begin with,
+ * along the slip that a frictionless impact leaves. Returns 0, or -1: no solution.
+ */
+int impact_friction(struct impact_problem *p, bool slips, const struct impact_answer *stick,
+                    struct impact_answer *out);
+/* The energy rule: 1 when the impulse had to be moved, 0 when not, -1 when there is no solution. */
+int impact_energy_rule(const struct impact_problem *p, struct impact_answer *x);
 
 #endif

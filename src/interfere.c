@@ -91,15 +91,15 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
     static const int order[3] = {2, 0, 1}; /* most end above b */
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    int64_t around_q22 = fix_mul(leaf->radius_q22, w->angle_q30 / 2 + w->skew_q30, 30);
+    int64_t around_q22 = fix_mul(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
     int32_t radius = (leaf->radius_q22 >> 2) + 1, low[3], high[3];
 
     l->leaf = leaf;
-    l->near_q20 = (int32_t)((w->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
+    l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
     for (int i = 0; i < 3; i++) {
         int k = order[i];
-        int32_t x = interfere_dot(w->to_b.c[k], leaf->centre.c) + w->at.c[k];
-        int32_t shift = interfere_dot(w->change.c[k], leaf->centre.c) + w->moves.c[k];
+        int32_t x = interfere_dot(w->leaf->to_b.c[k], leaf->centre.c) + w->leaf->at.c[k];
+        int32_t shift = interfere_dot(w->leaf->change.c[k], leaf->centre.c) + w->leaf->moves.c[k];
 
         l->shift.c[k] = shift;
         l->reach.c[k] = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
@@ -118,11 +118,11 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
 {
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    const int32_t *row = w->to_b.c[k];
+    const int32_t *row = w->leaf->to_b.c[k];
     int32_t low = INT32_MAX, high = INT32_MIN;
 
     for (uint32_t i = 0; i < l->leaf->vertex_count; i++) {
-        int32_t x = interfere_dot(row, local[i].c) + w->at.c[k];
+        int32_t x = interfere_dot(row, local[i].c) + w->leaf->at.c[k];
 
         l->p[i].c[k] = x;
         low = x < low ? x : low;
@@ -170,8 +170,9 @@ static void place_slab(struct interfere *w)
     struct interfere_leaf *l = w->leaf;
     int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
 
-    carom_rotate(axis_q30, &w->to_b, l->leaf->axis.c);
-    at_q18 = interfere_dot(axis_q30, w->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
+    carom_rotate(axis_q30, &w->leaf->to_b, l->leaf->axis.c);
+    at_q18 =
+        interfere_dot(axis_q30, w->leaf->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
     for (int k = 0; k < 3; k++) {
         int32_t low = -mb->box[0][k], high = mb->box[1][k];
 
@@ -180,7 +181,7 @@ static void place_slab(struct interfere *w)
     }
     /* low and high are those of a's own axes: to_b has them but for its skew */
     reach_q18 = interfere_reach_q18(l, axis_q30) +
-                (int32_t)(fix_mul(w->a->radius_q22, w->skew_q30, 30) >> 4) + 2 +
+                (int32_t)(fix_mul(w->a->radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
                 (rounding_q15 >> (mb->raw.quantum_bits - 3));
     l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
     l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
@@ -224,7 +225,7 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
 /* Whether a face comes up for the first time, as far as is remembered. */
 static inline bool is_new(struct interfere *w, uint16_t face)
 {
-    uint16_t *seen = &w->seen[face % INTERFERE_SEEN];
+    uint16_t *seen = &w->leaf->seen[face % INTERFERE_SEEN];
 
     if (*seen == face) {
         return false;
@@ -277,7 +278,7 @@ static void visit_leaf(struct interfere *w)
     place_slab(w);
     w->leaf->busy = 0;
     w->leaf->listed = false;
-    memset(w->seen, 0xff, sizeof w->seen); /* CAROM_NO_FACE */
+    memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* CAROM_NO_FACE */
     cells = cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
@@ -298,80 +299,6 @@ static void visit_leaf(struct interfere *w)
 }
 
 /* -------------------------------------------------------------------- pair */
-
-void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
-{
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            out->c[i][j] = (int32_t)carom_round((int64_t)b->c[0][i] * a->c[0][j] +
-                                                    (int64_t)b->c[1][i] * a->c[1][j] +
-                                                    (int64_t)b->c[2][i] * a->c[2][j],
-                                                30);
-        }
-    }
-}
-
-/*
- * How far a point may be off the straight way from its start to its end, as seen from b: an eighth
- * of the second derivative. A turn with the Cayley vector u moves a point at r by at most 2 |u| r,
- * and that by at most 4 |u|^2 (1 + |u|) r; in axes that turn so themselves there is twice the turn
- * times the way on top.
- */
-static int64_t sag_q22(const struct interfere *w, int64_t distance_q22)
-{
-    const struct body_region *a = &w->a->region, *b = &w->b->region;
-    int64_t bend = 2 * ((int64_t)a->bend_q22 + b->bend_q22);
-    int64_t way = (int64_t)a->length_q22 + b->length_q22;
-    int32_t twice_q30 = 2 * a->u_q30;
-
-    way += fix_mul(w->a->radius_q22, twice_q30, 30);
-    bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->u_q30, 30);
-    if (b->u_q30 > 0) {
-        twice_q30 = 2 * b->u_q30;
-        bend += 2 * fix_mul(way, twice_q30, 30);
-        bend += fix_mul(fix_mul(distance_q22 + w->a->radius_q22 + way, twice_q30, 30),
-                        twice_q30 + b->u_q30, 30);
-    }
-    return bend / 8 + 2;
-}
-
-/* Where a is as seen from b, and how it moves; false when they are too far apart to matter. */
-static bool set_motion(struct interfere *w)
-{
-    const struct body_region *a = &w->a->region, *b = &w->b->region;
-    const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
-    int64_t start[3], end[3], distance = 0;
-
-    for (int k = 0; k < 3; k++) {
-        start[k] = a->at.c[k] - b->at.c[k];
-        end[k] = start[k] + ((a->end.c[k] - b->end.c[k]) >> 8);
-    }
-    fix_rotate_back(start, &b->r, start);
-    fix_rotate_back(end, &b->end_r, end);
-    for (int k = 0; k < 3; k++) {
-        if (carom_abs(start[k]) > (int64_t)400 << 32) {
-            return false;
-        }
-        w->moves.c[k] = (int32_t)((end[k] - start[k]) >> 12);
-        w->at.c[k] = (int32_t)(start[k] >> 12) + w->moves.c[k] / 2;
-        distance += carom_abs(start[k]) >> 10;
-    }
-    interfere_relate(&w->to_b, &b->r, &a->r);
-    memset(&w->change, 0, sizeof w->change);
-    if (a->u_q30 > 0 || b->u_q30 > 0) {
-        interfere_relate(&w->change, &b->end_r, &a->end_r);
-        for (int i = 0; i < 9; i++) {
-            w->change.c[i / 3][i % 3] -= w->to_b.c[i / 3][i % 3];
-            w->to_b.c[i / 3][i % 3] += w->change.c[i / 3][i % 3] / 2;
-        }
-    }
-    w->angle_q30 = 2 * (a->u_q30 + b->u_q30);
-    /* 1 - cos^2 of half of the angle, at most a quarter of its square */
-    w->skew_q30 = carom_mul_q30(w->angle_q30, w->angle_q30) / 4 + 1;
-    w->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 +
-                  sag_q22(w, distance);
-    return true;
-}
 
 /*
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
@@ -405,14 +332,14 @@ static void gather_pair(struct interfere *w, const struct body *bodies, const st
     w->a = &bodies[p->a];
     w->b = &bodies[p->b];
     w->pooled = interfere_makes_lists(w->b->mesh);
-    if (!set_motion(w)) {
+    if (!interfere_set_motion(w)) {
         return;
     }
     if (!in_range(w->a, w->b)) {
         w->error = CAROM_ERR_RANGE;
         return;
     }
-    w->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
+    w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
 }

@@ -61,7 +61,18 @@ struct interfere_plane {
 /* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are
  * q20. */
 struct interfere_leaf {
+    /* of its pair */
+    carom_m3_q30 to_b;       /* from a's mesh axes to b's: the mean of start and end */
+    struct interfere_vec at; /* a's centre of mass in b's mesh frame, likewise */
+    carom_m3_q30 change;     /* from start to end */
+    struct interfere_vec moves;
+    int64_t near_q22;  /* how far points may be off the straight way between both */
+    int32_t angle_q30; /* how far one body turns as seen from the other */
+    int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
+    int32_t cone_q30;  /* cosine tolerance of normal cones */
+
     const struct carom_leaf *leaf;
+    uint16_t seen[INTERFERE_SEEN];
     struct interfere_vec shift;
     int32_t near_q20;                            /* the tolerance */
     struct interfere_vec reach;                  /* it and half of the shift, along each axis */
@@ -107,16 +118,7 @@ struct interfere {
     /* the pair being worked on */
     const struct body *a, *b;
     uint16_t pair, body_a, body_b;
-    carom_m3_q30 to_b;       /* from a's mesh axes to b's: the mean of start and end */
-    struct interfere_vec at; /* a's centre of mass in b's mesh frame, likewise */
-    carom_m3_q30 change;     /* from start to end */
-    struct interfere_vec moves;
-    int64_t near_q22;  /* how far points may be off the straight way between both */
-    int32_t angle_q30; /* how far one body turns as seen from the other */
-    int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
-    int32_t cone_q30;  /* cosine tolerance of normal cones */
-    struct interfere_leaf *leaf; /* room for one, the caller's */
-    uint16_t seen[INTERFERE_SEEN];
+    struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
 
     bool pooled;                     /* b's z-lists are in `lists` */
     const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */

@@ -136,7 +136,8 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
 
     if (!(l->placed >> i & 1)) {
         l->placed |= 1u << i;
-        carom_rotate(plane->n_q30, &w->to_b, w->a->mesh->faces[interfere_face(w, i)].normal.c);
+        carom_rotate(plane->n_q30, &w->leaf->to_b,
+                     w->a->mesh->faces[interfere_face(w, i)].normal.c);
         plane->offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
         plane->reach_q18 = interfere_reach_q18(l, plane->n_q30);
     }
@@ -220,9 +221,9 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
             stays_beside(l, p, corners, t->face->normal.c)) {
             continue;
         }
-        carom_rotate_back(n, &w->to_b, t->face->normal.c);
+        carom_rotate_back(n, &w->leaf->to_b, t->face->normal.c);
         v = ma->leaf_vertices[l->leaf->first_vertex + at];
-        if (mesh_vertex_cone(ma, v, n, w->cone_q30)) {
+        if (mesh_vertex_cone(ma, v, n, w->leaf->cone_q30)) {
             emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
             any = true;
         }
@@ -245,7 +246,8 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
         uint32_t v = w->b->mesh->raw.faces[t->number][k];
 
         if ((left >> k & 1) && !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
-            !stays_beside(l, &t->p[k], p, n) && mesh_vertex_cone(w->b->mesh, v, n, w->cone_q30)) {
+            !stays_beside(l, &t->p[k], p, n) &&
+            mesh_vertex_cone(w->b->mesh, v, n, w->leaf->cone_q30)) {
             emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
             any = true;
         }
@@ -274,8 +276,8 @@ static int64_t size_of(const int32_t v[3])
  */
 static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t sine_q30)
 {
-    int64_t turn_q30 = (int64_t)in->cone_q30 - INTERFERE_CONE_Q30;
-    int64_t tolerance_q60 = in->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
+    int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
+    int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
     bool plus = true, minus = true;
     int32_t w_a[3];
 
@@ -289,7 +291,7 @@ static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t
     if (!plus && !minus) {
         return false;
     }
-    carom_rotate_back(w_a, &in->to_b, l->w);
+    carom_rotate_back(w_a, &in->leaf->to_b, l->w);
     for (int side = 0; side < 2; side++) {
         carom_v3_q30 in_a = mesh_edge_inward(in->a->mesh, l->a, side);
         int64_t on_a = carom_dot(w_a, in_a.c);
@@ -326,11 +328,11 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     int64_t sine_q30, limit;
     int32_t largest;
 
-    carom_rotate(l->e, &in->to_b, l->a->direction.c);
+    carom_rotate(l->e, &in->leaf->to_b, l->a->direction.c);
     carom_cross(l->w, l->e, f, 30);
     largest = most(most((int32_t)carom_abs(l->w[0]), (int32_t)carom_abs(l->w[1])),
                    (int32_t)carom_abs(l->w[2]));
-    if (largest < CAROM_ONE_Q30 / 64 + (in->cone_q30 - INTERFERE_CONE_Q30)) {
+    if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
         return true; /* may be parallel somewhere on the way: leave it to the exact test */
     }
     sine_q30 = size_of(l->w) + 4; /* at least */

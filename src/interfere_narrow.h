@@ -33,6 +33,9 @@ struct target {
 /* R_b^T R_a */
 void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a);
 
+/* Where a is as seen from b, and how it moves; false when they are too far apart to matter. */
+bool interfere_set_motion(struct interfere *w);
+
 /* Every leaf of a that comes near faces of b, with w->meet for each pair of faces. */
 void interfere_leaves(struct interfere *w);
 

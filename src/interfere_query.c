@@ -190,9 +190,9 @@ static void place_pair(struct interfere *w, const struct body_state *a, const st
     }
     fix_rotate_back(d_q32, &r_b, d_q32);
     for (int k = 0; k < 3; k++) {
-        w->at.c[k] = (int32_t)(d_q32[k] >> 12);
+        w->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
     }
-    interfere_relate(&w->to_b, &r_b, &r_a);
+    interfere_relate(&w->leaf->to_b, &r_b, &r_a);
 }
 
 /* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
@@ -203,8 +203,8 @@ static struct interfere_area area_at(const struct interfere *w)
     struct interfere_area area;
 
     for (int k = 0; k < 2; k++) {
-        area.low[k] = (w->at.c[k] - around) >> shift;
-        area.high[k] = (w->at.c[k] + around) >> shift;
+        area.low[k] = (w->leaf->at.c[k] - around) >> shift;
+        area.high[k] = (w->leaf->at.c[k] + around) >> shift;
     }
     return area;
 }
@@ -242,10 +242,10 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     w->a = q.swapped ? b.body : a.body;
     w->b = q.swapped ? a.body : b.body;
     place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state);
-    memset(&w->change, 0, sizeof w->change);
-    memset(&w->moves, 0, sizeof w->moves);
-    w->near_q22 = 0;
-    w->angle_q30 = w->skew_q30 = 0;
+    memset(&w->leaf->change, 0, sizeof w->leaf->change);
+    memset(&w->leaf->moves, 0, sizeof w->leaf->moves);
+    w->leaf->near_q22 = 0;
+    w->leaf->angle_q30 = w->leaf->skew_q30 = 0;
     w->error = CAROM_OK;
     w->meet = meet;
     w->query = &q;

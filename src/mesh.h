@@ -30,6 +30,7 @@ struct carom_surface {
     uint32_t *lists;  /* room for z-lists of its own */
     bool own_lists;   /* these are kept and used; else those of a world's pool */
     int32_t most_q22; /* no vertex has moved by more since `before` */
+    uint32_t moves;   /* how often they have */
 };
 
 /*

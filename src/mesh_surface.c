@@ -152,6 +152,7 @@ void mesh_surface_keep(struct carom_surface *s)
 {
     memcpy(s->now, s->mesh->raw.vertices, s->mesh->raw.vertex_count * sizeof s->now[0]);
     s->mesh->raw.vertices = (const int16_t(*)[3])s->now;
+    s->moves++;
     s->most_q22 = (int32_t)length_q22(
         s, largest_change(s, s->mesh->raw.vertices, (const int16_t(*)[3])s->before));
 }

@@ -128,7 +128,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
     int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
 
-    if (c->target_q40 + rise_q40 >= least_q40) {
+    if (c->work->target_q40 + rise_q40 >= least_q40) {
         return;
     }
     for (int k = 0; k < 3; k++) {
@@ -138,7 +138,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
         c->velocity_q40.c[k] += rise;
     }
     c->speed_q40 += rise_q40;
-    c->target_q40 = least_q40;
+    c->work->target_q40 = least_q40;
 }
 
 /* The wanted normal velocity after the solve. */
@@ -152,26 +152,26 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
-        c->target_q40 = impact_target_q40(c, e_q30);
+        c->work->target_q40 = impact_target_q40(c, e_q30);
     } else if (e_q30 == CAROM_ONE_Q30) {
-        c->target_q40 = 0;
+        c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
-        c->target_q40 = 0;
+        c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
         /* may come nearer until the skins touch; q22 to q40 over the time */
         int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
 
-        c->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
+        c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
     } else {
-        c->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
-        c->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
+        c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
+        c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
-    c->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->target_q40) >> 10);
+    c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
     /* what the path's bend takes back of V.N must be there to begin with */
     if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
         int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
 
-        c->target_q40 += more_q40 > 0 ? more_q40 : 0;
+        c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;
     }
     if (rise_q40 < 0) {
         hold_above(c, tau_q30, rise_q40);
@@ -202,7 +202,7 @@ void rest_apply(struct rest *r)
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
 
-        rest_apply_at(r, c, c->impulse_q40.c, c->roll.moment_q40.c);
+        rest_apply_at(r, c, c->impulse_q40.c, rest_moment(c)->c);
     }
 }
 
@@ -230,8 +230,9 @@ static int solve_impact(struct rest *r, struct contact *c)
     impact_side(&c->side[1], &in.b);
     in.normal = c->normal;
     in.velocity = c->velocity_q40;
-    in.target_q40 = c->target_q40;
+    in.target_q40 = c->work->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
+    c->work = NULL; /* the elimination takes its room */
     result = impact_solve(r->gauss, &in, &out);
     if (result == CAROM_OK) {
         c->impulse_q40 = out.impulse;
@@ -251,6 +252,8 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
+        c->work = &r->works[r->first + i];
+        c->work->roll = NULL;
         rest_relative_velocity(c, &c->velocity_q40);
         c->speed_q40 = rest_along_q40(&c->velocity_q40, &c->normal);
         rest_prepare_masses(c);

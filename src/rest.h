@@ -30,7 +30,10 @@ struct rest_warm {
 };
 
 struct rest {
-    struct gauss *gauss; /* room to solve in */
+    /* room to solve in: a single impact, or many contacts and rolling by pairs; one at a time */
+    struct gauss *gauss;
+    struct contact_work *works;
+    struct contact_roll *rolls;
     struct contact_list list;
     const struct pair *pairs;
     struct body *bodies;
@@ -76,6 +79,9 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
 /* v, or +-(2^31 - 1). */
 int32_t rest_clamp(int64_t v);
+
+/* The moment of rolling friction that a contact was given with its impulse; on a. */
+const carom_v3_q40 *rest_moment(const struct contact *c);
 
 /* Part of a velocity or an impulse along a direction. */
 static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)

@@ -44,13 +44,15 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
         for (int k = 0; k < 3; k++) {
             int64_t from = c->impulse_q40.c[k];
 
-            impulse.c[k] = from + fix_mul(c->wanted_q40.c[k] - from, k_q30, 30);
-            moment.c[k] = fix_mul(c->roll.moment_q40.c[k], k_q30, 30);
+            impulse.c[k] = from + fix_mul(c->work->wanted_q40.c[k] - from, k_q30, 30);
+            moment.c[k] = fix_mul(rest_moment(c)->c[k], k_q30, 30);
         }
         rest_apply_at(r, c, impulse.c, moment.c);
         if (keep) {
             c->impulse_q40 = impulse;
-            c->roll.moment_q40 = moment;
+            if (c->work->roll) {
+                c->work->roll->moment_q40 = moment;
+            }
         }
     }
 }
@@ -116,7 +118,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->wanted_q40 = c->impulse_q40;
+        c->work->wanted_q40 = c->impulse_q40;
         rest_relative_velocity(c, &c->velocity_q40);
     }
     rest_solve_sweeps(r, &plastic, false);

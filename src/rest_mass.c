@@ -39,11 +39,12 @@ static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 }
 
 /* The turn by an impulse on one side, and what it adds to K. */
-static void prepare_side(struct contact_side *side, int64_t k_q30[6])
+static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
+                         int64_t k_q30[6])
 {
     const struct carom_sym3 *turning = &side->body->turning;
     int64_t turn[3][3], part[3];
-    const bool whole = side->share_q30 == CAROM_ONE_Q30;
+    const bool whole = lever->share_q30 == CAROM_ONE_Q30;
     uint64_t all = 0;
     int down;
 
@@ -60,7 +61,7 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
     /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
     down = fix_bits(all) - 30;
     down = down > turning->e - 20 ? down : turning->e - 20;
-    side->turn_bits = 30 + turning->e - down;
+    lever->turn_bits = 30 + turning->e - down;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             int64_t t = turn[i][k];
@@ -68,18 +69,18 @@ static void prepare_side(struct contact_side *side, int64_t k_q30[6])
                                       : down > 0 ? carom_round(t, down)
                                                  : carom_shl(t, -down));
 
-            side->turn[i][k] = whole ? entry : carom_mul_q30(entry, side->share_q30);
+            lever->turn[i][k] = whole ? entry : carom_mul_q30(entry, lever->share_q30);
         }
     }
     /* what an impulse along axis i changes the velocity by */
     for (int i = 0; i < 3; i++) {
-        const int32_t spin[3] = {side->turn[0][i], side->turn[1][i], side->turn[2][i]};
+        const int32_t spin[3] = {lever->turn[0][i], lever->turn[1][i], lever->turn[2][i]};
 
         cross(part, spin, side->arm_q30);
         for (int k = 0; k <= i; k++) {
-            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], side->turn_bits);
+            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], lever->turn_bits);
         }
-        k_q30[fix_sym3_at[i][i]] += side->share_q30;
+        k_q30[fix_sym3_at[i][i]] += lever->share_q30;
     }
 }
 
@@ -88,22 +89,24 @@ static void prepare_shares(struct contact *c)
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
 
-    c->mass_unit = a ? a->mass : b->mass;
+    c->work->mass_unit = a ? a->mass : b->mass;
     if (a && b && fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
-        c->mass_unit = b->mass;
+        c->work->mass_unit = b->mass;
     }
     for (int s = 0; s < 2; s++) {
-        struct contact_side *side = &c->side[s];
+        const struct contact_side *side = &c->side[s];
+        struct contact_lever *lever = &c->work->lever[s];
 
         if (!side->body) {
             continue;
         }
-        if (side->body->mass.m == c->mass_unit.m && side->body->mass.e == c->mass_unit.e) {
-            side->share_q30 = CAROM_ONE_Q30;
+        if (side->body->mass.m == c->work->mass_unit.m &&
+            side->body->mass.e == c->work->mass_unit.e) {
+            lever->share_q30 = CAROM_ONE_Q30;
         } else {
-            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, c->mass_unit);
+            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, c->work->mass_unit);
 
-            side->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
+            lever->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
         }
     }
 }
@@ -140,11 +143,11 @@ static void refine_unit(struct contact *c, int64_t along_q30)
 {
     int bits = fix_bits((uint64_t)along_q30) - 30;
 
-    c->fine_bits = (int8_t)(bits > 0 ? bits : 0);
-    c->mass_unit.e += c->fine_bits;
+    c->work->fine_bits = (int8_t)(bits > 0 ? bits : 0);
+    c->work->mass_unit.e += c->work->fine_bits;
     for (int s = 0; s < 2; s++) {
-        c->side[s].share_q30 >>= c->fine_bits;
-        c->side[s].turn_bits += c->fine_bits;
+        c->work->lever[s].share_q30 >>= c->work->fine_bits;
+        c->work->lever[s].turn_bits += c->work->fine_bits;
     }
 }
 
@@ -164,23 +167,24 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
         k[i] = (int32_t)(k_q30[i] >> shift);
     }
     det = adjugate(adjoint, k);
-    c->inverted = det >= 1 << 9;
-    if (c->inverted) {
+    c->work->inverted = det >= 1 << 9;
+    if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
         for (int i = 0; i < 6; i++) {
-            c->inverse[i] = (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+            c->work->inverse[i] =
+                (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
     multiply(n, k, c->normal.c);
     product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
     along_q30 = carom_shl(product, shift);
-    c->step[0] = (int32_t)(((int64_t)1 << 60) / along_q30);
+    c->work->step[0] = (int32_t)(((int64_t)1 << 60) / along_q30);
     for (int i = 0; i < 3; i++) {
         int64_t drag = n[i] - carom_mul_q30(product, c->normal.c[i]);
 
-        c->drag_q28[i] = rest_clamp(impact_shift(drag * c->step[0], shift - 32));
+        c->work->drag_q28[i] = rest_clamp(impact_shift(drag * c->work->step[0], shift - 32));
     }
     half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
     multiply(n, adjoint, c->normal.c);
@@ -188,10 +192,10 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     root = carom_mul_q30(half, half) - product;
     root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
     across_q30 = carom_shl((int64_t)half + root, shift);
-    c->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
+    c->work->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
     refine_unit(c, along_q30);
     most = across_q30 > along_q30 ? across_q30 : along_q30;
-    c->mass_q24 = rest_clamp(most >> (6 + c->fine_bits));
+    c->work->mass_q24 = rest_clamp(most >> (6 + c->work->fine_bits));
 }
 
 void rest_prepare_masses(struct contact *c)
@@ -201,7 +205,7 @@ void rest_prepare_masses(struct contact *c)
     prepare_shares(c);
     for (int s = 0; s < 2; s++) {
         if (c->side[s].body) {
-            prepare_side(&c->side[s], k_q30);
+            prepare_side(&c->side[s], &c->work->lever[s], k_q30);
         }
     }
     prepare_steps(c, k_q30);

@@ -38,7 +38,7 @@ static bool may_roll(const struct rest *r, uint32_t i)
 
     for (uint32_t n = i; same_pair(r, i, n); n++) {
         all++;
-        pressed += rest_contact(r, n)->normal_impulse > 0;
+        pressed += rest_contact(r, n)->work->normal_impulse > 0;
     }
     return all <= 2 || (pressed > 0 && pressed <= 2);
 }
@@ -46,13 +46,13 @@ static bool may_roll(const struct rest *r, uint32_t i)
 /* How many bits shorter the unit of length is than the body's. */
 static int finer(const struct contact *c, const struct body *b)
 {
-    return b->unit_bits - c->roll.unit_bits;
+    return b->unit_bits - c->work->roll->unit_bits;
 }
 
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
-static int64_t turning_q30(const struct contact_side *side)
+static int64_t turning_q30(const struct body *b, int32_t share_q30)
 {
-    const struct carom_sym3 *t = &side->body->turning;
+    const struct carom_sym3 *t = &b->turning;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
@@ -63,22 +63,23 @@ static int64_t turning_q30(const struct contact_side *side)
         }
         largest = sum > largest ? sum : largest;
     }
-    return impact_shift(fix_mul(largest, side->share_q30, 30), 30 - t->e);
+    return impact_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 {
     struct contact *c = rest_contact(r, i);
-    struct contact_roll *roll = &c->roll;
+    struct contact_roll *roll = &r->rolls[c->key.pair];
     const struct body *a = c->side[0].body, *b = c->side[1].body;
     int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
 
-    roll->moment_q40 = (carom_v3_q40){{0, 0, 0}};
-    if (!leads(r, i) || !may_roll(r, i) || c->friction_q16 == 0 ||
+    c->work->roll = NULL;
+    if (!leads(r, i) || !may_roll(r, i) || c->work->friction_q16 == 0 ||
         rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
         return false;
     }
-    roll->unit_bits = (int8_t)(b && b->unit_bits < a->unit_bits ? b->unit_bits : a->unit_bits);
+    c->work->roll = roll;
+    roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
     roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
@@ -86,7 +87,8 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         if (!side->body) {
             continue;
         }
-        mass_q30 += turning_q30(side) >> (2 * finer(c, side->body));
+        mass_q30 +=
+            turning_q30(side->body, c->work->lever[s].share_q30) >> (2 * finer(c, side->body));
         for (int k = 0; k < 3; k++) {
             int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
@@ -116,12 +118,12 @@ static void twist(struct contact *c, const int32_t moment[3])
         }
         t = &side->body->turning;
         for (int k = 0; k < 3; k++) {
-            int64_t m = carom_round((int64_t)moment[k] * side->share_q30, 30);
+            int64_t m = carom_round((int64_t)moment[k] * c->work->lever[s].share_q30, 30);
 
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+            side->body->path.dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }
@@ -129,18 +131,18 @@ static void twist(struct contact *c, const int32_t moment[3])
 int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
 {
     struct contact *c = rest_contact(r, i);
-    struct contact_roll *roll = &c->roll;
+    struct contact_roll *roll = c->work->roll;
     int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
     int32_t change[3], limit, most = 0, moved;
 
     for (uint32_t n = i; same_pair(r, i, n); n++) {
-        pressure += rest_contact(r, n)->normal_impulse;
+        pressure += rest_contact(r, n)->work->normal_impulse;
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dw = b->dw[k] >> (REST_FINER_BITS + finer(c, b));
+            int64_t dw = b->path.dw[k] >> (REST_FINER_BITS + finer(c, b));
 
             spin[k] += s == 0 ? dw : -dw;
         }
@@ -171,16 +173,24 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     return moved;
 }
 
+const carom_v3_q40 *rest_moment(const struct contact *c)
+{
+    static const carom_v3_q40 none = {{0, 0, 0}};
+
+    return c->work && c->work->roll ? &c->work->roll->moment_q40 : &none;
+}
+
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 {
-    struct fix_scaled unit = c->mass_unit;
+    struct fix_scaled unit = c->work->mass_unit;
+    struct contact_roll *roll = c->work->roll;
 
-    if (!c->roll.acts) {
+    if (!c->work->rolls) {
         return;
     }
-    unit.e -= sw->unit + c->roll.unit_bits - 22;
+    unit.e -= sw->unit + roll->unit_bits - 22;
     for (int k = 0; k < 3; k++) {
-        c->roll.moment_q40.c[k] = fix_mul_scaled(c->roll.moment[k], unit);
+        roll->moment_q40.c[k] = fix_mul_scaled(roll->moment[k], unit);
     }
 }
 
@@ -192,7 +202,7 @@ static int32_t within(int64_t v)
 
 void rest_roll_accelerate(struct contact *c, int32_t part_q30)
 {
-    struct contact_roll *roll = &c->roll;
+    struct contact_roll *roll = c->work->roll;
     int32_t gain[3];
 
     for (int k = 0; k < 3; k++) {

@@ -19,7 +19,7 @@
 
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
-    return sw->plastic && (c->impact || c->target_q40 > 0) ? 0 : c->target_q40;
+    return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
 }
 
 static void choose_unit(const struct rest *r, struct rest_sweep *sw)
@@ -56,12 +56,12 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
     }
     rest_cut(slip, SLIP_MAX);
     for (int k = 0; k < 3; k++) {
-        c->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
-        c->tangent_impulse[k] = 0;
+        c->work->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
+        c->work->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->band = rest_clamp(impact_shift(carom_shl(c->band_q30, 10), -sw->unit));
-    c->normal_impulse = 0;
+    c->work->band = rest_clamp(impact_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
+    c->work->normal_impulse = 0;
 }
 
 static void begin(struct rest *r, const struct rest_sweep *sw)
@@ -69,15 +69,15 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->friction_q16 =
+        c->work->friction_q16 =
             sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
         begin_contact(c, sw);
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
 
             if (b) {
-                b->dv[0] = b->dv[1] = b->dv[2] = 0;
-                b->dw[0] = b->dw[1] = b->dw[2] = 0;
+                b->path.dv[0] = b->path.dv[1] = b->path.dv[2] = 0;
+                b->path.dw[0] = b->path.dw[1] = b->path.dw[2] = 0;
             }
         }
     }
@@ -123,11 +123,11 @@ static void change_at(const struct contact_side *side, int64_t out[3])
     int64_t dw[3];
 
     for (int k = 0; k < 3; k++) {
-        dw[k] = b->dw[k] >> (REST_FINER_BITS - 2);
+        dw[k] = b->path.dw[k] >> (REST_FINER_BITS - 2);
     }
     wrapping_cross(out, dw, side->arm_q30);
     for (int k = 0; k < 3; k++) {
-        out[k] = b->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+        out[k] = b->path.dv[k] + (out[k] >> (32 - REST_FINER_BITS));
     }
 }
 
@@ -147,7 +147,7 @@ static void present_velocity(const struct contact *c, int32_t v[3])
         change_at(&c->side[1], other);
     }
     for (int k = 0; k < 3; k++) {
-        sum[k] = c->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
+        sum[k] = c->work->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
         v[k] = (int32_t)sum[k];
         fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
     }
@@ -159,14 +159,13 @@ static void present_velocity(const struct contact *c, int32_t v[3])
     }
 }
 
-static void push_side(const struct contact_side *side, const int32_t impulse[3])
+static void push_side(struct body *b, const struct contact_lever *lever, const int32_t impulse[3])
 {
-    struct body *b = side->body;
-    int down = side->turn_bits - REST_FINER_BITS;
+    int down = lever->turn_bits - REST_FINER_BITS;
 
     for (int k = 0; k < 3; k++) {
-        b->dv[k] += ((int64_t)impulse[k] * side->share_q30) >> (30 - REST_FINER_BITS);
-        b->dw[k] += carom_dot(side->turn[k], impulse) >> down;
+        b->path.dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
+        b->path.dw[k] += carom_dot(lever->turn[k], impulse) >> down;
     }
 }
 
@@ -175,10 +174,10 @@ void rest_push(struct contact *c, const int32_t impulse[3])
     const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
     if (c->side[0].body) {
-        push_side(&c->side[0], impulse);
+        push_side(c->side[0].body, &c->work->lever[0], impulse);
     }
     if (c->side[1].body) {
-        push_side(&c->side[1], opposite);
+        push_side(c->side[1].body, &c->work->lever[1], opposite);
     }
 }
 
@@ -236,8 +235,8 @@ static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
     }
     square = square32(slip);
-    if (square > (uint64_t)((int64_t)c->band * c->band)) {
-        ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->band << 30) / fix_sqrt(square));
+    if (square > (uint64_t)((int64_t)c->work->band * c->work->band)) {
+        ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->work->band << 30) / fix_sqrt(square));
     }
     for (int k = 0; k < 3; k++) {
         v[k] -= carom_mul_q30(slip[k], ratio_q30);
@@ -246,7 +245,7 @@ static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 
 static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
 {
-    return fix_mul(normal_impulse, (int32_t)c->friction_q16, 16);
+    return fix_mul(normal_impulse, (int32_t)c->work->friction_q16, 16);
 }
 
 /* A change of impulse, each part below 2^30: along N, and with what is across it. */
@@ -263,7 +262,7 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
 {
     int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
                                      (v[2] ^ (v[2] >> 31)))) +
-               c->fine_bits - 29;
+               c->work->fine_bits - 29;
     int64_t after[4], limit;
     int32_t part[3], across[3];
 
@@ -272,15 +271,16 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
         part[k] = v[k] >> down;
     }
     for (int k = 0; k < 3; k++) {
-        g->whole[k] = -(int32_t)carom_round(rest_row(c->inverse, k, part), 30 - c->fine_bits);
+        g->whole[k] =
+            -(int32_t)carom_round(rest_row(c->work->inverse, k, part), 30 - c->work->fine_bits);
     }
     g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
-    after[3] = c->normal_impulse + carom_shl(g->along, down);
+    after[3] = c->work->normal_impulse + carom_shl(g->along, down);
     if (after[3] <= 0) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        after[k] = c->tangent_impulse[k] +
+        after[k] = c->work->tangent_impulse[k] +
                    carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
     }
     /* mu is at most 4: the limit has 31 bits */
@@ -288,7 +288,7 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     for (int k = 0; k < 3; k++) {
         across[k] = (int32_t)after[k];
     }
-    limit = (after[3] * (int32_t)c->friction_q16) >> 16;
+    limit = (after[3] * (int32_t)c->work->friction_q16) >> 16;
     return square32(across) <= (uint64_t)(limit * limit);
 }
 
@@ -309,10 +309,10 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
         int32_t part = (int32_t)t[k];
 
         square += (uint32_t)(part * part);
-        drag += (int64_t)part * c->drag_q28[k];
+        drag += (int64_t)part * c->work->drag_q28[k];
     }
     mass_q11 = (int32_t)(drag >> 17) / (int32_t)fix_sqrt(square);
-    mass_q11 = 2048 + (int32_t)(((int64_t)mass_q11 * c->friction_q16) >> 16);
+    mass_q11 = 2048 + (int32_t)(((int64_t)mass_q11 * c->work->friction_q16) >> 16);
     return (1 << 26) / (mass_q11 > 256 ? mass_q11 : 256);
 }
 
@@ -322,22 +322,23 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
  */
 static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
-    int64_t change[4] = {0, 0, 0, carom_round((int64_t)dvn * c->step[0], 30 - c->fine_bits)};
+    int64_t change[4] = {0, 0, 0,
+                         carom_round((int64_t)dvn * c->work->step[0], 30 - c->work->fine_bits)};
     bool limited = true;
 
-    if (change[3] <= -c->normal_impulse) {
-        change[3] = -c->normal_impulse;
+    if (change[3] <= -c->work->normal_impulse) {
+        change[3] = -c->work->normal_impulse;
     } else {
         for (int k = 0; k < 3; k++) {
-            int32_t after = rest_clamp(slip[k] + (((int64_t)c->drag_q28[k] * dvn) >> 28));
+            int32_t after = rest_clamp(slip[k] + (((int64_t)c->work->drag_q28[k] * dvn) >> 28));
 
-            change[k] =
-                c->tangent_impulse[k] - (((int64_t)after * c->step[1]) >> (30 - c->fine_bits));
+            change[k] = c->work->tangent_impulse[k] -
+                        (((int64_t)after * c->work->step[1]) >> (30 - c->work->fine_bits));
         }
-        limited = rest_cut(change, friction_limit(c, c->normal_impulse + change[3]));
+        limited = rest_cut(change, friction_limit(c, c->work->normal_impulse + change[3]));
     }
     for (int k = 0; k < 3; k++) {
-        change[k] -= c->tangent_impulse[k];
+        change[k] -= c->work->tangent_impulse[k];
     }
     /* if that is too large for one push a part of all of it: from one place in the cone to another */
     shrink(change, 29);
@@ -356,10 +357,10 @@ static void slide(const struct contact *c, int32_t error, const int32_t v[3], st
 
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
-        across[k] =
-            c->tangent_impulse[k] - (((int64_t)slip[k] * c->step[1]) >> (30 - c->fine_bits));
+        across[k] = c->work->tangent_impulse[k] -
+                    (((int64_t)slip[k] * c->work->step[1]) >> (30 - c->work->fine_bits));
     }
-    if (c->friction_q16 == 0 ||
+    if (c->work->friction_q16 == 0 ||
         !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
         slide_by(c, -error, slip, g);
     }
@@ -370,11 +371,11 @@ static int32_t add(struct contact *c, const struct gain *g)
 {
     int32_t most = 0;
 
-    c->normal_impulse += g->along;
+    c->work->normal_impulse += g->along;
     for (int k = 0; k < 3; k++) {
         int32_t size = g->whole[k] < 0 ? -g->whole[k] : g->whole[k];
 
-        c->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
+        c->work->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
         /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
         c->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
         most = size > most ? size : most;
@@ -394,20 +395,21 @@ static int64_t visit(struct contact *c, int32_t quiet)
 
     present_velocity(c, v);
     error = (int32_t)carom_round(carom_dot(c->normal.c, v), 30);
-    if (error >= 0 && c->normal_impulse == 0 &&
-        (c->tangent_impulse[0] | c->tangent_impulse[1] | c->tangent_impulse[2]) == 0) {
+    if (error >= 0 && c->work->normal_impulse == 0 &&
+        (c->work->tangent_impulse[0] | c->work->tangent_impulse[1] | c->work->tangent_impulse[2]) ==
+            0) {
         return 0; /* it opens */
     }
-    if (c->band > 0) {
+    if (c->work->band > 0) {
         leave_band(c, error, v);
     }
     if (((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) | (v[2] ^ (v[2] >> 31))) < quiet) {
         return 0;
     }
-    if (c->friction_q16 == 0 || !c->inverted || !stick(c, v, &g)) {
+    if (c->work->friction_q16 == 0 || !c->work->inverted || !stick(c, v, &g)) {
         slide(c, error, v, &g);
     }
-    return ((int64_t)c->mass_q24 * add(c, &g)) >> 24;
+    return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
 }
 
 /* A component of the way: three of them make up a vector below 2^30. */
@@ -441,13 +443,13 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
         }
         if (all != 0) {
             g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
-            for (int k = 0; c->friction_q16 == 0 && k < 3; k++) {
+            for (int k = 0; c->work->friction_q16 == 0 && k < 3; k++) {
                 g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
             }
             add(c, &g);
             c->gain[0] = c->gain[1] = c->gain[2] = 0;
         }
-        if (c->roll.acts) {
+        if (c->work->rolls) {
             rest_roll_accelerate(c, part_q30);
         }
     }
@@ -459,8 +461,8 @@ static void into_cones(struct rest *r)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->normal_impulse = c->normal_impulse > 0 ? c->normal_impulse : 0;
-        rest_cut(c->tangent_impulse, friction_limit(c, c->normal_impulse));
+        c->work->normal_impulse = c->work->normal_impulse > 0 ? c->work->normal_impulse : 0;
+        rest_cut(c->work->tangent_impulse, friction_limit(c, c->work->normal_impulse));
     }
 }
 
@@ -477,7 +479,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
-    bool coupled = n > 1 || rest_contact(r, 0)->roll.acts;
+    bool coupled = n > 1 || rest_contact(r, 0)->work->rolls;
     int rounds = most_rounds(r, sw);
     int64_t before = 0;
 
@@ -491,7 +493,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
             int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual : 0);
 
             moved = m > moved ? m : moved;
-            if (rest_contact(r, at)->roll.acts) {
+            if (rest_contact(r, at)->work->rolls) {
                 m = rest_roll_sweep(r, at, sw->residual);
                 moved = m > moved ? m : moved;
             }
@@ -513,12 +515,12 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        struct fix_scaled unit = c->mass_unit;
+        struct fix_scaled unit = c->work->mass_unit;
 
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
         for (int k = 0; k < 3; k++) {
-            int64_t j = fix_mul(c->normal_impulse, c->normal.c[k], 22) +
-                        carom_shl(c->tangent_impulse[k], 8);
+            int64_t j = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
+                        carom_shl(c->work->tangent_impulse[k], 8);
 
             c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
         }
@@ -536,7 +538,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         rest_load_warm(r, sw);
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        rest_contact(r, i)->roll.acts = sw->rolls && rest_roll_prepare(r, i, sw);
+        rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
     }
     sweeps(r, sw);
     finish(r, sw);

@@ -61,7 +61,8 @@ static void push_all(struct contact *c)
     bool more = true;
 
     for (int k = 0; k < 3; k++) {
-        left[k] = fix_mul(c->normal_impulse, c->normal.c[k], 30) + c->tangent_impulse[k];
+        left[k] =
+            fix_mul(c->work->normal_impulse, c->normal.c[k], 30) + c->work->tangent_impulse[k];
     }
     while (more) {
         int32_t part[3];
@@ -81,7 +82,7 @@ void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
         struct rest_warm *w = find_warm(r, c);
-        struct fix_scaled inverse = fix_scaled_inverse(c->mass_unit);
+        struct fix_scaled inverse = fix_scaled_inverse(c->work->mass_unit);
         int64_t along;
 
         if (!w) {
@@ -89,9 +90,9 @@ void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
         }
         inverse.e += sw->unit;
         along = rest_along_q40(&w->tangent_q40, &c->normal);
-        c->normal_impulse = fix_mul_scaled(w->normal_q40, inverse);
+        c->work->normal_impulse = fix_mul_scaled(w->normal_q40, inverse);
         for (int k = 0; k < 3; k++) {
-            c->tangent_impulse[k] =
+            c->work->tangent_impulse[k] =
                 fix_mul_scaled(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
         }
         push_all(c);

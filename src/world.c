@@ -20,6 +20,9 @@ _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDA
 /* each of the carved arrays may be rounded up to 8 bytes */
 _Static_assert(sizeof(struct carom_world) + 16 * 8 <= CAROM_WORLD_FIXED_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
+_Static_assert(sizeof(union world_scratch) <= CAROM_SCRATCH_BYTES, "CAROM_SCRATCH_BYTES");
+_Static_assert(sizeof(struct contact_work) <= CAROM_WORK_BYTES, "CAROM_WORK_BYTES");
+_Static_assert(sizeof(struct contact_roll) <= CAROM_ROLL_BYTES, "CAROM_ROLL_BYTES");
 _Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_HEADS_BYTES");
 
 /* -------------------------------------------------------------------- init */
@@ -43,6 +46,12 @@ static void carve(struct carom_world *w, struct arena *arena)
 {
     const struct carom_caps *caps = &w->config.caps;
 
+    size_t works = caps->contacts * sizeof *w->rest.works;
+    size_t solve = works + caps->pairs * sizeof *w->rest.rolls;
+
+    w->scratch = arena_carve(arena, solve > sizeof *w->scratch ? solve : sizeof *w->scratch);
+    w->rest.works = (struct contact_work *)w->scratch;
+    w->rest.rolls = (struct contact_roll *)((uint8_t *)w->scratch + works);
     w->bodies = arena_carve(arena, caps->bodies * sizeof *w->bodies);
     w->pairs = arena_carve(arena, caps->pairs * sizeof *w->pairs);
     for (int i = 0; i < 2; i++) {
@@ -85,15 +94,13 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     arena_init(&arena, mem, bytes);
     w = arena_carve(&arena, sizeof *w);
     w->config = *config;
-    w->bytes = bytes;
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
     CAROM_POOLS(SET_SIZE)
 #undef SET_SIZE
     carve(w, &arena);
-    world_now(w)->gravity = config->gravity;
-    w->rest.gauss = &w->scratch.gauss;
+    w->rest.gauss = &w->scratch->gauss;
     w->rest.sweep_cap = config->sweep_cap;
-    w->interfere.leaf = &w->scratch.leaf;
+    w->interfere.leaf = &w->scratch->gather.leaf;
     w->rest.list.pool = &w->pools[CAROM_POOL_contacts];
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
     w->interfere.lists.pool = &w->pools[CAROM_POOL_entries];

@@ -12,7 +12,6 @@
  * current one and exchanges them last, so that an error leaves the world as it was, bit for bit.
  */
 struct world_state {
-    carom_v3_q40 gravity;
     struct body_state *bodies;
     struct rest_warm *warm; /* impulses of the last frame's resting contacts */
     uint32_t warm_count;
@@ -20,10 +19,21 @@ struct world_state {
     uint32_t touching_count;
 };
 
+/*
+ * What stages work in while they run: who looks for candidates and who solves, never at the same time.
+ * Contacts to solve take as much as the capacities say: the room is the larger of both.
+ */
+union world_scratch {
+    struct {
+        struct interfere_leaf leaf;
+        struct boyse_pair pair; /* of the candidates at hand */
+    } gather;
+    struct gauss gauss;
+};
+
 struct carom_world {
-    struct carom_config config;
-    size_t bytes;
-    uint32_t body_count; /* places in use, free ones in between included */
+    struct carom_config config; /* gravity: the present one */
+    uint32_t body_count;        /* places in use, free ones in between included */
     struct pool pools[CAROM_POOL_COUNT];
 
     /* set by add and remove */
@@ -37,11 +47,7 @@ struct carom_world {
     /* set by broad */
     struct pair *pairs;
 
-    /* what interfere and the solvers each work in while they run: never at the same time */
-    union {
-        struct interfere_leaf leaf;
-        struct gauss gauss;
-    } scratch;
+    union world_scratch *scratch;
 
     /* set by interfere */
     struct interfere interfere;

@@ -35,11 +35,10 @@ bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
 
 void world_accelerate(struct carom_world *w, uint32_t body)
 {
-    const struct world_state *now = world_now(w);
     struct body *b = &w->bodies[body];
 
     if (b->mesh) {
-        world_acceleration(b, &now->gravity, &now->bodies[body].force, &b->acceleration);
+        world_acceleration(b, &w->config.gravity, &b->force, &b->acceleration);
         b->acceleration_q40 = fix_length(b->acceleration.c);
     }
 }
@@ -55,12 +54,12 @@ int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
         return CAROM_ERR_RANGE;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (!world_acceleration(&w->bodies[i], gravity, &world_now(w)->bodies[i].force, &sum)) {
+        if (!world_acceleration(&w->bodies[i], gravity, &w->bodies[i].force, &sum)) {
             return CAROM_ERR_RANGE;
         }
     }
-    if (memcmp(&world_now(w)->gravity, gravity, sizeof *gravity) != 0) {
-        world_now(w)->gravity = *gravity;
+    if (memcmp(&w->config.gravity, gravity, sizeof *gravity) != 0) {
+        w->config.gravity = *gravity;
         for (uint32_t i = 0; i < w->body_count; i++) {
             world_accelerate(w, i);
         }
@@ -71,8 +70,8 @@ int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
 
 int carom_body_set_force(struct carom_world *w, int body, const carom_v3_q40 *force)
 {
-    struct body_state *s;
     carom_v3_q40 sum;
+    struct body *b;
 
     if (!w || !force) {
         return CAROM_ERR_NULL;
@@ -83,12 +82,12 @@ int carom_body_set_force(struct carom_world *w, int body, const carom_v3_q40 *fo
     if (!w->bodies[body].moving) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (!world_acceleration(&w->bodies[body], &world_now(w)->gravity, force, &sum)) {
+    if (!world_acceleration(&w->bodies[body], &w->config.gravity, force, &sum)) {
         return CAROM_ERR_RANGE;
     }
-    s = &world_now(w)->bodies[body];
-    if (memcmp(&s->force, force, sizeof *force) != 0) {
-        s->force = *force;
+    b = &w->bodies[body];
+    if (memcmp(&b->force, force, sizeof *force) != 0) {
+        b->force = *force;
         world_accelerate(w, (uint32_t)body);
         world_wake_island(w, (uint32_t)body);
     }

@@ -25,6 +25,7 @@ struct stream {
     const uint8_t *in;
     size_t size, at;
     uint64_t fnv;
+    carom_v3_q40 gravity; /* that was read */
     bool loading, failed;
 };
 
@@ -94,14 +95,23 @@ static void vector32(struct stream *s, int32_t *v, int n)
     }
 }
 
-static void stream_body(struct stream *s, const struct body *b, struct body_state *state)
+/* The force that a body is to have: it waits in the velocity, which is a step's, until all is read. */
+static carom_v3_q40 *force_read(const struct carom_world *w, uint32_t body)
 {
+    return &w->bodies[body].velocity;
+}
+
+static void stream_body(struct stream *s, const struct carom_world *w, uint32_t i,
+                        struct body_state *state)
+{
+    struct body *b = &w->bodies[i];
+
     expect(s, b->mesh ? (b->moving ? 2 : 1) : 0, 1);
     if (b->mesh) {
         vector64(s, state->position.c);
         vector64(s, state->momentum.c);
         vector64(s, state->angular.c);
-        vector64(s, state->force.c);
+        vector64(s, s->loading ? force_read(w, i)->c : b->force.c);
         vector32(s, state->rotation.c, 4);
         number8(s, &state->asleep);
         number8(s, &state->out);
@@ -161,10 +171,11 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
 
     s->fnv = FNV_START;
     expect(s, MAGIC, 4);
-    vector64(s, state->gravity.c);
+    s->gravity = w->config.gravity;
+    vector64(s, s->gravity.c);
     expect(s, w->body_count, 4);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
-        stream_body(s, &w->bodies[i], &state->bodies[i]);
+        stream_body(s, w, i, &state->bodies[i]);
     }
     state->warm_count = stream_count(s, state->warm_count, w->config.caps.contacts);
     for (uint32_t i = 0; i < state->warm_count && !s->failed; i++) {
@@ -228,7 +239,7 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
 }
 
 static bool body_plausible(const struct body *b, const struct body_state *s,
-                           const carom_v3_q40 *gravity)
+                           const carom_v3_q40 *gravity, const carom_v3_q40 *force)
 {
     carom_v3_q40 acceleration;
     int64_t square_q60 = 0;
@@ -240,9 +251,9 @@ static bool body_plausible(const struct body *b, const struct body_state *s,
         square_q60 += (int64_t)s->rotation.c[k] * s->rotation.c[k];
     }
     return s->asleep <= b->moving && s->out <= b->moving && s->woken <= b->moving &&
-           (b->moving || (s->force.c[0] | s->force.c[1] | s->force.c[2]) == 0) &&
+           (b->moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
            carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << 40 && world_in_range(b, s) &&
-           world_acceleration(b, gravity, &s->force, &acceleration);
+           world_acceleration(b, gravity, force, &acceleration);
 }
 
 /* As broad.h names a pair. */
@@ -253,14 +264,15 @@ static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
 }
 
 /* A snapshot may be whole and still hold what no step could have left. */
-static bool plausible(const struct carom_world *w, const struct world_state *state)
+static bool plausible(const struct carom_world *w, const carom_v3_q40 *gravity,
+                      const struct world_state *state)
 {
-    if (!world_gravity_in_range(&state->gravity)) {
+    if (!world_gravity_in_range(gravity)) {
         return false;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].mesh &&
-            !body_plausible(&w->bodies[i], &state->bodies[i], &state->gravity)) {
+            !body_plausible(&w->bodies[i], &state->bodies[i], gravity, force_read(w, i))) {
             return false;
         }
     }
@@ -297,12 +309,16 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     s.loading = true;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
     stream_state(&s, w, next);
-    good = !s.failed && s.at == bytes && plausible(w, next);
+    good = !s.failed && s.at == bytes && plausible(w, &s.gravity, next);
     if (good) {
         w->now = 1 - w->now;
+        w->config.gravity = s.gravity;
     }
     /* a step relies on what stands still being the same in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
+        if (good && w->bodies[i].mesh) {
+            w->bodies[i].force = *force_read(w, i);
+        }
         world_put(w, i, &world_now(w)->bodies[i]);
     }
     w->idle = false;

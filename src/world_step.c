@@ -60,7 +60,6 @@ void step_begin(struct step *s, struct carom_world *w)
     s->path_q30 = 0;
     /* 8 sub-steps a frame and 2 for each body that is awake, unless the caller says otherwise */
     s->substep_cap = w->config.substep_cap > 0 ? w->config.substep_cap : 8 + 2 * active;
-    next->gravity = now->gravity;
     copy_bodies(w, next);
     memcpy(next->warm, now->warm, now->warm_count * sizeof *next->warm);
     next->warm_count = now->warm_count;

@@ -12,9 +12,10 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 
         step_select_pair(v, c[i].pair);
         /* bodies that bounce for ever must not be held by their margin */
-        margin = v->pair.skin_q22 *
-                 (rest_restitution(v->pair.a, v->pair.b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
-        if (!contact_add(&w->rest.list, &v->pair, &c[i], margin)) {
+        margin =
+            v->pair->skin_q22 *
+            (rest_restitution(v->pair->a, v->pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+        if (!contact_add(&w->rest.list, v->pair, &c[i], margin)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }
     }
@@ -49,10 +50,7 @@ static int gather_contacts(struct step *s, bool at_hit)
     for (;;) {
         result = check(s);
         if (result == CAROM_OK && at_hit) {
-            struct boyse_pair pair;
-
-            boyse_pair_init(&pair, &w->bodies[p.a], &w->bodies[p.b]);
-            if (!contact_force(&w->rest.list, &pair, &s->hit)) {
+            if (!contact_force(&w->rest.list, step_set_pair(w, &p), &s->hit)) {
                 result = CAROM_ERR_CONTACTS_FULL;
             }
         }
@@ -195,7 +193,7 @@ static void find_chords(struct step *s)
             continue;
         }
         step_select_pair(&v, c->key.pair);
-        way_q22 = gap_change(&v.pair, &c->key) + 4;
+        way_q22 = gap_change(v.pair, &c->key) + 4;
         if (carom_abs(way_q22) < 1 << 24) {
             c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));
         }

@@ -8,12 +8,18 @@
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
 
+struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p)
+{
+    struct boyse_pair *pair = &w->scratch->gather.pair;
+
+    boyse_pair_init(pair, &w->bodies[p->a], &w->bodies[p->b]);
+    return pair;
+}
+
 void step_select_pair(struct step_visitor *v, uint16_t number)
 {
     if (v->pair_number != number) {
-        const struct pair *p = &v->step->w->pairs[number];
-
-        boyse_pair_init(&v->pair, &v->step->w->bodies[p->a], &v->step->w->bodies[p->b]);
+        v->pair = step_set_pair(v->step->w, &v->step->w->pairs[number]);
         v->pair_number = number;
     }
 }
@@ -64,8 +70,8 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
         if (!b->mesh || b->standing) {
             continue;
         }
-        b->region.active = broad_active(b, &s->next->bodies[i]);
-        room_q22 = b->region.active ? room_for(b) : 0;
+        b->active = broad_active(b, &s->next->bodies[i]);
+        room_q22 = b->active ? room_for(b) : 0;
         room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
         body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     }
@@ -86,9 +92,6 @@ static int gather(struct step *s, int32_t slice_q30, int64_t time_q30, uint32_t 
         struct body *b = &w->bodies[i];
 
         b->standing = !broad_active(b, &s->next->bodies[i]);
-        if (!b->standing && w->pools[CAROM_POOL_pairs].used > 0) {
-            body_region_end(b);
-        }
     }
     step_mark(w, CAROM_STAGE_BROAD);
     if (result < 0) {
@@ -141,7 +144,7 @@ static int64_t region_time(const struct step *s, int32_t slice_q30)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body_region *region = &s->w->bodies[i].region;
 
-        if (region->active) {
+        if (s->w->bodies[i].active) {
             int64_t held = region->elapsed_q30 >> 30;
             bool to_end = region->time_q30 - region->elapsed_q30 < CAROM_ONE_Q30;
 
@@ -198,8 +201,8 @@ bool step_leaves_region(const struct step *s, int32_t slice_q30)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
 
-        if (b->region.active != broad_active(b, &s->next->bodies[i]) ||
-            (b->region.active && !body_region_holds(b, slice_q30))) {
+        if (b->active != broad_active(b, &s->next->bodies[i]) ||
+            (b->active && !body_region_holds(b, slice_q30))) {
             return true;
         }
     }

@@ -94,7 +94,7 @@ static void visit_first_hit(struct candidate_visitor *self, const struct candida
         struct boyse_hit hit;
 
         step_select_pair(v, c[i].pair);
-        if (!boyse_first(&v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
+        if (!boyse_first(v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
             continue;
         }
         hit.candidate = c[i];
@@ -114,7 +114,7 @@ int step_first_hit(struct step *s, bool *found)
     *found = v.found;
     if (v.found) {
         step_select_pair(&v, s->hit.candidate.pair);
-        boyse_touch(&v.pair, &s->hit.candidate, s->hit.root_q30, &s->hit.touch);
+        boyse_touch(v.pair, &s->hit.candidate, s->hit.root_q30, &s->hit.touch);
     }
     step_mark(s->w, CAROM_STAGE_BOYSE);
     return result;
@@ -156,20 +156,17 @@ static int32_t leave_at(const struct step *s)
 {
     const struct carom_world *w = s->w;
     const struct candidate *c = &s->hit.candidate;
-    const struct pair *p = &w->pairs[c->pair];
-    int32_t low = 0, high = CAROM_ONE_Q30, least;
-    struct boyse_pair pair;
+    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    int32_t low = 0, high = CAROM_ONE_Q30, least = gap_at(pair, c, 0);
 
-    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
-    least = gap_at(&pair, c, 0);
-    least = least < pair.skin_q22 / 4 ? least : pair.skin_q22 / 4;
-    if (gap_at(&pair, c, high) >= least) {
+    least = least < pair->skin_q22 / 4 ? least : pair->skin_q22 / 4;
+    if (gap_at(pair, c, high) >= least) {
         return high;
     }
     for (int round = 0; round < 12; round++) {
         int32_t middle = low + (high - low) / 2;
 
-        *(gap_at(&pair, c, middle) >= least ? &low : &high) = middle;
+        *(gap_at(pair, c, middle) >= least ? &low : &high) = middle;
     }
     return low;
 }
@@ -183,14 +180,10 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
 {
     const struct carom_world *w = s->w;
     const struct candidate *c = &s->hit.candidate;
-    const struct pair *p = &w->pairs[c->pair];
-    struct boyse_pair pair;
-    int64_t wanted, end, before, longer_q30;
+    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    int64_t wanted = pair->skin_q22 / 2, end = gap_at(pair, c, CAROM_ONE_Q30), longer_q30;
+    int64_t before = gap_at(pair, c, CAROM_ONE_Q30 - CAROM_ONE_Q30 / 64);
 
-    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
-    wanted = pair.skin_q22 / 2;
-    end = gap_at(&pair, c, CAROM_ONE_Q30);
-    before = gap_at(&pair, c, CAROM_ONE_Q30 - CAROM_ONE_Q30 / 64);
     if (end == INT32_MAX || before == INT32_MAX || before <= end || end <= wanted + wanted / 16) {
         return slice_q30;
     }
@@ -202,13 +195,10 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
 static int64_t gap_change(const struct step *s, const struct candidate *c, int bits)
 {
     const struct carom_world *w = s->w;
-    const struct pair *p = &w->pairs[c->pair];
-    struct boyse_pair pair;
-    int64_t start;
+    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    int64_t start = gap_at(pair, c, 0);
 
-    boyse_pair_init(&pair, &w->bodies[p->a], &w->bodies[p->b]);
-    start = gap_at(&pair, c, 0);
-    return gap_at(&pair, c, CAROM_ONE_Q30 >> bits) - start;
+    return gap_at(pair, c, CAROM_ONE_Q30 >> bits) - start;
 }
 
 /*

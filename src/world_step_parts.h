@@ -30,7 +30,7 @@ void step_begin(struct step *s, struct carom_world *w);
 struct step_visitor {
     struct candidate_visitor base;
     struct step *step;
-    struct boyse_pair pair;
+    struct boyse_pair *pair;
     int32_t pair_number; /* that `pair` is set up for; -1: none */
     bool found;
     int error;
@@ -40,6 +40,8 @@ struct step_visitor {
 int step_visit(struct step *s, struct step_visitor *v,
                void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
 void step_select_pair(struct step_visitor *v, uint16_t number);
+/* Set a pair up, in the room there is for one. */
+struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p);
 
 /* Book the ticks since the last mark on a stage. */
 void step_mark(struct carom_world *w, enum carom_stage stage);

@@ -17,10 +17,9 @@ struct lift {
     struct carom_world *w;
     struct body_state *states; /* where bodies end, as far as it is known */
     uint32_t surface;
-    int64_t up_q30[3]; /* the surface's z in the world */
-    int64_t rise_q32;  /* the surface is higher by no more than that */
-    struct boyse_pair pair;
-    int32_t pair_number;
+    int64_t up_q30[3];   /* the surface's z in the world */
+    int64_t rise_q32;    /* the surface is higher by no more than that */
+    int32_t pair_number; /* that the pair of the scratch is set up for; -1: none */
     /* the first hit */
     bool found;
     int32_t t_q30;
@@ -92,13 +91,14 @@ static int visit(struct lift *l,
 static bool hits(struct lift *l, const struct candidate *c, struct boyse_hit *hit)
 {
     const struct pair *p = &l->w->pairs[c->pair];
+    struct boyse_pair *pair = &l->w->scratch->gather.pair;
     uint32_t roots = 0;
 
     if (l->pair_number != c->pair) {
-        boyse_pair_init(&l->pair, &l->w->bodies[p->a], &l->w->bodies[p->b]);
+        boyse_pair_init(pair, &l->w->bodies[p->a], &l->w->bodies[p->b]);
         l->pair_number = c->pair;
     }
-    return boyse_first(&l->pair, c, hit, &roots);
+    return boyse_first(pair, c, hit, &roots);
 }
 
 /* ------------------------------------------------- out of the surface, from above */

@@ -52,6 +52,8 @@ void hand_begin(int moving, double fall)
 {
     memset(&hand.rest, 0, sizeof hand.rest);
     hand.rest.gauss = &hand.gauss;
+    hand.rest.works = hand.works;
+    hand.rest.rolls = hand.rolls;
     for (int i = 0; i < HAND_BODIES; i++) {
         shape_body(i == 0 ? &hand.ground : &hand.solid, i > 0, &hand.bodies[i], &hand.states[i]);
     }

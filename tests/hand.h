@@ -15,6 +15,8 @@ struct hand {
     struct body bodies[HAND_BODIES];
     struct body_state states[HAND_BODIES];
     struct contact contacts[HAND_CONTACTS];
+    struct contact_work works[HAND_CONTACTS];
+    struct contact_roll rolls[4]; /* of hand_pairs */
     struct rest_warm warm[HAND_CONTACTS];
     struct pool pool;
     struct rest rest;

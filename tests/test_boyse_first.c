@@ -206,7 +206,7 @@ static void random_case(struct test_random *r, struct candidate *c, int kind)
         duo.state[0].position.c[k] += real_round(d[k] * real_power2(32));
         duo.body[0].path.origin_q22[k] = carom_round(duo.state[0].position.c[k], 10);
         duo.body[0].path.start.x.c[k] =
-            (int32_t)(duo.state[0].position.c[k] - carom_shl(duo.body[0].path.origin_q22[k], 10));
+            (int16_t)(duo.state[0].position.c[k] - carom_shl(duo.body[0].path.origin_q22[k], 10));
     }
     boyse_pair_init(&duo.pair, &duo.body[0], &duo.body[1]);
     duo_read_motion();

@@ -76,8 +76,8 @@ static void head(void)
     }
     report("320 x 240, at most", small);
     report("512 x 512, at most", large);
-    CHECK(small <= WORST_SMALL);
-    CHECK(large <= WORST_LARGE);
+    CHECK_BAR(small, WORST_SMALL);
+    CHECK_BAR(large, WORST_LARGE);
 }
 
 /* Seventeen bodies and none of them in sight cost little more than none. */
@@ -100,8 +100,8 @@ static void out_of_sight(void)
     empty = cost(world, &away, WIDTH, HEIGHT, sizeof workspace);
     report("nothing in sight", spent);
     report("nothing at all", empty);
-    CHECK(empty <= EMPTY_SMALL);
-    CHECK(spent <= empty + ((uint32_t)scene.other_count + 2) * EACH_BODY);
+    CHECK_BAR(empty, EMPTY_SMALL);
+    CHECK_BAR(spent, empty + ((uint32_t)scene.other_count + 2) * EACH_BODY);
 }
 
 /* Pictures are the same in parts, down to the least workspace, which takes many. */

@@ -59,7 +59,7 @@ static void worst(int n, uint32_t bar)
         port_print("# %d unknowns: %lu instructions on average, %lu at most\n", n,
                    (unsigned long)(sum / CASES), (unsigned long)most);
     }
-    CHECK(most <= bar);
+    CHECK_BAR(most, bar);
 }
 
 static void nine(void)

@@ -418,7 +418,6 @@ static int32_t random_motion(struct test_random *r)
         bodies[i].path.g = g;
         body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
                           (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
-        body_region_end(&bodies[i]);
     }
     return t_q30;
 }

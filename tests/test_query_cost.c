@@ -94,7 +94,7 @@ static void test_cost(void)
                        phases[k].name, (unsigned long)(sum[k] / POSES), (unsigned long)most[k],
                        (unsigned long)(found[k] / POSES));
         }
-        CHECK(sum[k] / POSES <= phases[k].bar);
+        CHECK_BAR(sum[k] / POSES, phases[k].bar);
     }
 }
 

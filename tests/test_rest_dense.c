@@ -37,6 +37,8 @@ static struct rest_warm warm[1];
 static struct pool pool;
 static struct rest rest;
 static struct gauss gauss;
+static struct contact_work works[2];
+static struct contact_roll rolls[2];
 static struct boyse_pair boyse;
 static double normal[2][3];
 static double side[2][3]; /* of the boxes, units */
@@ -217,6 +219,8 @@ static void random_bodies(struct test_random *r, struct axes *a, bool planar, do
     random_axes(r, a, planar);
     memset(&rest, 0, sizeof rest);
     rest.gauss = &gauss;
+    rest.works = works;
+    rest.rolls = rolls;
     for (int i = 0; i < 3; i++) {
         place(r, i, a, planar);
         bodies[i].restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
@@ -286,6 +290,7 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     out->same = rest.energy_rules == 0 && (!out->slid || slip > 0.05);
     rest.first = 0;
     CHECK(rest_take_island(&rest));
+    contacts[0].work = works; /* as it was prepared: the elimination has other room here */
     rest_relative_velocity(contacts, &contacts[0].velocity_q40); /* the impulse is in its place */
     rest_solve_sweeps(&rest, &sweep, false);
     impulse(swept);

@@ -82,8 +82,8 @@ static void check_momenta(const struct body_state before[HAND_BODIES])
             }
             real_cross(moment, arm, impulse);
             for (int k = 0; k < 3; k++) {
-                l[body][k] += moment[k] +
-                              (double)(s == 0 ? c->roll.moment_q40.c[k] : -c->roll.moment_q40.c[k]);
+                l[body][k] +=
+                    moment[k] + (double)(s == 0 ? rest_moment(c)->c[k] : -rest_moment(c)->c[k]);
             }
         }
     }

@@ -49,8 +49,7 @@ static void begin(void)
         struct body *b = &world->bodies[i];
 
         b->in_contact = false;
-        CHECK(
-            world_acceleration(b, &config.gravity, &step.next->bodies[i].force, &b->acceleration));
+        CHECK(world_acceleration(b, &config.gravity, &b->force, &b->acceleration));
         b->acceleration_q40 = fix_length(b->acceleration.c);
     }
 }

@@ -4,7 +4,8 @@
 
 The board is the name of the folder that holds the image: build/BOARD/program.elf, or
 build/BOARD-debug. The program's text goes to stdout, its exit status is passed on. On a QEMU board
-one instruction takes exactly 2^ICOUNT_SHIFT ns of virtual time.
+one instruction takes exactly 2^ICOUNT_SHIFT ns of virtual time; one that QEMU does not have names a
+RUNNER of its own.
 """
 import os
 import re
@@ -89,6 +90,8 @@ def command(image, arguments, monitor=None):
     if "QEMU_USER" in board:
         return [board["QEMU_USER"], "-plugin", os.path.join(ROOT, board["RUNNER"]),
                 os.path.abspath(image)] + arguments
+    if "QEMU" not in board and "RUNNER" in board:
+        return [os.path.join(ROOT, board["RUNNER"]), image] + arguments
     if "QEMU" not in board:
         return [os.path.abspath(image)] + arguments
     config = "enable=on,target=native,chardev=console"

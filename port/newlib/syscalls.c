@@ -12,6 +12,13 @@
 
 #include "port.h"
 
+/* picolibc is of newlib's kin, and asks for these without the first character. */
+#ifdef __PICOLIBC__
+#define _sbrk   sbrk
+#define _getpid getpid
+#define _kill   kill
+#endif
+
 void *_sbrk(ptrdiff_t bytes);
 int _getpid(void);
 int _kill(int process, int signal);

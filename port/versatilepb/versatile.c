@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * ARM Versatile/PB: ARM926EJ-S, PL110 LCD controller.
- *
- * With the option pictures=..., port_present prints the line "picture" and waits for a character
- * from the console, so that the runner can photograph the LCD in between.
- */
+/* ARM Versatile/PB: ARM926EJ-S, PL110 LCD controller. */
 #include "port.h"
 #include "semihost.h"
 
@@ -52,12 +47,7 @@ struct port_fb port_fb(void)
 
 void port_present(void)
 {
-    if (port_option("pictures")) {
-        for (const char *text = "picture\n"; *text; text++) {
-            port_putc(*text);
-        }
-        semihost_getc();
-    }
+    semihost_picture();
 }
 
 uint32_t port_ticks(void)

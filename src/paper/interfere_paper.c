@@ -85,12 +85,16 @@ static void visit_pair(struct paper_visitor *self, uint16_t face_a, uint16_t fac
 static void gather_pair(struct interfere *w)
 {
     const struct body_region *a = &w->a->region, *b = &w->b->region;
-    struct paper_placed placed_a = {w->a->mesh, &a->end_r, {0, 0, 0}};
-    struct paper_placed placed_b = {w->b->mesh, &b->end_r, {0, 0, 0}};
+    const carom_v3_q40 way_a = body_region_way(a), way_b = body_region_way(b);
+    carom_m3_q30 start, r_a, r_b;
+    struct paper_placed placed_a = {w->a->mesh, &r_a, {0, 0, 0}};
+    struct paper_placed placed_b = {w->b->mesh, &r_b, {0, 0, 0}};
     struct gather gather = {{visit_pair}, w};
 
+    body_region_axes(a, &start, &r_a);
+    body_region_axes(b, &start, &r_b);
     for (int k = 0; k < 3; k++) {
-        int64_t at_q32 = b->at.c[k] - a->at.c[k] + ((b->end.c[k] - a->end.c[k]) >> 8);
+        int64_t at_q32 = b->at.c[k] - a->at.c[k] + ((way_b.c[k] - way_a.c[k]) >> 8);
 
         if (carom_abs(at_q32) > (int64_t)512 << 32) {
             return;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Console, arguments, files and exit status by ARM semihosting, for every ARM board. */
+/* Console, arguments, files and exit status by semihosting, for every processor that has it. */
 #include <string.h>
 
 #include "port.h"
 #include "semihost.h"
 
-/* Operations, by ARM's "Semihosting for AArch32 and AArch64". */
+/* Operations, by ARM's "Semihosting for AArch32 and AArch64"; RISC-V has taken them over. */
 enum {
     SYS_OPEN = 0x01,
     SYS_CLOSE = 0x02,
@@ -19,30 +19,20 @@ enum {
 enum { OPEN_READ_BINARY = 1, OPEN_WRITE_BINARY = 5 };
 #define APPLICATION_EXIT 0x20026 /* ADP_Stopped_ApplicationExit */
 
-#define ARGUMENTS_MAX 16
+/* Room for the arguments; a small board has less (board.mk). */
+#ifndef BOARD_LINE_BYTES
+#define BOARD_LINE_BYTES 512
+#endif
 
 static struct {
-    char line[128]; /* one call a line is much faster than one a character */
+    char line[64]; /* one call for many characters is much faster than one for each */
     size_t length;
 } console;
 
-static intptr_t call(int operation, const void *block)
-{
-    register intptr_t r0 __asm__("r0") = operation;
-    register const void *r1 __asm__("r1") = block;
-
-#if __ARM_ARCH_PROFILE == 'M'
-    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
-#else
-    __asm__ volatile("svc 0x123456" : "+r"(r0) : "r"(r1) : "memory", "lr");
-#endif
-    return r0;
-}
-
-void semihost_flush(void)
+static void flush(void)
 {
     console.line[console.length] = '\0';
-    call(SYS_WRITE0, console.line);
+    semihost_call(SYS_WRITE0, console.line);
     console.length = 0;
 }
 
@@ -50,21 +40,25 @@ void port_putc(char c)
 {
     console.line[console.length++] = c;
     if (c == '\n' || console.length == sizeof console.line - 1) {
-        semihost_flush();
+        flush();
     }
 }
 
-int semihost_getc(void)
+void semihost_picture(void)
 {
-    semihost_flush();
-    return (int)call(SYS_READC, NULL);
+    if (port_option("pictures")) {
+        for (const char *text = "picture\n"; *text; text++) {
+            port_putc(*text);
+        }
+        semihost_call(SYS_READC, NULL);
+    }
 }
 
 static intptr_t open_file(const char *name, intptr_t mode)
 {
     intptr_t block[3] = {(intptr_t)name, mode, (intptr_t)strlen(name)};
 
-    return call(SYS_OPEN, block);
+    return semihost_call(SYS_OPEN, block);
 }
 
 intptr_t semihost_create(const char *name)
@@ -76,12 +70,12 @@ void semihost_write(intptr_t file, const void *bytes, size_t count)
 {
     intptr_t block[3] = {file, (intptr_t)bytes, (intptr_t)count};
 
-    call(SYS_WRITE, block);
+    semihost_call(SYS_WRITE, block);
 }
 
 void semihost_close(intptr_t file)
 {
-    call(SYS_CLOSE, &file);
+    semihost_call(SYS_CLOSE, &file);
 }
 
 long port_read_file(const char *name, void *buffer, size_t max)
@@ -93,50 +87,63 @@ long port_read_file(const char *name, void *buffer, size_t max)
     if (file == -1) {
         return -1;
     }
-    left = call(SYS_READ, block); /* the bytes that were not read */
+    left = semihost_call(SYS_READ, block); /* the bytes that were not read */
     semihost_close(file);
     return (long)((intptr_t)max - left);
 }
 
-/* Cut the command line at its spaces; the pointers stay valid. */
-static int split(char *line, const char *argument[ARGUMENTS_MAX])
+/* Put the arguments of a command line one behind the other, each ended by a zero; returns how many. */
+static int split(char *line)
 {
+    char *end = line;
     int count = 0;
 
-    while (*line && count < ARGUMENTS_MAX) {
-        while (*line == ' ') {
-            *line++ = '\0';
-        }
-        if (*line) {
-            argument[count++] = line;
+    while (*line) {
+        if (*line == ' ') {
+            line++;
+            continue;
         }
         while (*line && *line != ' ') {
-            line++;
+            *end++ = *line++;
         }
+        line += *line == ' ';
+        *end++ = '\0';
+        count++;
     }
     return count;
 }
 
 const char *port_arg(int n)
 {
-    static char line[512];
-    static const char *argument[ARGUMENTS_MAX];
+    static char line[BOARD_LINE_BYTES];
     static int count = -1;
+    const char *argument = line;
 
     if (count < 0) {
         intptr_t block[2] = {(intptr_t)line, (intptr_t)sizeof line};
 
-        count = call(SYS_GET_CMDLINE, block) == 0 ? split(line, argument) : 0;
+        if (semihost_call(SYS_GET_CMDLINE, block) != 0) {
+            port_print("the command line is longer than %u characters\n",
+                       (unsigned)sizeof line - 1);
+            port_exit(1);
+        }
+        count = split(line);
     }
-    return n >= 0 && n < count ? argument[n] : NULL;
+    if (n < 0 || n >= count) {
+        return NULL;
+    }
+    while (n-- > 0) {
+        argument += strlen(argument) + 1;
+    }
+    return argument;
 }
 
 _Noreturn void port_exit(int status)
 {
     intptr_t block[2] = {APPLICATION_EXIT, status};
 
-    semihost_flush();
+    flush();
     for (;;) {
-        call(SYS_EXIT_EXTENDED, block);
+        semihost_call(SYS_EXIT_EXTENDED, block);
     }
 }

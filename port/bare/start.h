@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* start.h - from reset to main, and from a fault to an exit status, on every bare ARM board. */
-#ifndef CAROM_PORT_ARM_START_H
-#define CAROM_PORT_ARM_START_H
+/* start.h - from reset to main, and from a fault to an exit status, on every bare board. */
+#ifndef CAROM_PORT_BARE_START_H
+#define CAROM_PORT_BARE_START_H
 
 #include <stdint.h>
 

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+#include "systick.h"
+
+#include "port.h"
+
+/* It counts down and has 24 bits. */
+struct systick {
+    uint32_t control, reload, value;
+};
+#define SYSTICK         ((volatile struct systick *)0xe000e010)
+#define SYSTICK_ENABLE  1u
+#define SYSTICK_CLOCK   (1u << 2) /* the processor's */
+#define SYSTICK_HIGHEST 0xffffffu
+
+const uint32_t port_ticks_hz = PORT_CLOCK_MHZ * UINT32_C(1000000);
+
+void systick_start(void)
+{
+    SYSTICK->control = SYSTICK_CLOCK;
+    SYSTICK->reload = SYSTICK_HIGHEST;
+    SYSTICK->value = 0;
+    SYSTICK->control = SYSTICK_ENABLE | SYSTICK_CLOCK;
+}
+
+/*
+ * What has passed since the call before, modulo 2^24, is added: right as long as no 2^24 ticks pass
+ * between two calls. Every stage of a step calls.
+ */
+uint32_t port_ticks(void)
+{
+    static uint32_t ticks;
+
+    ticks += (~SYSTICK->value - ticks) & SYSTICK_HIGHEST;
+    return ticks;
+}

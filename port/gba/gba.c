@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Game Boy Advance: ARM7TDMI at 16.78 MHz, 240 x 160 pixels of 15 bits, ten keys.
+ *
+ * The console is the debug port of the emulator mGBA; on anything else what is printed is lost. A
+ * line goes out in pieces, because mGBA cuts long ones; port_exit logs the status as an error and
+ * stops. Arguments stand in the image (start.S). With the option pictures=..., port_present prints
+ * the line "picture" and lets two frames pass, in which the runner takes the picture.
+ */
+#include <string.h>
+
+#include "port.h"
+#include "start.h"
+
+enum { WIDTH = 240, HEIGHT = 160 };
+
+#define REGISTER16(address) (*(volatile uint16_t *)(address))
+#define REGISTER32(address) (*(volatile uint32_t *)(address))
+#define DISPLAY_CONTROL     REGISTER16(0x04000000)
+#define DISPLAY_LINE        REGISTER16(0x04000006)
+#define TIMER_COUNT(n)      REGISTER16(0x04000100 + 4 * (n))
+#define TIMER_CONTROL(n)    REGISTER16(0x04000102 + 4 * (n))
+#define KEYS                REGISTER16(0x04000130)
+#define WAIT_CONTROL        REGISTER16(0x04000204)
+
+/* Direct memory access: copies words at once, the processor waits. */
+#define DMA3_SOURCE  REGISTER32(0x040000d4)
+#define DMA3_TARGET  REGISTER32(0x040000d8)
+#define DMA3_CONTROL REGISTER32(0x040000dc)
+#define DMA_COPY     0x84000000
+#define DMA_FILL     0x85000000 /* the source stays */
+
+#define BITMAP_16         0x0403 /* mode 3: a bitmap, in background 2 */
+#define TIMER_RUNS        0x80
+#define TIMER_CASCADES    0x04
+#define CARTRIDGE_FASTEST 0x4317 /* 3 cycles, 1 when in sequence; read ahead */
+
+/* mGBA's debug port: unlocked by a number, a text, a level that sends it. */
+#define DEBUG_ENABLE REGISTER16(0x04fff780)
+#define DEBUG_SEND   REGISTER16(0x04fff700)
+#define DEBUG_TEXT   ((volatile char *)0x04fff600)
+#define DEBUG_UNLOCK 0xc0de
+enum { SEND_STATUS = 0x101, SEND_PIECE = 0x102, SEND_LINE = 0x103 };
+#define PIECE_MAX 80
+
+#define ARGUMENTS_MAX 12
+
+const uint32_t port_ticks_hz = 16777216;
+
+extern const char arguments[256];
+extern char fast_load[], fast_start[], fast_end[], wide_start[], wide_end[];
+_Noreturn void gba_start(void);
+
+/* A count of 0 would mean 65536. */
+static void transfer(const volatile void *from, void *to, size_t bytes, uint32_t how)
+{
+    if (bytes == 0) {
+        return;
+    }
+    DMA3_SOURCE = (uint32_t)(uintptr_t)from;
+    DMA3_TARGET = (uint32_t)(uintptr_t)to;
+    DMA3_CONTROL = how | (uint32_t)(bytes / 4);
+}
+
+/*
+ * What start() does not know of: the code that runs from RAM, memcpy among it, and the large blocks
+ * in the external RAM.
+ */
+_Noreturn void gba_start(void)
+{
+    volatile uint32_t zero = 0; /* on the stack: a source in the cartridge never stays */
+
+    WAIT_CONTROL = CARTRIDGE_FASTEST;
+    transfer(fast_load, fast_start, (size_t)(fast_end - fast_start), DMA_COPY);
+    transfer(&zero, wide_start, (size_t)(wide_end - wide_start), DMA_FILL);
+    start();
+}
+
+void port_init(void)
+{
+    DEBUG_ENABLE = DEBUG_UNLOCK;
+    DISPLAY_CONTROL = BITMAP_16;
+    TIMER_CONTROL(1) = TIMER_RUNS | TIMER_CASCADES;
+    TIMER_CONTROL(0) = TIMER_RUNS;
+}
+
+struct port_fb port_fb(void)
+{
+    struct port_fb fb = {.pixels = (void *)0x06000000,
+                         .width = WIDTH,
+                         .height = HEIGHT,
+                         .stride = 2 * WIDTH,
+                         .format = PORT_RGB565};
+
+    return fb;
+}
+
+/* Until the last line is out; the next one begins a millisecond later. */
+static void wait_for_blank(void)
+{
+    while (DISPLAY_LINE >= HEIGHT) {
+    }
+    while (DISPLAY_LINE < HEIGHT) {
+    }
+}
+
+void port_present(void)
+{
+    if (port_option("pictures")) {
+        port_print("picture\n");
+        wait_for_blank();
+        wait_for_blank();
+    }
+}
+
+/* Cycles: two timers of 16 bits, the second counting the first's turns. */
+uint32_t port_ticks(void)
+{
+    uint32_t high = TIMER_COUNT(1), low = TIMER_COUNT(0), again = TIMER_COUNT(1);
+
+    /* the first may have turned in between: a small count belongs to the later reading */
+    return (low < 0x8000 ? again : high) << 16 | low;
+}
+
+uint32_t port_instructions(uint32_t ticks)
+{
+    (void)ticks;
+    return 0;
+}
+
+static void send(const char *text, uint16_t level)
+{
+    volatile char *to = DEBUG_TEXT;
+
+    while (*text) {
+        *to++ = *text++;
+    }
+    *to = '\0';
+    DEBUG_SEND = level;
+}
+
+void port_putc(char c)
+{
+    static char piece[PIECE_MAX + 1];
+    static size_t length;
+
+    if (c != '\n') {
+        piece[length++] = c;
+    }
+    if (c == '\n' || length == PIECE_MAX) {
+        piece[length] = '\0';
+        send(piece, c == '\n' ? SEND_LINE : SEND_PIECE);
+        length = 0;
+    }
+}
+
+/* The keys as the hardware numbers them, a set bit for one that is held. */
+uint32_t port_input(void)
+{
+    return ~KEYS & 0x3ff;
+}
+
+/* Cut the line at its spaces; a copy, since it stands in the cartridge. */
+const char *port_arg(int n)
+{
+    static char line[sizeof arguments];
+    static const char *argument[ARGUMENTS_MAX];
+    static int count = -1;
+
+    if (count < 0) {
+        char *next = line;
+
+        memcpy(line, arguments, sizeof line - 1);
+        for (count = 0; *next && count < ARGUMENTS_MAX; count++) {
+            argument[count] = next;
+            next += strcspn(next, " ");
+            if (*next) {
+                *next++ = '\0';
+            }
+        }
+    }
+    return n >= 0 && n < count ? argument[n] : NULL;
+}
+
+long port_read_file(const char *name, void *buffer, size_t max)
+{
+    (void)name;
+    (void)buffer;
+    (void)max;
+    return -1;
+}
+
+_Noreturn void port_exit(int status)
+{
+    char text[] = {(char)('0' + status / 100 % 10), (char)('0' + status / 10 % 10),
+                   (char)('0' + status % 10), '\0'};
+
+    send(text, SEND_STATUS);
+    for (;;) {
+    }
+}

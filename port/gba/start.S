@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The head of a Game Boy Advance cartridge, and the way from it to start().
+ *
+ * The place of the logo is empty: it is not ours to hand out. Emulators start without it; a console
+ * wants it, and the check sum after it, which cartridge tools fill in (gbafix).
+ */
+    .section .vectors, "ax"
+    .arm
+    .global reset
+reset:
+    b go
+    .space 156                /* the logo */
+    .ascii "CAROM\0\0\0\0\0\0\0" /* title */
+    .ascii "CRME"             /* game code */
+    .ascii "00"               /* maker */
+    .byte 0x96, 0, 0          /* fixed value, unit, device */
+    .space 7
+    .byte 0                   /* version */
+    .byte 0                   /* check sum, by a cartridge tool */
+    .space 2
+
+/* Arguments of the program, written by a runner; empty in a cartridge that is played. */
+    .global arguments
+arguments:
+    .space 256
+
+/* Interrupts are never enabled; the processor starts in system mode, whose stack is the only one. */
+go:
+    mov r0, #0x1f
+    msr cpsr_c, r0
+    ldr sp, =stack_top
+    ldr r0, =gba_start
+    bx r0
+    .pool
+
+    .section .note.GNU-stack, "", %progbits

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* Of <string.h>, what wasm.c has. */
+#ifndef CAROM_PORT_WASM_STRING_H
+#define CAROM_PORT_WASM_STRING_H
+
+#include <stddef.h>
+
+void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
+void *memmove(void *to, const void *from, size_t bytes);
+void *memset(void *to, int value, size_t bytes);
+int memcmp(const void *a, const void *b, size_t bytes);
+size_t strlen(const char *text);
+int strcmp(const char *a, const char *b);
+int strncmp(const char *a, const char *b, size_t most);
+
+#endif

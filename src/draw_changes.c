@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT */
+#include "draw.h"
+
+/* A part of the picture costs as much to begin as so many pixels of it to draw. */
+#define PART_PIXELS 2048
+
+/* ---------------------------------------------------------------- rectangles */
+
+static int32_t area(const struct carom_rect *r)
+{
+    return (r->x1 - r->x0) * (r->y1 - r->y0);
+}
+
+static struct carom_rect around(const struct carom_rect *a, const struct carom_rect *b)
+{
+    return (struct carom_rect){a->x0 < b->x0 ? a->x0 : b->x0, a->y0 < b->y0 ? a->y0 : b->y0,
+                               a->x1 > b->x1 ? a->x1 : b->x1, a->y1 > b->y1 ? a->y1 : b->y1};
+}
+
+static bool is_empty(const struct carom_rect *r)
+{
+    return r->x0 >= r->x1 || r->y0 >= r->y1;
+}
+
+/* Have the pixels of a rectangle drawn, together with those of another where that costs less. */
+static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
+{
+    int i = 0;
+
+    if (is_empty(&rect)) {
+        return;
+    }
+    while (i < drawn->changed_count) {
+        struct carom_rect *other = &drawn->changed[i++], both = around(&rect, other);
+
+        if (area(&both) <= area(&rect) + area(other) + PART_PIXELS ||
+            drawn->changed_count == CAROM_DRAWN_RECTS) {
+            rect = both;
+            *other = drawn->changed[--drawn->changed_count];
+            i = 0; /* it may reach others now */
+        }
+    }
+    drawn->changed[drawn->changed_count++] = rect;
+}
+
+static struct carom_rect on_picture(const struct draw_view *view, struct draw_rect r)
+{
+    const int32_t *middle = view->middle;
+
+    return (struct carom_rect){(int16_t)(r.x0 + middle[0]), (int16_t)(r.y0 + middle[1]),
+                               (int16_t)(r.x1 + middle[0]), (int16_t)(r.y1 + middle[1])};
+}
+
+/* -------------------------------------------------------------------- bodies */
+
+/* What goes into a picture. */
+struct changes {
+    const struct carom_world *world;
+    struct draw_view view;                   /* of all of it */
+    const struct carom_face_ref *refs, *end; /* interfering faces of bodies not yet looked at */
+};
+
+/* What is to show of a body, but for where on the picture; of one that is not there, nothing. */
+static struct carom_drawn_body look(const struct carom_world *world, uint32_t number)
+{
+    struct carom_drawn_body now = {.mesh = NULL};
+
+    if (number < world->body_count && world->bodies[number].mesh) {
+        const struct body_state *state = &world_now(world)->bodies[number];
+
+        now.mesh = world->bodies[number].mesh;
+        now.moving = world->bodies[number].moving;
+        now.moves = now.mesh->surface ? now.mesh->surface->moves : 0;
+        now.position = state->position;
+        now.rotation = state->rotation;
+    }
+    return now;
+}
+
+static bool same_body(const struct carom_drawn_body *a, const struct carom_drawn_body *b)
+{
+    return a->mesh == b->mesh && a->moving == b->moving && a->moves == b->moves &&
+           memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
+           memcmp(&a->rotation, &b->rotation, sizeof a->rotation) == 0;
+}
+
+/* Where a body shows: all of it, or those of its faces that are given. */
+static struct carom_rect find_rect(const struct changes *c, uint32_t number,
+                                   const struct carom_face_ref *faces, ptrdiff_t count)
+{
+    const struct body *from = &c->world->bodies[number];
+    const struct carom_mesh_raw *raw = &from->mesh->raw;
+    struct draw_extent extent;
+    struct draw_body body;
+
+    draw_extent_begin(&extent);
+    if (draw_body_init(&body, &c->view, from, &world_now(c->world)->bodies[number])) {
+        for (uint32_t v = 0; faces == NULL && v < raw->vertex_count; v++) {
+            draw_extent_add(&extent, &body, v);
+        }
+        for (ptrdiff_t i = 0; i < count; i++) {
+            for (int k = 0; k < 3 && faces[i].face < raw->face_count; k++) {
+                draw_extent_add(&extent, &body, raw->faces[faces[i].face][k]);
+            }
+        }
+    }
+    return on_picture(&c->view, draw_extent_end(&extent, &c->view));
+}
+
+/*
+ * Look at a body: what changes of it is added to `drawn`, unless all is drawn anyway. How far one that
+ * stands still reaches is not worth finding out before it is set elsewhere.
+ */
+static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t number)
+{
+    struct carom_drawn_body *before = &drawn->bodies[number], now = look(c->world, number);
+    const struct carom_face_ref *hot = c->refs;
+    bool same = drawn->shows && same_body(before, &now);
+
+    while (c->refs < c->end && c->refs->body == number) {
+        c->refs++;
+    }
+    if (now.mesh && hot < c->refs) {
+        now.hot = find_rect(c, number, hot, c->refs - hot);
+    }
+    if (same) {
+        now.all = before->all;
+    } else if (now.mesh) {
+        now.all = drawn->shows || now.moving ? find_rect(c, number, NULL, 0)
+                                             : on_picture(&c->view, c->view.rect);
+    }
+    if (drawn->shows) {
+        add_rect(drawn, same ? before->hot : before->all);
+        add_rect(drawn, same ? now.hot : now.all);
+    }
+    *before = now;
+}
+
+/* ------------------------------------------------------------------- picture */
+
+/* Whether the pixels are those that were drawn before, in the same way. */
+static bool same_picture(const struct carom_drawn *drawn, const struct carom_camera *camera,
+                         const struct carom_picture *picture, enum carom_draw_style style)
+{
+    const struct carom_picture *old = &drawn->picture;
+
+    return drawn->shows && drawn->style == (uint8_t)style && old->pixels == picture->pixels &&
+           old->width == picture->width && old->height == picture->height &&
+           old->stride == picture->stride && old->format == picture->format &&
+           drawn->camera.focal_q16 == camera->focal_q16 &&
+           memcmp(&drawn->camera.eye, &camera->eye, sizeof camera->eye) == 0 &&
+           memcmp(&drawn->camera.target, &camera->target, sizeof camera->target) == 0;
+}
+
+/* How many bodies there are to look at, of the picture and of the world. */
+static uint32_t body_count(const struct carom_world *world, const struct carom_drawn *drawn)
+{
+    bool more = drawn->shows && drawn->count > world->body_count;
+
+    return more ? drawn->count : world->body_count;
+}
+
+/* Whether all is where it is in the picture, and no face interferes or did. */
+static bool stands_still(const struct changes *c, const struct carom_drawn *drawn)
+{
+    uint32_t count = body_count(c->world, drawn);
+
+    for (uint32_t i = 0; i < count; i++) {
+        const struct carom_drawn_body *before = &drawn->bodies[i], now = look(c->world, i);
+
+        if (!same_body(before, &now) || !is_empty(&before->hot)) {
+            return false;
+        }
+    }
+    return c->refs == c->end;
+}
+
+/* Take down what is to be shown, and what of the picture that changes. */
+static void find_changes(struct changes *c, const struct carom_camera *camera,
+                         const struct carom_picture *picture, enum carom_draw_style style,
+                         struct carom_drawn *drawn)
+{
+    uint32_t count = body_count(c->world, drawn);
+
+    draw_view_rect(&c->view, draw_whole(&c->view, picture));
+    for (uint32_t i = 0; i < count; i++) {
+        see_body(c, drawn, i);
+    }
+    if (!drawn->shows) {
+        add_rect(drawn, on_picture(&c->view, c->view.rect));
+    }
+    drawn->count = c->world->body_count;
+    drawn->camera = *camera;
+    drawn->picture = *picture;
+    drawn->style = (uint8_t)style;
+}
+
+int carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                       const struct carom_picture *picture, enum carom_draw_style style,
+                       struct carom_drawn *drawn)
+{
+    struct changes c = {.world = world};
+    int result = drawn == NULL || drawn->bodies == NULL ? CAROM_ERR_NULL
+                                                        : draw_check(world, camera, picture, style);
+    int hot_count;
+    bool same;
+
+    if (result != CAROM_OK) {
+        return result;
+    }
+    if (world->body_count > drawn->room) {
+        return CAROM_ERR_MEMORY;
+    }
+    same = same_picture(drawn, camera, picture, style);
+    hot_count = carom_interfering_faces(world, &c.refs);
+    c.end = c.refs + hot_count;
+    drawn->changed_count = 0;
+    if (same && stands_still(&c, drawn)) {
+        return CAROM_OK;
+    }
+    result = draw_view_init(&c.view, camera, picture->width, picture->height);
+    if (result == CAROM_OK) {
+        drawn->shows = same;
+        find_changes(&c, camera, picture, style, drawn);
+    }
+    for (int i = 0; result == CAROM_OK && i < drawn->changed_count; i++) {
+        const struct carom_rect *r = &drawn->changed[i];
+        const int32_t *middle = c.view.middle;
+
+        result = draw_part(world, &c.view, picture, style,
+                           (struct draw_rect){r->x0 - middle[0], r->y0 - middle[1],
+                                              r->x1 - middle[0], r->y1 - middle[1]});
+        drawn->shows = result == CAROM_OK;
+    }
+    return result;
+}

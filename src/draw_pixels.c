@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+#include "draw.h"
+
+int draw_pixel_shift(uint8_t format)
+{
+    static const int8_t shifts[] = {0, 1, 2, -1, 1}; /* by enum carom_pixel_format */
+
+    return shifts[format];
+}
+
+uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y)
+{
+    uint8_t *row =
+        (uint8_t *)picture->pixels + (size_t)(y + view->middle[1]) * (size_t)picture->stride;
+
+    return draw_pixel(row, draw_pixel_shift(picture->format), view->middle[0]);
+}
+
+uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y)
+{
+    uint32_t shade = (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height);
+
+    return draw_colour(picture->format, DRAW_BACKGROUND * DRAW_SHADES + shade);
+}
+
+/* The bytes from p to end of a word that repeats. */
+static void run_bytes(uint8_t *p, uint8_t *end, uint32_t word)
+{
+    if (!DRAW_ANYWHERE && (uintptr_t)p & 1 && p < end) {
+        *p++ = (uint8_t)word;
+    }
+    if (!DRAW_ANYWHERE && (uintptr_t)p & 2 && end - p >= 2) {
+        *(draw_half *)(void *)p = (uint16_t)word;
+        p += 2;
+    }
+    for (; end - p >= 32; p += 32) {
+        draw_word *to = (void *)p;
+
+        to[0] = to[1] = to[2] = to[3] = to[4] = to[5] = to[6] = to[7] = word;
+    }
+    for (; end - p >= 4; p += 4) {
+        *(draw_word *)(void *)p = word;
+    }
+    if (end - p >= 2) {
+        *(draw_half *)(void *)p = (uint16_t)word;
+        p += 2;
+    }
+    if (p < end) {
+        *p = (uint8_t)word;
+    }
+}
+
+void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
+{
+    if (from >= to) {
+        return;
+    }
+    if (pixel_shift < 0) {
+        uint8_t *first = row + (from >> 1), *last = row + (to >> 1);
+
+        /* halves of bytes that are shared with a neighbour */
+        if (from & 1) {
+            *first = (uint8_t)((*first & 0xf0) | (pixel & 0x0f));
+            from++;
+        }
+        if (to & 1 && from <= to) {
+            *last = (uint8_t)((*last & 0x0f) | (pixel & 0xf0));
+        }
+    }
+    run_bytes(draw_pixel(row, pixel_shift, from), draw_pixel(row, pixel_shift, to), pixel);
+}

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: MIT */
+#include "plays.h"
+
+#define FPS 60
+
+uint64_t play_fold(uint64_t digest, uint64_t number)
+{
+    for (int i = 0; i < 8; i++) {
+        digest = (digest ^ (number >> (8 * i) & 0xff)) * 0x100000001b3u;
+    }
+    return digest;
+}
+
+/* ---------------------------------------------------------------- before a frame */
+
+/* A number in [-range, range], another for each frame, body and axis. */
+static int64_t chance(int frame, int body, int axis, int64_t range)
+{
+    uint32_t x = (uint32_t)frame * 2654435761u + (uint32_t)body * 40503u + (uint32_t)axis * 977u;
+
+    x ^= x >> 15;
+    x *= 2246822519u;
+    x ^= x >> 13;
+    return (int64_t)(x & 0xffff) * range / 0x8000 - range;
+}
+
+/*
+ * Throw the bodies up and back over the middle of the ground, each by an impulse beside its centre.
+ * Their mass is 1, so an impulse is a velocity: 1/64 unit a frame for each unit that they are off.
+ */
+static int throw_all(struct carom_world *world, int bodies, int frame)
+{
+    int result = CAROM_OK;
+
+    for (int body = SCENE_BODY; body <= bodies && result >= 0; body++) {
+        struct carom_body_state state;
+        carom_v3_q40 impulse = {{0, 0, CAROM_VELOCITY_MM_S(2600, FPS)}};
+        carom_v3_q32 point;
+
+        result = carom_body_get(world, body, &state);
+        for (int k = 0; k < 3; k++) {
+            impulse.c[k] += chance(frame, body, k, CAROM_VELOCITY_MM_S(500, FPS));
+            impulse.c[k] -= k < 2 ? state.position.c[k] * 4 : 0;
+            point.c[k] = state.position.c[k] + chance(frame, body, k + 3, CAROM_POSITION_MM(60));
+        }
+        if (result >= 0 && !state.out) {
+            result = carom_body_push(world, body, &impulse, &point);
+        }
+    }
+    return result;
+}
+
+static int throw_often(struct carom_world *world, int bodies, int frame)
+{
+    return frame % 125 == 100 ? throw_all(world, bodies, frame) : CAROM_OK;
+}
+
+static int throw_sometimes(struct carom_world *world, int bodies, int frame)
+{
+    return frame % 250 == 200 ? throw_all(world, bodies, frame) : CAROM_OK;
+}
+
+/* Throw one body after the other, so that some sleep while others move. */
+static int throw_one(struct carom_world *world, int bodies, int frame)
+{
+    int body = SCENE_BODY + frame / 100 % bodies;
+    carom_v3_q40 impulse = {{0, 0, CAROM_VELOCITY_MM_S(2000, FPS)}};
+    struct carom_body_state state;
+    int result = CAROM_OK;
+
+    if (frame % 100 == 60) {
+        result = carom_body_get(world, body, &state);
+        for (int k = 0; k < 2; k++) {
+            impulse.c[k] =
+                chance(frame, body, k, CAROM_VELOCITY_MM_S(1800, FPS)) - state.position.c[k] * 4;
+        }
+        if (result >= 0) {
+            result = carom_body_push(world, body, &impulse, &state.position);
+        }
+    }
+    return result;
+}
+
+/* Gravity leans, by 18 degrees along each axis, to the side that the first body is not on. */
+static int lean(struct carom_world *world, int bodies, int frame)
+{
+    const int64_t across = CAROM_GRAVITY_MM_S2(3030, FPS);
+    struct carom_body_state state;
+    carom_v3_q40 gravity = {{0, 0, CAROM_GRAVITY_MM_S2(-9330, FPS)}};
+    int result = CAROM_OK;
+
+    (void)bodies;
+    if (frame % 20 == 0) {
+        result = carom_body_get(world, SCENE_BODY, &state);
+        for (int k = 0; k < 2; k++) {
+            gravity.c[k] = state.position.c[k] < 0 ? across : -across;
+        }
+        if (result >= 0) {
+            result = carom_world_set_gravity(world, &gravity);
+        }
+    }
+    return result;
+}
+
+/* Where those that meet in the air meet: far above the ground, which nothing pulls them to. */
+#define MEET_MM 500000
+
+static int take_up(struct carom_world *world, int bodies)
+{
+    int result = CAROM_OK;
+
+    for (int body = SCENE_BODY; body <= bodies && result >= 0; body++) {
+        struct carom_body_state state;
+
+        result = carom_body_get(world, body, &state);
+        state.position.c[2] += CAROM_POSITION_MM(MEET_MM);
+        state.spin.c[1] += CAROM_SPIN_MRAD_S(900, FPS) * body;
+        if (result >= 0) {
+            result = carom_body_set(world, body, &state);
+        }
+    }
+    return result;
+}
+
+/* Each is drawn to the middle by 7 units / s^2 a unit; from time to time all are thrown. */
+static int draw_together(struct carom_world *world, int bodies, int frame)
+{
+    const carom_v3_q40 none = {{0, 0, 0}};
+    int result = frame == 1 ? take_up(world, bodies) : CAROM_OK;
+
+    if (result >= 0) {
+        result = carom_world_set_gravity(world, &none);
+    }
+    for (int body = SCENE_BODY; body <= bodies && result >= 0; body++) {
+        struct carom_body_state state;
+        carom_v3_q40 force;
+
+        result = carom_body_get(world, body, &state);
+        for (int k = 0; k < 3; k++) {
+            force.c[k] = ((k == 2 ? CAROM_POSITION_MM(MEET_MM) : 0) - state.position.c[k]) / 2;
+        }
+        if (result >= 0) {
+            result = carom_body_set_force(world, body, &force);
+        }
+    }
+    return result >= 0 && frame % 200 == 0 ? throw_all(world, bodies, frame) : result;
+}
+
+/* ----------------------------------------------------------------- after a frame */
+
+/* Which faces of two bodies interfere, and what is inside of what. */
+static int ask_pair(struct carom_world *world, int a, int b, uint64_t *digest)
+{
+    static struct carom_face_pair found[256];
+    int count = carom_query_faces(world, a, b, found, 256);
+    int inside = carom_query_inside(world, a, b);
+
+    for (int i = 0; i < count; i++) {
+        *digest = play_fold(*digest, (uint64_t)found[i].a << 16 | found[i].b);
+    }
+    *digest = play_fold(*digest, (uint64_t)(int64_t)inside);
+    return count < 0 ? count : inside;
+}
+
+static int ask_pairs(struct carom_world *world, const struct scene *scene, int frame,
+                     uint64_t *digest)
+{
+    int result = CAROM_OK;
+
+    for (int a = SCENE_BODY; frame % 20 == 0 && a <= 1 + scene->other_count; a++) {
+        for (int b = SCENE_GROUND; b < a && result >= 0; b++) {
+            result = ask_pair(world, a, b, digest);
+        }
+    }
+    return result;
+}
+
+enum { WIDTH = 80, HEIGHT = 60 };
+
+static uint64_t fold_picture(const struct carom_picture *picture, uint64_t digest)
+{
+    const uint8_t *bytes = picture->pixels;
+    const uint16_t *halves = picture->pixels;
+    const uint32_t *words = picture->pixels;
+
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        digest = play_fold(digest, picture->format == CAROM_PALETTE8 ? bytes[i]
+                                   : picture->format == CAROM_RGB565 ? halves[i]
+                                                                     : words[i]);
+    }
+    return digest;
+}
+
+/* Small pictures, in every format and style in turn. */
+static int ask_picture(struct carom_world *world, const struct scene *scene, int frame,
+                       uint64_t *digest)
+{
+    static _Alignas(4) uint32_t pixels[WIDTH * HEIGHT]; /* m68k would have it at any even place */
+    static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES_LEAST(
+        SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES, SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
+    const int number = frame / 25;
+    struct carom_picture picture = {.pixels = pixels,
+                                    .width = WIDTH,
+                                    .height = HEIGHT,
+                                    .stride = WIDTH << number % 3,
+                                    .format = (uint8_t)(number % 3),
+                                    .workspace = workspace,
+                                    .workspace_bytes = sizeof workspace};
+    int result;
+
+    if (frame % 25 != 0) {
+        return CAROM_OK;
+    }
+    result =
+        carom_draw(world, &scene->camera, &picture, number % 2 ? CAROM_DRAW_FLAT : CAROM_DRAW_WIRE);
+    if (result >= 0) {
+        *digest = fold_picture(&picture, *digest);
+    }
+    return result;
+}
+
+/* ------------------------------------------------------------------- arrangements */
+
+static void set_surface(struct scene *scene, int32_t e_q30, uint32_t mu_q16)
+{
+    scene->ground.restitution_q30 = scene->body.restitution_q30 = e_q30;
+    scene->ground.friction_q16 = scene->body.friction_q16 = mu_q16;
+}
+
+/* Nothing is lost: a box that bounces for ever. */
+static void bounce(struct scene *scene)
+{
+    set_surface(scene, CAROM_ONE_Q30, 0);
+    for (int k = 0; k < 2; k++) {
+        scene->body.position.c[k] = scene->body.velocity.c[k] = 0;
+    }
+}
+
+/* Slippery, and flat on the plane. */
+static void slide(struct scene *scene)
+{
+    set_surface(scene, CAROM_ONE_Q30 / 4, 1 << 14);
+    scene->body.position = (carom_v3_q32){{0, 0, CAROM_POSITION_MM(260)}};
+    scene->body.velocity = scene->body.spin = (carom_v3_q40){{0, 0, 0}};
+}
+
+const struct play plays[PLAYS] = {
+    {"box", "box", 0, NULL, throw_often, NULL},
+    {"bounce", "box", 0, bounce, NULL, NULL},
+    {"slide", "box", 0, slide, lean, NULL},
+    {"pictures", "box", 0, NULL, throw_often, ask_picture},
+    {"pair", "pair", 0, NULL, throw_often, ask_pairs},
+    {"meet", "pair", 0, NULL, draw_together, ask_pairs},
+    {"boxes4", "boxes4", 0, NULL, throw_one, NULL},
+    {"pile", "pile", 6, NULL, throw_sometimes, ask_pairs},
+    {"sheet", "sheet", 0, NULL, NULL, NULL},
+    {"head100", "head100", 0, NULL, throw_often, NULL},
+    {"head450", "head450", 0, NULL, throw_sometimes, NULL},
+    {"head", "head", 0, NULL, throw_sometimes, NULL},
+};

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plays - scenes that do not come to an end: bodies that are pushed, pulled and tilted so that they
+ * go on moving for thousands of frames. What is done before a frame follows from its number and from
+ * the state of the world, so that a play can be gone on with from a snapshot.
+ */
+#ifndef CAROM_TESTS_PLAYS_H
+#define CAROM_TESTS_PLAYS_H
+
+#include "scene.h"
+
+struct play {
+    const char *name, *scene;
+    int bodies; /* that move; 0: as many as the scene has */
+    void (*arrange)(struct scene *);
+    /* What is done before a frame, 1 being the first. Returns CAROM_OK or an error. */
+    int (*act)(struct carom_world *world, int bodies, int frame);
+    /* What is asked after a frame, folded into a digest. Returns CAROM_OK or an error. */
+    int (*ask)(struct carom_world *world, const struct scene *scene, int frame, uint64_t *digest);
+};
+
+#define PLAYS 12
+extern const struct play plays[PLAYS];
+
+/* 64-bit FNV-1a of a number's bytes, the lowest first, from where the last ones left it. */
+#define PLAY_DIGEST 0xcbf29ce484222325u
+uint64_t play_fold(uint64_t digest, uint64_t number);
+
+#endif

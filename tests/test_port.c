@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/* What a board counts: that its ticks go on, and that the instructions they stand for are exact. */
+#include "port.h"
+#include "test.h"
+
+/* Two instructions a round. */
+#if defined __arm__
+#define ROUND ".syntax unified\n1: subs %0, %0, #1\nbne 1b\n"
+#elif defined __riscv
+#define ROUND "1: addi %0, %0, -1\nbnez %0, 1b\n"
+#endif
+
+#ifdef ROUND
+static uint32_t spent(uint32_t rounds)
+{
+    uint32_t start = port_ticks();
+
+    __asm__ volatile(ROUND : "+r"(rounds) : : "cc");
+    return port_instructions(port_ticks() - start);
+}
+#endif
+
+static void instructions(void)
+{
+#ifdef ROUND
+    static const uint32_t rounds[] = {2, 3, 4, 5, 7, 10, 100, 1001, 65537, 1000000};
+    const uint32_t one = spent(1);
+
+    for (uint32_t i = 0; port_instructions(port_ticks_hz) && i < sizeof rounds / sizeof rounds[0];
+         i++) {
+        CHECK_EQ(spent(rounds[i]) - one, 2 * (rounds[i] - 1));
+    }
+#endif
+    CHECK_EQ(port_instructions(0), 0);
+}
+
+static void ticks(void)
+{
+    uint32_t start = port_ticks(), last = 0, now;
+
+    /* a counter that stands still would hang the test, so there is an end */
+    for (uint32_t i = 0; last < 1000 && i < 1000000; i++) {
+        now = port_ticks() - start;
+        CHECK(now >= last);
+        last = now;
+    }
+    CHECK(last >= 1000);
+}
+
+const struct test tests_port[] = {{"port/instructions", instructions}, {"port/ticks", ticks}, {0}};

@@ -1,0 +1,423 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""One answer from every instruction set, compiler and option: tests/matrix.c, built in many ways.
+
+Every build plays the scenes of tests/plays.c and must print the same hash for each. What cannot be
+built or run is a failure, as is a hash that differs; then the first frame that differs is looked for,
+and in it the stage that left something else. Snapshots that one build takes on the way are gone on
+with by another, of the other byte order or word length. A row a build and scene goes to
+out/matrix.csv.
+"""
+import argparse
+import concurrent.futures
+import csv
+import glob
+import itertools
+import os
+import platform
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import time
+
+import gate
+import run_board
+
+ROOT = run_board.ROOT
+OUT = "out/matrix.csv"
+DOCS = "docs/matrix.md"
+WORK = "build/matrix"
+TIMEOUT = 900  # seconds a command
+AT = 500  # the frame whose snapshot is handed on
+CROSSED = ["pile", "sheet"]  # scenes that are gone on with elsewhere
+
+WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
+INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
+PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
+           "examples/scene_built.c", "port/option.c", "port/assert.c"]
+SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
+
+# Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
+GCC_TRAP = "-O1 -fsanitize=undefined -fsanitize-undefined-trap-on-error"
+CLANG_TRAP = "-O1 -fsanitize=undefined -fsanitize-trap=undefined"
+SANITIZE = "-fsanitize=address,undefined -fno-sanitize-recover=all -DCAROM_DEBUG"
+
+LEVELS = ["-O2", "-O0", "-O1", "-O3", "-Os"]
+MORE = ["-O3 -fwrapv", "-O1 -funsigned-char", "-O2 -fsigned-char"]
+GCC = LEVELS + MORE + ["-O2 -flto", GCC_TRAP]
+CLANG = ["-O2", "-O0", "-Os -funsigned-char", CLANG_TRAP]
+NATIVE = {"gcc": GCC + ["-O1 " + SANITIZE, "-O3 " + SANITIZE],
+          "clang": LEVELS + MORE + ["-O2 -flto -fuse-ld=lld", CLANG_TRAP, "-O1 " + SANITIZE]}
+WASM = LEVELS + MORE + ["-Oz"]
+
+# name: triple of the GNU tools, emulator, bits, byte order, whether clang 14 makes code for it
+LINUX = {
+    "i686": ("i686-linux-gnu", "i386", 32, "little", True),
+    "armel": ("arm-linux-gnueabi", "arm", 32, "little", True),
+    "armhf": ("arm-linux-gnueabihf", "arm", 32, "little", True),
+    "aarch64": ("aarch64-linux-gnu", "aarch64", 64, "little", True),
+    "riscv64": ("riscv64-linux-gnu", "riscv64", 64, "little", True),
+    "powerpc": ("powerpc-linux-gnu", "ppc", 32, "big", True),
+    "powerpc64": ("powerpc64-linux-gnu", "ppc64", 64, "big", True),
+    "ppc64el": ("powerpc64le-linux-gnu", "ppc64le", 64, "little", True),
+    "s390x": ("s390x-linux-gnu", "s390x", 64, "big", True),
+    "mips": ("mips-linux-gnu", "mips", 32, "big", True),
+    "mipsel": ("mipsel-linux-gnu", "mipsel", 32, "little", True),
+    "mips64": ("mips64-linux-gnuabi64", "mips64", 64, "big", True),
+    "mips64el": ("mips64el-linux-gnuabi64", "mips64el", 64, "little", True),
+    "m68k": ("m68k-linux-gnu", "m68k", 32, "big", False),
+    "sparc64": ("sparc64-linux-gnu", "sparc64", 64, "big", True),
+    "hppa": ("hppa-linux-gnu", "hppa", 32, "big", False),
+    "alpha": ("alpha-linux-gnu", "alpha", 64, "little", False),
+}
+DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
+MESHES = {}  # by target: objects
+
+
+class Failure(Exception):
+    """What went wrong with a build, in words."""
+
+
+def call(command, what, folder=ROOT):
+    """Run a command; returns what it prints, or raises a Failure that ends with its last lines."""
+    try:
+        done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              errors="replace", timeout=TIMEOUT)
+    except FileNotFoundError:
+        raise Failure("%s: there is no %s" % (what, command[0])) from None
+    except subprocess.TimeoutExpired:
+        raise Failure("%s: more than %d s" % (what, TIMEOUT)) from None
+    if done.returncode:
+        tail = (done.stdout[-400:] + done.stderr[-800:]).strip()
+        raise Failure("%s: status %d\n%s" % (what, done.returncode, tail))
+    return done.stdout
+
+
+class Build:
+    """One way to make the program, and what it said."""
+    need = []  # what tools/need is asked for
+
+    def __init__(self, target, compiler, options, bits, order):
+        self.target, self.compiler, self.options = target, compiler, options
+        self.bits, self.order = bits, order
+        self.engine = "src"  # folder
+        self.folder = os.path.join(WORK, target, compiler,
+                                   re.sub(r"\W+", "_", options).strip("_"))
+        self.image = os.path.join(self.folder, "matrix")
+        self.scenes, self.snapshots, self.absent = {}, {}, []
+
+    def __str__(self):
+        return " ".join([self.target, self.compiler, self.options])
+
+    def compile(self, sources, *options):
+        """Objects of sources in the build's folder."""
+        call([*self.command, "-std=c11", *self.options.split(), *INCLUDES, *options, "-c",
+              *[os.path.join(ROOT, source) for source in sources]], "compile", self.folder)
+
+    def make(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.makedirs(self.folder)
+        self.compile(sorted(glob.glob(self.engine + "/*.c")), "-ffreestanding", *WARNINGS)
+        self.compile(PROGRAM + self.port, *self.port_options)
+        made = glob.glob(self.folder + "/*.o")
+        call([*self.linker, "-o", self.image, *made, *MESHES[self.target]], "link")
+        for path in made:
+            os.remove(path)
+
+    def run(self, *options):
+        """The words of every line that it prints."""
+        text = call([*self.runner, self.image, *options], "run")
+        return [line.split() for line in text.splitlines()]
+
+    def play(self, *options):
+        """Play all scenes: words by scene, and the snapshots."""
+        for words in self.run(*options, "save=1"):
+            if words[0] == "scene":
+                self.scenes[words[1]] = words[2:]
+            elif words[0] == "snapshot":
+                self.snapshots[words[1]] = bytes.fromhex(words[2])
+            elif words[0] == "absent":
+                self.absent.append(words[1])
+        if not self.scenes:
+            raise Failure("run: it played nothing")
+
+    def discard(self):
+        shutil.rmtree(self.folder)
+
+
+class Linux(Build):
+    """For Linux: on this machine, or on another processor by QEMU's user mode."""
+    port, port_options = ["port/linux/console.c"], []
+
+    def __init__(self, target, compiler, options):
+        triple, emulator, bits, order, _ = LINUX.get(
+            target, (None, None, struct.calcsize("P") * 8, sys.byteorder, True))
+        super().__init__(target, compiler, options, bits, order)
+        self.need = ([triple, "qemu-user"] if triple else ["cc", "libc"]) + \
+            (["clang", "lld"] if compiler == "clang" else [])
+        gcc = [triple + "-gcc-12" if triple else "gcc"]
+        static = [] if target in DYNAMIC else ["-static"]
+        self.command = gcc if compiler == "gcc" else \
+            ["clang"] + (["--target=" + triple] if triple else [])
+        # Debian's clang does not find every cross linker: there gcc links what clang has compiled
+        self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
+        self.linker = self.linker + static if triple else self.linker
+        self.runner = ["qemu-" + emulator] if triple else []
+        if target in DYNAMIC:
+            self.runner += ["-L", "/usr/" + triple]
+
+
+class Wasm(Build):
+    """WebAssembly without a library, in node."""
+    port, port_options = ["port/wasm/wasm.c"], ["-ffreestanding", "-I%s/port/wasm" % ROOT]
+    command = ["clang", "--target=wasm32"]
+    linker = [*command, "-nostdlib", "-Wl,--no-entry,--export=main,-z,stack-size=262144"]
+    runner = ["node", "port/wasm/run.mjs"]
+    need = ["clang", "lld", "node"]
+
+    def __init__(self, options):
+        super().__init__("wasm32", "clang", options, 32, "little")
+
+
+class Board(Build):
+    """The image that make builds for a bare board."""
+
+    def __init__(self, board, settings):
+        super().__init__(board, settings["CROSS"] + "gcc", "-O2", 32, "little")
+        self.need = settings["NEED"].split()
+        self.image = os.path.join("build", board, "matrix.elf")
+
+    def make(self):
+        call(["make", "-s", "BOARD=" + self.target, self.image], "make")
+
+    def run(self, *options):
+        text = call(run_board.command(self.image, list(options)), "run")
+        return [line.split() for line in text.splitlines()]
+
+    def discard(self):
+        pass
+
+
+def boards():
+    for path in sorted(glob.glob("port/*/board.mk")):
+        name = os.path.basename(os.path.dirname(path))
+        settings = run_board.settings(name)
+        if "QEMU" in settings:
+            yield Board(name, settings)
+
+
+def every_build(short):
+    """All builds; the others are compared with the first."""
+    def some(sets):
+        return sets[:1] if short else sets
+
+    for compiler, sets in NATIVE.items():
+        yield from [Linux(platform.machine(), compiler, options) for options in some(sets)]
+    for target, row in LINUX.items():
+        yield from [Linux(target, "gcc", options) for options in some(GCC)]
+        if row[4] and not short:
+            yield from [Linux(target, "clang", options) for options in CLANG]
+    yield from [Wasm(options) for options in some(WASM)]
+    yield from boards()
+
+
+# ------------------------------------------------------------------ what differs
+
+def first_difference(build, other, scene, frames):
+    """In words: the first frame of a scene after which two builds differ, and the stage in it."""
+    def lines(each, kind, *options):
+        return [words for words in each.run("scene=" + scene, "frames=%d" % frames, *options)
+                if words[0] == kind]
+
+    for mine, theirs in zip(lines(build, "frame", "each=1"), lines(other, "frame", "each=1")):
+        if mine != theirs:
+            break
+    else:
+        return "the same, frame by frame, when it runs again"
+    frame = int(mine[1])
+    frames = frame
+    pairs = itertools.zip_longest(lines(build, "mark", "trace=%d" % frame),
+                                  lines(other, "mark", "trace=%d" % frame))
+    for number, (mine, theirs) in enumerate(pairs, 1):
+        if mine != theirs:
+            return "first in frame %d, after stage %s, the %d. to end in it" % (
+                frame, (theirs or mine)[1], number)
+    return "first in frame %d, in what is asked after its last stage" % frame
+
+
+def compared(build, first, frames):
+    """What is wrong with a build beside the first, a line each."""
+    for scene, words in build.scenes.items():
+        if words != first.scenes[scene]:
+            yield "%s: %s has %s; %s has %s: %s" % (
+                build, scene, words[2], first, first.scenes[scene][2],
+                first_difference(build, first, scene, frames))
+    for scene, snapshot in build.snapshots.items():
+        if snapshot != first.snapshots[scene]:
+            yield "%s: %s has another snapshot of frame %d" % (build, scene, AT)
+    if not isinstance(build, Board) and build.absent:
+        yield "%s: does not hold %s" % (build, ", ".join(build.absent))
+
+
+# ------------------------------------------------------------------------ crossing
+
+def other_kinds(builds):
+    """(from, to): for every build one of the other byte order and one of the other word length."""
+    for number, to in enumerate(builds):
+        around = builds[number + 1:] + builds[:number]
+        for kind in ["order", "bits"]:
+            there = [each for each in around if getattr(each, kind) != getattr(to, kind)]
+            if there:
+                yield there[0], to, "%s to %s" % (getattr(there[0], kind), getattr(to, kind))
+
+
+def snapshot_path(build, scene):
+    return os.path.join(WORK, "%s-%s.snapshot" % (build.target, scene))
+
+
+def cross(source, to, scene, frames):
+    """What is wrong with going on from another's snapshot, or None."""
+    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames,
+                   "load=" + snapshot_path(source, scene))[-1]
+    if words[0] != "scene" or words[-1] != source.scenes[scene][-1]:
+        return "%s, gone on with from frame %d of %s: %s ends in %s, not in %s" % (
+            to, AT, source, scene, words[-1], source.scenes[scene][-1])
+    return None
+
+
+# ----------------------------------------------------------------------------- all
+
+def make_meshes(build):
+    """The scenes' meshes, for every build of a target."""
+    folder = os.path.join(WORK, build.target, "meshes")
+    os.makedirs(folder, exist_ok=True)
+    call([*build.command, "-c", "-O0", *INCLUDES,
+          *[os.path.join(ROOT, path) for path in glob.glob(SCENE_MESHES)]], "meshes", folder)
+    MESHES[build.target] = glob.glob(folder + "/*.o")
+
+
+def attempt(action, build, *arguments):
+    """None, or what went wrong."""
+    try:
+        action(*arguments)
+    except Failure as failure:
+        return "%s: %s" % (build, failure)
+    return None
+
+
+def do(build, number, frames):
+    """Make and run a build; memory holds zeros or rubbish before, in turn."""
+    start = time.monotonic()
+
+    def all_of_it():
+        build.make()
+        build.play("frames=%d" % frames, "at=%d" % AT, "fill=%d" % (165 * (number % 2)))
+
+    wrong = attempt(all_of_it, build)
+    print("  %-58s %4d s%s" % (build, time.monotonic() - start, "  FAILS" if wrong else ""),
+          flush=True)
+    return wrong
+
+
+def do_all(builds, frames, jobs):
+    """Make and run all builds; returns what is wrong, a line each."""
+    failures = []
+    targets = {build.target: build for build in builds if not isinstance(build, Board)}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        failures += pool.map(lambda build: attempt(make_meshes, build, build), targets.values())
+        failures += pool.map(lambda item: do(item[1], item[0], frames), enumerate(builds))
+    done = [build for build in builds if build.scenes]
+    kept = {build.target: build for build in reversed(done)}
+    for build in done:
+        wrong = list(compared(build, done[0], frames))
+        failures += wrong
+        if not wrong and build is not kept[build.target]:
+            build.discard()
+    return list(filter(None, failures)), done, list(kept.values())[::-1]
+
+
+def cross_all(kept, frames, jobs):
+    """Go on with snapshots elsewhere; returns what is wrong, and how many did by kind."""
+    tasks = [(source, to, kind, scene) for source, to, kind in other_kinds(kept)
+             for scene in CROSSED if scene in source.snapshots and scene in to.scenes]
+    found = {}
+    for build in kept:
+        for scene in filter(build.snapshots.get, CROSSED):
+            with open(snapshot_path(build, scene), "wb") as file:
+                file.write(build.snapshots[scene])
+
+    def one(task):
+        source, to, kind, scene = task
+        answer = []
+        wrong = attempt(lambda: answer.append(cross(source, to, scene, frames)), to)
+        return kind, wrong or answer[0]
+
+    failures = []
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for kind, wrong in pool.map(one, tasks):
+            found[kind] = found.get(kind, 0) + (not wrong)
+            failures += [wrong] if wrong else []
+    return failures, found
+
+
+def write_csv(builds):
+    os.makedirs(os.path.dirname(OUT), exist_ok=True)
+    with open(OUT, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["target", "compiler", "options", "scene", "hash"])
+        for build in builds:
+            for scene, words in build.scenes.items():
+                writer.writerow([build.target, build.compiler, build.options, scene, words[2]])
+
+
+def report(builds, failures, crossings):
+    scenes = builds[0].scenes if builds else {}
+    frames = sum(int(words[0]) for words in scenes.values())
+    awake = sum(int(words[1]) for words in scenes.values())
+    for scene, words in scenes.items():
+        print("  %-9s %5s frames, %5s awake, %s" % (scene, *words[:3]))
+    for build in builds:
+        if build.absent:
+            print("  %s has no room for %s" % (build.target, ", ".join(build.absent)))
+    print("%d frames, in %d of them a body is awake" % (frames, awake))
+    print("%d snapshots gone on with elsewhere: %s" % (
+        sum(crossings.values()), ", ".join("%d from %s" % (n, k) for k, n in crossings.items())))
+    if 2 * awake < frames:
+        failures.append("most frames are of bodies asleep")
+    for failure in failures:
+        print("FAIL " + failure)
+    hashes = max((len({build.scenes[scene][2] for build in builds if scene in build.scenes})
+                  for scene in scenes), default=0)
+    print("%d builds, %d scenes, %s" % (len(builds), len(scenes),
+                                        "1 hash each" if hashes == 1 and not failures else
+                                        "%d failures" % len(failures)))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--short", action="store_true", help="one build an instruction set")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--frames", type=int, default=2000)
+    parser.add_argument("--targets", help="only these, with commas")
+    parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
+                        help="for a target, the engine in another folder")
+    arguments = parser.parse_args()
+    builds = list(every_build(arguments.short))
+    if arguments.targets:
+        builds = [build for build in builds if build.target in arguments.targets.split(",")]
+    for target, folder in (text.split("=") for text in arguments.engine):
+        for build in builds:
+            build.engine = folder if build.target == target else build.engine
+    gate.need(*sorted({thing for build in builds for thing in build.need}))
+    failures, done, kept = do_all(builds, arguments.frames, arguments.jobs)
+    wrong, crossings = cross_all(kept, arguments.frames, arguments.jobs)
+    write_csv(done)
+    report(done, failures + wrong, crossings)
+    return bool(failures + wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
