@@ -163,8 +163,6 @@ static void print_usage(const struct carom_world *world)
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
     }
-    port_print("usage stack bytes,%lu,0,%lu,0\n", (unsigned long)port_stack().size,
-               (unsigned long)port_stack().peak);
 }
 
 /* The memory of the world, and the stack of this program, as far as the port knows it. */
