@@ -15,6 +15,8 @@
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
 static uint8_t mesh_block[1];
+#define USER_VERTICES SCENE_HEAD_VERTICES
+#define USER_FACES    SCENE_HEAD_FACES
 #else
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
