@@ -15,6 +15,8 @@
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
 static uint8_t mesh_block[1];
+#define USER_VERTICES SCENE_HEAD_VERTICES
+#define USER_FACES    SCENE_HEAD_FACES
 #else
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
@@ -44,6 +46,13 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
+
+/* How many bodies the largest world holds: the first of its capacities. */
+#ifndef BOARD_CAPS
+#define BOARD_CAPS SCENE_LARGE_CAPS
+#endif
+#define FIRST_OF(first, ...) first
+#define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
 
 #define BOARD_DRAWS (BOARD_DRAW_BYTES > 0)
 
@@ -163,10 +172,15 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
-/* Draw into the upper `height` rows of a framebuffer, if there is one; returns the ticks it took. */
+/*
+ * Draw what changed in the upper `height` rows of a framebuffer, if there is one; returns the ticks
+ * that took.
+ */
 static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
+    static struct carom_drawn_body bodies[BODIES_OF(BOARD_CAPS)];
+    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(BOARD_CAPS)};
     struct carom_picture picture = {.pixels = fb->pixels,
                                     .width = fb->width,
                                     .height = height,
@@ -179,7 +193,7 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
     if (!BOARD_DRAWS || !fb->pixels) {
         return 0;
     }
-    expect(carom_draw(world, camera, &picture, style), "draw");
+    expect(carom_draw_changes(world, camera, &picture, style, &drawn), "draw");
     return port_ticks() - start;
 }
 
@@ -223,7 +237,11 @@ static void report(int frames)
     struct show show;
     struct carom_world *world = start(&show);
     struct port_fb fb = port_fb();
+    uint32_t first;
 
+    /* all of the picture, so that a frame has but what it changes to draw */
+    first = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+    port_print("first picture %lu\n", cost(first));
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
