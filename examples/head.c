@@ -221,9 +221,9 @@ static struct carom_world *make_show(struct show *show)
     load(&scene);
     show->camera = scene.camera;
     show->sheet = scene.sheet;
-    show->world_bytes = CAROM_WORLD_BYTES(scene.caps.bodies, scene.caps.pairs, scene.caps.contacts,
-                                          scene.caps.faces, scene.caps.entries,
-                                          scene.caps.candidates);
+    show->world_bytes =
+        CAROM_WORLD_BYTES(scene.caps.bodies, scene.caps.pairs, scene.caps.contacts,
+                          scene.caps.faces, scene.caps.entries, scene.caps.candidates);
     return make(&scene);
 }
 
