@@ -115,9 +115,11 @@ static void picture_errors(void)
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.height = 0);
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.height = -1);
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.height = 2049);
-    EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.format = 3);
+    EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.format = 5);
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, p.stride = SIZE - 1);
     EXPECT_PICTURE(CAROM_ERR_ARGUMENT, (p.format = CAROM_RGB565, p.width = 8, p.stride = 17));
+    EXPECT_PICTURE(CAROM_ERR_ARGUMENT, (p.format = CAROM_BGR555, p.width = 8, p.stride = 17));
+    EXPECT_PICTURE(CAROM_ERR_ARGUMENT, (p.format = CAROM_GREY4, p.width = 9, p.stride = 4));
     EXPECT_PICTURE(CAROM_ERR_NULL, p.pixels = NULL);
     EXPECT_PICTURE(CAROM_ERR_NULL, p.workspace = NULL);
     EXPECT_PICTURE(CAROM_ERR_MEMORY, p.workspace_bytes = CAROM_DRAW_BYTES_LEAST(0, 0) / 2);
