@@ -128,6 +128,9 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
         d[k] = 2 * (int64_t)turn[k] - carom_mul_q30(region->turn.c[k], part_q30);
         turn[k] = (int32_t)carom_abs(turn[k]);
     }
+    if (region->elapsed_q30 == 0) {
+        return fix_length_bound(d) + 4; /* from one start on both turn about the same by any time */
+    }
     cubes_q30 = fix_mul((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30, 30);
     /* the region's rate of turn falls by its square on the way */
     cubes_q30 += fix_mul(carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30),
@@ -139,26 +142,24 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
 {
     const struct body_region *region = &b->region;
     const struct body_path *path = &b->path;
-    int64_t start[3], end[3], off, at_end;
+    int64_t start[3], end[3], bend[3], off, at_end;
     int64_t until_q30 = region->elapsed_q30 + time_q30;
     int32_t part_q30;
 
     if (until_q30 > region->time_q30) {
         return false;
     }
+    part_q30 = part_of(region, time_q30);
     for (int k = 0; k < 3; k++) {
         start[k] = carom_shl(path->origin_q22[k], 10) + path->start.x.c[k];
         end[k] = start[k] + ((path->v.c[k] + path->g.c[k]) >> 8);
+        bend[k] = path->g.c[k] - fix_mul(fix_mul(region->bend.c[k], part_q30, 30), part_q30, 30);
     }
     off = off_q22(region, start, region->elapsed_q30);
     at_end = off_q22(region, end, until_q30);
     off = off > at_end ? off : at_end;
-    /* between the ends two parabolas are farther apart by an eighth of their second derivatives */
-    part_q30 = part_of(region, time_q30);
-    off += ((fix_length_bound(path->g.c) >> 18) +
-            fix_mul(fix_mul(region->bend_q22, part_q30, 30), part_q30, 30)) /
-               4 +
-           1;
+    /* between the ends two parabolas are farther apart by a quarter of what their bends differ by */
+    off += (fix_length_bound(bend) >> 20) + 1;
     off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;
 }

@@ -34,12 +34,15 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
     struct contact *c = &list->contacts[place];
-    uint32_t behind = list->pool->used - place;
+    int32_t end = pool_take(list->pool);
 
-    if (pool_take(list->pool) < 0) {
+    if (end < 0) {
         return NULL;
     }
-    memmove(c + 1, c, behind * sizeof *c);
+    /* one by one: a memmove that overlaps upwards may go byte by byte */
+    for (struct contact *to = &list->contacts[end]; to > c; to--) {
+        *to = to[-1];
+    }
     c->work = NULL;
     c->idle = c->resting = c->impact = false;
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};

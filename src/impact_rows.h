@@ -80,6 +80,10 @@ void impact_add_scaled(struct impact_answer *to, const struct impact_answer *dif
                        struct fix_scaled s);
 struct impact_answer impact_subtract(const struct impact_answer *a, const struct impact_answer *b);
 
+/* Row i of the system, n + 1 numbers, its right-hand side 0: without slip, or sliding along -v. */
+void impact_row(const struct impact_problem *p, bool sticks, uint32_t friction_q16, int i,
+                int32_t *row);
+
 /* The impulse without slip, and the one that slides along -v. Return 0, or -1: no solution. */
 int impact_stick(const struct impact_problem *p, struct impact_answer *out);
 int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out);

@@ -41,40 +41,50 @@ static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3
     };
 }
 
-/* The highest z in some cells that follow each other of lists that were made, or `top`. */
-static int32_t highest_made(const struct zlist *lists, const uint16_t *head, int32_t count,
-                            int32_t top)
+/* The highest z of b in a cell; below all of it when there is none. */
+static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 {
-    for (int32_t i = 0; i < count; i++) {
-        if (head[i] != ZLIST_NONE && lists->entry[head[i]].z1 > top) {
-            top = lists->entry[head[i]].z1;
+    const struct carom_mesh *mb = w->b->mesh;
+    const uint32_t *start = &mb->cell_start[cell];
+
+    if (w->pooled) {
+        uint16_t head = w->lists.head[cell];
+
+        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
+    }
+    return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
+}
+
+/* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
+static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+                             int32_t enough)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct cells cells = cells_under(mb, low, high);
+    int32_t top = INT16_MIN - 1;
+
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
+        uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
+
+        for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
+            int32_t z = cell_top(w, cell++);
+
+            top = z > top ? z : top;
+            if (z >= enough) {
+                return z;
+            }
         }
     }
     return top;
 }
 
-/* The highest z of b in the cells under a box, quanta. */
-static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3])
+/* Whether b is as high as the leaf's box somewhere in the cells under it. */
+static bool reaches_leaf(const struct interfere *w)
 {
-    const struct carom_mesh *mb = w->b->mesh;
-    struct cells cells = cells_under(mb, low, high);
-    int32_t top = INT16_MIN;
+    const struct interfere_leaf *l = w->leaf;
+    int32_t low = l->quanta_low[2];
 
-    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
-        const uint32_t *start = &mb->cell_start[row * mb->grid_nx];
-
-        if (w->pooled) {
-            top = highest_made(&w->lists, &w->lists.head[row * mb->grid_nx + cells.col[0]],
-                               cells.col[1] - cells.col[0] + 1, top);
-            continue;
-        }
-        for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
-            if (start[col] < start[col + 1] && mb->zrefs[start[col]].z1 > top) {
-                top = mb->zrefs[start[col]].z1;
-            }
-        }
-    }
-    return top;
+    return highest_under(w, l->quanta_low, l->quanta_high, low) >= low;
 }
 
 /* From b's frame to b's quanta along an axis. */
@@ -83,34 +93,60 @@ static int32_t to_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
     return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
 }
 
-/*
- * Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it.
- */
-static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+/* The highest z of b in the cells under a on its way. */
+static int32_t highest_of_b(const struct interfere *w)
 {
-    static const int order[3] = {2, 0, 1}; /* most end above b */
+    int64_t around_q22 = w->a->radius_q22 + w->leaf->near_q22 +
+                         fix_mul(w->a->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
+    int32_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+
+    for (int k = 0; k < 2; k++) {
+        int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->leaf->moves.c[k]) / 2 +
+                        2 * PLACE_NOISE_Q20;
+
+        low[k] = to_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
+        high[k] = to_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
+    }
+    return highest_under(w, low, high, INT32_MAX);
+}
+
+/* A coordinate of the sphere around a leaf, swept along its way. */
+static inline void sweep_sphere(struct interfere *w, int k)
+{
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    int64_t around_q22 = fix_mul(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
-    int32_t radius = (leaf->radius_q22 >> 2) + 1, low[3], high[3];
+    int32_t radius = (l->leaf->radius_q22 >> 2) + 1;
+    int32_t x = interfere_dot(w->leaf->to_b.c[k], l->leaf->centre.c) + w->leaf->at.c[k];
+    int32_t shift = interfere_dot(w->leaf->change.c[k], l->leaf->centre.c) + w->leaf->moves.c[k];
+    int32_t reach = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
+
+    l->shift.c[k] = shift;
+    l->reach.c[k] = reach;
+    l->quanta_low[k] = to_quanta(mb, x - radius - reach, k);
+    l->quanta_high[k] = to_quanta(mb, x + radius + reach, k) + 1;
+}
+
+/* Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it. */
+static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+{
+    const int16_t(*box)[3] = w->b->mesh->box;
+    struct interfere_leaf *l = w->leaf;
+    int32_t around_q22 =
+        carom_mul_q30(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30);
 
     l->leaf = leaf;
     l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
-    for (int i = 0; i < 3; i++) {
-        int k = order[i];
-        int32_t x = interfere_dot(w->leaf->to_b.c[k], leaf->centre.c) + w->leaf->at.c[k];
-        int32_t shift = interfere_dot(w->leaf->change.c[k], leaf->centre.c) + w->leaf->moves.c[k];
-
-        l->shift.c[k] = shift;
-        l->reach.c[k] = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
-        low[k] = to_quanta(mb, x - radius - l->reach.c[k], k);
-        high[k] = to_quanta(mb, x + radius + l->reach.c[k], k) + 1;
-        if (high[k] < mb->box[0][k] || low[k] > mb->box[1][k]) {
+    sweep_sphere(w, 2);
+    if (l->quanta_low[2] > w->leaf->top || l->quanta_high[2] < box[0][2]) {
+        return false; /* most end above b */
+    }
+    for (int k = 0; k < 2; k++) {
+        sweep_sphere(w, k);
+        if (l->quanta_low[k] > box[1][k] || l->quanta_high[k] < box[0][k]) {
             return false;
         }
     }
-    l->top = highest_under(w, low, high);
-    return low[2] <= l->top;
+    return reaches_leaf(w);
 }
 
 /* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
@@ -118,13 +154,16 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
 {
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    const int32_t *row = w->leaf->to_b.c[k];
-    int32_t low = INT32_MAX, high = INT32_MIN;
+    /* copies: what is stored might be a part of w for all that a compiler knows */
+    const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
+                  at = w->leaf->at.c[k];
+    const carom_v3_q22 *end = local + l->leaf->vertex_count;
+    int32_t low = INT32_MAX, high = INT32_MIN, *to = &l->p[0].c[k];
 
-    for (uint32_t i = 0; i < l->leaf->vertex_count; i++) {
-        int32_t x = interfere_dot(row, local[i].c) + w->leaf->at.c[k];
+    for (; local < end; local++, to += 3) {
+        int32_t x = interfere_dot(row, local->c) + at;
 
-        l->p[i].c[k] = x;
+        *to = x;
         low = x < low ? x : low;
         high = x > high ? x : high;
     }
@@ -137,13 +176,14 @@ static bool place_leaf(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
     const struct carom_leaf *leaf = w->leaf->leaf;
+    const uint16_t *vertices = &ma->leaf_vertices[leaf->first_vertex];
     carom_v3_q22 local[CAROM_LEAF_VERTICES];
 
-    for (uint32_t i = 0; i < leaf->vertex_count; i++) {
-        local[i] = mesh_vertex(ma, ma->leaf_vertices[leaf->first_vertex + i]);
+    for (uint32_t i = 0, n = leaf->vertex_count; i < n; i++) {
+        local[i] = mesh_vertex(ma, vertices[i]);
     }
     place_axis(w, local, 2);
-    if (w->leaf->quanta_low[2] > w->leaf->top) {
+    if (!reaches_leaf(w)) {
         return false;
     }
     place_axis(w, local, 0);
@@ -192,17 +232,16 @@ static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16
     return l->axis_q15[0] * p[0] + l->axis_q15[1] * p[1] + l->axis_q15[2] * p[2];
 }
 
-/* Whether the swept slab of the leaf has all of a face of b on one side. */
-static bool beside_slab(const struct interfere_leaf *l, const int16_t p[3], const int16_t q[3],
-                        const int16_t r[3])
+/* Whether three places are all on one side of an interval. */
+static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32_t high)
 {
-    int32_t a = along_slab_q15(l, p), b = along_slab_q15(l, q), c = along_slab_q15(l, r);
-
-    return (a > l->slab_high_q15 && b > l->slab_high_q15 && c > l->slab_high_q15) ||
-           (a < l->slab_low_q15 && b < l->slab_low_q15 && c < l->slab_low_q15);
+    return (p < low && q < low && r < low) || (p > high && q > high && r > high);
 }
 
-/* Whether a face of b meets the box and the slab of the swept leaf. */
+/*
+ * Whether a face of b meets the box and the slab of the swept leaf: seen from above, for its z in the
+ * cell was looked at.
+ */
 static inline bool face_near(const struct interfere *w, uint16_t face)
 {
     const struct carom_mesh *mb = w->b->mesh;
@@ -211,15 +250,10 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
 
-    for (int k = 2; k >= 0; k--) {
-        int32_t low = l->quanta_low[k], high = l->quanta_high[k];
-
-        if ((p[k] < low && q[k] < low && r[k] < low) ||
-            (p[k] > high && q[k] > high && r[k] > high)) {
-            return false;
-        }
-    }
-    return !beside_slab(l, p, q, r);
+    return !is_beside(p[0], q[0], r[0], l->quanta_low[0], l->quanta_high[0]) &&
+           !is_beside(p[1], q[1], r[1], l->quanta_low[1], l->quanta_high[1]) &&
+           !is_beside(along_slab_q15(l, p), along_slab_q15(l, q), along_slab_q15(l, r),
+                      l->slab_low_q15, l->slab_high_q15);
 }
 
 /* Whether a face comes up for the first time, as far as is remembered. */
@@ -234,10 +268,9 @@ static inline bool is_new(struct interfere *w, uint16_t face)
     return true;
 }
 
-/* A face of b in a cell, with the z that it spans there. */
-static inline void visit_entry(struct interfere *w, int16_t z0, uint16_t face)
+static inline void visit_face(struct interfere *w, uint16_t face)
 {
-    if (z0 <= w->leaf->quanta_high[2] && is_new(w, face) && face_near(w, face)) {
+    if (is_new(w, face) && face_near(w, face)) {
         interfere_narrow(w, face);
     }
 }
@@ -246,12 +279,14 @@ static inline void visit_entry(struct interfere *w, int16_t z0, uint16_t face)
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    int32_t low = w->leaf->quanta_low[2];
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
     for (; r < end && r->z1 >= low; r++) {
-        visit_entry(w, r->z0, r->face);
+        if (r->z0 <= high) {
+            visit_face(w, r->face);
+        }
     }
 }
 
@@ -259,11 +294,13 @@ static void visit_cell(struct interfere *w, uint32_t cell)
 static void visit_made(struct interfere *w, uint32_t cell)
 {
     const struct zentry *entry = w->lists.entry;
-    int32_t low = w->leaf->quanta_low[2];
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
 
     for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
          i = entry[i].next) {
-        visit_entry(w, entry[i].z0, entry[i].face);
+        if (entry[i].z0 <= high) {
+            visit_face(w, entry[i].face);
+        }
     }
 }
 
@@ -313,6 +350,7 @@ void interfere_leaves(struct interfere *w)
 {
     const struct carom_mesh *ma = w->a->mesh;
 
+    w->leaf->top = highest_of_b(w);
     for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
         if (leaf_near(w, &ma->leaves[i])) {
             visit_leaf(w);

@@ -70,6 +70,7 @@ struct interfere_leaf {
     int32_t angle_q30; /* how far one body turns as seen from the other */
     int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
     int32_t cone_q30;  /* cosine tolerance of normal cones */
+    int32_t top;       /* the highest z of b under a, quanta */
 
     const struct carom_leaf *leaf;
     uint16_t seen[INTERFERE_SEEN];
@@ -81,13 +82,12 @@ struct interfere_leaf {
     int32_t axis_q15[3];                   /* of its slab */
     int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
     bool listed;
-    /* of each face, once listed: its corners, a bit each, and the box around its way */
-    uint32_t corners[CAROM_LEAF_FACES];
+    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, once listed, a bit each */
+    uint32_t boxed;                     /* faces with boxes around their ways, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
     uint32_t busy; /* faces with candidates */
-    int32_t top;   /* highest z of b in the cells under it */
 };
 
 struct target;

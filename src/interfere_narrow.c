@@ -68,64 +68,71 @@ static inline void bound(const struct interfere_vec *p, const struct interfere_v
     }
 }
 
-/* Corners of the leaf's faces, and the boxes around their ways. */
+/* Corners of the leaf's faces. */
 static void list_faces(struct interfere *w)
 {
     struct interfere_leaf *l = w->leaf;
 
     l->listed = true;
-    l->placed = 0;
+    l->boxed = l->placed = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
         const uint8_t *corner = interfere_corners(w, i);
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-        bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
-              &l->face_high[i]);
-        for (int k = 0; k < 3; k++) {
-            l->face_low[i].c[k] -= l->reach.c[k];
-            l->face_high[i].c[k] += l->reach.c[k];
-        }
     }
 }
 
-/* The leaf's faces whose ways' boxes meet that of b's face, a bit each, and their vertices. */
-static uint32_t faces_near(const struct interfere *w, const struct target *t, uint32_t *vertices)
+/* The box around the way of a face of the leaf. */
+static void box_face(struct interfere *w, uint32_t i)
 {
-    const struct interfere_leaf *l = w->leaf;
-    uint32_t near = 0;
+    struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
 
-    *vertices = 0;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
-
-        if (low[2] <= t->high.c[2] && high[2] >= t->low.c[2] && low[0] <= t->high.c[0] &&
-            high[0] >= t->low.c[0] && low[1] <= t->high.c[1] && high[1] >= t->low.c[1]) {
-            near |= 1u << i;
-            *vertices |= l->corners[i];
-        }
+    l->boxed |= 1u << i;
+    bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i], &l->face_high[i]);
+    for (int k = 0; k < 3; k++) {
+        l->face_low[i].c[k] -= l->reach.c[k];
+        l->face_high[i].c[k] += l->reach.c[k];
     }
-    return near;
+}
+
+/* Whether the box around a leaf's face's way meets that of b's face. */
+static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
+{
+    struct interfere_leaf *l = w->leaf;
+    const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
+
+    if (!(l->boxed >> i & 1)) {
+        box_face(w, i);
+    }
+    return low[0] <= t->high.c[0] && high[0] >= t->low.c[0] && low[1] <= t->high.c[1] &&
+           high[1] >= t->low.c[1] && low[2] <= t->high.c[2] && high[2] >= t->low.c[2];
 }
 
 /* ------------------------------------------------------------------- planes */
 
-/* Which of these vertices of the leaf stay over the plane of b's face on their way, or under it. */
-static void part_by_plane(const struct interfere *w, struct target *t, uint32_t vertices)
+/*
+ * Which vertices of the leaf stay over the plane of b's face on their way, or under it. False when
+ * all of them do the same.
+ */
+static bool part_by_plane(const struct interfere *w, struct target *t)
 {
     const struct interfere_leaf *l = w->leaf;
     const int32_t *n = t->face->normal.c;
     int32_t offset_q18 = t->face->offset_q22 >> 4, reach_q18 = interfere_reach_q18(l, n);
     int32_t above_q18 = offset_q18 + reach_q18, below_q18 = offset_q18 - reach_q18;
+    uint32_t over = 0, under = 0, all = UINT32_MAX >> (32 - l->leaf->vertex_count);
 
-    t->over = t->under = 0;
-    for (uint32_t i = 0; vertices >> i != 0; i++) {
-        if (vertices >> i & 1) {
-            int32_t height_q18 = interfere_dot(n, l->p[i].c);
+    for (const struct interfere_vec *p = &l->p[l->leaf->vertex_count]; p-- > l->p;) {
+        int32_t height_q18 = interfere_dot(n, p->c);
 
-            t->over |= (uint32_t)(height_q18 > above_q18) << i;
-            t->under |= (uint32_t)(height_q18 < below_q18) << i;
-        }
+        /* the signs of the differences, which are below 2^31 */
+        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
+        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
     }
+    t->over = over;
+    t->under = under;
+    return over != all && under != all;
 }
 
 /* The plane of a face of the leaf. */
@@ -144,24 +151,24 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
     return plane;
 }
 
-/* Whether face i of the leaf and b's face may meet as far as their planes tell. */
-static bool planes_meet(struct interfere *w, struct target *t, uint32_t i)
+/* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
+static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
-    uint32_t corners = w->leaf->corners[i];
-    const struct interfere_plane *plane;
+    const struct interfere_plane *plane = plane_of(w, i);
+    const int32_t n[3] = {plane->n_q30[0], plane->n_q30[1], plane->n_q30[2]};
+    int32_t above_q18 = plane->offset_q18 + plane->reach_q18;
+    int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
+    uint32_t over = 0, under = 0;
 
-    if ((corners & ~t->over) == 0 || (corners & ~t->under) == 0) {
-        return false;
-    }
-    plane = plane_of(w, i);
-    t->corners_over = t->corners_under = 0;
-    for (int k = 0; k < 3; k++) {
-        int32_t height_q18 = interfere_dot(plane->n_q30, t->p[k].c) - plane->offset_q18;
+    for (const struct interfere_vec *p = &t->p[3]; p-- > t->p;) {
+        int32_t height_q18 = interfere_dot(n, p->c);
 
-        t->corners_over |= (uint32_t)(height_q18 > plane->reach_q18) << k;
-        t->corners_under |= (uint32_t)(height_q18 < -plane->reach_q18) << k;
+        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
+        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
     }
-    return t->corners_over != 7 && t->corners_under != 7;
+    t->corners_over = over;
+    t->corners_under = under;
+    return over != 7 && under != 7;
 }
 
 /* ---------------------------------------------------------- vertices, faces */
@@ -353,7 +360,7 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
 {
     const struct interfere_leaf *l = w->leaf;
 
-    for (int k = 2; k >= 0; k--) {
+    for (int k = 0; k < 3; k++) {
         int32_t reach = l->reach.c[k];
 
         if (most(p->c[k], q->c[k]) + reach < least(c->c[k], d->c[k]) ||
@@ -364,35 +371,46 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
     return false;
 }
 
-/* The edges that face i of the leaf owns against edge j of b's face. */
-static bool edges_edge(struct interfere *w, const struct target *t, uint32_t i, int j)
+/* An edge that face i of the leaf owns against one of b's face. */
+static bool edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j)
 {
-    const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_leaf *l = w->leaf;
-    const struct carom_face *face = &ma->faces[interfere_face(w, i)];
     const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_vec *p = &l->p[corner[k]], *q = &l->p[corner[k == 2 ? 0 : k + 1]];
     const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
-    bool any = false;
+    uint32_t edge_a, edge_b = t->face->edge[j];
+    struct lines lines;
 
-    for (int k = 0; k < 3; k++) {
-        uint32_t p = corner[k], q = corner[k == 2 ? 0 : k + 1], both = 1u << p | 1u << q;
-        struct lines lines;
+    if (boxes_miss(w, p, q, c, d)) {
+        return false;
+    }
+    edge_a = w->a->mesh->faces[interfere_face(w, i)].edge[k];
+    /* an owned edge runs with its face */
+    lines.a = &w->a->mesh->edges[edge_a];
+    lines.b = &w->b->mesh->edges[edge_b];
+    lines.start_a = p;
+    lines.start_b = c;
+    if (!edges_may_touch(w, &lines)) {
+        return false;
+    }
+    emit(w, CANDIDATE_EDGE_EDGE, edge_a, edge_b);
+    return true;
+}
 
-        if (!(face->own & 8 << k) || (t->over & both) == both || (t->under & both) == both ||
-            boxes_miss(w, &l->p[p], &l->p[q], c, d)) {
-            continue;
-        }
-        /* an owned edge runs with its face */
-        lines.a = &ma->edges[face->edge[k]];
-        lines.b = &w->b->mesh->edges[t->face->edge[j]];
-        lines.start_a = &l->p[p];
-        lines.start_b = c;
-        if (edges_may_touch(w, &lines)) {
-            emit(w, CANDIDATE_EDGE_EDGE, face->edge[k], t->face->edge[j]);
-            any = true;
+/* The edges that face i of the leaf owns and that reach the plane of b's face, a bit each. */
+static uint32_t edges_left(const struct interfere *w, const struct target *t, uint32_t i)
+{
+    const uint8_t *corner = interfere_corners(w, i);
+    uint32_t left = 0, own = w->a->mesh->faces[interfere_face(w, i)].own >> 3;
+
+    for (int k = 0; own >> k != 0; k++) {
+        uint32_t both = 1u << corner[k] | 1u << corner[k == 2 ? 0 : k + 1];
+
+        if ((own >> k & 1) && (both & ~t->over) != 0 && (both & ~t->under) != 0) {
+            left |= 1u << k;
         }
     }
-    return any;
+    return left;
 }
 
 static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
@@ -401,11 +419,12 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
     uint32_t over = t->corners_over & (t->corners_over >> 1 | t->corners_over << 2);
     uint32_t under = t->corners_under & (t->corners_under >> 1 | t->corners_under << 2);
     uint32_t left = (uint32_t)t->face->own >> 3 & ~over & ~under & 7;
+    uint32_t edges = left != 0 ? edges_left(w, t, i) : 0;
     bool any = false;
 
-    for (int j = 0; left >> j != 0; j++) {
-        if (left >> j & 1) {
-            any |= edges_edge(w, t, i, j);
+    for (int k = 0; edges >> k != 0; k++) {
+        for (int j = 0; (edges >> k & 1) && left >> j != 0; j++) {
+            any |= (left >> j & 1) && edge_edge(w, t, i, k, j);
         }
     }
     return any;
@@ -422,28 +441,31 @@ bool interfere_features(struct interfere *w, const struct target *t, uint32_t i)
 
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
+    struct interfere_leaf *l = w->leaf;
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    uint32_t near, vertices, busy = 0;
+    uint32_t busy = 0;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
-    place_target(w, &t);
-    if (!w->leaf->listed) {
-        list_faces(w);
-    }
-    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
-    near = faces_near(w, &t, &vertices);
-    if (near == 0) {
+    if (!part_by_plane(w, &t)) {
         return;
     }
-    part_by_plane(w, &t, vertices);
-    for (uint32_t i = 0; near >> i != 0; i++) {
-        if ((near >> i & 1) && planes_meet(w, &t, i) && w->meet(w, &t, i)) {
+    place_target(w, &t);
+    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
+    if (!l->listed) {
+        list_faces(w);
+    }
+    for (uint32_t i = 0, over = t.over, under = t.under, n = l->leaf->face_count; i < n; i++) {
+        uint32_t corners = l->corners[i];
+
+        /* does it reach to both sides of the plane, or near to it? */
+        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, &t, i) &&
+            is_reached(w, &t, i) && w->meet(w, &t, i)) {
             busy |= 1u << i;
         }
     }
     if (busy != 0) {
-        w->leaf->busy |= busy;
+        l->busy |= busy;
         interfere_add_face(w, w->body_b, face_b);
     }
 }

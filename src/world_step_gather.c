@@ -2,11 +2,17 @@
 /* The gathering part of a step: regions, and the pairs and candidates for them. */
 #include "world_step_parts.h"
 
-/* A region ends when a body has gone this part of its radius; the other one while nothing is near. */
-#define REGION_PARTS      10
-#define REGION_PARTS_FREE 4
+/*
+ * A region ends when a body has gone this part of its radius: one in contact, one in flight, which a hit may
+ * lead aside long before, or any while nothing is near.
+ */
+#define REGION_PARTS        10
+#define REGION_PARTS_FLIGHT 14
+#define REGION_PARTS_FREE   4
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
+/* A hit leads a body that goes farther than this in a slice aside by more than any room. */
+#define ROOM_WAY_SKINS 40
 
 struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p)
 {
@@ -47,22 +53,41 @@ static void visit_nothing(struct candidate_visitor *self, const struct candidate
     (void)n;
 }
 
+/* Whether more than one body is going to move. */
+static bool is_crowd(const struct step *s)
+{
+    uint32_t active = 0;
+
+    for (uint32_t i = 0; i < s->w->body_count && active < 2; i++) {
+        active += broad_active(&s->w->bodies[i], &s->next->bodies[i]);
+    }
+    return active > 1;
+}
+
 /*
  * Candidates are gathered for the paths at hand, and for what differs from them by no more than some
  * skins and a part of the way. In flight only a hit leads a body aside, and by more than that:
- * it asks for others in any case.
+ * it asks for others in any case. So it is with a fast body in contact when the region ends with its
+ * path. In a crowd any of them that is led aside costs a search for all.
  */
-static int64_t room_for(const struct body *b)
+static int64_t room_for(const struct body *b, bool crowd, bool lasts)
 {
-    int64_t way_q22, turn_q30;
+    int64_t way_q22, turn_q30, skin_q22 = b->skin_q22;
 
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-    return b->in_contact ? 10 * (int64_t)b->skin_q22 + way_q22 / 16
-                         : 3 * (int64_t)b->skin_q22 + way_q22 / 64;
+    if (crowd) {
+        return b->in_contact ? 10 * skin_q22 + way_q22 / 16 : 3 * skin_q22 + way_q22 / 64;
+    }
+    if (!lasts && way_q22 > ROOM_WAY_SKINS * skin_q22) {
+        return skin_q22;
+    }
+    return b->in_contact ? 10 * skin_q22 + way_q22 / 32 : 2 * skin_q22 + way_q22 / 128;
 }
 
 static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
 {
+    bool crowd = is_crowd(s), lasts = time_q30 != slice_q30;
+
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
         int64_t room_q22;
@@ -71,7 +96,7 @@ static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)
             continue;
         }
         b->active = broad_active(b, &s->next->bodies[i]);
-        room_q22 = b->active ? room_for(b) : 0;
+        room_q22 = b->active ? room_for(b, crowd, lasts) : 0;
         room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
         body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     }
@@ -113,21 +138,22 @@ static int gather(struct step *s, int32_t slice_q30, int64_t time_q30, uint32_t 
  */
 static int64_t frames_allowed(const struct step *s, int32_t slice_q30)
 {
-    int64_t parts = s->w->interfere.candidate_pool->used == 0 ? REGION_PARTS_FREE : REGION_PARTS;
+    bool free = s->w->interfere.candidate_pool->used == 0;
     int64_t frames = BODY_REGION_FRAMES;
 
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
-        int64_t way_q22, turn_q30, way_frame_q22;
+        int64_t way_q22, turn_q30, way_frame_q22, most_q22;
 
         if (!broad_active(b, &s->next->bodies[i])) {
             continue;
         }
         body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
         way_frame_q22 = (way_q22 << 30) / slice_q30 + 1;
-        if (frames * way_frame_q22 > b->radius_q22 / parts) {
-            frames = b->radius_q22 / parts / way_frame_q22;
-        }
+        most_q22 = b->radius_q22 / (free            ? REGION_PARTS_FREE
+                                    : b->in_contact ? REGION_PARTS
+                                                    : REGION_PARTS_FLIGHT);
+        frames = frames * way_frame_q22 > most_q22 ? most_q22 / way_frame_q22 : frames;
     }
     return frames > 1 ? frames : 1;
 }

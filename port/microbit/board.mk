@@ -7,7 +7,7 @@ SCENES := boxes4:15
 FAMILY := arm
 ARCH := -mcpu=cortex-m0 -mthumb
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S
-QEMU := qemu-system-arm -M microbit -global nrf51-soc.sram-size=65536
+QEMU := qemu-system-arm -M microbit
 # SysTick's 24 bits are 4 million instructions.
 ICOUNT_SHIFT := 8
 ROM_SCENES := boxes4

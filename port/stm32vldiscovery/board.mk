@@ -8,7 +8,7 @@ FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
 OPT := -Os
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c
-QEMU := qemu-system-arm -M netduino2
+QEMU := qemu-system-arm -M stm32vldiscovery
 # SysTick's 24 bits are 5.4 million instructions.
 ICOUNT_SHIFT := 7
 ROM_SCENES := pair
