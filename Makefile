@@ -34,12 +34,12 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
-          -Iinclude -Isrc -Iport $(if $(FAMILY),-Iport/bare -Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
+          -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
-          $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
           $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
-          $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES))
+          $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
+          $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
 ENGINE_SOURCES := $(wildcard src/*.c)
@@ -53,7 +53,8 @@ LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
 LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard port/$(BOARD)/fast.ld)
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld \
+    $(firstword $(wildcard port/$(BOARD)/fast.ld) linker/fast.ld)
 endif
 
 # ---------------------------------------------------------------------- files
@@ -83,8 +84,8 @@ TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/host_% tests/accuracy_%,\
-                $(wildcard tests/*.c)))
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
+                tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
 # ------------------------------------------------------------------- commands
@@ -140,7 +141,7 @@ test: need
 	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
 else
 test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang m68k-linux-gnu qemu-user
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf
 	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/tests.elf
@@ -225,6 +226,8 @@ $(B)/flags: force
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
 $(B)/src/%.o: CFLAGS += -ffreestanding
+# what prints is not to have its variables on the stack while a step runs
+$(B)/examples/%.o: CFLAGS += -fno-inline
 $(B)/tests/%.o: CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)
 
 $(B)/%.o: %.c $(B)/flags
@@ -255,6 +258,11 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 $(B)/head.elf: $(call objects,examples/scene_play.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
+	@echo '  link  $@'
+	$(link)
+
+# on every board, however small: nothing else of the tests
+$(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 

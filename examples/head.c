@@ -7,8 +7,6 @@
  *          stage of one that takes more)
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
-#include <stdlib.h>
-
 #include "carom.h"
 #include "port.h"
 #include "scene.h"
@@ -17,6 +15,8 @@
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others. */
 static uint8_t mesh_block[1];
+#define USER_VERTICES SCENE_HEAD_VERTICES
+#define USER_FACES    SCENE_HEAD_FACES
 #else
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
@@ -47,8 +47,17 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
+/* How many bodies the largest world holds: the first of its capacities. */
+#ifndef BOARD_CAPS
+#define BOARD_CAPS SCENE_LARGE_CAPS
+#endif
+#define FIRST_OF(first, ...) first
+#define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
+
+#define BOARD_DRAWS (BOARD_DRAW_BYTES > 0)
+
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[BOARD_DRAW_BYTES > 0 ? BOARD_DRAW_BYTES : 1];
+static _Alignas(8) uint8_t draw_block[BOARD_DRAWS ? BOARD_DRAW_BYTES : 1];
 
 /* Go on with a result that is not an error; say what is wrong and leave with any other. */
 static int expect(int result, const char *what)
@@ -161,23 +170,17 @@ static void print_usage(const struct carom_world *world)
                    (unsigned long)usage[pool].used, (unsigned long)usage[pool].peak,
                    (unsigned long)usage[pool].refused);
     }
-    port_print("usage stack bytes,%lu,0,%lu,0\n", (unsigned long)port_stack().size,
-               (unsigned long)port_stack().peak);
 }
 
-/* The memory of the world, and the stack of this program, as far as the port knows it. */
-static void print_memory(size_t world_bytes)
-{
-    port_print("world %lu\n", (unsigned long)world_bytes);
-    if (port_stack()) {
-        port_print("stack %lu\n", (unsigned long)port_stack());
-    }
-}
-
-/* Draw into the upper `height` rows of a framebuffer, if there is one; returns the ticks it took. */
+/*
+ * Draw what changed in the upper `height` rows of a framebuffer, if there is one; returns the ticks
+ * that took.
+ */
 static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
+    static struct carom_drawn_body bodies[BODIES_OF(BOARD_CAPS)];
+    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(BOARD_CAPS)};
     struct carom_picture picture = {.pixels = fb->pixels,
                                     .width = fb->width,
                                     .height = height,
@@ -187,10 +190,10 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (BOARD_DRAW_BYTES == 0 || !fb->pixels) {
+    if (!BOARD_DRAWS || !fb->pixels) {
         return 0;
     }
-    expect(carom_draw(world, camera, &picture, style), "draw");
+    expect(carom_draw_changes(world, camera, &picture, style, &drawn), "draw");
     return port_ticks() - start;
 }
 
@@ -200,8 +203,7 @@ static struct carom_world *make(const struct scene *scene)
     struct carom_world *world;
 
     config.ticks = port_ticks;
-    config.budget_ticks =
-        port_option("budget") ? ticks_of(strtoul(port_option("budget"), NULL, 10)) : 0;
+    config.budget_ticks = port_option("budget") ? ticks_of(port_number("budget", 0)) : 0;
     config.sleep = port_option("awake") == NULL;
     expect(scene_make(scene, &config, world_block, sizeof world_block, &world), "world");
     return world;
@@ -211,29 +213,35 @@ static struct carom_world *make(const struct scene *scene)
 struct show {
     struct carom_camera camera;
     struct scene_sheet *sheet;
-    size_t world_bytes;
 };
 
-static struct carom_world *make_show(struct show *show)
+static struct carom_world *start(struct show *show)
 {
+    struct carom_world *world;
     struct scene scene;
+    const struct carom_caps *caps = &scene.caps;
 
     load(&scene);
+    world = make(&scene);
+    port_print("world %lu\n",
+               (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
+                                                caps->faces, caps->entries, caps->candidates));
     show->camera = scene.camera;
     show->sheet = scene.sheet;
-    show->world_bytes = CAROM_WORLD_BYTES(scene.caps.bodies, scene.caps.pairs, scene.caps.contacts,
-                                          scene.caps.faces, scene.caps.entries,
-                                          scene.caps.candidates);
-    return make(&scene);
+    return world;
 }
 
 /* A row of figures a frame. */
 static void report(int frames)
 {
     struct show show;
-    struct carom_world *world = make_show(&show);
+    struct carom_world *world = start(&show);
     struct port_fb fb = port_fb();
+    uint32_t first;
 
+    /* all of the picture, so that a frame has but what it changes to draw */
+    first = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+    port_print("first picture %lu\n", cost(first));
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
@@ -246,7 +254,9 @@ static void report(int frames)
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);
-    print_memory(show.world_bytes);
+    if (port_stack()) {
+        port_print("stack %lu\n", (unsigned long)port_stack());
+    }
     port_print("hash ");
     print_hash(world);
 }
@@ -289,8 +299,8 @@ int main(void)
     int frames;
 
     port_init();
-    frames = port_option("frames") ? atoi(port_option("frames")) : port_arg(0) ? 600 : 0;
-    if (BOARD_DRAW_BYTES > 0 && (frames == 0 || port_option("play"))) {
+    frames = (int)port_number("frames", port_arg(0) ? 600 : 0);
+    if (BOARD_DRAWS && (frames == 0 || port_option("play"))) {
         play(frames);
     } else {
         report(frames);

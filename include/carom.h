@@ -242,10 +242,10 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(632, 800)
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(544, 704)
 #define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
 /* What stages work in one after the other: so much, or for each contact and pair that is solved. */
-#define CAROM_SCRATCH_BYTES 2696
+#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
 #define CAROM_WORK_BYTES    CAROM_BYTES_(224, 224)
 #define CAROM_ROLL_BYTES    64
 

@@ -16,3 +16,17 @@ const char *port_option(const char *name)
     }
     return NULL;
 }
+
+uint32_t port_number(const char *name, uint32_t otherwise)
+{
+    const char *digits = port_option(name);
+    uint32_t number = 0;
+
+    if (!digits) {
+        return otherwise;
+    }
+    while (*digits >= '0' && *digits <= '9') {
+        number = 10 * number + (uint32_t)(*digits++ - '0');
+    }
+    return number;
+}

@@ -42,7 +42,10 @@ uint32_t port_instructions(uint32_t ticks);
 /* One character to the console. */
 void port_putc(char c);
 
-/* printf over port_putc, in every port; at most 319 characters. */
+/*
+ * printf over port_putc, in every port, with the conversions %s %d %u %x %ld %lu %lx and, before them, a
+ * least number of digits: %08lx.
+ */
 void port_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* Pad bits, of what is held; 0 where there is none. */
@@ -70,6 +73,8 @@ const char *port_arg(int n);
  * in a way that the board's folder describes.
  */
 const char *port_option(const char *name);
+/* The same as a decimal number; `otherwise` without such an argument. */
+uint32_t port_number(const char *name, uint32_t otherwise);
 
 /*
  * A whole file that the board can read (semihosting, host): up to `max` bytes into `buffer`.

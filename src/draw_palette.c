@@ -30,7 +30,7 @@ const uint32_t carom_draw_palette[256] = {
 };
 
 /* First grey of each ramp, and what it gains up to the last. */
-static const uint8_t greys[DRAW_RAMPS][2] = {{0, 2}, {1, 5}, {5, 7}, {14, 1}, {15, 0}};
+static const uint8_t greys[DRAW_RAMPS][2] = {{0, 1}, {2, 4}, {6, 7}, {14, 1}, {15, 0}};
 
 static uint32_t grey(uint32_t index)
 {

@@ -51,7 +51,6 @@ static int normalise_rows(struct gauss *w, int n)
         CAROM_ASSERT(largest < 2 * (uint32_t)FULL && z <= 29);
         for (int j = 0; j < n; j++) {
             w->a[i][j] = (int32_t)carom_shl(w->a[i][j], z);
-            w->original[i][j] = w->a[i][j];
         }
         w->residual[i] = carom_shl(w->a[i][n], z); /* <= 2^59 */
     }
@@ -250,19 +249,17 @@ static int correction(struct gauss *w, int n, int bits, int q)
 }
 
 /*
- * residual = (residual 2^(h - q)) - original digits, in the scale 2^-h. The terms nearly cancel;
- * only the difference needs to fit, so the sum is formed modulo 2^64.
+ * residual = (residual 2^(h - q)) - row digits, in the scale 2^-h. The terms nearly cancel; only the
+ * difference needs to fit, so the sum is formed modulo 2^64.
  */
-static void take_out(struct gauss *w, int n, int up)
+void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row)
 {
-    for (int i = 0; i < n; i++) {
-        uint64_t r = up < 64 ? (uint64_t)w->residual[i] << up : 0;
+    uint64_t sum = 0;
 
-        for (int j = 0; j < n; j++) {
-            r -= (uint64_t)((int64_t)w->original[i][j] * w->digits[j]);
-        }
-        w->residual[i] = (int64_t)r;
+    for (int j = 0; j < n; j++) {
+        sum += (uint64_t)((int64_t)row[j] * w->digits[j]);
     }
+    w->residual[i] = (int64_t)((uint64_t)w->residual[i] - (sum << w->up[i]));
 }
 
 /* x += digits 2^-h */
@@ -273,39 +270,61 @@ static void add_digits(struct gauss *w, int n, int h)
     }
 }
 
-int gauss_solve(struct gauss *w, int n)
+int gauss_begin(struct gauss *w, int n)
 {
-    int first = 0, last = 0;
-
     CAROM_ASSERT(n >= 1 && n <= GAUSS_MAX);
     if (normalise_rows(w, n) || factor(w, n) || invert_diagonal(w, n)) {
         return -1;
     }
     memset(w->x_q40, 0, sizeof w->x_q40);
-    for (int round = 0; round < ROUNDS_MAX; round++) {
-        int bits = block_bits(w->residual, n);
-        int h;
+    w->round = w->first = w->last = 0;
+    return block_bits(w->residual, n) > 0;
+}
 
-        if (bits == 0) {
-            return 0;
-        }
-        if (bits > RESIDUAL_BITS) {
-            return -1;
-        }
-        h = correction(w, n, bits, last);
-        if (h < DIGITS_BITS - 20 || h < last + 4) {
-            return -1; /* out of range, or corrections that hardly shrink */
-        }
-        add_digits(w, n, h);
-        first = round == 0 ? h : first;
-        /* Each correction is as good, relative to itself, as the first solution was. */
-        if (round > 0 && (h - first) + (h - last) >= 34) {
-            return 0;
-        }
-        take_out(w, n, h - last);
-        last = h;
+/* 1, and the residual in the scale of the correction that is to be taken out of it. */
+static int go_on(struct gauss *w, int n, int h)
+{
+    for (int i = 0; i < n; i++) {
+        int up = h - w->last;
+
+        w->residual[i] = up < 64 ? (int64_t)((uint64_t)w->residual[i] << up) : 0;
     }
-    return -1;
+    w->last = h;
+    return 1;
+}
+
+int gauss_correct(struct gauss *w, int n)
+{
+    int bits = block_bits(w->residual, n), h, gained;
+
+    if (bits > RESIDUAL_BITS || w->round == ROUNDS_MAX) {
+        return -1;
+    }
+    if (bits == 0) {
+        return 0;
+    }
+    h = correction(w, n, bits, w->last);
+    if (h < DIGITS_BITS - 20 || h < w->last + 4) {
+        return -1; /* out of range, or corrections that hardly shrink */
+    }
+    add_digits(w, n, h);
+    w->first = w->round == 0 ? h : w->first;
+    /* Each correction is as good, relative to itself, as the first solution was. */
+    gained = (h - w->first) + (h - w->last);
+    return w->round++ > 0 && gained >= 34 ? 0 : go_on(w, n, h);
+}
+
+int gauss_solve(struct gauss *w, int n, const int32_t (*rows)[GAUSS_MAX + 1])
+{
+    int more = gauss_begin(w, n);
+
+    while (more > 0) {
+        more = gauss_correct(w, n);
+        for (int i = 0; i < n && more > 0; i++) {
+            gauss_take_out(w, n, i, rows[i]);
+        }
+    }
+    return more;
 }
 
 int gauss_add(struct gauss *w, int n, const int64_t *b_q10)

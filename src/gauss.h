@@ -8,7 +8,7 @@
  *
  * The multipliers are kept, so that further right-hand sides cost little: what the first solution
  * leaves over is solved for again and added (iterative refinement), which gives the solution more
- * digits than the rows have.
+ * digits than the rows have. Of the rows no copy is kept: the caller gives them once more for that.
  */
 #ifndef CAROM_SRC_GAUSS_H
 #define CAROM_SRC_GAUSS_H
@@ -24,35 +24,45 @@ struct gauss {
     int64_t x_q40[GAUSS_MAX];            /* out: the solution */
 
     /* Gauss's own. A step eliminates one column. */
-    uint8_t up[GAUSS_MAX];                  /* how far each row was shifted up at first */
-    int32_t original[GAUSS_MAX][GAUSS_MAX]; /* the normalised rows */
-    int64_t residual[GAUSS_MAX];            /* what the solution so far leaves over, by row */
-    int64_t y[GAUSS_MAX];                   /* a right-hand side on its way through the steps */
-    int32_t digits[GAUSS_MAX];              /* one correction of the solution */
-    int32_t pivot[GAUSS_MAX];               /* pivot of each step, as it was then */
-    int32_t inverse_q59[GAUSS_MAX];         /* of the last pivots, normalised */
-    uint8_t inverse_shift[GAUSS_MAX];       /* by how much they were */
-    uint8_t row[GAUSS_MAX];                 /* the row chosen at each step */
-    int8_t step[GAUSS_MAX];                 /* the step at which each row was chosen; -1: not yet */
-    uint8_t shift[GAUSS_MAX][GAUSS_MAX];    /* by row and step: how far the products were shifted */
+    uint8_t up[GAUSS_MAX];               /* how far each row was shifted up at first */
+    int64_t residual[GAUSS_MAX];         /* what the solution so far leaves over, by row */
+    int64_t y[GAUSS_MAX];                /* a right-hand side on its way through the steps */
+    int32_t digits[GAUSS_MAX];           /* one correction of the solution */
+    int32_t pivot[GAUSS_MAX];            /* pivot of each step, as it was then */
+    int32_t inverse_q59[GAUSS_MAX];      /* of the last pivots, normalised */
+    uint8_t inverse_shift[GAUSS_MAX];    /* by how much they were */
+    uint8_t row[GAUSS_MAX];              /* the row chosen at each step */
+    int8_t step[GAUSS_MAX];              /* the step at which each row was chosen; -1: not yet */
+    uint8_t shift[GAUSS_MAX][GAUSS_MAX]; /* by row and step: how far the products were shifted */
+    int round, first, last; /* corrections so far; fractional bits of the first and of the last */
 };
 
 /*
  * Solve the n x n system in w->a; the solution goes to w->x_q40.
+ *
+ *   more = gauss_begin(w, n), and while more > 0: more = gauss_correct(w, n), and if that is > 0 as
+ *   well gauss_take_out(w, n, i, row i) for every i.
  *
  *   n  3, 9 or 15 (any 1 .. GAUSS_MAX works)
  *   w  in/out  rows in any scale, a row's entries sharing one; |entry| <= 2^30
  *
  * Range    |x| < 2^20
  * Error    2^-41 plus 1e-9 of the largest component; see SPEC.md
- * Returns  0; -1 when the system is singular to working precision or x is out of range. Unless 0,
- *          x_q40 means nothing.
+ * Returns  1: to be corrected; 0: solved; -1 when the system is singular to working precision or x is
+ *          out of range. Unless 0, x_q40 means nothing.
  * Source   paper section 3 (Gauss-Jordan elimination)
  */
-int gauss_solve(struct gauss *w, int n);
+int gauss_begin(struct gauss *w, int n);
+int gauss_correct(struct gauss *w, int n);
+
+/* Take the last correction out of what is left over of row i, as it was in w->a at first. */
+void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row);
+
+/* All of that for a caller that has the rows of w->a elsewhere too. Returns 0 or -1. */
+int gauss_solve(struct gauss *w, int n, const int32_t (*rows)[GAUSS_MAX + 1]);
 
 /*
- * After gauss_solve: solve the same rows for another right-hand side and add the result to x_q40.
+ * When that is solved: solve the same rows for another right-hand side and add the result to x_q40.
  * For a caller that knows its equations to more digits than the rows hold: what x leaves over of
  * them is the b to give.
  *

@@ -152,34 +152,30 @@ void impact_prepare(struct impact_problem *p)
     set_masses(p, side);
 }
 
-/* Equations (1) to (4). */
-static void set_body_rows(const struct impact_problem *p)
+/* (arm x P)_i has arm_j P_k with a plus sign: what an impulse along an axis turns by along another. */
+static int32_t turn_by(const struct impact_mover *m, int k)
 {
-    int32_t(*a)[GAUSS_MAX + 1] = p->w->a;
-    int impulse = p->n - 3;
+    return (int32_t)carom_round((int64_t)(m->sign * m->share_q30) * m->arm_q30[k],
+                                30 + m->inertia_odd);
+}
 
-    memset(a, 0, sizeof p->w->a);
-    for (int b = 0; b < p->movers; b++) {
-        const struct impact_mover *m = &p->mover[b];
-        int32_t share = m->sign * m->share_q30;
-        int first = 6 * b;
+/* Row k of a body's six, equations (1) to (4). */
+static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
+{
+    const struct impact_mover *m = &p->mover[b];
+    int32_t *impulse = row + p->n - 3, *own = row + 6 * b;
 
-        for (int k = 0; k < 3; k++) {
-            int32_t turn =
-                (int32_t)carom_round((int64_t)share * m->arm_q30[k], 30 + m->inertia_odd);
-            int i = (k + 1) % 3, j = (k + 2) % 3;
+    if (k < 3) {
+        own[k] = CAROM_ONE_Q30;
+        impulse[k] = (int32_t)impact_shift(-(m->sign * m->share_q30), -p->arm_shift);
+    } else {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
 
-            a[first + k][first + k] = CAROM_ONE_Q30;
-            a[first + k][impulse + k] = (int32_t)impact_shift(-share, -p->arm_shift);
-            for (int l = 0; l < 3; l++) {
-                a[first + 3 + k][first + 3 + l] = m->inertia_q30[fix_sym3_at[k][l]];
-            }
-            /*
-             * (arm x P)_j has arm_k P_i with a plus sign, (arm x P)_i has arm_k P_j with a minus.
-             */
-            a[first + 3 + j][impulse + i] = -turn;
-            a[first + 3 + i][impulse + j] = turn;
+        for (int l = 0; l < 3; l++) {
+            own[3 + l] = m->inertia_q30[fix_sym3_at[k - 3][l]];
         }
+        impulse[i] = turn_by(m, j);
+        impulse[j] = -turn_by(m, i);
     }
 }
 
@@ -210,15 +206,15 @@ static int slide_direction(const struct impact_problem *p, uint32_t friction_q16
 }
 
 /* Paper (9) and (10); mu = 0 gives the frictionless impulse. */
-static void set_slide_rows(const struct impact_problem *p, uint32_t friction_q16)
+static void slide_row(const struct impact_problem *p, uint32_t friction_q16, bool along,
+                      int32_t *row)
 {
-    int32_t *across = p->w->a[p->n - 2], *along = p->w->a[p->n - 1];
-    int64_t row[3];
-    int bits = slide_direction(p, friction_q16, row);
+    int64_t direction[3];
+    int bits = slide_direction(p, friction_q16, direction);
 
     for (int k = 0; k < 3; k++) {
-        across[p->n - 3 + k] = p->frame.u.c[k];
-        along[p->n - 3 + k] = (int32_t)impact_shift(row[k], 30 - bits);
+        row[p->n - 3 + k] =
+            along ? (int32_t)impact_shift(direction[k], 30 - bits) : p->frame.u.c[k];
     }
 }
 
@@ -247,20 +243,45 @@ static int unit_bits(const struct impact_problem *p, int bits)
     return bits > lowest ? bits : lowest > 30 ? lowest : 30;
 }
 
-static void set_rows(const struct impact_problem *p, const struct goal *goal)
+void impact_row(const struct impact_problem *p, bool sticks, uint32_t friction_q16, int i,
+                int32_t *row)
 {
     const carom_v3_q30 *direction[3] = {&p->frame.n, &p->frame.u, &p->frame.v};
+    int last = i - (p->n - 3);
 
-    set_body_rows(p);
-    for (int k = 0; k < (goal->sticks ? 3 : 1); k++) {
-        int32_t *row = p->w->a[p->n - 3 + k];
+    memset(row, 0, (size_t)(p->n + 1) * sizeof *row);
+    if (last < 0) {
+        body_row(p, i / 6, i % 6, row);
+    } else if (sticks || last == 0) {
+        velocity_row(p, direction[last], row);
+    } else {
+        slide_row(p, friction_q16, last == 2, row);
+    }
+}
 
-        velocity_row(p, direction[k], row);
-        row[p->n] = (int32_t)carom_round(goal->change_q40[k], 10);
+/* Gauss-Jordan on the rows; the solution is in p->w. */
+static int eliminate(const struct impact_problem *p, const struct goal *goal)
+{
+    int32_t row[GAUSS_MAX + 1];
+    int more;
+
+    for (int i = 0; i < p->n; i++) {
+        int last = i - (p->n - 3);
+
+        impact_row(p, goal->sticks, goal->friction_q16, i, p->w->a[i]);
+        if (last == 0 || (last > 0 && goal->sticks)) {
+            p->w->a[i][p->n] = (int32_t)carom_round(goal->change_q40[last], 10);
+        }
     }
-    if (!goal->sticks) {
-        set_slide_rows(p, goal->friction_q16);
+    more = gauss_begin(p->w, p->n);
+    while (more > 0) {
+        more = gauss_correct(p->w, p->n);
+        for (int i = 0; i < p->n && more > 0; i++) {
+            impact_row(p, goal->sticks, goal->friction_q16, i, row);
+            gauss_take_out(p->w, p->n, i, row);
+        }
     }
+    return more;
 }
 
 static int64_t times_share(const struct impact_mover *m, int64_t v)
@@ -349,8 +370,7 @@ static int solve(const struct impact_problem *p, const struct goal *goal, struct
     const int64_t *x = p->w->x_q40;
     uint64_t used = 0;
 
-    set_rows(p, goal);
-    if (gauss_solve(p->w, p->n)) {
+    if (eliminate(p, goal)) {
         return -1;
     }
     /* A contact about to wedge: too large for the sums that follow, and of no use. */

@@ -39,13 +39,13 @@ struct rest {
     struct body *bodies;
     struct body_state *states;
     uint32_t body_count;
-    uint8_t sweep_cap; /* 0: none but those above */
 
     struct rest_warm *warm; /* read and written; NULL: no warm start */
     uint32_t warm_count;
 
     /* the island being solved: its first body, and its contacts in the order of islands */
     uint16_t island;
+    uint8_t sweep_cap; /* 0: none but those above */
     uint32_t first, count;
 
     uint32_t sweeps, impacts, energy_rules; /* for the statistics */

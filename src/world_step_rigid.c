@@ -147,6 +147,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
 {
     struct fix_wide angular_q72[3] = {{0, 0}, {0, 0}, {0, 0}};
     struct gauss *w = s->w->rest.gauss;
+    int32_t rows[3][GAUSS_MAX + 1];
     int64_t inertia_q30[6] = {0};
     uint64_t all = 0;
     int down, up, bits = 0;
@@ -171,7 +172,8 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
         }
         w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
     }
-    if (gauss_solve(w, 3) != 0) {
+    memcpy(rows, w->a, sizeof rows);
+    if (gauss_solve(w, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
         return false;
     }
     /* q72 over q30, in units of mass and of length squared */

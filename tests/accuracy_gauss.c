@@ -8,6 +8,7 @@
  * anywhere. A system so near to singular that gauss refuses it would be a failure.
  */
 #include "accuracy.h"
+#include "gauss_rows.h"
 
 #include "impact_real.h"
 
@@ -98,22 +99,15 @@ static void set_right_sides(uint64_t *random, int n)
     }
 }
 
-/* The last system of a random impact, as gauss kept it. */
+/* The system of a random impact. */
 static bool impact_rows(uint64_t *random, int n)
 {
     struct real_impact real;
     struct impact in;
-    struct impact_result result;
 
     real_random_impact(random, n == 9 ? 1 : 2, 7, &real);
     in = real_to_engine(&real, 30);
-    if (impact_solve(&workspace, &in, &result) != CAROM_OK) {
-        return false;
-    }
-    for (int i = 0; i < n; i++) {
-        memcpy(rows[i], workspace.original[i], (size_t)n * sizeof rows[i][0]);
-    }
-    return true;
+    return gauss_rows_of(&workspace, &in, rows) == CAROM_OK;
 }
 
 static void dense_rows(uint64_t *random, int n)
@@ -142,7 +136,7 @@ static void solve(const char *kernel, int n, size_t cases)
         set_right_sides(&random, n);
         eliminate(n, x);
         memcpy(workspace.a, rows, sizeof rows);
-        if (gauss_solve(&workspace, n)) {
+        if (gauss_rows_solve(&workspace, n)) {
             accuracy_fail(&a);
             continue;
         }

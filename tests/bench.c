@@ -35,11 +35,6 @@ static int expect(int result, const char *what)
     return result;
 }
 
-static int number(const char *name, int otherwise)
-{
-    return port_option(name) ? atoi(port_option(name)) : otherwise;
-}
-
 /* The capacities that the caller wants; returns the bytes of their world. */
 static size_t world_bytes(struct carom_caps *caps)
 {
@@ -145,11 +140,11 @@ int main(void)
     int frames, first, draw;
 
     port_init();
-    frames = number("frames", 600);
-    first = number("first", 1);
-    draw = number("draw", 0);
+    frames = (int)port_number("frames", 600);
+    first = (int)port_number("first", 1);
+    draw = (int)port_number("draw", 0);
     config.ticks = port_ticks;
-    config.sleep = number("awake", 0) == 0;
+    config.sleep = port_number("awake", 0) == 0;
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
     bytes = world_bytes(&scene.caps);
     config.caps = scene.caps;

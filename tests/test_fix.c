@@ -27,6 +27,50 @@ static void check_wide_equal(struct fix_wide a, struct fix_wide b)
     CHECK_EQ(a.lo, b.lo);
 }
 
+/* a b modulo 2^64 by digits of 16 bits, with 32-bit products only. */
+static uint64_t product_by_digits(uint64_t a, uint64_t b)
+{
+    uint32_t sums[5] = {0, 0, 0, 0, 0};
+    uint64_t product = 0;
+
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; i + j < 4; j++) {
+            uint32_t p = (uint32_t)(a >> 16 * i & 0xffff) * (uint32_t)(b >> 16 * j & 0xffff);
+
+            sums[i + j] += p & 0xffff;
+            sums[i + j + 1] += p >> 16;
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        product |= (uint64_t)(sums[k] & 0xffff) << 16 * k;
+        sums[k + 1] += sums[k] >> 16;
+    }
+    return product;
+}
+
+/* The product that everything here is made of; on a small processor a function of the board's. */
+static void test_product(void)
+{
+    static const int64_t edges[] = {
+        0,          1,           -1,          2,         -2,        0x7fff,      0x8000,
+        0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,   INT32_MIN,
+        UINT32_MAX, 0x100000000, 0x1ffff0001, INT64_MAX, INT64_MIN, -0xffffffff,
+    };
+    enum { COUNT = sizeof edges / sizeof edges[0] };
+    struct test_random r = {64};
+
+    for (int i = 0; i < COUNT * COUNT + CASES; i++) {
+        bool edge = i < COUNT * COUNT;
+        volatile uint64_t a = (uint64_t)(edge ? edges[i / COUNT] : random_size(&r, 64));
+        volatile uint64_t b = (uint64_t)(edge ? edges[i % COUNT] : random_size(&r, 64));
+        volatile int32_t low_a = (int32_t)(uint32_t)a, low_b = (int32_t)(uint32_t)b;
+
+        CHECK_EQ(a * b, product_by_digits(a, b));
+        CHECK_EQ((int64_t)low_a * low_b,
+                 product_by_digits((uint64_t)(int64_t)low_a, (uint64_t)(int64_t)low_b));
+    }
+}
+
 /* ------------------------------------------------------------- carom_fix.h */
 
 static void test_rounding(void)
@@ -467,12 +511,21 @@ static void test_rotate(void)
 }
 
 const struct test tests_fix[] = {
-    {"fix/rounding", test_rounding}, {"fix/constants", test_constants},
-    {"fix/vectors", test_vectors},   {"fix/bits", test_bits},
-    {"fix/sqrt", test_sqrt},         {"fix/mul_exact", test_mul_exact},
-    {"fix/mul_wide", test_mul_wide}, {"fix/wide", test_wide},
-    {"fix/ratio", test_ratio},       {"fix/scale", test_scale},
-    {"fix/inverse", test_inverse},   {"fix/mul_scaled", test_mul_scaled},
-    {"fix/length", test_length},     {"fix/normalise", test_normalise},
-    {"fix/rotate", test_rotate},     {0},
+    {"fix/product", test_product},
+    {"fix/rounding", test_rounding},
+    {"fix/constants", test_constants},
+    {"fix/vectors", test_vectors},
+    {"fix/bits", test_bits},
+    {"fix/sqrt", test_sqrt},
+    {"fix/mul_exact", test_mul_exact},
+    {"fix/mul_wide", test_mul_wide},
+    {"fix/wide", test_wide},
+    {"fix/ratio", test_ratio},
+    {"fix/scale", test_scale},
+    {"fix/inverse", test_inverse},
+    {"fix/mul_scaled", test_mul_scaled},
+    {"fix/length", test_length},
+    {"fix/normalise", test_normalise},
+    {"fix/rotate", test_rotate},
+    {0},
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "gauss.h"
+#include "gauss_rows.h"
 #include "test.h"
 
 #ifdef TEST_LONG
@@ -14,7 +14,7 @@ static int32_t system_in[GAUSS_MAX][GAUSS_MAX + 1];
 static int solve(int n)
 {
     memcpy(w.a, system_in, sizeof w.a);
-    return gauss_solve(&w, n);
+    return gauss_rows_solve(&w, n);
 }
 
 static int64_t whole_q40(int64_t x)

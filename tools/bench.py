@@ -162,7 +162,7 @@ def head_ram(entry, host, room):
     """Bytes and pools of the smallest world that takes the head scene to the same state; what the
     room leaves holds candidates, and the faces of a gather that keeps so many."""
     def caps(contacts, faces, candidates):
-        return "2,1,%d,%d,1,%d" % (contacts, faces, candidates)
+        return "2,1,%d,%d,0,%d" % (contacts, faces, candidates)
 
     def world(*pools):
         result = run_board.run(host, options_of(entry, "draw=") + ["caps=" + caps(*pools)])

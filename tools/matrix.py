@@ -5,7 +5,7 @@
 Every build plays the scenes of tests/plays.c and must print the same hash for each. What cannot be
 built or run is a failure, as is a hash that differs; then the first frame that differs is looked for,
 and in it the stage that left something else. Snapshots that one build takes on the way are gone on
-with by another, of the other byte order or word length. A row a build and scene goes to
+with by another, of the other byte order or word length, for as many frames. A row a build and scene goes to
 out/matrix.csv.
 """
 import argparse
@@ -72,8 +72,27 @@ LINUX = {
     "hppa": ("hppa-linux-gnu", "hppa", 32, "big", False),
     "alpha": ("alpha-linux-gnu", "alpha", 64, "little", False),
 }
+SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # instruction sets that nothing else has
+ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
+       for size in (1, 2) for order in (1, 2)}  # bits and byte order by a header's bytes
 DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
 MESHES = {}  # by target: objects
+
+DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
+# One answer on every machine
+
+`make matrix` builds the engine in many ways, plays the same scenes on each and compares the hashes of
+all states. It wrote this page when it last ran whole: %d builds, %d scenes, one hash each. %d snapshots
+that one build had taken in frame 500 were gone on with by another, of the other byte order or word
+length, to the same end.
+
+A scene's hash is over the state after every frame, the step's status and events and what was asked of
+the world: faces that interfere, what lies inside of what, pictures. tests/plays.c has the scenes. Every
+other build finds its memory full of rubbish. A line a build and scene is in out/matrix.csv.
+
+| target | bits | byte order | compiler | runs on | builds |
+|---|---|---|---|---|---|
+"""
 
 
 class Failure(Exception):
@@ -99,6 +118,7 @@ def call(command, what, folder=ROOT):
 class Build:
     """One way to make the program, and what it said."""
     need = []  # what tools/need is asked for
+    where = ""  # what runs it, for people
 
     def __init__(self, target, compiler, options, bits, order):
         self.target, self.compiler, self.options = target, compiler, options
@@ -133,7 +153,7 @@ class Build:
         return [line.split() for line in text.splitlines()]
 
     def play(self, *options):
-        """Play all scenes: words by scene, and the snapshots."""
+        """Play scenes: what it says of each, and the snapshots."""
         for words in self.run(*options, "save=1"):
             if words[0] == "scene":
                 self.scenes[words[1]] = words[2:]
@@ -158,7 +178,7 @@ class Linux(Build):
         super().__init__(target, compiler, options, bits, order)
         self.need = ([triple, "qemu-user"] if triple else ["cc", "libc"]) + \
             (["clang", "lld"] if compiler == "clang" else [])
-        gcc = [triple + "-gcc-12" if triple else "gcc"]
+        gcc = [triple + "-gcc" if triple else "gcc"]
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
             ["clang"] + (["--target=" + triple] if triple else [])
@@ -166,6 +186,7 @@ class Linux(Build):
         self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
         self.linker = self.linker + static if triple else self.linker
         self.runner = ["qemu-" + emulator] if triple else []
+        self.where = self.runner[0] if triple else "this machine"
         if target in DYNAMIC:
             self.runner += ["-L", "/usr/" + triple]
 
@@ -177,21 +198,30 @@ class Wasm(Build):
     linker = [*command, "-nostdlib", "-Wl,--no-entry,--export=main,-z,stack-size=262144"]
     runner = ["node", "port/wasm/run.mjs"]
     need = ["clang", "lld", "node"]
+    where = "node"
 
     def __init__(self, options):
         super().__init__("wasm32", "clang", options, 32, "little")
 
 
 class Board(Build):
-    """The image that make builds for a bare board."""
+    """The image that make builds for a board."""
 
-    def __init__(self, board, settings):
-        super().__init__(board, settings["CROSS"] + "gcc", "-O2", 32, "little")
+    def __init__(self, board):
+        settings = run_board.settings(board)
+        super().__init__(board, settings["CROSS"] + "gcc", settings.get("OPT", "-O2"), 32, "little")
         self.need = settings["NEED"].split()
-        self.image = os.path.join("build", board, "matrix.elf")
+        self.elf = "build/%s/matrix.elf" % board
+        self.image = "build/%s/matrix%s" % (board, settings.get("IMAGE_SUFFIX", ".elf"))
+        runner = settings.get("QEMU") or settings.get("QEMU_USER") or settings["RUNNER"]
+        self.where = os.path.basename(runner.split()[0])
+        self.extra = [settings["RUNNER"]] if "RUNNER" in settings else []
+        self.command = [self.compiler]
 
     def make(self):
-        call(["make", "-s", "BOARD=" + self.target, self.image], "make")
+        call(["make", "-s", "BOARD=" + self.target, self.image, *self.extra], "make")
+        with open(self.elf, "rb") as file:
+            self.bits, self.order = ELF[file.read(6)[4:]]
 
     def run(self, *options):
         text = call(run_board.command(self.image, list(options)), "run")
@@ -199,14 +229,6 @@ class Board(Build):
 
     def discard(self):
         pass
-
-
-def boards():
-    for path in sorted(glob.glob("port/*/board.mk")):
-        name = os.path.basename(os.path.dirname(path))
-        settings = run_board.settings(name)
-        if "QEMU" in settings:
-            yield Board(name, settings)
 
 
 def every_build(short):
@@ -221,7 +243,9 @@ def every_build(short):
         if row[4] and not short:
             yield from [Linux(target, "clang", options) for options in CLANG]
     yield from [Wasm(options) for options in some(WASM)]
-    yield from boards()
+    for board in run_board.boards():
+        if board != "host" and (not short or board in SHORT_BOARDS):
+            yield Board(board)
 
 
 # ------------------------------------------------------------------ what differs
@@ -248,13 +272,13 @@ def first_difference(build, other, scene, frames):
     return "first in frame %d, in what is asked after its last stage" % frame
 
 
-def compared(build, first, frames):
+def compared(build, first):
     """What is wrong with a build beside the first, a line each."""
     for scene, words in build.scenes.items():
         if words != first.scenes[scene]:
             yield "%s: %s has %s; %s has %s: %s" % (
                 build, scene, words[2], first, first.scenes[scene][2],
-                first_difference(build, first, scene, frames))
+                first_difference(build, first, scene, int(words[0])))
     for scene, snapshot in build.snapshots.items():
         if snapshot != first.snapshots[scene]:
             yield "%s: %s has another snapshot of frame %d" % (build, scene, AT)
@@ -278,13 +302,13 @@ def snapshot_path(build, scene):
     return os.path.join(WORK, "%s-%s.snapshot" % (build.target, scene))
 
 
-def cross(source, to, scene, frames):
+def cross(source, to, scene):
     """What is wrong with going on from another's snapshot, or None."""
-    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames,
+    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % (2 * AT),
                    "load=" + snapshot_path(source, scene))[-1]
     if words[0] != "scene" or words[-1] != source.scenes[scene][-1]:
-        return "%s, gone on with from frame %d of %s: %s ends in %s, not in %s" % (
-            to, AT, source, scene, words[-1], source.scenes[scene][-1])
+        return "%s, goes on with %s of %s to %s; that to %s" % (
+            to, scene, source, words[-1], source.scenes[scene][-1])
     return None
 
 
@@ -308,13 +332,13 @@ def attempt(action, build, *arguments):
     return None
 
 
-def do(build, number, frames):
+def do(build, number, play):
     """Make and run a build; memory holds zeros or rubbish before, in turn."""
     start = time.monotonic()
 
     def all_of_it():
         build.make()
-        build.play("frames=%d" % frames, "at=%d" % AT, "fill=%d" % (165 * (number % 2)))
+        build.play(*play, "fill=%d" % (165 * (number % 2)))
 
     wrong = attempt(all_of_it, build)
     print("  %-58s %4d s%s" % (build, time.monotonic() - start, "  FAILS" if wrong else ""),
@@ -322,24 +346,24 @@ def do(build, number, frames):
     return wrong
 
 
-def do_all(builds, frames, jobs):
+def do_all(builds, play, jobs):
     """Make and run all builds; returns what is wrong, a line each."""
     failures = []
     targets = {build.target: build for build in builds if not isinstance(build, Board)}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         failures += pool.map(lambda build: attempt(make_meshes, build, build), targets.values())
-        failures += pool.map(lambda item: do(item[1], item[0], frames), enumerate(builds))
+        failures += pool.map(lambda item: do(item[1], item[0], play), enumerate(builds))
     done = [build for build in builds if build.scenes]
     kept = {build.target: build for build in reversed(done)}
     for build in done:
-        wrong = list(compared(build, done[0], frames))
+        wrong = list(compared(build, done[0]))
         failures += wrong
         if not wrong and build is not kept[build.target]:
             build.discard()
     return list(filter(None, failures)), done, list(kept.values())[::-1]
 
 
-def cross_all(kept, frames, jobs):
+def cross_all(kept, jobs):
     """Go on with snapshots elsewhere; returns what is wrong, and how many did by kind."""
     tasks = [(source, to, kind, scene) for source, to, kind in other_kinds(kept)
              for scene in CROSSED if scene in source.snapshots and scene in to.scenes]
@@ -352,7 +376,7 @@ def cross_all(kept, frames, jobs):
     def one(task):
         source, to, kind, scene = task
         answer = []
-        wrong = attempt(lambda: answer.append(cross(source, to, scene, frames)), to)
+        wrong = attempt(lambda: answer.append(cross(source, to, scene)), to)
         return kind, wrong or answer[0]
 
     failures = []
@@ -396,27 +420,82 @@ def report(builds, failures, crossings):
                                         "%d failures" % len(failures)))
 
 
+def compiler_version(build):
+    """gcc 12.2.0 or clang 14.0.6."""
+    return re.search(r"\d+\.\d+\.\d+", call([build.command[0], "--version"], "version")).group()
+
+
+def docs_rows(builds):
+    """A row a target and compiler."""
+    for (target, compiler), group in itertools.groupby(
+            builds, lambda build: (build.target, build.compiler)):
+        group = list(group)
+        build = group[0]
+        yield "| %s | %d | %s | %s %s | %s | %d |" % (
+            target, build.bits, build.order, compiler, compiler_version(build), build.where,
+            len(group))
+
+
+def write_docs(builds, crossings):
+    """What was found, for people: the targets, the options and the hashes, each once."""
+    scenes = builds[0].scenes
+    with open(DOCS, "w") as file:
+        file.write(DOCS_HEAD % (len(builds), len(scenes), sum(crossings.values())))
+        file.write("\n".join(docs_rows(builds)))
+        file.write("\n\n| compiler | option sets, each a build |\n|---|---|\n")
+        by_compiler = {}
+        for build in builds:
+            by_compiler.setdefault(build.compiler, {})[build.options] = None
+        for compiler, options in by_compiler.items():
+            file.write("| %s | %s |\n" % (compiler, ", ".join("`%s`" % each for each in options)))
+        file.write("\n| scene | frames | with a body awake | hash |\n|---|---|---|---|\n")
+        for scene, words in scenes.items():
+            file.write("| %s | %s | %s | `%s` |\n" % (scene, *words[:3]))
+        for build in builds:
+            if build.absent:
+                file.write("\n%s has no room for %s.\n" % (build.target, ", ".join(build.absent)))
+
+
+def chosen(arguments):
+    """The builds that are asked for."""
+    builds = list(every_build(arguments.short))
+    if arguments.targets:
+        builds = [build for build in builds if build.target in arguments.targets.split(",")]
+    if arguments.compilers:
+        builds = [build for build in builds if build.compiler in arguments.compilers.split(",")]
+    if arguments.options:
+        builds = [build for build in builds if build.options == arguments.options]
+    for target, folder in (text.split("=") for text in arguments.engine):
+        for build in builds:
+            build.engine = folder if build.target == target else build.engine
+    return builds
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--short", action="store_true", help="one build an instruction set")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--frames", type=int, default=2000)
     parser.add_argument("--targets", help="only these, with commas")
+    parser.add_argument("--compilers", help="only these, with commas")
+    parser.add_argument("--options", help="only builds with these")
+    parser.add_argument("--scene", help="only this one")
     parser.add_argument("--engine", metavar="TARGET=FOLDER", action="append", default=[],
                         help="for a target, the engine in another folder")
     arguments = parser.parse_args()
-    builds = list(every_build(arguments.short))
-    if arguments.targets:
-        builds = [build for build in builds if build.target in arguments.targets.split(",")]
-    for target, folder in (text.split("=") for text in arguments.engine):
-        for build in builds:
-            build.engine = folder if build.target == target else build.engine
+    builds = chosen(arguments)
     gate.need(*sorted({thing for build in builds for thing in build.need}))
-    failures, done, kept = do_all(builds, arguments.frames, arguments.jobs)
-    wrong, crossings = cross_all(kept, arguments.frames, arguments.jobs)
-    write_csv(done)
-    report(done, failures + wrong, crossings)
-    return bool(failures + wrong)
+    play = ["frames=%d" % arguments.frames, "at=%d" % AT] + \
+        (["scene=" + arguments.scene] if arguments.scene else [])
+    failures, done, kept = do_all(builds, play, arguments.jobs)
+    wrong, crossings = cross_all(kept, arguments.jobs)
+    failures += wrong
+    report(done, failures, crossings)
+    if len(builds) == len(list(every_build(arguments.short))) and not arguments.scene:
+        write_csv(done)
+        if not arguments.short and not failures:
+            write_docs(done, crossings)
+    return bool(failures)
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ def command(image, arguments, monitor=None):
         config += ",arg=" + argument.replace(",", ",,")
     return board["QEMU"].split() + [
         "-display", "none", "-serial", "none", "-monitor", "none",
-        "-icount", "shift=%s,sleep=off" % board["ICOUNT_SHIFT"],
+        "-icount", "shift=%s,sleep=%s" % (board["ICOUNT_SHIFT"], board.get("ICOUNT_SLEEP", "off")),
         "-chardev", "stdio,id=console,signal=off",
         "-semihosting-config", config,
         "-kernel", image,

@@ -22,7 +22,7 @@ from PIL import Image
 import run_board
 
 GIF_EVERY = 3  # frames
-GIF_SIZE = 256  # pixels
+GIF_WIDTH = 256  # pixels
 GIF_SECONDS = 0.05  # a picture
 
 
@@ -159,9 +159,11 @@ def write_gif(out, name):
     paths = sorted(glob.glob(os.path.join(out, "frame-*.png")))[::GIF_EVERY]
     if not paths:
         return
-    palette = Image.open(paths[len(paths) // 2]).convert("RGB").quantize(64)
+    middle = Image.open(paths[len(paths) // 2]).convert("RGB")
+    size = GIF_WIDTH, GIF_WIDTH * middle.height // middle.width
+    palette = middle.quantize(64)
     pictures = [
-        Image.open(path).convert("RGB").resize((GIF_SIZE, GIF_SIZE), Image.LANCZOS)
+        Image.open(path).convert("RGB").resize(size, Image.LANCZOS)
         .quantize(palette=palette, dither=Image.Dither.NONE)
         for path in paths
     ]

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A Cortex-M board that shows nothing: SysTick counts, semihosting does the rest. */
 #include "port.h"
-#include "systick.h"
+#include "arm/systick.h"
 
 void port_init(void)
 {

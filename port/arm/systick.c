@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "systick.h"
+#include "arm/systick.h"
 
 #include "port.h"
 

@@ -33,19 +33,8 @@ _Noreturn void start(void)
     port_exit(main());
 }
 
-static void put_text(const char *text)
-{
-    while (*text) {
-        port_putc(*text++);
-    }
-}
-
 _Noreturn void fault(uint32_t address)
 {
-    put_text("\nfault at 0x");
-    for (int shift = 28; shift >= 0; shift -= 4) {
-        port_putc("0123456789abcdef"[(address >> shift) & 15]);
-    }
-    put_text("\n");
+    port_print("\nfault at 0x%08lx\n", (unsigned long)address);
     port_exit(125);
 }

@@ -9,26 +9,19 @@
  */
 #include <string.h>
 
+#include "memory.h"
 #include "port.h"
 #include "start.h"
 
 enum { WIDTH = 240, HEIGHT = 160 };
 
 #define REGISTER16(address) (*(volatile uint16_t *)(address))
-#define REGISTER32(address) (*(volatile uint32_t *)(address))
 #define DISPLAY_CONTROL     REGISTER16(0x04000000)
 #define DISPLAY_LINE        REGISTER16(0x04000006)
 #define TIMER_COUNT(n)      REGISTER16(0x04000100 + 4 * (n))
 #define TIMER_CONTROL(n)    REGISTER16(0x04000102 + 4 * (n))
 #define KEYS                REGISTER16(0x04000130)
 #define WAIT_CONTROL        REGISTER16(0x04000204)
-
-/* Direct memory access: copies words at once, the processor waits. */
-#define DMA3_SOURCE  REGISTER32(0x040000d4)
-#define DMA3_TARGET  REGISTER32(0x040000d8)
-#define DMA3_CONTROL REGISTER32(0x040000dc)
-#define DMA_COPY     0x84000000
-#define DMA_FILL     0x85000000 /* the source stays */
 
 #define BITMAP_16         0x0403 /* mode 3: a bitmap, in background 2 */
 #define TIMER_RUNS        0x80
@@ -48,31 +41,13 @@ enum { SEND_STATUS = 0x101, SEND_PIECE = 0x102, SEND_LINE = 0x103 };
 const uint32_t port_ticks_hz = 16777216;
 
 extern const char arguments[256];
-extern char fast_load[], fast_start[], fast_end[], wide_start[], wide_end[];
 _Noreturn void gba_start(void);
 
-/* A count of 0 would mean 65536. */
-static void transfer(const volatile void *from, void *to, size_t bytes, uint32_t how)
-{
-    if (bytes == 0) {
-        return;
-    }
-    DMA3_SOURCE = (uint32_t)(uintptr_t)from;
-    DMA3_TARGET = (uint32_t)(uintptr_t)to;
-    DMA3_CONTROL = how | (uint32_t)(bytes / 4);
-}
-
-/*
- * What start() does not know of: the code that runs from RAM, memcpy among it, and the large blocks
- * in the external RAM.
- */
+/* What start() does not know of: the code that runs from RAM, memcpy among it, and the wide RAM. */
 _Noreturn void gba_start(void)
 {
-    volatile uint32_t zero = 0; /* on the stack: a source in the cartridge never stays */
-
     WAIT_CONTROL = CARTRIDGE_FASTEST;
-    transfer(fast_load, fast_start, (size_t)(fast_end - fast_start), DMA_COPY);
-    transfer(&zero, wide_start, (size_t)(wide_end - wide_start), DMA_FILL);
+    memory_start();
     start();
 }
 
@@ -90,7 +65,7 @@ struct port_fb port_fb(void)
                          .width = WIDTH,
                          .height = HEIGHT,
                          .stride = 2 * WIDTH,
-                         .format = PORT_RGB565};
+                         .format = PORT_BGR555};
 
     return fb;
 }

@@ -7,7 +7,7 @@
  */
 #include "port.h"
 #include "semihost.h"
-#include "systick.h"
+#include "arm/systick.h"
 
 enum { WIDTH = 128, HEIGHT = 64 };
 

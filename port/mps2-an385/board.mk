@@ -2,7 +2,7 @@
 # ARM MPS2 with application note 385, in QEMU: Cortex-M3 at 25 MHz, headless.
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
-PORT := port/mps2/mps2.c port/arm/picture.c port/arm/cortex_m.c
+PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an385
 ICOUNT_SHIFT := 10
 CPU := Cortex-M3

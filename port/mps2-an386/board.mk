@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 # ARM MPS2 with application note 386, in QEMU: Cortex-M4 at 25 MHz, headless.
 CPU := Cortex-M4
-DISPLAY := none, frames by semihosting
+DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 25
 SCENES := head:7 head836:15 head450:25
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
-PORT := port/mps2/mps2.c port/arm/picture.c port/arm/cortex_m.c
+PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an386
 ICOUNT_SHIFT := 10
 PICTURES := 0

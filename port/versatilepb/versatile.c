@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ARM Versatile/PB: ARM926EJ-S, PL110 LCD controller. */
+#include "carom.h"
 #include "port.h"
 #include "semihost.h"
 
@@ -10,20 +11,26 @@ struct lcd {
     uint32_t timing[4];
     uint32_t upper_base, lower_base;
     uint32_t control, interrupts;
+    uint32_t others[120];
+    uint32_t palette[128]; /* two colours a word, 5 bits each, red in the lowest */
 };
-#define LCD         ((volatile struct lcd *)0x10120000)
-#define LCD_ENABLE  1u
-#define LCD_24_BITS (5u << 1) /* in 32-bit words */
-#define LCD_TFT     (1u << 5)
-#define LCD_BGR     (1u << 8)
-#define LCD_POWER   (1u << 11)
+#define LCD        ((volatile struct lcd *)0x10120000)
+#define LCD_ENABLE 1u
+#define LCD_8_BITS (3u << 1) /* of the palette: a frame takes the fewest instructions to draw */
+#define LCD_TFT    (1u << 5)
+#define LCD_POWER  (1u << 11)
 
 /* System registers: a counter at 24 MHz that never stops. */
 #define SYS_24MHZ (*(volatile uint32_t *)0x1000005c)
 
 const uint32_t port_ticks_hz = 24000000;
 
-static uint32_t pixels[HEIGHT][WIDTH];
+static uint8_t pixels[HEIGHT][WIDTH];
+
+static uint32_t colour(uint32_t rgb)
+{
+    return (rgb >> 19 & 0x1f) | (rgb >> 6 & 0x3e0) | (rgb << 7 & 0x7c00);
+}
 
 void port_init(void)
 {
@@ -31,7 +38,11 @@ void port_init(void)
     LCD->timing[1] = HEIGHT - 1;
     LCD->timing[2] = 1u << 26 | (WIDTH - 1) << 16;
     LCD->upper_base = (uint32_t)(uintptr_t)pixels;
-    LCD->control = LCD_ENABLE | LCD_24_BITS | LCD_TFT | LCD_BGR | LCD_POWER;
+    for (int i = 0; i < 128; i++) {
+        LCD->palette[i] =
+            colour(carom_draw_palette[2 * i]) | colour(carom_draw_palette[2 * i + 1]) << 16;
+    }
+    LCD->control = LCD_ENABLE | LCD_8_BITS | LCD_TFT | LCD_POWER;
 }
 
 struct port_fb port_fb(void)
@@ -40,7 +51,7 @@ struct port_fb port_fb(void)
                          .width = WIDTH,
                          .height = HEIGHT,
                          .stride = sizeof pixels[0],
-                         .format = PORT_XRGB8888};
+                         .format = PORT_PALETTE8};
 
     return fb;
 }

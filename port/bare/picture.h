@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* picture.h - pictures of a board without a display that QEMU models, as files on the host. */
-#ifndef CAROM_PORT_ARM_PICTURE_H
-#define CAROM_PORT_ARM_PICTURE_H
+#ifndef CAROM_PORT_BARE_PICTURE_H
+#define CAROM_PORT_BARE_PICTURE_H
 
 #include "port.h"
 

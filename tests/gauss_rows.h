@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* gauss_rows - a system solved from beginning to end, with a copy of its rows; those of impacts. */
+#ifndef CAROM_TEST_GAUSS_ROWS_H
+#define CAROM_TEST_GAUSS_ROWS_H
+
+#include "impact_rows.h"
+
+/* Solve what is in w->a: 0, or -1. */
+static inline int gauss_rows_solve(struct gauss *w, int n)
+{
+    static int32_t rows[GAUSS_MAX][GAUSS_MAX + 1];
+
+    memcpy(rows, w->a, sizeof rows);
+    return gauss_solve(w, n, (const int32_t(*)[GAUSS_MAX + 1]) rows);
+}
+
+/*
+ * The rows of an impact: as it sticks, or as it slides where it does and that has a solution. Returns
+ * what impact_solve does.
+ */
+static inline int gauss_rows_of(struct gauss *w, const struct impact *in,
+                                int32_t rows[GAUSS_MAX][GAUSS_MAX + 1])
+{
+    struct impact_problem p = {.w = w, .in = in, .frame.n = in->normal};
+    struct impact_result out;
+    struct impact_answer x;
+    int result = impact_solve(w, in, &out);
+    bool sticks;
+
+    if (result != CAROM_OK) {
+        return result;
+    }
+    p.wanted_q70 = fix_wide_add(fix_wide_mul(in->target_q40, CAROM_ONE_Q30),
+                                fix_wide_neg(impact_speed_q70(in, &in->normal)));
+    impact_prepare(&p);
+    impact_set_frame(&p.frame, in->velocity.c);
+    sticks = !out.slid || impact_slide(&p, in->friction_q16, &x) != 0;
+    for (int i = 0; i < p.n; i++) {
+        impact_row(&p, sticks, in->friction_q16, i, rows[i]);
+    }
+    return CAROM_OK;
+}
+
+#endif

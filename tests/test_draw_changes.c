@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: MIT */
+/* carom_draw_changes: the same pixels as carom_draw, and no more of them written than it says. */
+#include <string.h>
+
+#include "draw_scene.h"
+#include "scene.h"
+#include "shapes.h"
+
+#ifdef TEST_LONG
+enum { FRAMES = 600 };
+#else
+enum { FRAMES = 24 };
+#endif
+enum { WIDTH = 109, HEIGHT = 80, BODIES = 33 };
+
+static const uint8_t bits[] = {8, 16, 32, 4, 16}; /* of a pixel, by format */
+
+static _Alignas(8) uint8_t scene_world[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
+static _Alignas(8) uint8_t scene_workspace[CAROM_DRAW_BYTES(
+    SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES, SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
+static uint32_t full[WIDTH * HEIGHT], buffers[2][WIDTH * HEIGHT];
+static struct carom_drawn_body drawn_bodies[2][BODIES];
+static struct carom_drawn drawn[2];
+static struct scene scene;
+
+static void forget(void)
+{
+    for (int k = 0; k < 2; k++) {
+        drawn[k] = (struct carom_drawn){.bodies = drawn_bodies[k], .room = BODIES};
+    }
+}
+
+static struct carom_picture picture_of(void *to, uint8_t format, size_t bytes)
+{
+    struct carom_picture picture = {.pixels = to,
+                                    .width = WIDTH,
+                                    .height = HEIGHT,
+                                    .stride = (WIDTH * bits[format] + 31) / 32 * 4,
+                                    .format = format,
+                                    .workspace = scene_workspace,
+                                    .workspace_bytes = bytes};
+
+    return picture;
+}
+
+/* ------------------------------------------------------------- whole scenes */
+
+/* Frames of a scene in two buffers in turn; each is to be a full picture. */
+static void compare_scene(const char *name, uint8_t format, enum carom_draw_style style,
+                          size_t bytes)
+{
+    struct carom_config config = scene_config();
+    struct carom_world *world = NULL;
+    uint32_t less = 0;
+
+    CHECK_EQ(scene_load(&scene, name, NULL, shape_scene_block, sizeof shape_scene_block), CAROM_OK);
+    config.caps = scene.caps;
+    CHECK_EQ(scene_make(&scene, &config, scene_world, sizeof scene_world, &world), CAROM_OK);
+    forget();
+    memset(buffers, 0, sizeof buffers);
+    for (int frame = 1; frame <= FRAMES; frame++) {
+        struct carom_picture picture = picture_of(full, format, sizeof scene_workspace);
+        int k = frame % 2;
+
+        CHECK(scene_before(&scene, world, frame) >= 0);
+        CHECK(carom_world_step(world) >= 0);
+        memset(full, 0, sizeof full);
+        CHECK_EQ(carom_draw(world, &scene.camera, &picture, style), CAROM_OK);
+        picture = picture_of(buffers[k], format, bytes);
+        CHECK_EQ(carom_draw_changes(world, &scene.camera, &picture, style, &drawn[k]), CAROM_OK);
+        CHECK(memcmp(full, buffers[k], sizeof full) == 0);
+        for (int i = 0; i < drawn[k].changed_count; i++) {
+            const struct carom_rect *r = &drawn[k].changed[i];
+
+            CHECK(r->x0 >= 0 && r->y0 >= 0 && r->x1 <= WIDTH && r->y1 <= HEIGHT);
+            less += drawn[k].changed_count == 1 &&
+                    (r->x1 - r->x0) * (r->y1 - r->y0) < WIDTH * HEIGHT / 2;
+        }
+    }
+    /* one head changes less than half of the picture, while it moves at all */
+    CHECK(strcmp(name, "head") != 0 || less >= FRAMES / 2);
+}
+
+static void scenes(void)
+{
+    const size_t least = CAROM_DRAW_BYTES_LEAST(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES);
+
+    compare_scene("head", CAROM_PALETTE8, CAROM_DRAW_FLAT, sizeof scene_workspace);
+    compare_scene("head", CAROM_GREY4, CAROM_DRAW_WIRE, least);
+    compare_scene("head-spin2", CAROM_GREY4, CAROM_DRAW_FLAT, 24000);
+    compare_scene("pile", CAROM_BGR555, CAROM_DRAW_FLAT, 24000);
+    compare_scene("pile", CAROM_XRGB8888, CAROM_DRAW_WIRE, sizeof scene_workspace);
+    compare_scene("sheet", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace);
+}
+
+/* -------------------------------------------------------------- what changes */
+
+static struct carom_world *world_now_drawn;
+
+/* Draw what changed, against a full picture; returns how many pixels it may have been. */
+static int32_t draw_again(const struct carom_camera *camera, struct carom_picture *picture,
+                          enum carom_draw_style style)
+{
+    struct carom_picture whole = *picture;
+    int32_t area = 0;
+
+    whole.pixels = full;
+    memset(full, 0, sizeof full);
+    CHECK_EQ(carom_draw(world_now_drawn, camera, &whole, style), CAROM_OK);
+    CHECK_EQ(carom_draw_changes(world_now_drawn, camera, picture, style, &drawn[0]), CAROM_OK);
+    for (int32_t y = 0; y < picture->height; y++) {
+        const uint8_t *a = (const uint8_t *)full + y * picture->stride;
+        const uint8_t *b = (const uint8_t *)picture->pixels + y * picture->stride;
+
+        CHECK(memcmp(a, b, (size_t)(picture->width * bits[picture->format] / 8)) == 0);
+    }
+    for (int i = 0; i < drawn[0].changed_count; i++) {
+        const struct carom_rect *r = &drawn[0].changed[i];
+
+        area += (r->x1 - r->x0) * (r->y1 - r->y0);
+    }
+    return area;
+}
+
+/* A plain, a cube on the left that stands still, one on the right that moves. */
+static struct carom_picture new_picture(void)
+{
+    world_now_drawn = new_world();
+    add(world_now_drawn, &plain, at(0, 0, Q32(-1, 1)), upright, false);
+    add(world_now_drawn, &cube, at(Q32(-1, 1), 0, 0), oblique, false);
+    add(world_now_drawn, &cube, at(Q32(1, 1), Q32(1, 2), 0), oblique, true);
+    forget();
+    memset(buffers, 0, sizeof buffers);
+    return picture_of(buffers[0], CAROM_PALETTE8, sizeof scene_workspace);
+}
+
+static void move(int body, int64_t x, int64_t z)
+{
+    struct carom_body_state state;
+
+    CHECK_EQ(carom_body_get(world_now_drawn, body, &state), CAROM_OK);
+    state.position.c[0] += x;
+    state.position.c[2] += z;
+    CHECK_EQ(carom_body_set(world_now_drawn, body, &state), CAROM_OK);
+}
+
+/* A picture of so many pixels, then one in which nothing is to be drawn. */
+#define EXPECT_AREA(low, high)                                                                     \
+    do {                                                                                           \
+        int32_t area = draw_again(&camera, &picture, style);                                       \
+        CHECK(area >= (low) && area <= (high));                                                    \
+        CHECK_EQ(draw_again(&camera, &picture, style), 0);                                         \
+    } while (0)
+
+/* At z = 0 a unit is HEIGHT / 4 = 20 pixels: a cube with its corners is less than 42 x 42. */
+static void noticed(void)
+{
+    enum { ALL = WIDTH * HEIGHT, ONE = 42 * 42 };
+
+    for (int k = 0; k < 2; k++) {
+        enum carom_draw_style style = styles[k];
+        struct carom_picture picture = new_picture();
+        struct carom_camera camera = above;
+        struct carom_body_def def = {.mesh = &cube, .position = at(0, 0, 0), .rotation = upright};
+
+        EXPECT_AREA(ALL, ALL);
+        /* one that moves, a little, then out of the picture */
+        move(2, Q32(1, 16), 0);
+        EXPECT_AREA(20 * 20, 2 * ONE);
+        move(2, Q32(100, 1), 0);
+        EXPECT_AREA(20 * 20, ONE);
+        move(2, Q32(1, 1), 0);
+        EXPECT_AREA(0, 0);
+        move(2, Q32(-101, 1), 0);
+        EXPECT_AREA(20 * 20, ONE);
+        /* one that stands still: how far it reached is not known at first */
+        move(1, Q32(1, 16), 0);
+        EXPECT_AREA(20 * 20, ALL);
+        move(1, Q32(1, 16), 0);
+        EXPECT_AREA(20 * 20, 2 * ONE);
+        /* so near that the near plane cuts it, and away again */
+        move(1, 0, Q32(4, 1));
+        EXPECT_AREA(ALL, 2 * ALL);
+        move(1, 0, Q32(-4, 1));
+        EXPECT_AREA(ALL, 2 * ALL);
+        /* one goes, one comes, another takes the place of that one */
+        CHECK_EQ(carom_body_remove(world_now_drawn, 1), CAROM_OK);
+        EXPECT_AREA(20 * 20, ONE);
+        CHECK_EQ(carom_body_add(world_now_drawn, &def), 1);
+        EXPECT_AREA(20 * 20, ONE);
+        CHECK_EQ(carom_body_remove(world_now_drawn, 1), CAROM_OK);
+        def.stationary = true;
+        CHECK_EQ(carom_body_add(world_now_drawn, &def), 1);
+        EXPECT_AREA(20 * 20, 2 * ONE);
+        CHECK_EQ(carom_body_remove(world_now_drawn, 2), CAROM_OK);
+        EXPECT_AREA(20 * 20, ONE);
+        /* all else that makes a picture */
+        camera.eye.c[0]++;
+        EXPECT_AREA(ALL, ALL);
+        camera.target.c[1]++;
+        EXPECT_AREA(ALL, ALL);
+        camera.focal_q16++;
+        EXPECT_AREA(ALL, ALL);
+        style = styles[1 - k];
+        EXPECT_AREA(ALL, ALL);
+        picture.height--;
+        EXPECT_AREA(ALL - WIDTH, ALL - WIDTH);
+        picture.pixels = buffers[1];
+        EXPECT_AREA(ALL - WIDTH, ALL - WIDTH);
+        picture.format = CAROM_RGB565;
+        picture.stride *= 2;
+        EXPECT_AREA(ALL - WIDTH, ALL - WIDTH);
+        drawn[0].shows = false;
+        EXPECT_AREA(ALL - WIDTH, ALL - WIDTH);
+    }
+}
+
+/* A surface that takes another shape, and interfering faces that come and go. */
+static void shapes_and_faces(void)
+{
+    static _Alignas(8) uint8_t memory[CAROM_SURFACE_BYTES(4, 2)];
+    static const int16_t lower[][3] = {
+        {-4096, -4096, -409}, {4096, -4096, -409}, {4096, 4096, -409}, {-4096, 4096, -409}};
+    const struct carom_mesh_raw raw = {square_vertices, square_faces, 4, 2, 12, CAROM_SURFACE};
+    struct carom_picture picture = new_picture();
+    const struct carom_face_ref *refs;
+    struct carom_mesh sheet;
+    struct carom_body_state state;
+
+    CHECK_EQ(carom_surface_build(&sheet, &raw, memory, sizeof memory), CAROM_OK);
+    world_now_drawn = new_world();
+    add(world_now_drawn, &sheet, at(0, 0, 0), upright, false);
+    add(world_now_drawn, &cube, at(Q32(1, 2), Q32(-1, 4), Q32(502, 1000)), upright, true);
+    draw_again(&above, &picture, CAROM_DRAW_FLAT);
+    CHECK(carom_world_step(world_now_drawn) >= 0);
+    CHECK(carom_interfering_faces(world_now_drawn, &refs) > 0);
+    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    /* nothing moves, but faces interfere: they are drawn again, and when they do no more */
+    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_EQ(carom_body_get(world_now_drawn, 1, &state), CAROM_OK);
+    state.position.c[2] = Q32(2, 1);
+    CHECK_EQ(carom_body_set(world_now_drawn, 1, &state), CAROM_OK);
+    CHECK(carom_world_step(world_now_drawn) >= 0);
+    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_EQ(carom_interfering_faces(world_now_drawn, &refs), 0);
+    draw_again(&above, &picture, CAROM_DRAW_FLAT);
+    CHECK_EQ(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
+    CHECK_EQ(carom_surface_move(world_now_drawn, 0, lower), CAROM_OK);
+    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_EQ(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
+}
+
+/* No pixel outside of what is said to have changed is written. */
+static void only_that(void)
+{
+    for (uint8_t format = 0; format < sizeof bits; format++) {
+        struct carom_picture picture = new_picture();
+        const struct carom_rect *r = drawn[0].changed;
+        uint8_t *bytes = (uint8_t *)buffers[0];
+
+        picture = picture_of(buffers[0], format, sizeof scene_workspace);
+        draw_again(&above, &picture, CAROM_DRAW_FLAT);
+        for (int shift = 0; shift < 8; shift++) { /* odd and even edges */
+            move(2, Q32(shift % 2 ? 3 : -2, 64), 0);
+            memset(buffers[0], 0xee, sizeof buffers[0]);
+            CHECK_EQ(
+                carom_draw_changes(world_now_drawn, &above, &picture, CAROM_DRAW_FLAT, &drawn[0]),
+                CAROM_OK);
+            CHECK_EQ(drawn[0].changed_count, 1);
+            for (int32_t y = 0; y < HEIGHT; y++) {
+                for (int32_t x = 0; x < picture.stride * 8 / bits[format]; x++) {
+                    const uint8_t *p = &bytes[y * picture.stride + x * bits[format] / 8];
+                    bool inside = x >= r->x0 && x < r->x1 && y >= r->y0 && y < r->y1;
+                    bool kept = bits[format] == 4 ? (x & 1 ? *p & 15 : *p >> 4) == 14 : *p == 0xee;
+
+                    CHECK(inside || kept);
+                }
+            }
+        }
+    }
+}
+
+static void errors(void)
+{
+    struct carom_picture picture = new_picture();
+    struct carom_camera camera = above;
+    enum carom_draw_style style = CAROM_DRAW_FLAT;
+
+#define EXPECT_ERROR(error, d)                                                                     \
+    CHECK_EQ(carom_draw_changes(world_now_drawn, &camera, &picture, style, d), error)
+    EXPECT_ERROR(CAROM_ERR_NULL, NULL);
+    drawn[0].bodies = NULL;
+    EXPECT_ERROR(CAROM_ERR_NULL, &drawn[0]);
+    drawn[0].bodies = drawn_bodies[0];
+    drawn[0].room = 2;
+    EXPECT_ERROR(CAROM_ERR_MEMORY, &drawn[0]);
+    drawn[0].room = 3;
+    picture.width = 0;
+    EXPECT_ERROR(CAROM_ERR_ARGUMENT, &drawn[0]);
+    picture.width = WIDTH;
+    camera.target = camera.eye;
+    EXPECT_ERROR(CAROM_ERR_ARGUMENT, &drawn[0]);
+    camera = above;
+    CHECK(draw_again(&camera, &picture, style) > 0);
+    /* a picture that could not be drawn is drawn from nothing after that */
+    move(2, Q32(1, 16), 0);
+    picture.workspace_bytes = 100;
+    EXPECT_ERROR(CAROM_ERR_MEMORY, &drawn[0]);
+    picture.workspace_bytes = sizeof scene_workspace;
+    EXPECT_AREA(WIDTH * HEIGHT, WIDTH * HEIGHT);
+#undef EXPECT_ERROR
+}
+
+const struct test tests_draw_changes[] = {
+    {"draw_changes/scenes", scenes},
+    {"draw_changes/noticed", noticed},
+    {"draw_changes/shapes_and_faces", shapes_and_faces},
+    {"draw_changes/only_that", only_that},
+    {"draw_changes/errors", errors},
+    {0},
+};
