@@ -36,7 +36,7 @@ CROSSED = ["pile", "sheet"]  # scenes that are gone on with elsewhere
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
 PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
-           "examples/scene_built.c", "port/option.c", "port/assert.c"]
+           "examples/scene_built.c", "port/option.c"]
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
@@ -170,7 +170,7 @@ class Build:
 
 class Linux(Build):
     """For Linux: on this machine, or on another processor by QEMU's user mode."""
-    port, port_options = ["port/linux/console.c"], []
+    port, port_options = ["port/linux/console.c", "port/print.c", "port/assert.c"], []
 
     def __init__(self, target, compiler, options):
         triple, emulator, bits, order, _ = LINUX.get(
@@ -341,8 +341,8 @@ def do(build, number, play):
         build.play(*play, "fill=%d" % (165 * (number % 2)))
 
     wrong = attempt(all_of_it, build)
-    print("  %-58s %4d s%s" % (build, time.monotonic() - start, "  FAILS" if wrong else ""),
-          flush=True)
+    print("  %-58s %4d s%s" % (build, time.monotonic() - start,
+                                 "  FAILS: " + wrong.splitlines()[0] if wrong else ""), flush=True)
     return wrong
 
 
