@@ -226,6 +226,8 @@ $(B)/flags: force
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
 $(B)/src/%.o: CFLAGS += -ffreestanding
+# what prints is not to have its variables on the stack while a step runs
+$(B)/examples/%.o: CFLAGS += -fno-inline
 $(B)/tests/%.o: CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)
 
 $(B)/%.o: %.c $(B)/flags

@@ -215,8 +215,7 @@ struct show {
     struct scene_sheet *sheet;
 };
 
-/* A function of its own, so that the scene is off the stack when it returns. */
-__attribute__((noinline)) static struct carom_world *start(struct show *show)
+static struct carom_world *start(struct show *show)
 {
     struct carom_world *world;
     struct scene scene;

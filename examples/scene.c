@@ -157,6 +157,7 @@ static const struct scene_recipe {
     {"head-spin2", &spin_starts[1], NULL, 0, 0, 0},
     {"head-spin3", &spin_starts[2], NULL, 0, 0, 0},
     {"head-spin4", &spin_starts[3], NULL, 0, 0, 0},
+    {"head48", &head_start, NULL, 0, 1, 5},
     {"head100", &head_start, NULL, 0, 3, 10},
     {"head450", &head_start, NULL, 0, 0, 0},
     {"head836", &head_start, NULL, 0, 0, 0},

@@ -139,6 +139,7 @@ static const struct materials {
     {"head-spin2", &field_mesh, {&head_mesh}, 0},
     {"head-spin3", &field_mesh, {&head_mesh}, 0},
     {"head-spin4", &field_mesh, {&head_mesh}, 0},
+    {"head48", &field128_mesh, {&head48_mesh}, 11},
     {"head100", &field128_mesh, {&head100_mesh}, 0},
     {"head450", &field386_mesh, {&head450_mesh}, 0},
     {"head836", &field512_mesh, {&head836_mesh}, 0},

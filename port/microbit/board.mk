@@ -3,7 +3,7 @@
 CPU := Cortex-M0
 DISPLAY := none
 CLOCK_MHZ := 16
-SCENES := boxes4:15
+SCENES := boxes4:1
 FAMILY := arm
 ARCH := -mcpu=cortex-m0 -mthumb
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S
@@ -11,7 +11,7 @@ QEMU := qemu-system-arm -M microbit
 # SysTick's 24 bits are 4 million instructions.
 ICOUNT_SHIFT := 8
 ROM_SCENES := boxes4
-CAPS := 5,8,16,32,0,32
+CAPS := 5,7,14,19,0,20
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
