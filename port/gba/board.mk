@@ -17,3 +17,5 @@ ROM_SCENES := head48 head450
 CAPS := 2,1,32,256,0,256
 DRAW_BYTES := 13800
 PICTURES := 1
+SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITE_IMAGES := 1
