@@ -15,3 +15,5 @@ CAPS := 5,7,14,19,0,20
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
+SUITES := port fix arena gauss scan zlist mass
+SUITE_IMAGES := 1
