@@ -84,8 +84,8 @@ TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/bare_% tests/host_% \
-                tests/accuracy_%,$(wildcard tests/*.c)))
+TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
+                tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
 # ------------------------------------------------------------------- commands
@@ -258,6 +258,11 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 $(B)/head.elf: $(call objects,examples/scene_play.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
+	@echo '  link  $@'
+	$(link)
+
+# on every board, however small: nothing else of the tests
+$(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 

@@ -16,12 +16,41 @@ static void finish(const struct impact_problem *p, const struct impact_answer *x
     }
 }
 
+/*
+ * Coulomb's limit is passed: the impulse along the slip, or where there is none to begin with, along
+ * the slip that a frictionless impact leaves. Returns 0, or -1 when there is no solution.
+ */
+static int slide(struct impact_problem *p, bool slips, const struct impact_answer *stick,
+                 struct impact_answer *out)
+{
+    int64_t after[3];
+
+    if (!slips) {
+        if (impact_slide(p, 0, out)) {
+            return -1;
+        }
+        for (int k = 0; k < 3; k++) {
+            after[k] = impact_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
+        }
+        if (!impact_set_frame(&p->frame, after)) {
+            return 0; /* nothing for friction to act along */
+        }
+    }
+    if (impact_slide(p, p->in->friction_q16, out) == 0 && impact_dot(out->p_q40, &p->frame.n) > 0) {
+        return 0;
+    }
+    if (impact_slide(p, 0, out)) {
+        return -1;
+    }
+    impact_cone_limit(p, stick, out);
+    return 0;
+}
+
 int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out)
 {
     struct impact_problem p = {.w = w, .in = in, .frame.n = in->normal};
     struct impact_result result = {.slid = false, .energy_rule = false};
-    struct impact_answer x, stick;
-    int changed = 0;
+    struct impact_answer x, other; /* the sticking one, then the frictionless one */
     bool slips;
 
     CAROM_ASSERT(in->friction_q16 <= CAROM_MU_MAX_Q16);
@@ -41,22 +70,24 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
             return CAROM_ERR_RANGE;
         }
     } else {
-        if (impact_stick(&p, &stick)) {
+        if (impact_stick(&p, &other)) {
             return CAROM_ERR_RANGE;
         }
-        x = stick;
+        x = other;
         if (!impact_in_cone(&p, &x)) {
             result.slid = true;
-            if (impact_friction(&p, slips, &stick, &x)) {
+            if (slide(&p, slips, &other, &x)) {
                 return CAROM_ERR_RANGE;
             }
         }
-        changed = impact_energy_rule(&p, &x);
-        if (changed < 0) {
-            return CAROM_ERR_RANGE;
+        if (impact_gains(&p, &x)) {
+            if (impact_slide(&p, 0, &other)) {
+                return CAROM_ERR_RANGE;
+            }
+            impact_energy_rule(&p, &other, &x);
+            result.energy_rule = true;
         }
     }
-    result.energy_rule = changed > 0;
     finish(&p, &x, &result);
     *out = result;
     return CAROM_OK;

@@ -40,34 +40,41 @@ static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *
     return fix_wide_dot(x->p_q40, sum);
 }
 
+static void speeds(const struct impact_problem *p, const struct impact_answer *x, int64_t v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        v[k] = impact_shift(p->in->velocity.c[k], -x->unit);
+    }
+}
+
+bool impact_gains(const struct impact_problem *p, const struct impact_answer *x)
+{
+    int64_t v[3];
+
+    speeds(p, x, v);
+    return fix_wide_sign(gain(v, x)) > 0;
+}
+
 /*
- * The energy rule. With D = P* - P0, twice the energy change of P0 + k D is
+ * With D = P* - P0, twice the energy change of P0 + k D is
  *
  *   P0.(2V + K P0) + 2k D.V + k^2 D.K D
  *
  * because N.K D = 0: both impulses give the same V'.N. The first term is (P0.N) (V.N + target),
  * formed from V itself because at e = 1 it is a difference of nearly equal numbers; it is not
  * positive while e <= 1. The last is not negative. So from the largest k with a value <= 0 on, all
- * are positive. Returns 1 when P* had to be moved, 0 when not, -1 when there is no solution.
+ * are positive.
  */
-int impact_energy_rule(const struct impact_problem *p, struct impact_answer *x)
+void impact_energy_rule(const struct impact_problem *p, const struct impact_answer *free,
+                        struct impact_answer *x)
 {
-    struct impact_answer free, d;
+    struct impact_answer d = impact_subtract(x, free);
     struct fix_wide square, slope;
     struct fix_scaled loss;
     int64_t v[3], abc[3];
     int down;
 
-    for (int k = 0; k < 3; k++) {
-        v[k] = impact_shift(p->in->velocity.c[k], -x->unit);
-    }
-    if (fix_wide_sign(gain(v, x)) <= 0) {
-        return 0;
-    }
-    if (impact_slide(p, 0, &free)) {
-        return -1;
-    }
-    d = impact_subtract(x, &free);
+    speeds(p, x, v);
     for (int k = 0; k < 3; k++) {
         x->p_q40[k] -= d.p_q40[k];
         x->dv_q40[k] -= d.dv_q40[k];
@@ -88,5 +95,4 @@ int impact_energy_rule(const struct impact_problem *p, struct impact_answer *x)
     loss.e += 30 + x->unit + down;
     abc[2] = loss.m < 0 ? fix_mul_scaled(impact_dot(x->p_q40, &p->frame.n), loss) : 0;
     impact_add_scaled(x, &d, largest_feasible(abc));
-    return 1;
 }

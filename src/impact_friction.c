@@ -33,11 +33,7 @@ bool impact_in_cone(const struct impact_problem *p, const struct impact_answer *
     return limit >= 0 && fix_wide_sign(excess) <= 0;
 }
 
-/*
- * From the frictionless impulse towards the sticking one, as far as the friction cone goes. It
- * stands in where a sliding contact would wedge: (9), (10) then ask for an impulse that pulls.
- */
-static void cone_limit(const struct impact_problem *p, const struct impact_answer *stick,
+void impact_cone_limit(const struct impact_problem *p, const struct impact_answer *stick,
                        struct impact_answer *out)
 {
     struct impact_answer d = impact_subtract(stick, out);
@@ -57,32 +53,4 @@ static void cone_limit(const struct impact_problem *p, const struct impact_answe
     if (reach > 0 && growth > 0) {
         impact_add_scaled(out, &d, fix_wide_ratio(fix_wide_mul(reach, 1), fix_wide_mul(growth, 1)));
     }
-}
-
-int impact_friction(struct impact_problem *p, bool slips, const struct impact_answer *stick,
-                    struct impact_answer *out)
-{
-    struct impact_answer free;
-    int64_t after[3];
-
-    if (!slips) {
-        if (impact_slide(p, 0, out)) {
-            return -1;
-        }
-        for (int k = 0; k < 3; k++) {
-            after[k] = impact_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
-        }
-        if (!impact_set_frame(&p->frame, after)) {
-            return 0; /* nothing for friction to act along */
-        }
-    }
-    if (impact_slide(p, p->in->friction_q16, out) == 0 && impact_dot(out->p_q40, &p->frame.n) > 0) {
-        return 0;
-    }
-    if (impact_slide(p, 0, &free)) {
-        return -1;
-    }
-    *out = free;
-    cone_limit(p, stick, out);
-    return 0;
 }

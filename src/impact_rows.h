@@ -91,12 +91,17 @@ int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct i
 /* Whether Coulomb's limit allows an impulse: |P_t| <= mu P.N, in exact squares. */
 bool impact_in_cone(const struct impact_problem *p, const struct impact_answer *x);
 /*
- * Coulomb's limit is passed: the impulse along the slip, or where there is none to begin with,
- * along the slip that a frictionless impact leaves. Returns 0, or -1: no solution.
+ * From the frictionless impulse, in `out`, towards the sticking one, as far as the friction cone goes.
+ * It stands in where a sliding contact would wedge: (9), (10) then ask for an impulse that pulls.
  */
-int impact_friction(struct impact_problem *p, bool slips, const struct impact_answer *stick,
-                    struct impact_answer *out);
-/* The energy rule: 1 when the impulse had to be moved, 0 when not, -1 when there is no solution. */
-int impact_energy_rule(const struct impact_problem *p, struct impact_answer *x);
+void impact_cone_limit(const struct impact_problem *p, const struct impact_answer *stick,
+                       struct impact_answer *out);
+/*
+ * The energy rule: whether an impulse gives more energy than there was; then it goes towards the
+ * frictionless one until it does not.
+ */
+bool impact_gains(const struct impact_problem *p, const struct impact_answer *x);
+void impact_energy_rule(const struct impact_problem *p, const struct impact_answer *free,
+                        struct impact_answer *x);
 
 #endif

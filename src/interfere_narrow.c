@@ -123,9 +123,11 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
     int32_t above_q18 = offset_q18 + reach_q18, below_q18 = offset_q18 - reach_q18;
     uint32_t over = 0, under = 0, all = UINT32_MAX >> (32 - l->leaf->vertex_count);
 
-    for (const struct interfere_vec *p = &l->p[l->leaf->vertex_count]; p-- > l->p;) {
-        int32_t height_q18 = interfere_dot(n, p->c);
+    for (const struct interfere_vec *p = &l->p[l->leaf->vertex_count]; p > l->p;) {
+        int32_t height_q18;
 
+        p--;
+        height_q18 = interfere_dot(n, p->c);
         /* the signs of the differences, which are below 2^31 */
         over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
         under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
@@ -160,8 +162,8 @@ static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
     int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
     uint32_t over = 0, under = 0;
 
-    for (const struct interfere_vec *p = &t->p[3]; p-- > t->p;) {
-        int32_t height_q18 = interfere_dot(n, p->c);
+    for (int k = 2; k >= 0; k--) {
+        int32_t height_q18 = interfere_dot(n, t->p[k].c);
 
         over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
         under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;

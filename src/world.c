@@ -18,9 +18,10 @@ _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BY
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
 /* What an array may take for being rounded up to 8 bytes. */
-#define ROUNDING(type) (sizeof(type) % 8 == 0 ? 0 : sizeof(type) % 4 == 0 ? 4 : 7)
-_Static_assert(sizeof(struct carom_world) + 7 + ROUNDING(struct contact_work) +
-                       ROUNDING(struct contact_roll) + ROUNDING(union world_scratch) +
+#define ROUNDING(type)                                                                             \
+    (sizeof(type) % 8 == 0 ? 0 : sizeof(type) % 4 == 0 ? 4 : sizeof(type) % 2 == 0 ? 6 : 7)
+_Static_assert(sizeof(struct carom_world) + ROUNDING(struct carom_world) +
+                       ROUNDING(struct contact_work) + ROUNDING(struct contact_roll) +
                        ROUNDING(struct body) + 3 * ROUNDING(struct pair) +
                        2 * ROUNDING(struct body_state) + 2 * ROUNDING(struct rest_warm) +
                        ROUNDING(struct carom_event) + ROUNDING(struct contact) +
@@ -28,7 +29,9 @@ _Static_assert(sizeof(struct carom_world) + 7 + ROUNDING(struct contact_work) +
                        ROUNDING(struct candidate) <=
                    CAROM_WORLD_FIXED_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
-_Static_assert(sizeof(union world_scratch) <= CAROM_SCRATCH_BYTES, "CAROM_SCRATCH_BYTES");
+/* one of these, rounded up */
+_Static_assert((sizeof(union world_scratch) + 7) / 8 * 8 <= CAROM_SCRATCH_BYTES,
+               "CAROM_SCRATCH_BYTES");
 _Static_assert(sizeof(struct contact_work) <= CAROM_WORK_BYTES, "CAROM_WORK_BYTES");
 _Static_assert(sizeof(struct contact_roll) <= CAROM_ROLL_BYTES, "CAROM_ROLL_BYTES");
 _Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_HEADS_BYTES");

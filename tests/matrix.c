@@ -24,17 +24,21 @@
 #define MESH_BYTES SCENE_MESH_BYTES
 #endif
 #ifdef BOARD_CAPS
-#define WORLD_BYTES SCENE_WORLD_BYTES
+#define CAPS BOARD_CAPS
 #else
-#define WORLD_BYTES CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#define CAPS SCENE_PILE_CAPS
 #endif
+/* What a snapshot may take: as world_snapshot.c describes it. */
+#define SNAPSHOT_BYTES(...) SNAPSHOT_BYTES_(__VA_ARGS__)
+#define SNAPSHOT_BYTES_(bodies, pairs, contacts, faces, entries, candidates)                       \
+    (56 + 125 * (bodies) + 60 * (contacts) + 4 * (pairs))
 
 /* The sheet moves in one frame of these; that is dear, and so it stops and starts. */
 enum { SHEET_EVERY = 4 };
 
 static _Alignas(8) uint8_t mesh_block[MESH_BYTES];
-static _Alignas(8) uint8_t world_block[WORLD_BYTES];
-static uint8_t snapshot[8192];
+static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(CAPS)];
+static uint8_t snapshot[SNAPSHOT_BYTES(CAPS)];
 
 /* What a run is asked for. */
 static struct {

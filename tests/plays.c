@@ -151,8 +151,8 @@ static int draw_together(struct carom_world *world, int bodies, int frame)
 /* Which faces of two bodies interfere, and what is inside of what. */
 static int ask_pair(struct carom_world *world, int a, int b, uint64_t *digest)
 {
-    static struct carom_face_pair found[256];
-    int count = carom_query_faces(world, a, b, found, 256);
+    static struct carom_face_pair found[48];
+    int count = carom_query_faces(world, a, b, found, 48);
     int inside = carom_query_inside(world, a, b);
 
     for (int i = 0; i < count; i++) {
@@ -175,6 +175,7 @@ static int ask_pairs(struct carom_world *world, const struct scene *scene, int f
     return result;
 }
 
+#ifndef SCENE_ROM /* such a board has not the scene, nor the memory */
 enum { WIDTH = 80, HEIGHT = 60 };
 
 static uint64_t fold_picture(const struct carom_picture *picture, uint64_t digest)
@@ -218,6 +219,9 @@ static int ask_picture(struct carom_world *world, const struct scene *scene, int
     }
     return result;
 }
+#else
+#define ask_picture NULL
+#endif
 
 /* ------------------------------------------------------------------- arrangements */
 

@@ -7,6 +7,7 @@ static uint8_t reference[SIZE][SIZE];
 static void formats_agree(void)
 {
     static uint16_t pixels_16[SIZE][SIZE];
+    static uint16_t pixels_bgr[SIZE][SIZE];
     static uint32_t pixels_32[SIZE][SIZE];
     struct carom_world *world = new_world();
 
@@ -25,15 +26,76 @@ static void formats_agree(void)
         picture.stride = sizeof pixels_32[0];
         picture.format = CAROM_XRGB8888;
         CHECK_EQ(carom_draw(world, &above, &picture, style), CAROM_OK);
+        picture.pixels = pixels_bgr;
+        picture.stride = sizeof pixels_bgr[0];
+        picture.format = CAROM_BGR555;
+        CHECK_EQ(carom_draw(world, &above, &picture, style), CAROM_OK);
         for (int y = 0; y < SIZE; y++) {
             for (int x = 0; x < SIZE; x++) {
                 uint32_t rgb = carom_draw_palette[pixels[y][x]];
                 uint32_t r = rgb >> 16, g = rgb >> 8 & 0xff, b = rgb & 0xff;
 
                 CHECK_EQ(pixels_32[y][x], rgb);
+                CHECK_EQ(pixels_bgr[y][x], (b / 8) * 1024 + (g / 8) * 32 + r / 8);
                 CHECK_EQ(pixels_16[y][x], (r / 8) * 2048 + (g / 4) * 32 + b / 8);
             }
         }
+    }
+}
+
+/* Half bytes are the greys of the palette's entries at any width; the half after the last stays. */
+static void greys_agree(void)
+{
+    static uint8_t half[SIZE][SIZE / 2];
+    static const uint8_t low[] = {0, 2, 6, 14, 15}, gain[] = {1, 4, 7, 1, 0};
+    struct carom_world *world = new_world();
+
+    add_scene(world);
+    for (int32_t width = 1; width <= SIZE; width += width < 9 ? 1 : 11) {
+        struct carom_picture picture = picture_8();
+
+        picture.width = width;
+        CHECK_EQ(carom_draw(world, &above, &picture, styles[width & 1]), CAROM_OK);
+        memset(half, 0xee, sizeof half);
+        picture.pixels = half;
+        picture.stride = sizeof half[0];
+        picture.format = CAROM_GREY4;
+        CHECK_EQ(carom_draw(world, &above, &picture, styles[width & 1]), CAROM_OK);
+        for (int y = 0; y < SIZE; y++) {
+            for (int x = 0; x < SIZE; x++) {
+                int grey = x & 1 ? half[y][x / 2] & 15 : half[y][x / 2] >> 4;
+                int shade = pixels[y][x] % DRAW_SHADES, ramp = pixels[y][x] / DRAW_SHADES;
+
+                /* to nearest: twice the difference is at most one grey */
+                if (x >= width) {
+                    CHECK_EQ(grey, 14);
+                } else {
+                    int off = (grey - low[ramp]) * 31 - gain[ramp] * shade;
+
+                    CHECK(2 * off <= 31 && -2 * off <= 31);
+                }
+            }
+        }
+    }
+}
+
+/* Quotients without division. */
+static void quotients(void)
+{
+    struct test_random random = {7};
+
+    for (uint32_t d = 1; d < 65536; d += d < 300 ? 1 : 97) {
+        uint32_t most = 0x7fffffff / d * d;
+
+        for (int shift = 0; shift < 31; shift += 5) {
+            uint32_t n = (uint32_t)test_random_range(&random, 0, 0x7fffffff) >> shift;
+
+            CHECK_EQ(draw_quotient(n, d), n / d);
+        }
+        CHECK_EQ(draw_quotient(0x7fffffff, d), 0x7fffffff / d);
+        CHECK_EQ(draw_quotient(most, d), most / d);
+        CHECK_EQ(draw_quotient(most - 1, d), (most - 1) / d);
+        CHECK_EQ(draw_quotient(0, d), 0);
     }
 }
 
@@ -156,6 +218,7 @@ static void camera_errors(void)
 }
 
 const struct test tests_draw_picture[] = {
+    {"draw_picture/greys_agree", greys_agree},     {"draw_picture/quotients", quotients},
     {"draw_picture/formats_agree", formats_agree}, {"draw_picture/workspace_size", workspace_size},
     {"draw_picture/canaries", canaries},           {"draw_picture/picture_errors", picture_errors},
     {"draw_picture/camera_errors", camera_errors}, {0},

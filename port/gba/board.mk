@@ -2,17 +2,17 @@
 # Game Boy Advance in mGBA: ARM7TDMI, 240 x 160. The .gba files are what an emulator plays.
 CROSS := arm-none-eabi-
 NEED := arm newlib cc libc mgba
-ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork -Iport/bare
+ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork
 PORT := port/gba/gba.c port/gba/memory.c port/gba/start.S port/newlib/syscalls.c port/bare/start.c
-FAMILY_LDFLAGS := --specs=nano.specs -Wl,--wrap=carom_draw
+FAMILY_LDFLAGS := --specs=nano.specs -Wl,--wrap=carom_draw_changes
 IMAGE_SUFFIX := .gba
 RUNNER := build/tools/gba_run
 CPU := ARM7TDMI
 CLOCK_MHZ := 16.78
 CYCLES := 1
 DISPLAY := LCD 240 x 160
-SCENES := head450:15
-ROM_SCENES := head450
+SCENES := head48:15 head450:6
+ROM_SCENES := head48 head450
 CAPS := 2,1,32,256,0,256
 DRAW_BYTES := 13800
 PICTURES := 1

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Code in the 32 KB of the processor runs five times as fast as in the cartridge. Stepping a world and
- * drawing it take turns there (port/gba/fast.ld): the linker is told to call the functions __wrap_...
- * below in place of those that draw (--wrap), and these exchange the two.
+ * drawing it take turns there (port/gba/fast.ld): the linker is told (--wrap) to call the function
+ * __wrap_... below in place of the one that draws, and this exchanges the two.
  */
 #include "memory.h"
 
@@ -21,10 +21,12 @@
 extern char fast_load[], fast_start[], fast_end[], wide_start[], wide_end[];
 extern char step_load[], step_start[], step_end[], draw_load[], draw_start[], draw_end[];
 
-int __real_carom_draw(const struct carom_world *world, const struct carom_camera *camera,
-                      const struct carom_picture *picture, enum carom_draw_style style);
-int __wrap_carom_draw(const struct carom_world *world, const struct carom_camera *camera,
-                      const struct carom_picture *picture, enum carom_draw_style style);
+int __real_carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                              const struct carom_picture *picture, enum carom_draw_style style,
+                              struct carom_drawn *drawn);
+int __wrap_carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                              const struct carom_picture *picture, enum carom_draw_style style,
+                              struct carom_drawn *drawn);
 
 /* Whole words; a count of 0 would mean 65536. */
 static void transfer(const volatile void *from, void *to, size_t bytes, uint32_t how)
@@ -55,13 +57,14 @@ void memory_start(void)
     load_step();
 }
 
-int __wrap_carom_draw(const struct carom_world *world, const struct carom_camera *camera,
-                      const struct carom_picture *picture, enum carom_draw_style style)
+int __wrap_carom_draw_changes(const struct carom_world *world, const struct carom_camera *camera,
+                              const struct carom_picture *picture, enum carom_draw_style style,
+                              struct carom_drawn *drawn)
 {
     int result;
 
     load_draw();
-    result = __real_carom_draw(world, camera, picture, style);
+    result = __real_carom_draw_changes(world, camera, picture, style, drawn);
     load_step();
     return result;
 }

@@ -8,5 +8,5 @@ FAMILY := linux
 CROSS := arm-linux-gnueabi-
 ARCH := -march=armv5te -marm
 QEMU_USER := qemu-arm
-NEED := arm-linux qemu-user
+NEED := arm-linux-gnueabi qemu-user
 PICTURES := 0

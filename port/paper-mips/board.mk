@@ -9,5 +9,5 @@ FAMILY := linux
 CROSS := mips-linux-gnu-
 ARCH := -march=r3000 -mfp32
 QEMU_USER := qemu-mips
-NEED := mips-linux qemu-user
+NEED := mips-linux-gnu qemu-user
 PICTURES := 0
