@@ -16,3 +16,5 @@ ROM_SCENES := head100
 CAPS := 2,1,16,64,1,64
 DRAW_BYTES := 16384
 PICTURES := 1
+SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITE_IMAGES := 1
