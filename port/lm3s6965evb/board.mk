@@ -6,6 +6,8 @@ CLOCK_MHZ := 50
 SCENES := head100:60
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
+# Loops unrolled: a tenth faster, and the flash is there.
+OPT := -O2 -funroll-loops
 PORT := port/lm3s6965evb/lm3s.c port/arm/systick.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M lm3s6965evb
 # SysTick's 24 bits are 2.6 million instructions.
@@ -14,3 +16,5 @@ ROM_SCENES := head100
 CAPS := 2,1,16,64,1,64
 DRAW_BYTES := 16384
 PICTURES := 1
+SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITE_IMAGES := 1

@@ -15,3 +15,5 @@ CAPS := 4,3,8,16,0,20
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
+SUITES := port fix arena gauss gauss_cost scan zlist mass impact
+SUITE_IMAGES := 1

@@ -15,3 +15,5 @@ CAPS := 2,1,4,6,0,6
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
+SUITES := port fix arena scan zlist mass
+SUITE_IMAGES := 1
