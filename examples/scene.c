@@ -61,6 +61,11 @@ static const struct carom_body_def box_start = {
     .restitution_q30 = RESTITUTION_Q30,
     .friction_q16 = FRICTION_Q16,
 };
+/* A rough body that hardly bounces. */
+static const struct carom_body_def dull_start = {
+    .restitution_q30 = 0,
+    .friction_q16 = 1u << 16,
+};
 static const struct carom_body_def ground_start = {
     .stationary = true,
     .restitution_q30 = RESTITUTION_Q30,
@@ -127,6 +132,20 @@ static void scatter(int i, struct carom_body_def *def)
     def->spin.c[2] = CAROM_SPIN_MRAD_S(400 * i, FPS);
 }
 
+/* Side by side and far above each other: each lies still before the next one lands. */
+static void one_by_one(int i, struct carom_body_def *def)
+{
+    static const int16_t height_mm[] = {600, 7000, 19000};
+
+    def->position.c[0] = CAROM_POSITION_MM(1500 * (i - 1));
+    def->position.c[1] = CAROM_POSITION_MM(i == 1 ? 1600 : -400);
+    def->position.c[2] = CAROM_POSITION_MM(height_mm[i]);
+    def->velocity = (carom_v3_q40){{0, 0, 0}};
+    def->spin.c[0] = CAROM_SPIN_MRAD_S(300, FPS);
+    def->spin.c[1] = CAROM_SPIN_MRAD_S(100, FPS);
+    def->spin.c[2] = 0;
+}
+
 /* Thrown up from just above the field. */
 static void fly(int i, struct carom_body_def *def)
 {
@@ -164,6 +183,8 @@ static const struct scene_recipe {
     {"apart", &far_start, NULL, 0, 0, 0},
     {"box", &box_start, NULL, 0, 0, 0},
     {"pair", &head_start, scatter, 1, 3, 10},
+    {"brick", &box_start, NULL, 0, 3, 10},
+    {"boxes3", &dull_start, one_by_one, 2, 2, 6},
     {"boxes4", &head_start, scatter, 3, 3, 10},
     {"boxes10", &box_start, lay, 9, 0, 0},
     {"pile", &head_start, pile, 15, 0, 0},

@@ -11,6 +11,8 @@
  *   apart       the head a thousand units above the field
  *   box         a box of three different sides, dropped on a plane
  *   pair        a tetrahedron and a box, dropped on the plane
+ *   brick       the box on the plane, with fewer sub-steps and sweeps
+ *   boxes3      three boxes that fall on the field of 128 faces one after the other
  *   boxes4      four boxes, poured on a field of 128 faces
  *   boxes10     ten of them, put on the plane
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field

@@ -146,6 +146,8 @@ static const struct materials {
     {"apart", &field_mesh, {&head_mesh}, 0},
     {"box", &plane_mesh, {&box_mesh}, 0},
     {"pair", &plane_mesh, {&tetrahedron_mesh, &box_mesh}, 13},
+    {"brick", &plane_mesh, {&box_mesh}, 0},
+    {"boxes3", &field128_mesh, {&box_mesh}, 13},
     {"boxes4", &field128_mesh, {&box_mesh}, 13},
     {"boxes10", &plane_mesh, {&box_mesh}, 0},
     {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, 13},

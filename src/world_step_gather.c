@@ -7,7 +7,7 @@
  * lead aside long before, or any while nothing is near.
  */
 #define REGION_PARTS        10
-#define REGION_PARTS_FLIGHT 14
+#define REGION_PARTS_FLIGHT 20
 #define REGION_PARTS_FREE   4
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
@@ -79,9 +79,9 @@ static int64_t room_for(const struct body *b, bool crowd, bool lasts)
         return b->in_contact ? 10 * skin_q22 + way_q22 / 16 : 3 * skin_q22 + way_q22 / 64;
     }
     if (!lasts && way_q22 > ROOM_WAY_SKINS * skin_q22) {
-        return skin_q22;
+        return skin_q22 / 4;
     }
-    return b->in_contact ? 10 * skin_q22 + way_q22 / 32 : 2 * skin_q22 + way_q22 / 128;
+    return b->in_contact ? 10 * skin_q22 + way_q22 / 32 : skin_q22 + way_q22 / 256;
 }
 
 static void set_regions(struct step *s, int32_t slice_q30, int64_t time_q30)

@@ -269,7 +269,7 @@ static int refine(struct step *s, int32_t *slice, int32_t *t)
     int32_t slice_q30 = (int32_t)(((int64_t)most_q30 * s->hit.t_q30) >> 30);
 
     for (int round = 0; round < REFINEMENTS; round++) {
-        bool found;
+        bool found = false;
         int result = predict_hit(s, slice_q30);
 
         if (result == CAROM_OK) {

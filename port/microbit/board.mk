@@ -3,15 +3,15 @@
 CPU := Cortex-M0
 DISPLAY := none
 CLOCK_MHZ := 16
-SCENES := boxes4:1
+SCENES := boxes3:4
 FAMILY := arm
 ARCH := -mcpu=cortex-m0 -mthumb
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S
 QEMU := qemu-system-arm -M microbit
 # SysTick's 24 bits are 4 million instructions.
 ICOUNT_SHIFT := 8
-ROM_SCENES := boxes4
-CAPS := 5,7,14,19,0,20
+ROM_SCENES := boxes3
+CAPS := 4,3,8,16,0,20
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
