@@ -104,11 +104,13 @@ SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
-# Boards are built for a command one after another; one whose tools cannot be installed is left out.
-build_boards = ready=; for board in $(1); do \
-    if $(MAKE) BOARD=$$board need; then \
-        $(SUBMAKE) BOARD=$$board build || exit 1; ready="$$ready $$board"; \
-    else echo "$$board is left out: its tools are not there"; fi; done
+# Boards are built for a command one after another; one whose tools cannot be installed is left out,
+# one that cannot be built fails the command when the others are through.
+build_boards = ready= broken=; for board in $(1); do \
+    if ! $(MAKE) BOARD=$$board need; then echo "$$board is left out: its tools are not there"; \
+    elif $(SUBMAKE) BOARD=$$board build; then ready="$$ready $$board"; \
+    else broken="$$broken $$board"; fi; done
+all_built = if [ "$$broken" ]; then echo "cannot be built:$$broken"; false; fi
 NEED_THIS := $(or $(NEED),$(NEED_HOST))
 NEED_COMPARE := ode bullet fcl valgrind
 
@@ -148,12 +150,13 @@ test: ## every test, here and on a board, and a scene on every board; BOARD= all
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
-	    build/host/tests.elf build/host-debug/tests.elf build/mps2-an385/tests.elf
+	    build/host/tests.elf build/host-debug/tests.elf build/mps2-an385/tests.elf \
+	    && $(all_built)
 endif
 
 budget: ## the worst frame of every scene that a board is to hold, to out/budget.csv; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
-	    tools/budget.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready
+	    tools/budget.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
 
 accuracy: ## the integer kernels against independent oracles, to out/accuracy.csv
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
@@ -200,7 +203,7 @@ check: ## the gates: format, layers, symbols, sizes, stack
 
 size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
-	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready
+	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
 
 boards: ## the table of boards in README.md, with the figures that budget and size left in out/
 	@tools/need python3

@@ -5,6 +5,7 @@
  *   head        the paper's: a bumpy head of 1876 faces, dropped with spin on a field of 3034
  *   head450     the same with 450 faces on a field of 386
  *   head836     with 836 on 512
+ *   head48      a head of 48 faces and half the size on 128, one sub-step a frame
  *   head100     with 100 on 128
  *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; other ways: head-spin2 .. 4
  *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces

@@ -116,7 +116,7 @@ static inline struct carom_picture picture_8(void)
 }
 
 static inline void draw_8(const struct carom_world *world, const struct carom_camera *camera,
-                   enum carom_draw_style style)
+                          enum carom_draw_style style)
 {
     struct carom_picture picture = picture_8();
 

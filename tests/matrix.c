@@ -6,7 +6,7 @@
  * Options: scene=NAME (else all)  frames=2000  at=500  fill=0 (what memory holds before, a byte)
  *          each=1   a line a frame: its state hash
  *          trace=N  a line for each stage that ends in frame N: what the world holds then
- *          save=1   a line with the snapshot after frame `at`
+ *          save=1   a line with the snapshot after frame `at`, where there is memory for one
  *          load=F   go on from a snapshot, a file, as if it had been taken after frame `at`
  *
  * A scene's line is "scene NAME FRAMES AWAKE HASH FUTURE": frames, and those that end with a body
@@ -19,26 +19,22 @@
 #include "world.h"
 
 #ifdef SCENE_ROM
-#define MESH_BYTES 8
+/* a board with little memory: snapshots are handed on by others */
+#define MESH_BYTES     8
+#define WORLD_BYTES    SCENE_WORLD_BYTES
+#define SNAPSHOT_BYTES 8
 #else
-#define MESH_BYTES SCENE_MESH_BYTES
+#define MESH_BYTES     SCENE_MESH_BYTES
+#define WORLD_BYTES    CAROM_WORLD_BYTES(SCENE_PILE_CAPS)
+#define SNAPSHOT_BYTES 8192
 #endif
-#ifdef BOARD_CAPS
-#define CAPS BOARD_CAPS
-#else
-#define CAPS SCENE_PILE_CAPS
-#endif
-/* What a snapshot may take: as world_snapshot.c describes it. */
-#define SNAPSHOT_BYTES(...) SNAPSHOT_BYTES_(__VA_ARGS__)
-#define SNAPSHOT_BYTES_(bodies, pairs, contacts, faces, entries, candidates)                       \
-    (56 + 125 * (bodies) + 60 * (contacts) + 4 * (pairs))
 
 /* The sheet moves in one frame of these; that is dear, and so it stops and starts. */
 enum { SHEET_EVERY = 4 };
 
 static _Alignas(8) uint8_t mesh_block[MESH_BYTES];
-static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(CAPS)];
-static uint8_t snapshot[SNAPSHOT_BYTES(CAPS)];
+static _Alignas(8) uint8_t world_block[WORLD_BYTES];
+static uint8_t snapshot[SNAPSHOT_BYTES];
 
 /* What a run is asked for. */
 static struct {
@@ -257,6 +253,9 @@ static void save(const struct run *run)
 {
     int bytes = carom_snapshot_save(run->world, snapshot, sizeof snapshot);
 
+    if (bytes == CAROM_ERR_MEMORY) {
+        return;
+    }
     expect(run, wanted.at, bytes, "save");
     put("snapshot ");
     put(run->play->name);

@@ -20,6 +20,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 import gate
@@ -30,13 +31,14 @@ OUT = "out/matrix.csv"
 DOCS = "docs/matrix.md"
 WORK = "build/matrix"
 TIMEOUT = 900  # seconds a command
+FRAMES = 2000, 1000  # of a scene; of one in the short form
 AT = 500  # the frame whose snapshot is handed on
 CROSSED = ["pile", "sheet"]  # scenes that are gone on with elsewhere
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
 PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
-           "examples/scene_built.c", "port/option.c", "port/assert.c"]
+           "examples/scene_built.c", "port/option.c"]
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
@@ -77,6 +79,7 @@ ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
        for size in (1, 2) for order in (1, 2)}  # bits and byte order by a header's bytes
 DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
 MESHES = {}  # by target: objects
+MAKING = threading.Lock()  # boards have tools and meshes in common
 
 DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
 # One answer on every machine
@@ -170,7 +173,7 @@ class Build:
 
 class Linux(Build):
     """For Linux: on this machine, or on another processor by QEMU's user mode."""
-    port, port_options = ["port/linux/console.c"], []
+    port, port_options = ["port/linux/console.c", "port/print.c", "port/assert.c"], []
 
     def __init__(self, target, compiler, options):
         triple, emulator, bits, order, _ = LINUX.get(
@@ -219,7 +222,8 @@ class Board(Build):
         self.command = [self.compiler]
 
     def make(self):
-        call(["make", "-s", "BOARD=" + self.target, self.image, *self.extra], "make")
+        with MAKING:
+            call(["make", "-s", "-j2", "BOARD=" + self.target, self.image, *self.extra], "make")
         with open(self.elf, "rb") as file:
             self.bits, self.order = ELF[file.read(6)[4:]]
 
@@ -250,21 +254,22 @@ def every_build(short):
 
 # ------------------------------------------------------------------ what differs
 
+def lines(build, kind, scene, frames, option):
+    """The words of every line of a kind that a build prints with an option."""
+    said = build.run("scene=" + scene, "frames=%d" % frames, option)
+    return [words for words in said if words[0] == kind]
+
+
 def first_difference(build, other, scene, frames):
     """In words: the first frame of a scene after which two builds differ, and the stage in it."""
-    def lines(each, kind, *options):
-        return [words for words in each.run("scene=" + scene, "frames=%d" % frames, *options)
-                if words[0] == kind]
-
-    for mine, theirs in zip(lines(build, "frame", "each=1"), lines(other, "frame", "each=1")):
-        if mine != theirs:
-            break
-    else:
+    pairs = zip(lines(build, "frame", scene, frames, "each=1"),
+                lines(other, "frame", scene, frames, "each=1"))
+    frame = next((int(mine[1]) for mine, theirs in pairs if mine != theirs), None)
+    if frame is None:
         return "the same, frame by frame, when it runs again"
-    frame = int(mine[1])
-    frames = frame
-    pairs = itertools.zip_longest(lines(build, "mark", "trace=%d" % frame),
-                                  lines(other, "mark", "trace=%d" % frame))
+    trace = "trace=%d" % frame
+    pairs = itertools.zip_longest(lines(build, "mark", scene, frame, trace),
+                                  lines(other, "mark", scene, frame, trace))
     for number, (mine, theirs) in enumerate(pairs, 1):
         if mine != theirs:
             return "first in frame %d, after stage %s, the %d. to end in it" % (
@@ -276,9 +281,12 @@ def compared(build, first):
     """What is wrong with a build beside the first, a line each."""
     for scene, words in build.scenes.items():
         if words != first.scenes[scene]:
-            yield "%s: %s has %s; %s has %s: %s" % (
-                build, scene, words[2], first, first.scenes[scene][2],
-                first_difference(build, first, scene, int(words[0])))
+            try:
+                place = first_difference(build, first, scene, int(words[0]))
+            except Failure as failure:
+                place = str(failure)
+            yield "%s: %s has %s; %s has %s: %s" % (build, scene, words[2], first,
+                                                    first.scenes[scene][2], place)
     for scene, snapshot in build.snapshots.items():
         if snapshot != first.snapshots[scene]:
             yield "%s: %s has another snapshot of frame %d" % (build, scene, AT)
@@ -304,7 +312,8 @@ def snapshot_path(build, scene):
 
 def cross(source, to, scene):
     """What is wrong with going on from another's snapshot, or None."""
-    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % (2 * AT),
+    frames = min(2 * AT, int(source.scenes[scene][0]))
+    words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames,
                    "load=" + snapshot_path(source, scene))[-1]
     if words[0] != "scene" or words[-1] != source.scenes[scene][-1]:
         return "%s, goes on with %s of %s to %s; that to %s" % (
@@ -341,8 +350,8 @@ def do(build, number, play):
         build.play(*play, "fill=%d" % (165 * (number % 2)))
 
     wrong = attempt(all_of_it, build)
-    print("  %-58s %4d s%s" % (build, time.monotonic() - start, "  FAILS" if wrong else ""),
-          flush=True)
+    print("  %-58s %4d s%s" % (build, time.monotonic() - start,
+                                 "  FAILS: " + wrong.splitlines()[0] if wrong else ""), flush=True)
     return wrong
 
 
@@ -475,7 +484,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--short", action="store_true", help="one build an instruction set")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--frames", type=int, default=2000)
+    parser.add_argument("--frames", type=int, help="of a scene; else %d, or %d" % FRAMES)
     parser.add_argument("--targets", help="only these, with commas")
     parser.add_argument("--compilers", help="only these, with commas")
     parser.add_argument("--options", help="only builds with these")
@@ -485,7 +494,7 @@ def main():
     arguments = parser.parse_args()
     builds = chosen(arguments)
     gate.need(*sorted({thing for build in builds for thing in build.need}))
-    play = ["frames=%d" % arguments.frames, "at=%d" % AT] + \
+    play = ["frames=%d" % (arguments.frames or FRAMES[arguments.short]), "at=%d" % AT] + \
         (["scene=" + arguments.scene] if arguments.scene else [])
     failures, done, kept = do_all(builds, play, arguments.jobs)
     wrong, crossings = cross_all(kept, arguments.jobs)

@@ -2,7 +2,8 @@
 # Game Boy Advance in mGBA: ARM7TDMI, 240 x 160. The .gba files are what an emulator plays.
 CROSS := arm-none-eabi-
 NEED := arm newlib cc libc mgba
-ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork
+# no scheduling: a load takes as long wherever it stands, and fewer registers are spilled
+ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork -fno-schedule-insns -fno-schedule-insns2
 PORT := port/gba/gba.c port/gba/memory.c port/gba/start.S port/newlib/syscalls.c port/bare/start.c
 FAMILY_LDFLAGS := --specs=nano.specs -Wl,--wrap=carom_draw_changes
 IMAGE_SUFFIX := .gba
@@ -11,8 +12,10 @@ CPU := ARM7TDMI
 CLOCK_MHZ := 16.78
 CYCLES := 1
 DISPLAY := LCD 240 x 160
-SCENES := head48:15 head450:6
+SCENES := head48:15 head450:7
 ROM_SCENES := head48 head450
 CAPS := 2,1,32,256,0,256
 DRAW_BYTES := 13800
 PICTURES := 1
+SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITE_IMAGES := 1

@@ -39,8 +39,8 @@ void port_init(void)
     LCD->timing[2] = 1u << 26 | (WIDTH - 1) << 16;
     LCD->upper_base = (uint32_t)(uintptr_t)pixels;
     for (int i = 0; i < 128; i++) {
-        LCD->palette[i] =
-            colour(carom_draw_palette[2 * i]) | colour(carom_draw_palette[2 * i + 1]) << 16;
+        LCD->palette[i] = colour(carom_draw_palette[2 * i]) | colour(carom_draw_palette[2 * i + 1])
+                                                                  << 16;
     }
     LCD->control = LCD_ENABLE | LCD_8_BITS | LCD_TFT | LCD_POWER;
 }
