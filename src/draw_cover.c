@@ -31,23 +31,17 @@ static void way_to(const struct draw_view *view, const struct body_state *state,
     fix_rotate(way, &view->axes, way);
 }
 
-/* The body that looks largest. */
-static uint32_t find_largest(const struct carom_world *world, const struct draw_view *view)
+/* The largest body; where the others are is not asked, so that those out of sight cost nothing. */
+static uint32_t find_largest(const struct carom_world *world)
 {
-    int64_t radius = 0, distance = 1; /* of the largest; q22 >> 6, q16 */
+    int32_t radius_q22 = 0;
     uint32_t largest = world->body_count;
 
     for (uint32_t i = 0; i < world->body_count; i++) {
         const struct carom_mesh *mesh = world->bodies[i].mesh;
-        int64_t way[3];
 
-        if (mesh == NULL || mesh->raw.kind != CAROM_SOLID) {
-            continue;
-        }
-        way_to(view, &world_now(world)->bodies[i], way);
-        if (way[2] > 0 && (mesh->radius_q22 >> 6) * distance > radius * way[2]) {
-            radius = mesh->radius_q22 >> 6;
-            distance = way[2];
+        if (mesh && mesh->raw.kind == CAROM_SOLID && mesh->radius_q22 > radius_q22) {
+            radius_q22 = mesh->radius_q22;
             largest = i;
         }
     }
@@ -62,7 +56,7 @@ static uint32_t find_largest(const struct carom_world *world, const struct draw_
 void draw_cover_init(struct draw_view *view, const struct carom_world *world)
 {
     struct draw_cover *cover = &view->cover;
-    uint32_t body = find_largest(world, view);
+    uint32_t body = find_largest(world);
     int64_t way[3], world_way[3], distance, x_q4, y_q4, radius_q4;
     int32_t radius_q16;
 
