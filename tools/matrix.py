@@ -74,6 +74,9 @@ LINUX = {
     "hppa": ("hppa-linux-gnu", "hppa", 32, "big", False),
     "alpha": ("alpha-linux-gnu", "alpha", 64, "little", False),
 }
+# For MIPS32 clang before 15 makes msub of (int64_t)a * b - c, which is c - a * b: LLVM issue 50458.
+# MIPS II has no msub.
+CLANG_ARCH = {"mips": ["-march=mips2"], "mipsel": ["-march=mips2"]}
 SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # instruction sets that nothing else has
 ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
        for size in (1, 2) for order in (1, 2)}  # bits and byte order by a header's bytes
@@ -92,6 +95,7 @@ length, to the same end.
 A scene's hash is over the state after every frame, the step's status and events and what was asked of
 the world: faces that interfere, what lies inside of what, pictures. tests/plays.c has the scenes. Every
 other build finds its memory full of rubbish. A line a build and scene is in out/matrix.csv.
+What clang makes for mips and mipsel is MIPS II code.
 
 | target | bits | byte order | compiler | runs on | builds |
 |---|---|---|---|---|---|
@@ -184,7 +188,7 @@ class Linux(Build):
         gcc = [triple + "-gcc" if triple else "gcc"]
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
-            ["clang"] + (["--target=" + triple] if triple else [])
+            ["clang"] + (["--target=" + triple] if triple else []) + CLANG_ARCH.get(target, [])
         # Debian's clang does not find every cross linker: there gcc links what clang has compiled
         self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
         self.linker = self.linker + static if triple else self.linker
