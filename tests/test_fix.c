@@ -52,9 +52,9 @@ static uint64_t product_by_digits(uint64_t a, uint64_t b)
 static void test_product(void)
 {
     static const int64_t edges[] = {
-        0,          1,           -1,          2,         -2,        0x7fff,      0x8000,
-        0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,   INT32_MIN,
-        UINT32_MAX, 0x100000000, 0x1ffff0001, INT64_MAX, INT64_MIN, -0xffffffff,
+        0,          1,           -1,          2,         -2,        0x7fff,        0x8000,
+        0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,     INT32_MIN,
+        UINT32_MAX, 0x100000000, 0x1ffff0001, INT64_MAX, INT64_MIN, -0xffffffffLL,
     };
     enum { COUNT = sizeof edges / sizeof edges[0] };
     struct test_random r = {64};

@@ -53,7 +53,6 @@ _Noreturn void gba_start(void)
 
 void port_init(void)
 {
-    DEBUG_ENABLE = DEBUG_UNLOCK;
     DISPLAY_CONTROL = BITMAP_16;
     TIMER_CONTROL(1) = TIMER_RUNS | TIMER_CASCADES;
     TIMER_CONTROL(0) = TIMER_RUNS;
@@ -107,6 +106,7 @@ static void send(const char *text, uint16_t level)
 {
     volatile char *to = DEBUG_TEXT;
 
+    DEBUG_ENABLE = DEBUG_UNLOCK; /* each time: a fault may come before port_init */
     while (*text) {
         *to++ = *text++;
     }
