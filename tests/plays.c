@@ -60,20 +60,16 @@ static int throw_sometimes(struct carom_world *world, int bodies, int frame)
     return frame % 250 == 200 ? throw_all(world, bodies, frame) : CAROM_OK;
 }
 
-/* Throw one body after the other, so that some sleep while others move. */
-static int throw_one(struct carom_world *world, int bodies, int frame)
+/* Lift one body after the other straight up, so that some sleep while others move, and none meet. */
+static int lift_one(struct carom_world *world, int bodies, int frame)
 {
+    const carom_v3_q40 impulse = {{0, 0, CAROM_VELOCITY_MM_S(1500, FPS)}};
     int body = SCENE_BODY + frame / 100 % bodies;
-    carom_v3_q40 impulse = {{0, 0, CAROM_VELOCITY_MM_S(2000, FPS)}};
     struct carom_body_state state;
     int result = CAROM_OK;
 
     if (frame % 100 == 60) {
         result = carom_body_get(world, body, &state);
-        for (int k = 0; k < 2; k++) {
-            impulse.c[k] =
-                chance(frame, body, k, CAROM_VELOCITY_MM_S(1800, FPS)) - state.position.c[k] * 4;
-        }
         if (result >= 0) {
             result = carom_body_push(world, body, &impulse, &state.position);
         }
@@ -250,12 +246,12 @@ static void slide(struct scene *scene)
 
 const struct play plays[PLAYS] = {
     {"box", "box", 0, NULL, throw_often, NULL},
-    {"bounce", "box", 0, bounce, NULL, NULL},
-    {"slide", "box", 0, slide, lean, NULL},
+    {"bounce", "brick", 0, bounce, NULL, NULL},
+    {"slide", "brick", 0, slide, lean, NULL},
     {"pictures", "box", 0, NULL, throw_often, ask_picture},
     {"pair", "pair", 0, NULL, throw_often, ask_pairs},
     {"meet", "pair", 0, NULL, draw_together, ask_pairs},
-    {"boxes4", "boxes4", 0, NULL, throw_one, NULL},
+    {"boxes3", "boxes3", 0, NULL, lift_one, NULL},
     {"pile", "pile", 6, NULL, throw_sometimes, ask_pairs},
     {"sheet", "sheet", 0, NULL, NULL, NULL},
     {"head100", "head100", 0, NULL, throw_often, NULL},

@@ -11,7 +11,7 @@ QEMU := qemu-system-arm -M microbit
 # SysTick's 24 bits are 4 million instructions.
 ICOUNT_SHIFT := 8
 ROM_SCENES := boxes3
-CAPS := 4,3,8,16,0,20
+CAPS := 4,3,10,32,0,24
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
