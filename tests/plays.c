@@ -215,8 +215,10 @@ static int ask_picture(struct carom_world *world, const struct scene *scene, int
     }
     return result;
 }
+#define DRAWN "box"
 #else
 #define ask_picture NULL
+#define DRAWN       "none" /* no scene */
 #endif
 
 /* ------------------------------------------------------------------- arrangements */
@@ -248,7 +250,7 @@ const struct play plays[PLAYS] = {
     {"box", "box", 0, NULL, throw_often, NULL},
     {"bounce", "brick", 0, bounce, NULL, NULL},
     {"slide", "brick", 0, slide, lean, NULL},
-    {"pictures", "box", 0, NULL, throw_often, ask_picture},
+    {"pictures", DRAWN, 0, NULL, throw_often, ask_picture},
     {"pair", "pair", 0, NULL, throw_often, ask_pairs},
     {"meet", "pair", 0, NULL, draw_together, ask_pairs},
     {"boxes3", "boxes3", 0, NULL, lift_one, NULL},

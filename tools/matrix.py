@@ -133,7 +133,7 @@ class Build:
         self.engine = "src"  # folder
         self.folder = os.path.join(WORK, target, compiler,
                                    re.sub(r"\W+", "_", options).strip("_"))
-        self.image = os.path.join(self.folder, "matrix")
+        self.elf = os.path.join(self.folder, "matrix")
         self.scenes, self.snapshots, self.absent = {}, {}, []
 
     def __str__(self):
@@ -150,13 +150,13 @@ class Build:
         self.compile(sorted(glob.glob(self.engine + "/*.c")), "-ffreestanding", *WARNINGS)
         self.compile(PROGRAM + self.port, *self.port_options)
         made = glob.glob(self.folder + "/*.o")
-        call([*self.linker, "-o", self.image, *made, *MESHES[self.target]], "link")
+        call([*self.linker, "-o", self.elf, *made, *MESHES[self.target]], "link")
         for path in made:
             os.remove(path)
 
     def run(self, *options):
         """The words of every line that it prints."""
-        text = call([*self.runner, self.image, *options], "run")
+        text = call([*self.runner, self.elf, *options], "run")
         return [line.split() for line in text.splitlines()]
 
     def play(self, *options):
@@ -219,7 +219,6 @@ class Board(Build):
         super().__init__(board, settings["CROSS"] + "gcc", settings.get("OPT", "-O2"), 32, "little")
         self.need = settings["NEED"].split()
         self.elf = "build/%s/matrix.elf" % board
-        self.image = "build/%s/matrix%s" % (board, settings.get("IMAGE_SUFFIX", ".elf"))
         runner = settings.get("QEMU") or settings.get("QEMU_USER") or settings["RUNNER"]
         self.where = os.path.basename(runner.split()[0])
         self.extra = [settings["RUNNER"]] if "RUNNER" in settings else []
@@ -227,12 +226,12 @@ class Board(Build):
 
     def make(self):
         with MAKING:
-            call(["make", "-s", "-j2", "BOARD=" + self.target, self.image, *self.extra], "make")
+            call(["make", "-s", "-j2", "BOARD=" + self.target, self.elf, *self.extra], "make")
         with open(self.elf, "rb") as file:
             self.bits, self.order = ELF[file.read(6)[4:]]
 
     def run(self, *options):
-        text = call(run_board.command(self.image, list(options)), "run")
+        text = call(run_board.command(self.elf, list(options)), "run")
         return [line.split() for line in text.splitlines()]
 
     def discard(self):
