@@ -8,5 +8,5 @@ ICOUNT_SHIFT := 10
 CPU := Cortex-M3
 CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
-SCENES := head:15 head450:25 sheet:8 box:20
+SCENES := head:12 head450:25 sheet:8 box:20
 PICTURES := 0
