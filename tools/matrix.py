@@ -140,8 +140,9 @@ class Build:
         return " ".join([self.target, self.compiler, self.options])
 
     def compile(self, sources, *options):
-        """Objects of sources in the build's folder."""
-        call([*self.command, "-std=c11", *self.options.split(), *INCLUDES, *options, "-c",
+        """Objects of sources in the build's folder; clang warns of what only a linker takes."""
+        of_compiler = [word for word in self.options.split() if not word.startswith("-fuse-ld")]
+        call([*self.command, "-std=c11", *of_compiler, *INCLUDES, *options, "-c",
               *[os.path.join(ROOT, source) for source in sources]], "compile", self.folder)
 
     def make(self):
