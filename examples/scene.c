@@ -185,7 +185,6 @@ static const struct scene_recipe {
     {"pair", &head_start, scatter, 1, 3, 10},
     {"brick", &box_start, NULL, 0, 3, 10},
     {"boxes3", &dull_start, one_by_one, 2, 2, 6},
-    {"boxes4", &head_start, scatter, 3, 3, 10},
     {"boxes10", &box_start, lay, 9, 0, 0},
     {"pile", &head_start, pile, 15, 0, 0},
     {"pile32", &head_start, wide_pile, 31, 0, 0},

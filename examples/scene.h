@@ -14,7 +14,6 @@
  *   pair        a tetrahedron and a box, dropped on the plane
  *   brick       the box on the plane, with fewer sub-steps and sweeps
  *   boxes3      three boxes that fall on the field of 128 faces one after the other
- *   boxes4      four boxes, poured on a field of 128 faces
  *   boxes10     ten of them, put on the plane
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
  *   pile32      32 bodies of 12 to 80 faces, poured on the field

@@ -148,7 +148,6 @@ static const struct materials {
     {"pair", &plane_mesh, {&tetrahedron_mesh, &box_mesh}, 13},
     {"brick", &plane_mesh, {&box_mesh}, 0},
     {"boxes3", &field128_mesh, {&box_mesh}, 13},
-    {"boxes4", &field128_mesh, {&box_mesh}, 13},
     {"boxes10", &plane_mesh, {&box_mesh}, 0},
     {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, 13},
     {"pile32", &field_mesh, {SMALL_BODIES}, 13},
