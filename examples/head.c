@@ -48,9 +48,6 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
 /* How many bodies the largest world holds: the first of its capacities. */
-#ifndef BOARD_CAPS
-#define BOARD_CAPS SCENE_LARGE_CAPS
-#endif
 #define FIRST_OF(first, ...) first
 #define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
 
@@ -179,8 +176,8 @@ static void print_usage(const struct carom_world *world)
 static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    static struct carom_drawn_body bodies[BODIES_OF(BOARD_CAPS)];
-    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(BOARD_CAPS)};
+    static struct carom_drawn_body bodies[BODIES_OF(SCENE_LARGE_CAPS)];
+    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(SCENE_LARGE_CAPS)};
     struct carom_picture picture = {.pixels = fb->pixels,
                                     .width = fb->width,
                                     .height = height,

@@ -80,11 +80,7 @@ static const struct carom_camera camera = {
 struct carom_config scene_config(void)
 {
     struct carom_config config = {
-#ifdef BOARD_CAPS
-        .caps = {BOARD_CAPS},
-#else
         .caps = {SCENE_CAPS},
-#endif
         .gravity = {{0, 0, CAROM_GRAVITY_MM_S2(-9810, FPS)}},
         .sleep = true,
     };
@@ -219,15 +215,10 @@ void scene_body(const struct scene *scene, int i, struct carom_body_def *def)
 /* The capacities that suffice for any scene of its kind. */
 static struct carom_caps caps_of(const struct scene *scene)
 {
-#ifdef BOARD_CAPS
-    (void)scene;
-    return (struct carom_caps){BOARD_CAPS};
-#else
-    return scene->sheet ? (struct carom_caps){SCENE_SHEET_CAPS}
+    return scene->sheet              ? (struct carom_caps){SCENE_SHEET_CAPS}
            : scene->other_count == 0 ? (struct carom_caps){SCENE_CAPS}
            : scene->other_count < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
                                      : (struct carom_caps){SCENE_LARGE_CAPS};
-#endif
 }
 
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,

@@ -78,18 +78,22 @@ struct scene {
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
 
-/* bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet */
+/*
+ * bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet. A
+ * board with little memory has some of its own for all of its scenes (board.mk).
+ */
+#ifdef BOARD_CAPS
+#define SCENE_CAPS       BOARD_CAPS
+#define SCENE_PILE_CAPS  BOARD_CAPS
+#define SCENE_LARGE_CAPS BOARD_CAPS
+#define SCENE_SHEET_CAPS BOARD_CAPS
+#else
 #define SCENE_CAPS       2, 1, 64, 1024, 256, 1024
 #define SCENE_PILE_CAPS  17, 128, 384, 2048, 256, 2048
 #define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
 #define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
-
-/* A board with little memory has capacities of its own for all of its scenes (board.mk). */
-#ifdef BOARD_CAPS
-#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(BOARD_CAPS)
-#else
-#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
 #endif
+#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
 
 /* The raw meshes, generated; a number is that of the faces. */
 extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_mesh, head450_mesh,
