@@ -134,7 +134,8 @@ struct carom_surface;
 /* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
 struct carom_mesh {
     struct carom_mesh_raw raw;
-    struct carom_mass mass; /* SOLID; zero for a SURFACE */
+    struct carom_mass mass;                  /* SOLID; zero for a SURFACE */
+    struct carom_sym3 inverse, inverse_rest; /* their sum: of mass.inertia; zero if it has none */
     uint32_t edge_count, leaf_count, zref_count;
     int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
     int16_t box[2][3];        /* quanta: lowest and highest corner */
@@ -236,7 +237,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(888, 896)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(776, 784)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(84, 84)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4

@@ -58,12 +58,13 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
 /* out = J^-1 v with all the digits of the inverse; out may be v. */
 static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3])
 {
+    const struct carom_mesh *mesh = b->mesh;
     int32_t high[3], low[3];
 
     split(v, high, low);
     out[0] = out[1] = out[2] = 0;
-    add_parts(out, b->inverse_inertia.m, high, low, b->inverse_inertia.e);
-    add_parts(out, b->inverse_rest.m, high, low, b->inverse_rest.e);
+    add_parts(out, mesh->inverse.m, high, low, mesh->inverse.e);
+    add_parts(out, mesh->inverse_rest.m, high, low, mesh->inverse_rest.e);
 }
 
 /*
@@ -72,7 +73,7 @@ static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3]
  */
 static uint64_t calm_angular_q40(const struct body *b)
 {
-    const struct carom_sym3 *inverse = &b->inverse_inertia;
+    const struct carom_sym3 *inverse = &b->mesh->inverse;
     int64_t most = 1, quotient;
     int shift;
 
@@ -287,15 +288,16 @@ static inline struct parts parts_of(const int64_t v[3], int bits)
  */
 static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
 {
+    const struct carom_sym3 *inverse = &b->mesh->inverse, *of_rest = &b->mesh->inverse_rest;
     int64_t high[3], low[3], rest[3];
 
-    CAROM_ASSERT(b->inverse_rest.e == b->inverse_inertia.e + 29);
+    CAROM_ASSERT(of_rest->e == inverse->e + 29);
     const int more = s - 2 - 29;
     const int64_t half = more > 0 && more < 63 ? (int64_t)1 << (more - 1) : 0;
 
-    sym3_dot(high, b->inverse_inertia.m, m->high);
-    sym3_dot(low, b->inverse_inertia.m, m->low);
-    sym3_dot(rest, b->inverse_rest.m, m->high);
+    sym3_dot(high, inverse->m, m->high);
+    sym3_dot(low, inverse->m, m->low);
+    sym3_dot(rest, of_rest->m, m->high);
     for (int k = 0; k < 3; k++) {
         rest[k] += low[k] >> 2;
         out[k] = half != 0 ? (high[k] + (rest[k] >> 29) + half) >> more
@@ -339,7 +341,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         int64_t next[3], change = 0;
         struct parts of_m = parts_of(m, 31), of_u;
 
-        inverse_mul_parts(b, next, &of_m, b->inverse_inertia.e + 40 + up - 60);
+        inverse_mul_parts(b, next, &of_m, b->mesh->inverse.e + 40 + up - 60);
         for (int k = 0; k < 3; k++) {
             int64_t d = next[k] - u_q60[k];
 
@@ -359,19 +361,28 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
     }
 }
 
-void body_place(struct body *b, const struct body_state *s)
+void body_place_origin(struct body *b, const struct body_state *s)
 {
     struct body_path *path = &b->path;
 
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
         path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+    }
+}
+
+void body_place(struct body *b, const struct body_state *s)
+{
+    struct body_path *path = &b->path;
+
+    body_place_origin(b, s);
+    for (int k = 0; k < 3; k++) {
         path->v.c[k] = path->g.c[k] = 0;
         path->u.c[k] = 0;
     }
     path->u2_q30 = 0;
     path->turns = false;
-    path->start.q = s->rotation;
+    path->q = s->rotation;
     body_matrix(&path->start.r, &s->rotation);
 }
 
@@ -448,14 +459,14 @@ carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
 carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
 {
     const struct body_path *path = &b->path;
-    carom_quat_q30 q = path->start.q;
+    carom_quat_q30 q = path->q;
     int32_t u[3];
 
     if (path->turns && t_q30 > 0) {
         for (int k = 0; k < 3; k++) {
             u[k] = carom_mul_q30(path->u.c[k], t_q30);
         }
-        turn(&q, &path->start.q, u);
+        turn(&q, &path->q, u);
     }
     return q;
 }

@@ -36,20 +36,22 @@ struct body_state {
 };
 
 struct body_path {
-    int64_t origin_q22[3];
     union {
         struct {
+            int64_t origin_q22[3];
             carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
+            carom_quat_q30 q;  /* the rotation at its start */
+            carom_v3_q30 u;    /* the Cayley vector, in the body's axes */
+            int32_t u2_q30;    /* |u|^2 */
         };
+        /* a solve's, from whose end on a body has no path until one is set */
         struct {
-            int64_t dv[3],
-                dw[3]; /* what a solve changes velocities by, in its units: before a path is set */
+            carom_v3_q40 saved_angular; /* before it, for the energy rule */
+            int64_t dv[3], dw[3];       /* what it changes velocities by, in its units */
+            struct carom_sym3 turning;  /* R J^-1 R^T by the solver's unit of length squared */
         };
     };
-    carom_v3_q30 u; /* the Cayley vector, in the body's axes */
-    int32_t u2_q30; /* |u|^2 */
     struct {
-        carom_quat_q30 q;
         carom_m3_q30 r;
         struct {
             int16_t c[3];
@@ -98,7 +100,6 @@ struct body {
 
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
-    struct carom_sym3 inverse_inertia, inverse_rest; /* their sum: of the mesh's inertia by mass */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
@@ -111,14 +112,12 @@ struct body {
     /* scratch of a step */
     struct body_path path;
     struct body_region region;
-    int32_t reach_q22;         /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;          /* and how far the body may turn, radians */
-    struct carom_sym3 turning; /* R J^-1 R^T by the solver's unit of length squared */
+    int32_t reach_q22; /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;  /* and how far the body may turn, radians */
     union {
         int32_t box_q18[2][3];       /* in world axes around it, grown by the reach: by broad */
         carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
     };
-    carom_v3_q40 saved_angular;
     carom_v3_q40 velocity, spin; /* before a solve */
     union {
         struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
@@ -159,6 +158,8 @@ void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 /* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
 void body_normalise(carom_quat_q30 *q);
 
+/* Where a path at the body's pose begins; the rest of it stays as it is. */
+void body_place_origin(struct body *b, const struct body_state *s);
 /* A path of no motion at the body's pose. */
 void body_place(struct body *b, const struct body_state *s);
 /*

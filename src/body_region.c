@@ -39,7 +39,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
-    region->q = path->start.q;
+    region->q = path->q;
     region->time_q30 = time_q30;
     region->room_q22 = room_q22;
     region->elapsed_q30 = 0;

@@ -194,6 +194,8 @@ static int build(struct mesh_builder *b)
     if (orientation) {
         return orientation;
     }
+    /* one that is too thin for an inverse may still stand still */
+    mass_invert(&mesh->mass.inertia, &mesh->inverse, &mesh->inverse_rest);
     find_offsets(b);
     mesh->radius_q22 = find_radius(mesh);
     mesh_build_leaves(b);

@@ -303,6 +303,14 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     return CAROM_OK;
 }
 
+/* Whoever asks for the contacts after the step is told where they are by this. */
+static void place_origins(struct rest *r)
+{
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        body_place_origin(&r->bodies[i], &r->states[i]);
+    }
+}
+
 /* What surfaces that move have done on the island at hand: 2 P.drift. */
 static void book_work(struct rest *r)
 {
@@ -324,6 +332,7 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
         if (rest_take_island(r)) {
             result = solve_island(r, tau_q30, warm);
             book_work(r);
+            place_origins(r);
         }
     }
     if (warm) {

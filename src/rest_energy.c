@@ -18,7 +18,7 @@ void rest_save_momenta(struct rest *r)
 {
     for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
         r->bodies[i].saved_momentum = r->states[i].momentum;
-        r->bodies[i].saved_angular = r->states[i].angular;
+        r->bodies[i].path.saved_angular = r->states[i].angular;
     }
 }
 
@@ -26,7 +26,7 @@ static void restore_momenta(struct rest *r)
 {
     for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
         r->states[i].momentum = r->bodies[i].saved_momentum;
-        r->states[i].angular = r->bodies[i].saved_angular;
+        r->states[i].angular = r->bodies[i].path.saved_angular;
     }
 }
 
@@ -82,7 +82,7 @@ static struct fix_wide before2(const struct rest *r)
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(b->saved_angular.c, b->spin.c));
+        sum = fix_wide_add(sum, fix_wide_dot(b->path.saved_angular.c, b->spin.c));
     }
     return sum;
 }

@@ -17,17 +17,18 @@ void rest_prepare_body(struct body *b)
             int32_t column[3];
 
             for (int j = 0; j < 3; j++) {
-                column[j] = b->inverse_inertia.m[fix_sym3_at[j][k]];
+                column[j] = b->mesh->inverse.m[fix_sym3_at[j][k]];
             }
             half[i][k] = (int32_t)carom_round(carom_dot(r->c[i], column), 30);
         }
     }
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
-            b->turning.m[fix_sym3_at[i][k]] = (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
+            b->path.turning.m[fix_sym3_at[i][k]] =
+                (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
         }
     }
-    b->turning.e = b->inverse_inertia.e - 2 - 2 * (b->unit_bits - 22);
+    b->path.turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
 }
 
 /* a x b, exact */
@@ -42,7 +43,7 @@ static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
                          int64_t k_q30[6])
 {
-    const struct carom_sym3 *turning = &side->body->turning;
+    const struct carom_sym3 *turning = &side->body->path.turning;
     int64_t turn[3][3], part[3];
     const bool whole = lever->share_q30 == CAROM_ONE_Q30;
     uint64_t all = 0;

@@ -52,7 +52,7 @@ static int finer(const struct contact *c, const struct body *b)
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct body *b, int32_t share_q30)
 {
-    const struct carom_sym3 *t = &b->turning;
+    const struct carom_sym3 *t = &b->path.turning;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
@@ -116,7 +116,7 @@ static void twist(struct contact *c, const int32_t moment[3])
         if (!side->body) {
             continue;
         }
-        t = &side->body->turning;
+        t = &side->body->path.turning;
         for (int k = 0; k < 3; k++) {
             int64_t m = carom_round((int64_t)moment[k] * c->work->lever[s].share_q30, 30);
 

@@ -124,11 +124,11 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
         struct fix_wide sum = {0, 0};
 
         for (int k = 0; k < 3; k++) {
-            int64_t entry = b->inverse_inertia.m[fix_sym3_at[i][k]];
+            int64_t entry = b->mesh->inverse.m[fix_sym3_at[i][k]];
 
             fix_wide_add_product(&sum, carom_abs(entry), carom_abs(l[k]));
         }
-        if (fix_wide_bits(sum) - b->inverse_inertia.e > 61) {
+        if (fix_wide_bits(sum) - b->mesh->inverse.e > 61) {
             return false;
         }
     }

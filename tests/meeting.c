@@ -63,7 +63,7 @@ static void pose_at(const struct meeting *m, int side, long double t, struct mee
         b[k] = t * fixed(path->u.c[k], 30);
     }
     for (int k = 0; k < 4; k++) {
-        q[k] = fixed(path->start.q.c[k], 30);
+        q[k] = fixed(path->q.c[k], 30);
     }
     w = q[0] - q[1] * b[0] - q[2] * b[1] - q[3] * b[2];
     x = q[1] + q[0] * b[0] + q[2] * b[2] - q[3] * b[1];

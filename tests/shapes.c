@@ -182,7 +182,6 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     b->moving = moving;
     b->radius_q22 = s->mesh.radius_q22;
     if (moving) {
-        CHECK_EQ(mass_invert(&s->mesh.mass.inertia, &b->inverse_inertia, &b->inverse_rest), 0);
         body_set_mass(b, fix_scale(s->mesh.mass.volume_q32, 32));
         b->unit_bits = fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;

@@ -16,6 +16,11 @@ template <typename Number> std::string list(const Number *numbers, int count)
     return text + "}";
 }
 
+std::string sym3(const carom_sym3 &m)
+{
+    return "{" + list(m.m, 6) + ", " + std::to_string(m.e) + "}";
+}
+
 /* An array of `count` elements, each written by `element`. */
 template <typename Element>
 void array(std::ostream &out, const std::string &declaration, size_t count, Element element)
@@ -120,7 +125,9 @@ std::string rom::c_source(const carom_mesh &mesh, const std::string &name, bool 
         << ", " << mesh.raw.face_count << ", " << int(mesh.raw.quantum_bits) << ", "
         << (mesh.raw.kind == CAROM_SURFACE ? "CAROM_SURFACE" : "CAROM_SOLID") << "},\n"
         << "    .mass = {INT64_C(" << mass.volume_q32 << "), {" << list(mass.centre.c, 3) << "}, {"
-        << list(mass.inertia.m, 6) << ", " << mass.inertia.e << "}},\n"
+        << sym3(mass.inertia) << "},\n"
+        << "    .inverse = " << sym3(mesh.inverse) << ",\n"
+        << "    .inverse_rest = " << sym3(mesh.inverse_rest) << ",\n"
         << "    .edge_count = " << mesh.edge_count << ",\n"
         << "    .leaf_count = " << mesh.leaf_count << ",\n"
         << "    .zref_count = " << mesh.zref_count << ",\n"
