@@ -237,13 +237,13 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(776, 784)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(768, 784)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(84, 84)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(544, 704)
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(520, 696)
 #define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
 /* What stages work in one after the other: so much, or for each contact and pair that is solved. */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)

@@ -86,15 +86,16 @@ struct body {
     bool standing; /* still, and the path, the region and the box are those of where it is */
 
     /* of a step; the rest of that is below */
-    bool active;                     /* was to move when its region was set */
-    bool boxed;                      /* its box is around its mesh's; else around its sphere */
-    bool in_contact;                 /* took the frame's acceleration at once; moves straight */
-    bool touched;                    /* had a contact in this step */
-    bool grounded;                   /* and one with a body that stands still */
-    bool entering;                   /* in_contact is new */
-    bool rewound;                    /* is back where the frame found it */
-    bool woke;                       /* in the static check at hand */
-    bool solving;                    /* has a contact in the solve at hand */
+    bool active;      /* was to move when its region was set */
+    bool boxed;       /* its box is around its mesh's; else around its sphere */
+    bool in_contact;  /* took the frame's acceleration at once; moves straight */
+    bool touched;     /* had a contact in this step */
+    bool grounded;    /* and one with a body that stands still */
+    bool entering;    /* in_contact is new */
+    bool rewound;     /* is back where the frame found it */
+    bool woke;        /* in the static check at hand */
+    bool solving;     /* has a contact in the solve at hand */
+    int8_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
     uint16_t contacts;               /* where the island's contacts are listed */
 
@@ -103,8 +104,7 @@ struct body {
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22;  /* EPS: a resting contact keeps half of this gap to all */
-    int32_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
+    int32_t skin_q22;   /* EPS: a resting contact keeps half of this gap to all */
     carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */

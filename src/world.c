@@ -4,30 +4,30 @@
 /* What a step may report at most: begin, hit and end of a pair; out, and rest or waking, of a body. */
 #define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
 
-/* The sizes that CAROM_WORLD_BYTES promises. */
-_Static_assert(sizeof(struct body) + 2 * sizeof(struct body_state) +
-                       2 * sizeof(struct carom_event) <=
-                   CAROM_BODY_BYTES,
-               "CAROM_BODY_BYTES");
-_Static_assert(sizeof(struct pair) + 2 * sizeof(struct pair) + 3 * sizeof(struct carom_event) <=
-                   CAROM_PAIR_BYTES,
-               "CAROM_PAIR_BYTES");
-_Static_assert(sizeof(struct contact) + 2 * sizeof(struct rest_warm) <= CAROM_CONTACT_BYTES,
-               "CAROM_CONTACT_BYTES");
+/* The sizes that CAROM_WORLD_BYTES promises: what there is for one of each ... */
+#define OF_BODY                                                                                    \
+    (sizeof(struct body) + 2 * sizeof(struct body_state) + 2 * sizeof(struct carom_event))
+#define OF_PAIR    (3 * sizeof(struct pair) + 3 * sizeof(struct carom_event))
+#define OF_CONTACT (sizeof(struct contact) + 2 * sizeof(struct rest_warm))
+_Static_assert(OF_BODY <= CAROM_BODY_BYTES, "CAROM_BODY_BYTES");
+_Static_assert(OF_PAIR <= CAROM_PAIR_BYTES, "CAROM_PAIR_BYTES");
+_Static_assert(OF_CONTACT <= CAROM_CONTACT_BYTES, "CAROM_CONTACT_BYTES");
 _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BYTES");
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
-/* What an array may take for being rounded up to 8 bytes. */
+/* ... and what its array may take for being rounded up to 8 bytes, */
 #define ROUNDING(type)                                                                             \
     (sizeof(type) % 8 == 0 ? 0 : sizeof(type) % 4 == 0 ? 4 : sizeof(type) % 2 == 0 ? 6 : 7)
-_Static_assert(sizeof(struct carom_world) + ROUNDING(struct carom_world) +
-                       ROUNDING(struct contact_work) + ROUNDING(struct contact_roll) +
-                       ROUNDING(struct body) + 3 * ROUNDING(struct pair) +
-                       2 * ROUNDING(struct body_state) + 2 * ROUNDING(struct rest_warm) +
-                       ROUNDING(struct carom_event) + ROUNDING(struct contact) +
-                       ROUNDING(struct carom_face_ref) + ROUNDING(struct zentry) +
-                       ROUNDING(struct candidate) <=
-                   CAROM_WORLD_FIXED_BYTES,
+#define ROUNDINGS                                                                                  \
+    (ROUNDING(struct carom_world) + ROUNDING(struct contact_work) +                                \
+     ROUNDING(struct contact_roll) + ROUNDING(struct body) + 3 * ROUNDING(struct pair) +           \
+     2 * ROUNDING(struct body_state) + 2 * ROUNDING(struct rest_warm) +                            \
+     ROUNDING(struct carom_event) + ROUNDING(struct contact) + ROUNDING(struct carom_face_ref) +   \
+     ROUNDING(struct zentry) + ROUNDING(struct candidate))
+/* less what a body, a pair and a contact leave of theirs: there is one of each at least. */
+_Static_assert(sizeof(struct carom_world) + ROUNDINGS + OF_BODY + OF_PAIR + OF_CONTACT <=
+                   CAROM_WORLD_FIXED_BYTES + CAROM_BODY_BYTES + CAROM_PAIR_BYTES +
+                       CAROM_CONTACT_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
 /* one of these, rounded up */
 _Static_assert((sizeof(union world_scratch) + 7) / 8 * 8 <= CAROM_SCRATCH_BYTES,
@@ -210,7 +210,7 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     b->friction_q16 = def->friction_q16;
     b->radius_q22 = def->mesh->radius_q22;
     if (b->moving) {
-        b->unit_bits = fix_bits((uint64_t)b->radius_q22);
+        b->unit_bits = (int8_t)fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
         if (!world_motion_in_range(b, &def->velocity, &def->spin)) {
             return CAROM_ERR_RANGE;

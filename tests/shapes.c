@@ -183,7 +183,7 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     b->radius_q22 = s->mesh.radius_q22;
     if (moving) {
         body_set_mass(b, fix_scale(s->mesh.mass.volume_q32, 32));
-        b->unit_bits = fix_bits((uint64_t)b->radius_q22);
+        b->unit_bits = (int8_t)fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
     }
     body_place(b, state);

@@ -124,7 +124,7 @@ std::string rom::c_source(const carom_mesh &mesh, const std::string &name, bool 
         << "    .raw = {" << name << "_vertices, " << name << "_corners, " << mesh.raw.vertex_count
         << ", " << mesh.raw.face_count << ", " << int(mesh.raw.quantum_bits) << ", "
         << (mesh.raw.kind == CAROM_SURFACE ? "CAROM_SURFACE" : "CAROM_SOLID") << "},\n"
-        << "    .mass = {INT64_C(" << mass.volume_q32 << "), {" << list(mass.centre.c, 3) << "}, {"
+        << "    .mass = {INT64_C(" << mass.volume_q32 << "), {" << list(mass.centre.c, 3) << "}, "
         << sym3(mass.inertia) << "},\n"
         << "    .inverse = " << sym3(mesh.inverse) << ",\n"
         << "    .inverse_rest = " << sym3(mesh.inverse_rest) << ",\n"
