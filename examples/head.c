@@ -13,11 +13,13 @@
 #include "scene_play.h"
 
 #ifdef SCENE_ROM
-/* A board with meshes in ROM has no memory for others. */
+/* A board with meshes in ROM has no memory for others, nor for one that moves. */
 static uint8_t mesh_block[1];
+#define BOARD_SHEET   0
 #define USER_VERTICES SCENE_HEAD_VERTICES
 #define USER_FACES    SCENE_HEAD_FACES
 #else
+#define BOARD_SHEET 1
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
@@ -208,7 +210,7 @@ static struct carom_world *make(const struct scene *scene)
 
 /* What frames need of a scene; a small board has no room for the rest while it steps. */
 struct show {
-    struct carom_camera camera;
+    const struct carom_camera *camera;
     struct scene_sheet *sheet;
 };
 
@@ -237,15 +239,17 @@ static void report(int frames)
     uint32_t first;
 
     /* all of the picture, so that a frame has but what it changes to draw */
-    first = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+    first = draw(world, show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
     port_print("first picture %lu\n", cost(first));
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        expect(scene_sheet_move(show.sheet, world, frame), "scene");
+        if (BOARD_SHEET) {
+            expect(scene_sheet_move(show.sheet, world, frame), "scene");
+        }
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+        uint32_t draw_ticks = draw(world, show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
@@ -279,7 +283,7 @@ static void play(int frames)
         if (scene_play_draws(&play)) {
             expect(carom_stats(world, &stats), "stats");
             draw_ticks =
-                draw(world, &scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+                draw(world, scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
                      play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
             if (!play.plain) {
                 scene_play_figures(&fb, stats.total_ticks, draw_ticks);

@@ -235,7 +235,7 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     scene->ground = ground_start;
     scene->body = *recipe->start;
     scene->other_count = recipe->others;
-    scene->camera = camera;
+    scene->camera = &camera;
     result = scene_meshes(scene, name, user, mem, bytes);
     if (result >= 0) {
         scene->body.mesh = scene->mesh[0];

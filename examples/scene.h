@@ -56,7 +56,7 @@ struct scene {
     const struct carom_mesh *mesh[SCENE_MESHES]; /* the moving bodies take them in turn */
     int mesh_count;
     const struct scene_recipe *recipe;
-    struct carom_camera camera;
+    const struct carom_camera *camera;
     struct carom_caps caps;
     struct scene_sheet *sheet; /* the ground, when it waves; else NULL */
 };

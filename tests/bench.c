@@ -158,7 +158,7 @@ int main(void)
         expect(scene_before(&scene, world, frame), "scene");
         expect(carom_world_step(world), "step");
         if (frame >= first) {
-            print_frame(world, &scene.camera, slept, draw > 0 && frame % draw == 0);
+            print_frame(world, scene.camera, slept, draw > 0 && frame % draw == 0);
         }
     }
     hash = carom_world_hash(world);

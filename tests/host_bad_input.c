@@ -99,7 +99,7 @@ static void test_null_drawing(struct lab *lab)
     static uint32_t pixels[16 * 16];
     static _Alignas(8) uint8_t rows[CAROM_DRAW_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
     struct carom_picture picture = {pixels, 16, 16, 64, CAROM_XRGB8888, rows, sizeof rows}, bad;
-    const struct carom_camera *camera = &lab->scene.camera;
+    const struct carom_camera *camera = lab->scene.camera;
     struct carom_camera inside = *camera;
     struct carom_world *w = lab->world;
     bool untouched = true;
@@ -453,12 +453,13 @@ static void test_blobs(struct lab *lab)
 
 static struct lab *load(void)
 {
+    static const struct carom_camera camera = {.eye = {{0, -((int64_t)5 << 32), 0}},
+                                               .focal_q16 = 1 << 16};
     struct lab *lab = lab_load(&lab_sheet, &lab_box);
 
+    lab->scene.camera = &camera;
     lab->scene.body.position.c[2] = lab_fixed(1, 32);
     lab->scene.body.rotation = lab_turn(1, 2, 3, 1);
-    lab->scene.camera.eye.c[1] = lab_fixed(-5, 32);
-    lab->scene.camera.focal_q16 = 1 << 16;
     lab_start(lab);
     for (int frame = 0; frame < FRAMES_BEFORE; frame++) {
         lab_step(lab, NULL);

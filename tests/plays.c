@@ -209,7 +209,7 @@ static int ask_picture(struct carom_world *world, const struct scene *scene, int
         return CAROM_OK;
     }
     result =
-        carom_draw(world, &scene->camera, &picture, number % 2 ? CAROM_DRAW_FLAT : CAROM_DRAW_WIRE);
+        carom_draw(world, scene->camera, &picture, number % 2 ? CAROM_DRAW_FLAT : CAROM_DRAW_WIRE);
     if (result >= 0) {
         *digest = fold_picture(&picture, *digest);
     }

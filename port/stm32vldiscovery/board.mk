@@ -10,8 +10,8 @@ PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M stm32vldiscovery
 # SysTick's 24 bits are 5.4 million instructions.
 ICOUNT_SHIFT := 7
-ROM_SCENES := brick
-CAPS := 2,1,4,6,0,6
+ROM_SCENES := pair brick
+CAPS := 3,2,4,6,0,6
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
