@@ -114,12 +114,12 @@ static void wide_pile(int i, struct carom_body_def *def)
     pour(i, 3, 1900, 0, def);
 }
 
-/* In a row, each higher than the one before: they land one after the other. */
-static void scatter(int i, struct carom_body_def *def)
+/* Side by side, the second so high that it lands when the first lies still. */
+static void in_turn(int i, struct carom_body_def *def)
 {
     def->position.c[0] = CAROM_POSITION_MM(-1500 + 1000 * i);
-    def->position.c[1] = CAROM_POSITION_MM(200 - 300 * (i % 2));
-    def->position.c[2] = CAROM_POSITION_MM(1500 + 600 * i);
+    def->position.c[1] = CAROM_POSITION_MM(200 - 300 * i);
+    def->position.c[2] = CAROM_POSITION_MM(1000 + 4000 * i);
     def->velocity.c[0] = CAROM_VELOCITY_MM_S(500 - 400 * i, FPS);
     def->velocity.c[1] = CAROM_VELOCITY_MM_S(100, FPS);
     def->velocity.c[2] = 0;
@@ -178,7 +178,7 @@ static const struct scene_recipe {
     {"head836", &head_start, NULL, 0, 0, 0},
     {"apart", &far_start, NULL, 0, 0, 0},
     {"box", &box_start, NULL, 0, 0, 0},
-    {"pair", &head_start, scatter, 1, 3, 10},
+    {"pair", &dull_start, in_turn, 1, 3, 10},
     {"brick", &box_start, NULL, 0, 3, 10},
     {"boxes3", &dull_start, one_by_one, 2, 2, 6},
     {"boxes10", &box_start, lay, 9, 0, 0},

@@ -11,7 +11,7 @@
  *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces
  *   apart       the head a thousand units above the field
  *   box         a box of three different sides, dropped on a plane
- *   pair        a tetrahedron and a box, dropped on the plane
+ *   pair        a tetrahedron and a box that fall on the plane one after the other
  *   brick       the box on the plane, with fewer sub-steps and sweeps
  *   boxes3      three boxes that fall on the field of 128 faces one after the other
  *   boxes10     ten of them, put on the plane

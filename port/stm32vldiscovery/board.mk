@@ -3,7 +3,7 @@
 CPU := Cortex-M3
 DISPLAY := none
 CLOCK_MHZ := 24
-SCENES := brick:30
+SCENES := pair:30 brick:30
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c
@@ -13,7 +13,7 @@ ICOUNT_SHIFT := 7
 ROM_SCENES := pair brick
 CAPS := 3,2,4,6,0,6
 DRAW_BYTES := 0
-LINE_BYTES := 96
+LINE_BYTES := 64
 PICTURES := 0
 SUITES := port fix arena scan zlist mass
 SUITE_IMAGES := 1
