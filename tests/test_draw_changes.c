@@ -65,9 +65,9 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
         CHECK(scene_before(&scene, world, frame) >= 0);
         CHECK(carom_world_step(world) >= 0);
         memset(full, 0, sizeof full);
-        CHECK_EQ(carom_draw(world, &scene.camera, &picture, style), CAROM_OK);
+        CHECK_EQ(carom_draw(world, scene.camera, &picture, style), CAROM_OK);
         picture = picture_of(buffers[k], format, bytes);
-        CHECK_EQ(carom_draw_changes(world, &scene.camera, &picture, style, &drawn[k]), CAROM_OK);
+        CHECK_EQ(carom_draw_changes(world, scene.camera, &picture, style, &drawn[k]), CAROM_OK);
         CHECK(memcmp(full, buffers[k], sizeof full) == 0);
         for (int i = 0; i < drawn[k].changed_count; i++) {
             const struct carom_rect *r = &drawn[k].changed[i];

@@ -66,8 +66,8 @@ static void head(void)
 
     for (int frame = 0; frame <= FRAMES; frame++) {
         if (frame % EACH == 0) {
-            uint32_t a = cost(world, &scene.camera, WIDTH, HEIGHT, sizeof workspace);
-            uint32_t b = cost(world, &scene.camera, SIDE, SIDE, sizeof workspace);
+            uint32_t a = cost(world, scene.camera, WIDTH, HEIGHT, sizeof workspace);
+            uint32_t b = cost(world, scene.camera, SIDE, SIDE, sizeof workspace);
 
             small = a > small ? a : small;
             large = b > large ? b : large;
@@ -84,7 +84,7 @@ static void head(void)
 static void out_of_sight(void)
 {
     struct carom_world *world = new_scene("pile");
-    struct carom_camera away = scene.camera;
+    struct carom_camera away = *scene.camera;
     uint32_t spent, empty;
 
     for (int k = 0; k < 3; k++) {
@@ -114,12 +114,12 @@ static void parts(void)
     for (int frame = 0; frame < 50; frame++) {
         CHECK(carom_world_step(world) >= 0);
     }
-    cost(world, &scene.camera, WIDTH, HEIGHT, sizeof workspace);
+    cost(world, scene.camera, WIDTH, HEIGHT, sizeof workspace);
     memcpy(reference, pixels, sizeof reference);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         memset(pixels, 0xee, sizeof pixels);
         memset(workspace, 0x5a, sizeof workspace);
-        report("in parts", cost(world, &scene.camera, WIDTH, HEIGHT, sizes[i]));
+        report("in parts", cost(world, scene.camera, WIDTH, HEIGHT, sizes[i]));
         CHECK(memcmp(reference, pixels, sizeof reference) == 0);
         CHECK_EQ(workspace[sizes[i]], 0x5a);
     }
@@ -129,7 +129,7 @@ static void parts(void)
 static void no_gaps(void)
 {
     struct carom_world *world = new_scene("head");
-    struct carom_camera camera = scene.camera;
+    struct carom_camera camera = *scene.camera;
 
     CHECK_EQ(carom_body_remove(world, SCENE_BODY), CAROM_OK);
     for (int view = 0; view < 8; view++) {

@@ -431,6 +431,17 @@ static void test_add_volume(void)
     use_box(7, 2048, 1024, 1026);
     def.stationary = true;
     accept();
+    /* so thin that its inertia has no inverse: moments are 2^25 to 1, and 2^22 to 1 */
+    use_box(12, 32000, 4, 4);
+    def.mass_q20 = 1 << 20;
+    refuse(CAROM_ERR_RANGE);
+    use_box(12, 32000, 4, 4);
+    def.mass_q20 = 1 << 20;
+    def.stationary = true;
+    accept();
+    use_box(12, 12000, 4, 4);
+    def.mass_q20 = 1 << 20;
+    accept();
 }
 
 /* A heavy body with a radius of 30.6 units, the most that may move being 32. */

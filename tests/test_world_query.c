@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * carom_query_faces and carom_query_inside: what they accept and refuse, and that asking changes
- * nothing that a step does.
+ * nothing that a step does. Contacts are said to be where they are.
  */
 #include <string.h>
 
@@ -17,9 +17,10 @@ static struct shape box, ground;
 static struct carom_face_pair pairs[ROOM];
 
 /* A plane as body 0 and a box as body 1, half in the plane, a corner down. */
-static struct carom_world *setup(int n)
+static struct carom_world *setup_capped(int n, uint8_t substep_cap)
 {
-    const struct carom_config config = {.caps = {CAPS}, .gravity = {{0, 0, -((int64_t)1 << 31)}}};
+    const struct carom_config config = {
+        .caps = {CAPS}, .gravity = {{0, 0, -((int64_t)1 << 31)}}, .substep_cap = substep_cap};
     struct carom_body_def def;
     struct carom_world *world = NULL;
 
@@ -34,6 +35,11 @@ static struct carom_world *setup(int n)
     def.restitution_q30 = CAROM_ONE_Q30 / 2;
     CHECK_EQ(carom_body_add(world, &def), 1);
     return world;
+}
+
+static struct carom_world *setup(int n)
+{
+    return setup_capped(n, 0);
 }
 
 static void make_shapes(void)
@@ -130,7 +136,47 @@ static void test_no_change(void)
     CHECK(carom_contacts(asked, NULL, 0) > 0); /* it has come down */
 }
 
+/*
+ * Contacts of a box with a plane are on the plane and on the box, whether the frame goes on after them
+ * or, for want of sub-steps, ends with an impact.
+ */
+static void test_contacts(void)
+{
+    const int64_t near_q32 = (int64_t)1 << 24; /* some skins: 2^-8 of the box's size */
+
+    make_shapes();
+    for (uint8_t cap = 0; cap < 2; cap++) {
+        struct carom_world *world = setup_capped(0, cap);
+        int seen = 0, cut = 0;
+
+        set_height(world, (int64_t)3 << 30);
+        for (int frame = 0; frame < FRAMES; frame++) {
+            struct carom_contact contacts[32];
+            struct carom_body_state state;
+            int status = carom_world_step(world), n = carom_contacts(world, contacts, 32);
+
+            CHECK(status >= 0 && n <= 32);
+            CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
+            for (int i = 0; i < n; i++) {
+                int64_t arm[3];
+
+                for (int k = 0; k < 3; k++) {
+                    arm[k] = contacts[i].point.c[k] - state.position.c[k];
+                }
+                CHECK_NEAR(contacts[i].point.c[2], 0, near_q32);
+                if (status != CAROM_OK) { /* the box is where it was hit */
+                    CHECK(fix_length(arm) < ((int64_t)box.mesh.radius_q22 << 10) + near_q32);
+                    cut++;
+                }
+            }
+            seen += n;
+        }
+        CHECK(seen > 0 && (cut > 0) == (cap > 0));
+    }
+}
+
 const struct test tests_world_query[] = {{"world_query/errors", test_errors},
                                          {"world_query/places", test_places},
                                          {"world_query/no_change", test_no_change},
+                                         {"world_query/contacts", test_contacts},
                                          {0}};
