@@ -283,7 +283,7 @@ static void test_refused(void)
     const int16_t a0[3] = {0, 0, 0}, a1[3] = {100, 100, 100};
     const int16_t b0[3] = {200, 0, 0}, b1[3] = {300, 100, 99}, whole0[3] = {-32768, -32768, -32768};
     const int16_t whole1[3] = {32767, 32767, 32767};
-    struct shape s = {.raw = {0}}, pair = {.raw = {0}}, twice = {.raw = {0}};
+    static struct shape s, pair, twice; /* too large for the stack of a small board */
 
     memset(&m, 0x5a, sizeof m);
     before = m;
