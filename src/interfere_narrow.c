@@ -280,6 +280,24 @@ static int64_t size_of(const int32_t v[3])
 }
 
 /*
+ * Which of +w and -w lies between the faces of an edge, a bit each, d being the direction of the other
+ * edge: square to its edge in a face with normal n, (e x f).(n x f) is e.n, and (e x f).(n x e) is -f.n.
+ */
+static uint32_t sides_between(const struct carom_mesh *mesh, const struct carom_edge *edge,
+                              const int32_t d[3], int32_t tolerance_q28)
+{
+    int32_t on_q28[2];
+
+    for (int side = 0; side < 2; side++) {
+        uint16_t face = edge->face[side];
+
+        on_q28[side] = face == CAROM_NO_FACE ? 0 : interfere_dot(mesh->faces[face].normal.c, d);
+    }
+    return (uint32_t)(on_q28[0] <= tolerance_q28 && -on_q28[1] <= tolerance_q28) |
+           (uint32_t)(-on_q28[0] <= tolerance_q28 && on_q28[1] <= tolerance_q28) << 1;
+}
+
+/*
  * Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
  * The angle turned moves w / |w| by up to turn / sine; all is multiplied by the sine.
  */
@@ -287,28 +305,14 @@ static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t
 {
     int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
     int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
-    bool plus = true, minus = true;
-    int32_t w_a[3];
+    int32_t f_a[3], tolerance_q28 = (int32_t)(tolerance_q60 >> 32) + 1;
+    uint32_t sides = sides_between(in->b->mesh, l->b, l->e, tolerance_q28);
 
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_b = mesh_edge_inward(in->b->mesh, l->b, side);
-        int64_t on_b = carom_dot(l->w, in_b.c);
-
-        plus = plus && on_b <= tolerance_q60;
-        minus = minus && -on_b <= tolerance_q60;
-    }
-    if (!plus && !minus) {
+    if (sides == 0) {
         return false;
     }
-    carom_rotate_back(w_a, &in->leaf->to_b, l->w);
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_a = mesh_edge_inward(in->a->mesh, l->a, side);
-        int64_t on_a = carom_dot(w_a, in_a.c);
-
-        plus = plus && -on_a <= tolerance_q60;
-        minus = minus && on_a <= tolerance_q60;
-    }
-    return plus || minus;
+    carom_rotate_back(f_a, &in->leaf->to_b, l->b->direction.c);
+    return (sides & sides_between(in->a->mesh, l->a, f_a, tolerance_q28)) != 0;
 }
 
 /*
