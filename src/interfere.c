@@ -138,7 +138,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
     l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
     sweep_sphere(w, 2);
     if (l->quanta_low[2] > w->leaf->top || l->quanta_high[2] < box[0][2]) {
-        return false; /* most end above b */
+        return false;
     }
     for (int k = 0; k < 2; k++) {
         sweep_sphere(w, k);
@@ -346,13 +346,38 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
+/*
+ * How high the centre of a leaf may be above its radius, q20, for leaf_near to find that it is not above
+ * b: with what no leaf reaches beyond, for its sphere is within twice the radius of a.
+ */
+static int32_t highest_centre(const struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = w->leaf;
+    int64_t turns_q30 = l->angle_q30 / 2 + l->skew_q30, reach_q20;
+
+    for (int k = 0; k < 3; k++) {
+        turns_q30 += carom_abs(l->change.c[2][k]) / 2;
+    }
+    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->radius_q22, 30)) >> 2) +
+                carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 4;
+    reach_q20 += (int64_t)(l->top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
+                 (mb->mass.centre.c[2] >> 2) - l->at.c[2];
+    return (int32_t)(reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2);
+}
+
 void interfere_leaves(struct interfere *w)
 {
-    const struct carom_mesh *ma = w->a->mesh;
+    const struct carom_leaf *leaf = w->a->mesh->leaves, *end = leaf + w->a->mesh->leaf_count;
+    const int32_t up[3] = {w->leaf->to_b.c[2][0], w->leaf->to_b.c[2][1], w->leaf->to_b.c[2][2]};
+    int32_t highest_q20;
 
     w->leaf->top = highest_of_b(w);
-    for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
-        if (leaf_near(w, &ma->leaves[i])) {
+    highest_q20 = highest_centre(w);
+    for (; leaf < end && !w->error; leaf++) {
+        /* most end here */
+        if (interfere_dot(up, leaf->centre.c) - (leaf->radius_q22 >> 2) <= highest_q20 &&
+            leaf_near(w, leaf)) {
             visit_leaf(w);
         }
     }
