@@ -12,7 +12,7 @@
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
 /* A hit leads a body that goes farther than this in a slice aside by more than any room. */
-#define ROOM_WAY_SKINS 40
+#define ROOM_WAY_SKINS 10
 
 struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p)
 {
