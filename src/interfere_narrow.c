@@ -359,6 +359,12 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
            !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
 }
 
+/* Whether two places are both before two others; nearly always the first two say no. */
+static inline bool both_before(int32_t p, int32_t q, int32_t c, int32_t d)
+{
+    return p < c && p < d && q < c && q < d;
+}
+
 /* Whether the way of an edge of the leaf, between p and q, keeps clear of one between c and d. */
 static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
                        const struct interfere_vec *q, const struct interfere_vec *c,
@@ -369,8 +375,8 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
     for (int k = 0; k < 3; k++) {
         int32_t reach = l->reach.c[k];
 
-        if (most(p->c[k], q->c[k]) + reach < least(c->c[k], d->c[k]) ||
-            least(p->c[k], q->c[k]) - reach > most(c->c[k], d->c[k])) {
+        if (both_before(p->c[k] + reach, q->c[k] + reach, c->c[k], d->c[k]) ||
+            both_before(c->c[k] + reach, d->c[k] + reach, p->c[k], q->c[k])) {
             return true;
         }
     }

@@ -194,7 +194,9 @@ int step_gather(struct step *s)
     int64_t time_q30;
     int result;
 
-    step_predict_all(s, slice_q30);
+    if (s->path_q30 != slice_q30) {
+        step_predict_all(s, slice_q30);
+    }
     time_q30 = region_time(s, slice_q30);
     if (time_q30 == slice_q30) {
         return gather(s, slice_q30, slice_q30, UINT32_MAX);
