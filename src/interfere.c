@@ -179,16 +179,16 @@ static bool place_leaf(struct interfere *w)
     const uint16_t *vertex = &ma->leaf_vertices[leaf->first_vertex];
     /* copies, again */
     const int16_t(*quanta)[3] = ma->raw.vertices;
-    const int32_t one = (int32_t)1 << (22 - ma->raw.quantum_bits), x = ma->mass.centre.c[0],
-                  y = ma->mass.centre.c[1], z = ma->mass.centre.c[2];
+    const int32_t one = (int32_t)1 << (22 - ma->raw.quantum_bits),
+                  x = -ma->mass.centre.c[0], y = -ma->mass.centre.c[1], z = -ma->mass.centre.c[2];
     carom_v3_q22 local[CAROM_LEAF_VERTICES], *end = local + leaf->vertex_count;
 
     for (carom_v3_q22 *to = local; to < end; to++) {
         const int16_t *from = quanta[*vertex++];
 
-        to->c[0] = from[0] * one - x;
-        to->c[1] = from[1] * one - y;
-        to->c[2] = from[2] * one - z;
+        to->c[0] = from[0] * one + x;
+        to->c[1] = from[1] * one + y;
+        to->c[2] = from[2] * one + z;
     }
     place_axis(w, local, 2);
     if (!reaches_leaf(w)) {

@@ -56,16 +56,22 @@ static void place_target(const struct interfere *w, struct target *t)
     }
 }
 
+static inline void bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low, int32_t *high)
+{
+    int32_t less = x < y ? x : y, more = x < y ? y : x;
+
+    *low = z < less ? z : less;
+    *high = z > more ? z : more;
+}
+
+/* Spelled out, because compilers leave loops over three components. */
 static inline void bound(const struct interfere_vec *p, const struct interfere_vec *q,
                          const struct interfere_vec *r, struct interfere_vec *low,
                          struct interfere_vec *high)
 {
-    for (int i = 0; i < 3; i++) {
-        int32_t x = p->c[i], y = q->c[i], z = r->c[i];
-
-        low->c[i] = least(x, least(y, z));
-        high->c[i] = most(x, most(y, z));
-    }
+    bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
+    bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
+    bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
 }
 
 /* Corners of the leaf's faces. */
@@ -111,6 +117,12 @@ static inline bool boxes_meet(struct interfere *w, const struct target *t, uint3
 
 /* ------------------------------------------------------------------- planes */
 
+/* 1 when a is less than b; they differ by less than 2^31. */
+static inline uint32_t is_less(int32_t a, int32_t b)
+{
+    return (uint32_t)(a - b) >> 31;
+}
+
 /*
  * Which vertices of the leaf stay over the plane of b's face on their way, or under it. False when
  * all of them do the same.
@@ -128,9 +140,8 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
 
         p--;
         height_q18 = interfere_dot(n, p->c);
-        /* the signs of the differences, which are below 2^31 */
-        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
-        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
+        over = over << 1 | is_less(above_q18, height_q18);
+        under = under << 1 | is_less(height_q18, below_q18);
     }
     t->over = over;
     t->under = under;
@@ -157,20 +168,17 @@ static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
 static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
     const struct interfere_plane *plane = plane_of(w, i);
-    const int32_t n[3] = {plane->n_q30[0], plane->n_q30[1], plane->n_q30[2]};
+    const int32_t *n = plane->n_q30;
     int32_t above_q18 = plane->offset_q18 + plane->reach_q18;
     int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
-    uint32_t over = 0, under = 0;
+    int32_t p_q18 = interfere_dot(n, t->p[0].c), q_q18 = interfere_dot(n, t->p[1].c),
+            r_q18 = interfere_dot(n, t->p[2].c);
 
-    for (int k = 2; k >= 0; k--) {
-        int32_t height_q18 = interfere_dot(n, t->p[k].c);
-
-        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
-        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
-    }
-    t->corners_over = over;
-    t->corners_under = under;
-    return over != 7 && under != 7;
+    t->corners_over = is_less(above_q18, p_q18) | is_less(above_q18, q_q18) << 1 |
+                      is_less(above_q18, r_q18) << 2;
+    t->corners_under = is_less(p_q18, below_q18) | is_less(q_q18, below_q18) << 1 |
+                       is_less(r_q18, below_q18) << 2;
+    return t->corners_over != 7 && t->corners_under != 7;
 }
 
 /* ---------------------------------------------------------- vertices, faces */
@@ -210,56 +218,71 @@ static bool outside(const struct interfere_vec *p, const struct interfere_vec *l
     return false;
 }
 
-/* The corners that face i of the leaf owns against b's face. */
-static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i)
+/* A vertex of the leaf that reaches the plane of b's face and its box. */
+static bool vertex_face(struct interfere *w, const struct target *t, uint32_t at)
 {
     const struct interfere_leaf *l = w->leaf;
     const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
-    uint8_t own = ma->faces[interfere_face(w, i)].own;
+    int32_t n[3];
+    uint32_t v;
+
+    if (stays_beside(l, &l->p[at], corners, t->face->normal.c)) {
+        return false;
+    }
+    carom_rotate_back(n, &l->to_b, t->face->normal.c);
+    v = ma->leaf_vertices[l->leaf->first_vertex + at];
+    if (!mesh_vertex_cone(ma, v, n, l->cone_q30)) {
+        return false;
+    }
+    emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
+    return true;
+}
+
+/* The corners that face i of the leaf owns against b's face. */
+static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i)
+{
+    const struct interfere_leaf *l = w->leaf;
+    uint32_t left = w->a->mesh->faces[interfere_face(w, i)].own & 7;
+    const uint8_t *corner = interfere_corners(w, i);
     bool any = false;
 
-    for (int k = 0; k < 3; k++) {
-        uint32_t at = interfere_corners(w, i)[k];
-        const struct interfere_vec *p = &l->p[at];
-        int32_t n[3];
-        uint32_t v;
-
-        if (!(own & 1 << k) || ((t->over | t->under) >> at & 1) ||
-            outside(p, &t->low, &t->high, &l->reach) ||
-            stays_beside(l, p, corners, t->face->normal.c)) {
-            continue;
-        }
-        carom_rotate_back(n, &w->leaf->to_b, t->face->normal.c);
-        v = ma->leaf_vertices[l->leaf->first_vertex + at];
-        if (mesh_vertex_cone(ma, v, n, w->leaf->cone_q30)) {
-            emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
-            any = true;
-        }
+    for (; left != 0; left >>= 1, corner++) {
+        any |= (left & 1) && !((t->over | t->under) >> *corner & 1) &&
+               !outside(&l->p[*corner], &t->low, &t->high, &l->reach) && vertex_face(w, t, *corner);
     }
     return any;
+}
+
+/* Corner k of b's face, which reaches the plane of face i of the leaf and its box. */
+static bool face_vertex(struct interfere *w, const struct target *t, uint32_t i, int k)
+{
+    const struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
+    const int32_t *n = l->planes[i].n_q30;
+    uint32_t v = w->b->mesh->raw.faces[t->number][k];
+
+    if (stays_beside(l, &t->p[k], p, n) ||
+        !mesh_vertex_cone(w->b->mesh, v, n, w->leaf->cone_q30)) {
+        return false;
+    }
+    emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
+    return true;
 }
 
 /* The corners that b's face owns against face i of the leaf. */
 static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
-    const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const struct interfere_vec none = {{0, 0, 0}}; /* the box of face i has it */
-    const int32_t *n = l->planes[i].n_q30;
     uint32_t left = t->face->own & ~(t->corners_over | t->corners_under) & 7;
     bool any = false;
 
     for (int k = 0; left >> k != 0; k++) {
-        uint32_t v = w->b->mesh->raw.faces[t->number][k];
-
-        if ((left >> k & 1) && !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
-            !stays_beside(l, &t->p[k], p, n) &&
-            mesh_vertex_cone(w->b->mesh, v, n, w->leaf->cone_q30)) {
-            emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
-            any = true;
-        }
+        any |= (left >> k & 1) &&
+               !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
+               face_vertex(w, t, i, k);
     }
     return any;
 }
