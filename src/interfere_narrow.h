@@ -56,6 +56,15 @@ static inline const uint8_t *interfere_corners(const struct interfere *w, uint32
  */
 void interfere_narrow(struct interfere *w, uint16_t face_b);
 
+/*
+ * Emit a pair of features if they can touch; whether it is one. A vertex of the leaf and b's face,
+ * corner k of that and face i of the leaf, edge k of this and edge j of that: each reaches the plane
+ * and the box of the other.
+ */
+bool interfere_vertex_face(struct interfere *w, const struct target *t, uint32_t at);
+bool interfere_face_vertex(struct interfere *w, const struct target *t, uint32_t i, int k);
+bool interfere_edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j);
+
 /* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
 bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);
 
