@@ -53,9 +53,9 @@ struct interfere_vec {
     int32_t c[3];
 };
 
-/* The plane of a face of the leaf in the middle of its way, and the reach along its normal. */
+/* The plane of a face of the leaf in the middle of its way, by the reach along its normal over and under. */
 struct interfere_plane {
-    int32_t n_q30[3], offset_q18, reach_q18;
+    int32_t n_q30[3], above_q18, below_q18;
 };
 
 /* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are

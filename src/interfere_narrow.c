@@ -2,16 +2,6 @@
 /* From a swept leaf and a face that is near to the faces of the leaf that no plane parts from it. */
 #include "interfere_narrow.h"
 
-static inline int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static inline int32_t most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 /* -------------------------------------------------------------------- boxes */
 
 static void place_target(const struct interfere *w, struct target *t)
@@ -27,52 +17,6 @@ static void place_target(const struct interfere *w, struct target *t)
     }
 }
 
-static inline void bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low, int32_t *high)
-{
-    int32_t less = x < y ? x : y, more = x < y ? y : x;
-
-    *low = z < less ? z : less;
-    *high = z > more ? z : more;
-}
-
-/* Spelled out, because compilers leave loops over three components. */
-static inline void bound(const struct interfere_vec *p, const struct interfere_vec *q,
-                         const struct interfere_vec *r, struct interfere_vec *low,
-                         struct interfere_vec *high)
-{
-    bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
-    bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
-    bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
-}
-
-/* Corners of the leaf's faces. */
-static void list_faces(struct interfere *w)
-{
-    struct interfere_leaf *l = w->leaf;
-
-    l->listed = true;
-    l->boxed = l->placed = 0;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = interfere_corners(w, i);
-
-        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-    }
-}
-
-/* The box around the way of a face of the leaf. */
-static void box_face(struct interfere *w, uint32_t i)
-{
-    struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
-
-    l->boxed |= 1u << i;
-    bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i], &l->face_high[i]);
-    for (int k = 0; k < 3; k++) {
-        l->face_low[i].c[k] -= l->reach.c[k];
-        l->face_high[i].c[k] += l->reach.c[k];
-    }
-}
-
 /* Whether the box around a leaf's face's way meets that of b's face. */
 static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
 {
@@ -80,7 +24,7 @@ static inline bool boxes_meet(struct interfere *w, const struct target *t, uint3
     const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
 
     if (!(l->boxed >> i & 1)) {
-        box_face(w, i);
+        interfere_box_face(w, i);
     }
     return low[0] <= t->high.c[0] && high[0] >= t->low.c[0] && low[1] <= t->high.c[1] &&
            high[1] >= t->low.c[1] && low[2] <= t->high.c[2] && high[2] >= t->low.c[2];
@@ -119,32 +63,20 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
     return over != all && under != all;
 }
 
-/* The plane of a face of the leaf. */
-static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
-{
-    struct interfere_leaf *l = w->leaf;
-    struct interfere_plane *plane = &l->planes[i];
-
-    if (!(l->placed >> i & 1)) {
-        l->placed |= 1u << i;
-        carom_rotate(plane->n_q30, &w->leaf->to_b,
-                     w->a->mesh->faces[interfere_face(w, i)].normal.c);
-        plane->offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
-        plane->reach_q18 = interfere_reach_q18(l, plane->n_q30);
-    }
-    return plane;
-}
-
 /* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
 static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
-    const struct interfere_plane *plane = plane_of(w, i);
-    const int32_t *n = plane->n_q30;
-    int32_t above_q18 = plane->offset_q18 + plane->reach_q18;
-    int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
-    int32_t p_q18 = interfere_dot(n, t->p[0].c), q_q18 = interfere_dot(n, t->p[1].c),
-            r_q18 = interfere_dot(n, t->p[2].c);
+    const struct interfere_plane *plane = &w->leaf->planes[i];
+    int32_t above_q18, below_q18, p_q18, q_q18, r_q18;
 
+    if (!(w->leaf->placed >> i & 1)) {
+        interfere_place_plane(w, i);
+    }
+    above_q18 = plane->above_q18;
+    below_q18 = plane->below_q18;
+    p_q18 = interfere_dot(plane->n_q30, t->p[0].c);
+    q_q18 = interfere_dot(plane->n_q30, t->p[1].c);
+    r_q18 = interfere_dot(plane->n_q30, t->p[2].c);
     t->corners_over =
         is_less(above_q18, p_q18) | is_less(above_q18, q_q18) << 1 | is_less(above_q18, r_q18) << 2;
     t->corners_under =
@@ -286,9 +218,9 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
         return;
     }
     place_target(w, &t);
-    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
+    interfere_bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
     if (!l->listed) {
-        list_faces(w);
+        interfere_list_faces(w);
     }
     for (uint32_t i = 0, over = t.over, under = t.under, n = l->leaf->face_count; i < n; i++) {
         uint32_t corners = l->corners[i];
