@@ -38,11 +38,17 @@ static struct interfere_vec difference(const struct interfere_vec *a, const stru
 
 /* ---------------------------------------------------------- vertices, faces */
 
+/* |v| in 32 bits */
+static inline int32_t magnitude(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
 /* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
 static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
                          const struct interfere_vec *const t[3], const int32_t n[3])
 {
-    int64_t x = carom_abs(n[0]), y = carom_abs(n[1]), z = carom_abs(n[2]);
+    int32_t x = magnitude(n[0]), y = magnitude(n[1]), z = magnitude(n[2]);
     int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
     int i = axis == 2 ? 0 : axis + 1, j = i == 2 ? 0 : i + 1;
 
@@ -54,7 +60,8 @@ static bool stays_beside(const struct interfere_leaf *l, const struct interfere_
         if (n[axis] < 0) {
             inside = -inside;
         }
-        if (inside < -(carom_abs(ex) * l->reach.c[j] + carom_abs(ey) * l->reach.c[i])) {
+        if (inside <
+            -((int64_t)magnitude(ex) * l->reach.c[j] + (int64_t)magnitude(ey) * l->reach.c[i])) {
             return true;
         }
     }
@@ -108,7 +115,8 @@ struct lines {
 
 static int64_t size_of(const int32_t v[3])
 {
-    return carom_abs(v[0]) + carom_abs(v[1]) + carom_abs(v[2]);
+    return (int64_t)((uint32_t)magnitude(v[0]) + (uint32_t)magnitude(v[1]) +
+                     (uint32_t)magnitude(v[2]));
 }
 
 /*
@@ -175,8 +183,7 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
 
     carom_rotate(l->e, &in->leaf->to_b, l->a->direction.c);
     carom_cross(l->w, l->e, f, 30);
-    largest = most(most((int32_t)carom_abs(l->w[0]), (int32_t)carom_abs(l->w[1])),
-                   (int32_t)carom_abs(l->w[2]));
+    largest = most(most(magnitude(l->w[0]), magnitude(l->w[1])), magnitude(l->w[2]));
     if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
         return true; /* may be parallel somewhere on the way: leave it to the exact test */
     }

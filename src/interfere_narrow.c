@@ -18,9 +18,9 @@ static void place_target(const struct interfere *w, struct target *t)
 }
 
 /* Whether the box around a leaf's face's way meets that of b's face. */
-static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
+static inline bool boxes_meet(struct interfere *w, const struct interfere_leaf *l,
+                              const struct target *t, uint32_t i)
 {
-    struct interfere_leaf *l = w->leaf;
     const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
 
     if (!(l->boxed >> i & 1)) {
@@ -226,7 +226,7 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
         uint32_t corners = l->corners[i];
 
         /* does it reach to both sides of the plane, or near to it? */
-        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, &t, i) &&
+        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, l, &t, i) &&
             is_reached(w, &t, i) && w->meet(w, &t, i)) {
             busy |= 1u << i;
         }
