@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Of <string.h>, what wasm.c has. */
-#ifndef CAROM_PORT_WASM_STRING_H
-#define CAROM_PORT_WASM_STRING_H
+/* Of <string.h>, what string.c has. */
+#ifndef CAROM_PORT_NOLIBC_STRING_H
+#define CAROM_PORT_NOLIBC_STRING_H
 
 #include <stddef.h>
 
