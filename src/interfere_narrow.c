@@ -8,12 +8,16 @@ static void place_target(const struct interfere *w, struct target *t)
 {
     const struct carom_mesh *mb = w->b->mesh;
 
-    for (int k = 0; k < 3; k++) {
-        carom_v3_q22 corner = mesh_corner(mb, t->number, k);
+    const uint16_t *corner = mb->raw.faces[t->number];
+    const int32_t *centre = mb->mass.centre.c, x = centre[0], y = centre[1], z = centre[2];
+    int shift = 22 - mb->raw.quantum_bits;
 
-        for (int i = 0; i < 3; i++) {
-            t->p[k].c[i] = corner.c[i] >> 2;
-        }
+    for (int k = 0; k < 3; k++) {
+        const int16_t *from = mb->raw.vertices[corner[k]];
+
+        t->p[k].c[0] = (from[0] * (1 << shift) - x) >> 2;
+        t->p[k].c[1] = (from[1] * (1 << shift) - y) >> 2;
+        t->p[k].c[2] = (from[2] * (1 << shift) - z) >> 2;
     }
 }
 
