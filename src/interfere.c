@@ -41,33 +41,18 @@ static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3
     };
 }
 
-/* The highest z of b in some cells of a row, or `top`: up to the first one that is as high as `enough`. */
-static int32_t highest_in_row(const struct carom_mesh *mb, uint32_t cell, int32_t count,
-                              int32_t top, int32_t enough)
+/* The highest z of b in a cell; below all of it when there is none. */
+static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 {
+    const struct carom_mesh *mb = w->b->mesh;
     const uint32_t *start = &mb->cell_start[cell];
-    const struct carom_zref *zrefs = mb->zrefs;
 
-    for (; count > 0 && top < enough; count--, start++) {
-        if (start[0] != start[1] && zrefs[start[0]].z1 > top) {
-            top = zrefs[start[0]].z1;
-        }
+    if (w->pooled) {
+        uint16_t head = w->lists.head[cell];
+
+        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
     }
-    return top;
-}
-
-/* The same of the lists that were made. */
-static int32_t highest_made(const struct interfere *w, uint32_t cell, int32_t count, int32_t top,
-                            int32_t enough)
-{
-    const uint16_t *head = &w->lists.head[cell];
-
-    for (; count > 0 && top < enough; count--, head++) {
-        if (*head != ZLIST_NONE && w->lists.entry[*head].z1 > top) {
-            top = w->lists.entry[*head].z1;
-        }
-    }
-    return top;
+    return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
 }
 
 /* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
@@ -76,13 +61,19 @@ static int32_t highest_under(const struct interfere *w, const int32_t low[3], co
 {
     const struct carom_mesh *mb = w->b->mesh;
     struct cells cells = cells_under(mb, low, high);
-    int32_t top = INT16_MIN - 1, count = cells.col[1] - cells.col[0] + 1;
+    int32_t top = INT16_MIN - 1;
 
-    for (int32_t row = cells.row[0]; row <= cells.row[1] && top < enough; row++) {
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
 
-        top = w->pooled ? highest_made(w, cell, count, top, enough)
-                        : highest_in_row(mb, cell, count, top, enough);
+        for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
+            int32_t z = cell_top(w, cell++);
+
+            top = z > top ? z : top;
+            if (z >= enough) {
+                return z;
+            }
+        }
     }
     return top;
 }
