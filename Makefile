@@ -177,7 +177,7 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
-	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/bench.elf
+	@$(SUBMAKE) BOARD=mps2-an385 OPT=-O2 build/mps2-an385/bench.elf
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
 	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
 

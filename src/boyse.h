@@ -73,6 +73,21 @@ struct boyse_hit {
 void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b);
 
 /*
+ * The same in two parts: what every candidate needs, and how a sees b, for vertices of b and faces of
+ * a. Of most pairs none comes up.
+ */
+void boyse_pair_begin(struct boyse_pair *pair, struct body *a, struct body *b);
+void boyse_pair_turn(struct boyse_pair *pair);
+
+/* Complete a pair that has begun for a candidate. */
+static inline void boyse_pair_for(struct boyse_pair *pair, const struct candidate *c)
+{
+    if (c->kind == CANDIDATE_FACE_VERTEX && !pair->view[1].to) {
+        boyse_pair_turn(pair);
+    }
+}
+
+/*
  * The exact test at time t: whether the features really face each other there, how far apart they
  * are and along which normal.
  */

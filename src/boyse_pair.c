@@ -60,18 +60,19 @@ static void set_fine(struct boyse_view *view)
     view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
 }
 
-/* v in the axes of a body; often, gravity above all, there is nothing to turn. */
-static void into_axes(int64_t v[3], const carom_m3_q30 *r)
+/* v in the axes of a body; often, gravity above all, there is nothing to turn, or the body is not turned. */
+static void into_axes(int64_t v[3], const struct body *b)
 {
-    if ((v[0] | v[1] | v[2]) != 0) {
-        fix_rotate_back(v, r, v);
+    const int32_t *q = b->path.q.c;
+
+    if ((v[0] | v[1] | v[2]) != 0 && (q[1] | q[2] | q[3]) != 0) {
+        fix_rotate_back(v, &b->path.start.r, v);
     }
 }
 
 /* How `to` sees `from`; view->r is known. */
 static void set_view(struct boyse_view *view, struct body *from, struct body *to)
 {
-    const carom_m3_q30 *to_r = &to->path.start.r;
     int64_t centre_q32[3], v[3], g[3];
     int32_t turning[3] = {0, 0, 0};
 
@@ -84,9 +85,9 @@ static void set_view(struct boyse_view *view, struct body *from, struct body *to
         g[k] = from->path.g.c[k] - to->path.g.c[k];
         view->u.c[k] = 0;
     }
-    into_axes(centre_q32, to_r);
-    into_axes(v, to_r);
-    into_axes(g, to_r);
+    into_axes(centre_q32, to);
+    into_axes(v, to);
+    into_axes(g, to);
     for (int k = 0; k < 3; k++) {
         view->centre.c[k] = (int32_t)carom_round(centre_q32[k], 10);
         view->v.c[k] = (int32_t)carom_round(v[k], 16);
@@ -119,7 +120,7 @@ static void set_axes(struct boyse_pair *pair)
     }
 }
 
-void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
+void boyse_pair_begin(struct boyse_pair *pair, struct body *a, struct body *b)
 {
     pair->a = a;
     pair->b = b;
@@ -131,5 +132,16 @@ void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
                                    fix_sqrt((uint64_t)b->path.u2_q30 << 30));
     set_axes(pair);
     set_view(&pair->view[0], a, b);
-    set_view(&pair->view[1], b, a);
+    pair->view[1].to = NULL;
+}
+
+void boyse_pair_turn(struct boyse_pair *pair)
+{
+    set_view(&pair->view[1], pair->b, pair->a);
+}
+
+void boyse_pair_init(struct boyse_pair *pair, struct body *a, struct body *b)
+{
+    boyse_pair_begin(pair, a, b);
+    boyse_pair_turn(pair);
 }

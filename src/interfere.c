@@ -78,19 +78,12 @@ static int32_t highest_under(const struct interfere *w, const int32_t low[3], co
     return top;
 }
 
-/* Whether b is as high as the leaf's box somewhere in the cells under it. */
-static bool reaches_leaf(const struct interfere *w)
+bool interfere_reaches_leaf(const struct interfere *w)
 {
     const struct interfere_leaf *l = w->leaf;
     int32_t low = l->quanta_low[2];
 
     return highest_under(w, l->quanta_low, l->quanta_high, low) >= low;
-}
-
-/* From b's frame to b's quanta along an axis. */
-static int32_t to_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
-{
-    return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
 }
 
 /* The highest z of b in the cells under a on its way. */
@@ -104,8 +97,8 @@ static int32_t highest_of_b(const struct interfere *w)
         int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->leaf->moves.c[k]) / 2 +
                         2 * PLACE_NOISE_Q20;
 
-        low[k] = to_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
-        high[k] = to_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
+        low[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
+        high[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
     }
     return highest_under(w, low, high, INT32_MAX);
 }
@@ -122,8 +115,8 @@ static inline void sweep_sphere(struct interfere *w, int k)
 
     l->shift.c[k] = shift;
     l->reach.c[k] = reach;
-    l->quanta_low[k] = to_quanta(mb, x - radius - reach, k);
-    l->quanta_high[k] = to_quanta(mb, x + radius + reach, k) + 1;
+    l->quanta_low[k] = interfere_quanta(mb, x - radius - reach, k);
+    l->quanta_high[k] = interfere_quanta(mb, x + radius + reach, k) + 1;
 }
 
 /* Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it. */
@@ -138,7 +131,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
     l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
     sweep_sphere(w, 2);
     if (l->quanta_low[2] > w->leaf->top || l->quanta_high[2] < box[0][2]) {
-        return false; /* most end above b */
+        return false;
     }
     for (int k = 0; k < 2; k++) {
         sweep_sphere(w, k);
@@ -146,85 +139,7 @@ static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
             return false;
         }
     }
-    return reaches_leaf(w);
-}
-
-/* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
-static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    struct interfere_leaf *l = w->leaf;
-    /* copies: what is stored might be a part of w for all that a compiler knows */
-    const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
-                  at = w->leaf->at.c[k];
-    const carom_v3_q22 *end = local + l->leaf->vertex_count;
-    int32_t low = INT32_MAX, high = INT32_MIN, *to = &l->p[0].c[k];
-
-    for (; local < end; local++, to += 3) {
-        int32_t x = interfere_dot(row, local->c) + at;
-
-        *to = x;
-        low = x < low ? x : low;
-        high = x > high ? x : high;
-    }
-    l->quanta_low[k] = to_quanta(mb, low - l->reach.c[k], k);
-    l->quanta_high[k] = to_quanta(mb, high + l->reach.c[k], k) + 1;
-}
-
-/* False when the leaf's vertices are above all of b under it. */
-static bool place_leaf(struct interfere *w)
-{
-    const struct carom_mesh *ma = w->a->mesh;
-    const struct carom_leaf *leaf = w->leaf->leaf;
-    const uint16_t *vertices = &ma->leaf_vertices[leaf->first_vertex];
-    carom_v3_q22 local[CAROM_LEAF_VERTICES];
-
-    for (uint32_t i = 0, n = leaf->vertex_count; i < n; i++) {
-        local[i] = mesh_vertex(ma, vertices[i]);
-    }
-    place_axis(w, local, 2);
-    if (!reaches_leaf(w)) {
-        return false;
-    }
-    place_axis(w, local, 0);
-    place_axis(w, local, 1);
-    return true;
-}
-
-/* A length in quanta, q15; what does not fit is as good as the largest that does. */
-static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
-{
-    int64_t x_q15 = x_q18 * ((int64_t)1 << (mesh->raw.quantum_bits - 3));
-
-    return x_q15 > INT32_MAX ? INT32_MAX : x_q15 < -INT32_MAX ? -INT32_MAX : (int32_t)x_q15;
-}
-
-/*
- * Where the slab of the leaf is, seen along its axis from b's origin. A product of the axis and a
- * vertex of b is below 2^15 times the length of the vertex, sqrt 3 2^15: 32 bits hold it. The axis is
- * off by half a unit along each of b's, the product by half of the vertex's coordinates.
- */
-static void place_slab(struct interfere *w)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    struct interfere_leaf *l = w->leaf;
-    int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
-
-    carom_rotate(axis_q30, &w->leaf->to_b, l->leaf->axis.c);
-    at_q18 =
-        interfere_dot(axis_q30, w->leaf->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
-    for (int k = 0; k < 3; k++) {
-        int32_t low = -mb->box[0][k], high = mb->box[1][k];
-
-        l->axis_q15[k] = (int32_t)carom_round(axis_q30[k], 15);
-        rounding_q15 += (low > high ? low : high) / 2 + 1;
-    }
-    /* low and high are those of a's own axes: to_b has them but for its skew */
-    reach_q18 = interfere_reach_q18(l, axis_q30) +
-                (int32_t)(fix_mul(w->a->radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
-                (rounding_q15 >> (mb->raw.quantum_bits - 3));
-    l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
-    l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
+    return interfere_reaches_leaf(w);
 }
 
 static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16_t p[3])
@@ -309,12 +224,9 @@ static void visit_leaf(struct interfere *w)
     const struct carom_mesh *mb = w->b->mesh;
     struct cells cells;
 
-    if (!place_leaf(w)) {
+    if (!interfere_place_leaf(w)) {
         return;
     }
-    place_slab(w);
-    w->leaf->busy = 0;
-    w->leaf->listed = false;
     memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* CAROM_NO_FACE */
     cells = cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
@@ -346,13 +258,38 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
+/*
+ * How high the centre of a leaf may be above its radius, q20, for leaf_near to find that it is not above
+ * b: with what no leaf reaches beyond, for its sphere is within twice the radius of a.
+ */
+static int32_t highest_centre(const struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = w->leaf;
+    int64_t turns_q30 = l->angle_q30 / 2 + l->skew_q30, reach_q20;
+
+    for (int k = 0; k < 3; k++) {
+        turns_q30 += carom_abs(l->change.c[2][k]) / 2;
+    }
+    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->radius_q22, 30)) >> 2) +
+                carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 4;
+    reach_q20 += (int64_t)(l->top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
+                 (mb->mass.centre.c[2] >> 2) - l->at.c[2];
+    return (int32_t)(reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2);
+}
+
 void interfere_leaves(struct interfere *w)
 {
-    const struct carom_mesh *ma = w->a->mesh;
+    const struct carom_leaf *leaf = w->a->mesh->leaves, *end = leaf + w->a->mesh->leaf_count;
+    const int32_t up[3] = {w->leaf->to_b.c[2][0], w->leaf->to_b.c[2][1], w->leaf->to_b.c[2][2]};
+    int32_t highest_q20;
 
     w->leaf->top = highest_of_b(w);
-    for (uint32_t i = 0; i < ma->leaf_count && !w->error; i++) {
-        if (leaf_near(w, &ma->leaves[i])) {
+    highest_q20 = highest_centre(w);
+    for (; leaf < end && !w->error; leaf++) {
+        /* most end here */
+        if (interfere_dot(up, leaf->centre.c) - (leaf->radius_q22 >> 2) <= highest_q20 &&
+            leaf_near(w, leaf)) {
             visit_leaf(w);
         }
     }

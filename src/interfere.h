@@ -46,16 +46,16 @@ struct candidate_visitor {
  * Faces of b that a leaf has come up with lately: a face lies in several cells. One that takes the
  * slot of another makes it forgotten, which is only work done twice.
  */
-#define INTERFERE_SEEN 64
+#define INTERFERE_SEEN 32
 
 /* A point or direction in b's mesh axes, from b's centre of mass. */
 struct interfere_vec {
     int32_t c[3];
 };
 
-/* The plane of a face of the leaf in the middle of its way, and the reach along its normal. */
+/* The plane of a face of the leaf in the middle of its way, by the reach along its normal over and under. */
 struct interfere_plane {
-    int32_t n_q30[3], offset_q18, reach_q18;
+    int32_t n_q30[3], above_q18, below_q18;
 };
 
 /* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are

@@ -53,8 +53,11 @@ bool interfere_set_motion(struct interfere *w)
         start[k] = a->at.c[k] - b->at.c[k];
         end[k] = start[k] + ((way_a.c[k] - way_b.c[k]) >> 8);
     }
-    fix_rotate_back(start, &r_b, start);
-    fix_rotate_back(end, &end_b, end);
+    if ((b->q.c[1] | b->q.c[2] | b->q.c[3]) != 0 || b->u_q30 > 0) {
+        /* most ground is not turned, and does not turn */
+        fix_rotate_back(start, &r_b, start);
+        fix_rotate_back(end, &end_b, end);
+    }
     for (int k = 0; k < 3; k++) {
         if (carom_abs(start[k]) > (int64_t)400 << 32) {
             return false;

@@ -1,45 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* From a swept leaf and a face that is near to the features of theirs that can touch. */
+/* From a swept leaf and a face that is near to the faces of the leaf that no plane parts from it. */
 #include "interfere_narrow.h"
-
-static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
-{
-    struct pool *pool = w->candidate_pool;
-    struct candidate *c;
-    int32_t place = pool_take(pool);
-
-    if (place < 0) {
-        /* a chunk: hand over what there is and go on */
-        w->visitor->visit(w->visitor, w->candidates, pool->used);
-        w->whole = false;
-        pool_clear(pool);
-        place = pool_take(pool);
-    }
-    c = &w->candidates[place];
-    c->pair = w->pair;
-    c->kind = kind;
-    c->i = i;
-    c->j = j;
-    w->candidate_count++;
-    if (pool->used > w->enough) {
-        w->error = INTERFERE_TOO_MANY;
-    }
-}
-
-static inline int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static inline int32_t most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
-{
-    return (struct interfere_vec){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
-}
 
 /* -------------------------------------------------------------------- boxes */
 
@@ -47,69 +8,39 @@ static void place_target(const struct interfere *w, struct target *t)
 {
     const struct carom_mesh *mb = w->b->mesh;
 
+    const uint16_t *corner = mb->raw.faces[t->number];
+    const int32_t *centre = mb->mass.centre.c, x = centre[0], y = centre[1], z = centre[2];
+    int shift = 22 - mb->raw.quantum_bits;
+
     for (int k = 0; k < 3; k++) {
-        carom_v3_q22 corner = mesh_corner(mb, t->number, k);
+        const int16_t *from = mb->raw.vertices[corner[k]];
 
-        for (int i = 0; i < 3; i++) {
-            t->p[k].c[i] = corner.c[i] >> 2;
-        }
-    }
-}
-
-static inline void bound(const struct interfere_vec *p, const struct interfere_vec *q,
-                         const struct interfere_vec *r, struct interfere_vec *low,
-                         struct interfere_vec *high)
-{
-    for (int i = 0; i < 3; i++) {
-        int32_t x = p->c[i], y = q->c[i], z = r->c[i];
-
-        low->c[i] = least(x, least(y, z));
-        high->c[i] = most(x, most(y, z));
-    }
-}
-
-/* Corners of the leaf's faces. */
-static void list_faces(struct interfere *w)
-{
-    struct interfere_leaf *l = w->leaf;
-
-    l->listed = true;
-    l->boxed = l->placed = 0;
-    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = interfere_corners(w, i);
-
-        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-    }
-}
-
-/* The box around the way of a face of the leaf. */
-static void box_face(struct interfere *w, uint32_t i)
-{
-    struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
-
-    l->boxed |= 1u << i;
-    bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i], &l->face_high[i]);
-    for (int k = 0; k < 3; k++) {
-        l->face_low[i].c[k] -= l->reach.c[k];
-        l->face_high[i].c[k] += l->reach.c[k];
+        t->p[k].c[0] = (from[0] * (1 << shift) - x) >> 2;
+        t->p[k].c[1] = (from[1] * (1 << shift) - y) >> 2;
+        t->p[k].c[2] = (from[2] * (1 << shift) - z) >> 2;
     }
 }
 
 /* Whether the box around a leaf's face's way meets that of b's face. */
-static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
+static inline bool boxes_meet(struct interfere *w, const struct interfere_leaf *l,
+                              const struct target *t, uint32_t i)
 {
-    struct interfere_leaf *l = w->leaf;
     const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
 
     if (!(l->boxed >> i & 1)) {
-        box_face(w, i);
+        interfere_box_face(w, i);
     }
     return low[0] <= t->high.c[0] && high[0] >= t->low.c[0] && low[1] <= t->high.c[1] &&
            high[1] >= t->low.c[1] && low[2] <= t->high.c[2] && high[2] >= t->low.c[2];
 }
 
 /* ------------------------------------------------------------------- planes */
+
+/* 1 when a is less than b; they differ by less than 2^31. */
+static inline uint32_t is_less(int32_t a, int32_t b)
+{
+    return (uint32_t)(a - b) >> 31;
+}
 
 /*
  * Which vertices of the leaf stay over the plane of b's face on their way, or under it. False when
@@ -128,231 +59,91 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
 
         p--;
         height_q18 = interfere_dot(n, p->c);
-        /* the signs of the differences, which are below 2^31 */
-        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
-        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
+        over = over << 1 | is_less(above_q18, height_q18);
+        under = under << 1 | is_less(height_q18, below_q18);
     }
     t->over = over;
     t->under = under;
     return over != all && under != all;
 }
 
-/* The plane of a face of the leaf. */
-static const struct interfere_plane *plane_of(struct interfere *w, uint32_t i)
-{
-    struct interfere_leaf *l = w->leaf;
-    struct interfere_plane *plane = &l->planes[i];
-
-    if (!(l->placed >> i & 1)) {
-        l->placed |= 1u << i;
-        carom_rotate(plane->n_q30, &w->leaf->to_b,
-                     w->a->mesh->faces[interfere_face(w, i)].normal.c);
-        plane->offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
-        plane->reach_q18 = interfere_reach_q18(l, plane->n_q30);
-    }
-    return plane;
-}
-
 /* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
 static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
-    const struct interfere_plane *plane = plane_of(w, i);
-    const int32_t n[3] = {plane->n_q30[0], plane->n_q30[1], plane->n_q30[2]};
-    int32_t above_q18 = plane->offset_q18 + plane->reach_q18;
-    int32_t below_q18 = plane->offset_q18 - plane->reach_q18;
-    uint32_t over = 0, under = 0;
+    const struct interfere_plane *plane = &w->leaf->planes[i];
+    int32_t above_q18, below_q18, p_q18, q_q18, r_q18;
 
-    for (int k = 2; k >= 0; k--) {
-        int32_t height_q18 = interfere_dot(n, t->p[k].c);
-
-        over = over << 1 | (uint32_t)(above_q18 - height_q18) >> 31;
-        under = under << 1 | (uint32_t)(height_q18 - below_q18) >> 31;
+    if (!(w->leaf->placed >> i & 1)) {
+        interfere_place_plane(w, i);
     }
-    t->corners_over = over;
-    t->corners_under = under;
-    return over != 7 && under != 7;
+    above_q18 = plane->above_q18;
+    below_q18 = plane->below_q18;
+    p_q18 = interfere_dot(plane->n_q30, t->p[0].c);
+    q_q18 = interfere_dot(plane->n_q30, t->p[1].c);
+    r_q18 = interfere_dot(plane->n_q30, t->p[2].c);
+    t->corners_over =
+        is_less(above_q18, p_q18) | is_less(above_q18, q_q18) << 1 | is_less(above_q18, r_q18) << 2;
+    t->corners_under =
+        is_less(p_q18, below_q18) | is_less(q_q18, below_q18) << 1 | is_less(r_q18, below_q18) << 2;
+    return t->corners_over != 7 && t->corners_under != 7;
 }
 
-/* ---------------------------------------------------------- vertices, faces */
+/* ----------------------------------------------------------------- features */
 
-/* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
-static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
-                         const struct interfere_vec *const t[3], const int32_t n[3])
+/* Whether a point of the leaf stays out of the box of b's face on its way. */
+static bool outside_target(const struct interfere_leaf *l, const struct interfere_vec *p,
+                           const struct target *t)
 {
-    int64_t x = carom_abs(n[0]), y = carom_abs(n[1]), z = carom_abs(n[2]);
-    int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
-    int i = axis == 2 ? 0 : axis + 1, j = i == 2 ? 0 : i + 1;
-
-    for (int k = 0; k < 3; k++) {
-        const int32_t *from = t[k]->c, *to = t[k == 2 ? 0 : k + 1]->c;
-        int32_t ex = to[i] - from[i], ey = to[j] - from[j];
-        int64_t inside = (int64_t)ex * (p->c[j] - from[j]) - (int64_t)ey * (p->c[i] - from[i]);
-
-        if (n[axis] < 0) {
-            inside = -inside;
-        }
-        if (inside < -(carom_abs(ex) * l->reach.c[j] + carom_abs(ey) * l->reach.c[i])) {
+    for (int k = 2; k >= 0; k--) {
+        if (p->c[k] + l->reach.c[k] < t->low.c[k] || p->c[k] - l->reach.c[k] > t->high.c[k]) {
             return true;
         }
     }
     return false;
 }
 
-/* Whether a point is outside a box grown by `reach`. */
-static bool outside(const struct interfere_vec *p, const struct interfere_vec *low,
-                    const struct interfere_vec *high, const struct interfere_vec *reach)
+/* Whether a corner of b's face is out of the box around the way of face i of the leaf. */
+static bool outside_face(const struct interfere_leaf *l, const struct interfere_vec *p, uint32_t i)
 {
-    for (int k = 2; k >= 0; k--) {
-        if (p->c[k] + reach->c[k] < low->c[k] || p->c[k] - reach->c[k] > high->c[k]) {
-            return true;
-        }
-    }
-    return false;
+    const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
+
+    return p->c[2] < low[2] || p->c[2] > high[2] || p->c[1] < low[1] || p->c[1] > high[1] ||
+           p->c[0] < low[0] || p->c[0] > high[0];
 }
 
 /* The corners that face i of the leaf owns against b's face. */
-static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i)
-{
-    const struct interfere_leaf *l = w->leaf;
-    const struct carom_mesh *ma = w->a->mesh;
-    const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
-    uint8_t own = ma->faces[interfere_face(w, i)].own;
-    bool any = false;
-
-    for (int k = 0; k < 3; k++) {
-        uint32_t at = interfere_corners(w, i)[k];
-        const struct interfere_vec *p = &l->p[at];
-        int32_t n[3];
-        uint32_t v;
-
-        if (!(own & 1 << k) || ((t->over | t->under) >> at & 1) ||
-            outside(p, &t->low, &t->high, &l->reach) ||
-            stays_beside(l, p, corners, t->face->normal.c)) {
-            continue;
-        }
-        carom_rotate_back(n, &w->leaf->to_b, t->face->normal.c);
-        v = ma->leaf_vertices[l->leaf->first_vertex + at];
-        if (mesh_vertex_cone(ma, v, n, w->leaf->cone_q30)) {
-            emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
-            any = true;
-        }
-    }
-    return any;
-}
-
-/* The corners that b's face owns against face i of the leaf. */
-static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i)
+static bool vertices_face(struct interfere *w, const struct target *t, uint32_t i, uint32_t own)
 {
     const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
-    const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
-    const struct interfere_vec none = {{0, 0, 0}}; /* the box of face i has it */
-    const int32_t *n = l->planes[i].n_q30;
-    uint32_t left = t->face->own & ~(t->corners_over | t->corners_under) & 7;
     bool any = false;
 
-    for (int k = 0; left >> k != 0; k++) {
-        uint32_t v = w->b->mesh->raw.faces[t->number][k];
-
-        if ((left >> k & 1) && !outside(&t->p[k], &l->face_low[i], &l->face_high[i], &none) &&
-            !stays_beside(l, &t->p[k], p, n) &&
-            mesh_vertex_cone(w->b->mesh, v, n, w->leaf->cone_q30)) {
-            emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
-            any = true;
+    for (; own != 0; own >>= 1, corner++) {
+        if ((own & 1) && !((t->over | t->under) >> *corner & 1) &&
+            !outside_target(l, &l->p[*corner], t)) {
+            any |= interfere_vertex_face(w, t, *corner);
         }
     }
     return any;
 }
 
-/* -------------------------------------------------------------------- edges */
-
-/* Two edges in the middle of the way, in b's mesh axes. */
-struct lines {
-    const struct carom_edge *a, *b;
-    const struct interfere_vec *start_a, *start_b;
-    int32_t e[3]; /* direction of a's; of b's: b->direction */
-    int32_t w[3]; /* e x f, q30 */
-};
-
-static int64_t size_of(const int32_t v[3])
+/* The corners of b's face that are left, a bit each, against face i of the leaf. */
+static bool face_vertices(struct interfere *w, const struct target *t, uint32_t i, uint32_t left)
 {
-    return carom_abs(v[0]) + carom_abs(v[1]) + carom_abs(v[2]);
+    bool any = false;
+
+    for (int k = 0; left >> k != 0; k++) {
+        if ((left >> k & 1) && !outside_face(w->leaf, &t->p[k], i)) {
+            any |= interfere_face_vertex(w, t, i, k);
+        }
+    }
+    return any;
 }
 
-/*
- * Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
- * The angle turned moves w / |w| by up to turn / sine; all is multiplied by the sine.
- */
-static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t sine_q30)
+/* Whether two places are both before two others; nearly always the first two say no. */
+static inline bool both_before(int32_t p, int32_t q, int32_t c, int32_t d)
 {
-    int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
-    int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
-    bool plus = true, minus = true;
-    int32_t w_a[3];
-
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_b = mesh_edge_inward(in->b->mesh, l->b, side);
-        int64_t on_b = carom_dot(l->w, in_b.c);
-
-        plus = plus && on_b <= tolerance_q60;
-        minus = minus && -on_b <= tolerance_q60;
-    }
-    if (!plus && !minus) {
-        return false;
-    }
-    carom_rotate_back(w_a, &in->leaf->to_b, l->w);
-    for (int side = 0; side < 2; side++) {
-        carom_v3_q30 in_a = mesh_edge_inward(in->a->mesh, l->a, side);
-        int64_t on_a = carom_dot(w_a, in_a.c);
-
-        plus = plus && -on_a <= tolerance_q60;
-        minus = minus && on_a <= tolerance_q60;
-    }
-    return plus || minus;
-}
-
-/*
- * Whether an edge stays beside the line of the other one, seen along w: what begins at `start` from
- * the line and runs along `other`.
- */
-static bool passes_by(const struct interfere *in, const int32_t w[3], const int32_t line[3],
-                      const struct interfere_vec *start, const int32_t other[3], int32_t length_q22)
-{
-    int32_t axis[3];
-    int64_t from, run, limit;
-
-    carom_cross(axis, w, line, 30);
-    from = carom_dot(axis, start->c);
-    run = (carom_dot(axis, other) >> 30) * (length_q22 >> 2);
-    limit = (size_of(axis) + 4) * (in->leaf->near_q20 + 4) + length_q22 +
-            carom_abs(carom_dot(axis, in->leaf->shift.c)) / 2;
-    return from + (run < 0 ? run : 0) > limit || from + (run > 0 ? run : 0) < -limit;
-}
-
-/* Whether two edges of which neither box keeps them apart can touch. */
-static bool edges_may_touch(const struct interfere *in, struct lines *l)
-{
-    const int32_t *f = l->b->direction.c;
-    struct interfere_vec d, d_back;
-    int64_t sine_q30, limit;
-    int32_t largest;
-
-    carom_rotate(l->e, &in->leaf->to_b, l->a->direction.c);
-    carom_cross(l->w, l->e, f, 30);
-    largest = most(most((int32_t)carom_abs(l->w[0]), (int32_t)carom_abs(l->w[1])),
-                   (int32_t)carom_abs(l->w[2]));
-    if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
-        return true; /* may be parallel somewhere on the way: leave it to the exact test */
-    }
-    sine_q30 = size_of(l->w) + 4; /* at least */
-    d = difference(l->start_a, l->start_b);
-    limit = sine_q30 * (in->leaf->near_q20 + 4) + carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
-    if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
-        return false;
-    }
-    d_back = difference(l->start_b, l->start_a);
-    return !passes_by(in, l->w, f, &d, l->e, l->a->length_q22) &&
-           !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
+    return p < c && p < d && q < c && q < d;
 }
 
 /* Whether the way of an edge of the leaf, between p and q, keeps clear of one between c and d. */
@@ -365,68 +156,34 @@ static bool boxes_miss(const struct interfere *w, const struct interfere_vec *p,
     for (int k = 0; k < 3; k++) {
         int32_t reach = l->reach.c[k];
 
-        if (most(p->c[k], q->c[k]) + reach < least(c->c[k], d->c[k]) ||
-            least(p->c[k], q->c[k]) - reach > most(c->c[k], d->c[k])) {
+        if (both_before(p->c[k] + reach, q->c[k] + reach, c->c[k], d->c[k]) ||
+            both_before(c->c[k] + reach, d->c[k] + reach, p->c[k], q->c[k])) {
             return true;
         }
     }
     return false;
 }
 
-/* An edge that face i of the leaf owns against one of b's face. */
-static bool edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j)
+/* The edges that face i of the leaf owns against those of b's face that are left, a bit each. */
+static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i, uint32_t own,
+                        uint32_t left)
 {
     const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
-    const struct interfere_vec *p = &l->p[corner[k]], *q = &l->p[corner[k == 2 ? 0 : k + 1]];
-    const struct interfere_vec *c = &t->p[j], *d = &t->p[j == 2 ? 0 : j + 1];
-    uint32_t edge_a, edge_b = t->face->edge[j];
-    struct lines lines;
-
-    if (boxes_miss(w, p, q, c, d)) {
-        return false;
-    }
-    edge_a = w->a->mesh->faces[interfere_face(w, i)].edge[k];
-    /* an owned edge runs with its face */
-    lines.a = &w->a->mesh->edges[edge_a];
-    lines.b = &w->b->mesh->edges[edge_b];
-    lines.start_a = p;
-    lines.start_b = c;
-    if (!edges_may_touch(w, &lines)) {
-        return false;
-    }
-    emit(w, CANDIDATE_EDGE_EDGE, edge_a, edge_b);
-    return true;
-}
-
-/* The edges that face i of the leaf owns and that reach the plane of b's face, a bit each. */
-static uint32_t edges_left(const struct interfere *w, const struct target *t, uint32_t i)
-{
-    const uint8_t *corner = interfere_corners(w, i);
-    uint32_t left = 0, own = w->a->mesh->faces[interfere_face(w, i)].own >> 3;
-
-    for (int k = 0; own >> k != 0; k++) {
-        uint32_t both = 1u << corner[k] | 1u << corner[k == 2 ? 0 : k + 1];
-
-        if ((own >> k & 1) && (both & ~t->over) != 0 && (both & ~t->under) != 0) {
-            left |= 1u << k;
-        }
-    }
-    return left;
-}
-
-static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
-{
-    /* bit k of these: both ends of edge k */
-    uint32_t over = t->corners_over & (t->corners_over >> 1 | t->corners_over << 2);
-    uint32_t under = t->corners_under & (t->corners_under >> 1 | t->corners_under << 2);
-    uint32_t left = (uint32_t)t->face->own >> 3 & ~over & ~under & 7;
-    uint32_t edges = left != 0 ? edges_left(w, t, i) : 0;
     bool any = false;
 
-    for (int k = 0; edges >> k != 0; k++) {
-        for (int j = 0; (edges >> k & 1) && left >> j != 0; j++) {
-            any |= (left >> j & 1) && edge_edge(w, t, i, k, j);
+    for (int k = 0; own >> k != 0; k++) {
+        uint32_t from = corner[k], to = corner[k == 2 ? 0 : k + 1], both = 1u << from | 1u << to;
+
+        /* does it reach the plane of b's face? */
+        if (!(own >> k & 1) || (both & ~t->over) == 0 || (both & ~t->under) == 0) {
+            continue;
+        }
+        for (int j = 0; left >> j != 0; j++) {
+            if ((left >> j & 1) &&
+                !boxes_miss(w, &l->p[from], &l->p[to], &t->p[j], &t->p[j == 2 ? 0 : j + 1])) {
+                any |= interfere_edge_edge(w, t, i, k, j);
+            }
         }
     }
     return any;
@@ -434,10 +191,22 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i)
 
 bool interfere_features(struct interfere *w, const struct target *t, uint32_t i)
 {
-    bool any = vertices_face(w, t, i);
+    uint32_t own_a = w->a->mesh->faces[interfere_face(w, i)].own, own_b = t->face->own;
+    /* what stays on one side of the plane of the leaf's face, an edge with both of its ends */
+    uint32_t over = t->corners_over, under = t->corners_under, beside = over | under;
+    uint32_t edges_beside = (over & (over >> 1 | over << 2)) | (under & (under >> 1 | under << 2));
+    uint32_t corners = own_b & ~beside & 7, edges = own_b >> 3 & ~edges_beside & 7;
+    bool any = false;
 
-    any |= face_vertices(w, t, i);
-    any |= edges_edges(w, t, i);
+    if ((own_a & 7) != 0) {
+        any = vertices_face(w, t, i, own_a & 7);
+    }
+    if (corners != 0) {
+        any |= face_vertices(w, t, i, corners);
+    }
+    if (edges != 0 && own_a >> 3 != 0) {
+        any |= edges_edges(w, t, i, own_a >> 3, edges);
+    }
     return any;
 }
 
@@ -453,15 +222,15 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
         return;
     }
     place_target(w, &t);
-    bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
+    interfere_bound(&t.p[0], &t.p[1], &t.p[2], &t.low, &t.high);
     if (!l->listed) {
-        list_faces(w);
+        interfere_list_faces(w);
     }
     for (uint32_t i = 0, over = t.over, under = t.under, n = l->leaf->face_count; i < n; i++) {
         uint32_t corners = l->corners[i];
 
         /* does it reach to both sides of the plane, or near to it? */
-        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, &t, i) &&
+        if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, l, &t, i) &&
             is_reached(w, &t, i) && w->meet(w, &t, i)) {
             busy |= 1u << i;
         }

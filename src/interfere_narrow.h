@@ -39,6 +39,44 @@ bool interfere_set_motion(struct interfere *w);
 /* Every leaf of a that comes near faces of b, with w->meet for each pair of faces. */
 void interfere_leaves(struct interfere *w);
 
+/* From b's frame to b's quanta along an axis. */
+static inline int32_t interfere_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
+{
+    return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
+}
+
+/* Whether b is as high as the leaf's box somewhere in the cells under it. */
+bool interfere_reaches_leaf(const struct interfere *w);
+
+/*
+ * Place the leaf at hand, whose sphere was swept: its vertices, the box and the slab around their ways.
+ * False when it is above all of b under it.
+ */
+bool interfere_place_leaf(struct interfere *w);
+
+/* When there is a face of b near to it: the corners of its faces; of one, the box around its way, and its plane. */
+void interfere_list_faces(struct interfere *w);
+void interfere_box_face(struct interfere *w, uint32_t i);
+void interfere_place_plane(struct interfere *w, uint32_t i);
+
+static inline void bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low, int32_t *high)
+{
+    int32_t less = x < y ? x : y, more = x < y ? y : x;
+
+    *low = z < less ? z : less;
+    *high = z > more ? z : more;
+}
+
+/* Spelled out, because compilers leave loops over three components. */
+static inline void interfere_bound(const struct interfere_vec *p, const struct interfere_vec *q,
+                                   const struct interfere_vec *r, struct interfere_vec *low,
+                                   struct interfere_vec *high)
+{
+    bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
+    bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
+    bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
+}
+
 /* The face of a that is number i of the leaf, and which vertices of the leaf are its corners. */
 static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
 {
@@ -55,6 +93,15 @@ static inline const uint8_t *interfere_corners(const struct interfere *w, uint32
  * neither boxes nor the planes of both keep apart from it.
  */
 void interfere_narrow(struct interfere *w, uint16_t face_b);
+
+/*
+ * Emit a pair of features if they can touch; whether it is one. A vertex of the leaf and b's face,
+ * corner k of that and face i of the leaf, edge k of this and edge j of that: each reaches the plane
+ * and the box of the other.
+ */
+bool interfere_vertex_face(struct interfere *w, const struct target *t, uint32_t at);
+bool interfere_face_vertex(struct interfere *w, const struct target *t, uint32_t i, int k);
+bool interfere_edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j);
 
 /* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
 bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);

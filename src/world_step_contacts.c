@@ -10,7 +10,7 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
     for (uint32_t i = 0; i < n && !v->error; i++) {
         int32_t margin;
 
-        step_select_pair(v, c[i].pair);
+        step_select_pair(v, &c[i]);
         /* bodies that bounce for ever must not be held by their margin */
         margin =
             v->pair->skin_q22 *
@@ -50,7 +50,7 @@ static int gather_contacts(struct step *s, bool at_hit)
     for (;;) {
         result = check(s);
         if (result == CAROM_OK && at_hit) {
-            if (!contact_force(&w->rest.list, step_set_pair(w, &p), &s->hit)) {
+            if (!contact_force(&w->rest.list, step_set_pair(w, &s->hit.candidate), &s->hit)) {
                 result = CAROM_ERR_CONTACTS_FULL;
             }
         }
@@ -192,7 +192,7 @@ static void find_chords(struct step *s)
         if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
             continue;
         }
-        step_select_pair(&v, c->key.pair);
+        step_select_pair(&v, &c->key);
         way_q22 = gap_change(v.pair, &c->key) + 4;
         if (carom_abs(way_q22) < 1 << 24) {
             c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));

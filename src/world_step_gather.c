@@ -12,22 +12,25 @@
 /* More candidates than these are too many for a region that lasts because nothing was near. */
 #define REGION_ENOUGH 8
 /* A hit leads a body that goes farther than this in a slice aside by more than any room. */
-#define ROOM_WAY_SKINS 40
+#define ROOM_WAY_SKINS 10
 
-struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p)
+struct boyse_pair *step_set_pair(const struct carom_world *w, const struct candidate *c)
 {
+    const struct pair *p = &w->pairs[c->pair];
     struct boyse_pair *pair = &w->scratch->gather.pair;
 
-    boyse_pair_init(pair, &w->bodies[p->a], &w->bodies[p->b]);
+    boyse_pair_begin(pair, &w->bodies[p->a], &w->bodies[p->b]);
+    boyse_pair_for(pair, c);
     return pair;
 }
 
-void step_select_pair(struct step_visitor *v, uint16_t number)
+void step_select_pair(struct step_visitor *v, const struct candidate *c)
 {
-    if (v->pair_number != number) {
-        v->pair = step_set_pair(v->step->w, &v->step->w->pairs[number]);
-        v->pair_number = number;
+    if (v->pair_number != c->pair) {
+        v->pair = step_set_pair(v->step->w, c);
+        v->pair_number = c->pair;
     }
+    boyse_pair_for(v->pair, c);
 }
 
 int step_visit(struct step *s, struct step_visitor *v,
@@ -191,7 +194,9 @@ int step_gather(struct step *s)
     int64_t time_q30;
     int result;
 
-    step_predict_all(s, slice_q30);
+    if (s->path_q30 != slice_q30) {
+        step_predict_all(s, slice_q30);
+    }
     time_q30 = region_time(s, slice_q30);
     if (time_q30 == slice_q30) {
         return gather(s, slice_q30, slice_q30, UINT32_MAX);

@@ -93,7 +93,7 @@ static void visit_first_hit(struct candidate_visitor *self, const struct candida
     for (uint32_t i = 0; i < n; i++) {
         struct boyse_hit hit;
 
-        step_select_pair(v, c[i].pair);
+        step_select_pair(v, &c[i]);
         if (!boyse_first(v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
             continue;
         }
@@ -113,7 +113,7 @@ int step_first_hit(struct step *s, bool *found)
 
     *found = v.found;
     if (v.found) {
-        step_select_pair(&v, s->hit.candidate.pair);
+        step_select_pair(&v, &s->hit.candidate);
         boyse_touch(v.pair, &s->hit.candidate, s->hit.root_q30, &s->hit.touch);
     }
     step_mark(s->w, CAROM_STAGE_BOYSE);
@@ -156,7 +156,7 @@ static int32_t leave_at(const struct step *s)
 {
     const struct carom_world *w = s->w;
     const struct candidate *c = &s->hit.candidate;
-    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    const struct boyse_pair *pair = step_set_pair(w, c);
     int32_t low = 0, high = CAROM_ONE_Q30, least = gap_at(pair, c, 0);
 
     least = least < pair->skin_q22 / 4 ? least : pair->skin_q22 / 4;
@@ -180,7 +180,7 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
 {
     const struct carom_world *w = s->w;
     const struct candidate *c = &s->hit.candidate;
-    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    const struct boyse_pair *pair = step_set_pair(w, c);
     int64_t wanted = pair->skin_q22 / 2, end = gap_at(pair, c, CAROM_ONE_Q30), longer_q30;
     int64_t before = gap_at(pair, c, CAROM_ONE_Q30 - CAROM_ONE_Q30 / 64);
 
@@ -195,7 +195,7 @@ static int32_t lengthen(const struct step *s, int32_t slice_q30, int32_t most_q3
 static int64_t gap_change(const struct step *s, const struct candidate *c, int bits)
 {
     const struct carom_world *w = s->w;
-    const struct boyse_pair *pair = step_set_pair(w, &w->pairs[c->pair]);
+    const struct boyse_pair *pair = step_set_pair(w, c);
     int64_t start = gap_at(pair, c, 0);
 
     return gap_at(pair, c, CAROM_ONE_Q30 >> bits) - start;

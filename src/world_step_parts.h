@@ -39,9 +39,9 @@ struct step_visitor {
 /* Hand every candidate to f. */
 int step_visit(struct step *s, struct step_visitor *v,
                void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
-void step_select_pair(struct step_visitor *v, uint16_t number);
-/* Set a pair up, in the room there is for one. */
-struct boyse_pair *step_set_pair(const struct carom_world *w, const struct pair *p);
+void step_select_pair(struct step_visitor *v, const struct candidate *c);
+/* Set the pair of a candidate up for it, in the room there is for one. */
+struct boyse_pair *step_set_pair(const struct carom_world *w, const struct candidate *c);
 
 /* Book the ticks since the last mark on a stage. */
 void step_mark(struct carom_world *w, enum carom_stage stage);

@@ -208,7 +208,7 @@ static double into_faces(const struct solid *s, const struct carom_edge *edge, c
 
     for (int side = 0; side < 2; side++) {
         const double *from = s->p[edge->vertex[0]];
-        double e[3], d[3], in[3], along;
+        double e[3], d[3] = {0, 0, 0}, in[3], along;
         const uint16_t *c;
 
         if (edge->face[side] == CAROM_NO_FACE) {
