@@ -1,30 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether two features of faces that are near each other can touch: as candidates, if they can. */
+/* Whether two features of faces that are near each other can touch. */
 #include "interfere_narrow.h"
-
-static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
-{
-    struct pool *pool = w->candidate_pool;
-    struct candidate *c;
-    int32_t place = pool_take(pool);
-
-    if (place < 0) {
-        /* a chunk: hand over what there is and go on */
-        w->visitor->visit(w->visitor, w->candidates, pool->used);
-        w->whole = false;
-        pool_clear(pool);
-        place = pool_take(pool);
-    }
-    c = &w->candidates[place];
-    c->pair = w->pair;
-    c->kind = kind;
-    c->i = i;
-    c->j = j;
-    w->candidate_count++;
-    if (pool->used > w->enough) {
-        w->error = INTERFERE_TOO_MANY;
-    }
-}
 
 static inline int32_t most(int32_t a, int32_t b)
 {
@@ -68,39 +44,29 @@ static bool stays_beside(const struct interfere_leaf *l, const struct interfere_
     return false;
 }
 
-bool interfere_vertex_face(struct interfere *w, const struct target *t, uint32_t at)
+bool interfere_vertex_face(const struct interfere *w, const struct target *t, uint32_t at)
 {
     const struct interfere_leaf *l = w->leaf;
-    const struct carom_mesh *ma = w->a->mesh;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
     int32_t n[3];
-    uint32_t v;
 
     if (stays_beside(l, &l->p[at], corners, t->face->normal.c)) {
         return false;
     }
     carom_rotate_back(n, &l->to_b, t->face->normal.c);
-    v = ma->leaf_vertices[l->leaf->first_vertex + at];
-    if (!mesh_vertex_cone(ma, v, n, l->cone_q30)) {
-        return false;
-    }
-    emit(w, CANDIDATE_VERTEX_FACE, v, t->number);
-    return true;
+    return mesh_vertex_cone(w->a->mesh, interfere_vertex(w, at), n, l->cone_q30);
 }
 
-bool interfere_face_vertex(struct interfere *w, const struct target *t, uint32_t i, int k)
+bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k)
 {
     const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const int32_t *n = l->planes[i].n_q30;
-    uint32_t v = w->b->mesh->raw.faces[t->number][k];
+    const struct carom_mesh *mb = w->b->mesh;
 
-    if (stays_beside(l, &t->p[k], p, n) || !mesh_vertex_cone(w->b->mesh, v, n, w->leaf->cone_q30)) {
-        return false;
-    }
-    emit(w, CANDIDATE_FACE_VERTEX, v, interfere_face(w, i));
-    return true;
+    return !stays_beside(l, &t->p[k], p, n) &&
+           mesh_vertex_cone(mb, mb->raw.faces[t->number][k], n, l->cone_q30);
 }
 
 /* -------------------------------------------------------------------- edges */
@@ -198,19 +164,15 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
            !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
 }
 
-bool interfere_edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j)
+bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
+                         int j)
 {
     /* an owned edge runs with its face */
-    uint32_t edge_a = w->a->mesh->faces[interfere_face(w, i)].edge[k], edge_b = t->face->edge[j];
     struct lines lines;
 
-    lines.a = &w->a->mesh->edges[edge_a];
-    lines.b = &w->b->mesh->edges[edge_b];
+    lines.a = &w->a->mesh->edges[w->a->mesh->faces[interfere_face(w, i)].edge[k]];
+    lines.b = &w->b->mesh->edges[t->face->edge[j]];
     lines.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
     lines.start_b = &t->p[j];
-    if (!edges_may_touch(w, &lines)) {
-        return false;
-    }
-    emit(w, CANDIDATE_EDGE_EDGE, edge_a, edge_b);
-    return true;
+    return edges_may_touch(w, &lines);
 }

@@ -90,6 +90,30 @@ static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 
 /* ----------------------------------------------------------------- features */
 
+static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
+{
+    struct pool *pool = w->candidate_pool;
+    struct candidate *c;
+    int32_t place = pool_take(pool);
+
+    if (place < 0) {
+        /* a chunk: hand over what there is and go on */
+        w->visitor->visit(w->visitor, w->candidates, pool->used);
+        w->whole = false;
+        pool_clear(pool);
+        place = pool_take(pool);
+    }
+    c = &w->candidates[place];
+    c->pair = w->pair;
+    c->kind = kind;
+    c->i = i;
+    c->j = j;
+    w->candidate_count++;
+    if (pool->used > w->enough) {
+        w->error = INTERFERE_TOO_MANY;
+    }
+}
+
 /* Whether a point of the leaf stays out of the box of b's face on its way. */
 static bool outside_target(const struct interfere_leaf *l, const struct interfere_vec *p,
                            const struct target *t)
@@ -120,8 +144,9 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
 
     for (; own != 0; own >>= 1, corner++) {
         if ((own & 1) && !((t->over | t->under) >> *corner & 1) &&
-            !outside_target(l, &l->p[*corner], t)) {
-            any |= interfere_vertex_face(w, t, *corner);
+            !outside_target(l, &l->p[*corner], t) && interfere_vertex_face(w, t, *corner)) {
+            emit(w, CANDIDATE_VERTEX_FACE, interfere_vertex(w, *corner), t->number);
+            any = true;
         }
     }
     return any;
@@ -133,8 +158,11 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
     bool any = false;
 
     for (int k = 0; left >> k != 0; k++) {
-        if ((left >> k & 1) && !outside_face(w->leaf, &t->p[k], i)) {
-            any |= interfere_face_vertex(w, t, i, k);
+        if ((left >> k & 1) && !outside_face(w->leaf, &t->p[k], i) &&
+            interfere_face_vertex(w, t, i, k)) {
+            emit(w, CANDIDATE_FACE_VERTEX, w->b->mesh->raw.faces[t->number][k],
+                 interfere_face(w, i));
+            any = true;
         }
     }
     return any;
@@ -181,8 +209,11 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i,
         }
         for (int j = 0; left >> j != 0; j++) {
             if ((left >> j & 1) &&
-                !boxes_miss(w, &l->p[from], &l->p[to], &t->p[j], &t->p[j == 2 ? 0 : j + 1])) {
-                any |= interfere_edge_edge(w, t, i, k, j);
+                !boxes_miss(w, &l->p[from], &l->p[to], &t->p[j], &t->p[j == 2 ? 0 : j + 1]) &&
+                interfere_edge_edge(w, t, i, k, j)) {
+                emit(w, CANDIDATE_EDGE_EDGE, w->a->mesh->faces[interfere_face(w, i)].edge[k],
+                     t->face->edge[j]);
+                any = true;
             }
         }
     }

@@ -77,6 +77,12 @@ static inline void interfere_bound(const struct interfere_vec *p, const struct i
     bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
 }
 
+/* The vertex of a that is number `at` of the leaf. */
+static inline uint32_t interfere_vertex(const struct interfere *w, uint32_t at)
+{
+    return w->a->mesh->leaf_vertices[w->leaf->leaf->first_vertex + at];
+}
+
 /* The face of a that is number i of the leaf, and which vertices of the leaf are its corners. */
 static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
 {
@@ -95,13 +101,13 @@ static inline const uint8_t *interfere_corners(const struct interfere *w, uint32
 void interfere_narrow(struct interfere *w, uint16_t face_b);
 
 /*
- * Emit a pair of features if they can touch; whether it is one. A vertex of the leaf and b's face,
- * corner k of that and face i of the leaf, edge k of this and edge j of that: each reaches the plane
- * and the box of the other.
+ * Whether a pair of features can touch: a vertex of the leaf and b's face, corner k of that and face i
+ * of the leaf, edge k of this and edge j of that. Each reaches the plane and the box of the other.
  */
-bool interfere_vertex_face(struct interfere *w, const struct target *t, uint32_t at);
-bool interfere_face_vertex(struct interfere *w, const struct target *t, uint32_t i, int k);
-bool interfere_edge_edge(struct interfere *w, const struct target *t, uint32_t i, int k, int j);
+bool interfere_vertex_face(const struct interfere *w, const struct target *t, uint32_t at);
+bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k);
+bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
+                         int j);
 
 /* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
 bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);

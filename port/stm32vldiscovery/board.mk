@@ -14,8 +14,6 @@ ROM_SCENES := pair brick
 CAPS := 3,2,4,6,0,6
 DRAW_BYTES := 0
 LINE_BYTES := 64
-# What is called once stays a function: its variables leave the stack before the caller goes on.
-OPT := -O2 -fno-inline-functions-called-once
 PICTURES := 0
 SUITES := port fix arena scan zlist mass
 SUITE_IMAGES := 1
