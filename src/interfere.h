@@ -46,7 +46,7 @@ struct candidate_visitor {
  * Faces of b that a leaf has come up with lately: a face lies in several cells. One that takes the
  * slot of another makes it forgotten, which is only work done twice.
  */
-#define INTERFERE_SEEN 32
+#define INTERFERE_SEEN 64
 
 /* A point or direction in b's mesh axes, from b's centre of mass. */
 struct interfere_vec {
