@@ -13,10 +13,11 @@
 
 /*
  * Instructions, of 320 x 240 and of 512 x 512 pixels in all frames that are looked at, of a picture of
- * nothing but the background, and of a body that is out of sight.
+ * nothing but the background, and of a body that is out of sight. With loops unrolled, as the board has
+ * them, pictures are 1 % dearer.
  */
 enum { WIDTH = 320, HEIGHT = 240, SIDE = 512, FRAMES = 120, EACH = 15 };
-enum { WORST_SMALL = 2180000, WORST_LARGE = 2971000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
+enum { WORST_SMALL = 2190000, WORST_LARGE = 3010000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
 
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
 static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
