@@ -83,7 +83,7 @@ ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
        for size in (1, 2) for order in (1, 2)}  # bits and byte order by a header's bytes
 DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
 # GCC 12.2 for SuperH loses comparisons before a branch when it optimises (int f(const int *p) that
-# calls something p[2] times lacks the first). The C library is compiled so, and hangs.
+# calls something p[2] times lacks the first). The C library that it made hangs.
 ONLY = {"sh4": ["-O0", "-O0 -fwrapv", "-O0 -funsigned-char"]}
 NO_LIBRARY = {"sh4": "port/sh4/sh4.c"}
 NO_LIBRARY_PORT = ["port/nolibc/string.c"]

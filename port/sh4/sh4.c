@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * SuperH-4 under Linux without a C library, by system calls: console, files, arguments. Debian's C
- * library for it hangs, for its compiler loses comparisons: see tools/matrix.py.
+ * library for it hangs in QEMU 7.2: see tools/matrix.py.
  */
 #include <stddef.h>
 
