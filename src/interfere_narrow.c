@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* From a swept leaf and a face that is near to the faces of the leaf that no plane parts from it. */
+/*
+ * From a swept leaf and a face that is near to the faces of the leaf that no plane parts from it, and to
+ * the candidates of two such faces.
+ */
 #include "interfere_narrow.h"
 
 /* -------------------------------------------------------------------- boxes */

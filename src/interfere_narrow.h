@@ -59,7 +59,8 @@ void interfere_list_faces(struct interfere *w);
 void interfere_box_face(struct interfere *w, uint32_t i);
 void interfere_place_plane(struct interfere *w, uint32_t i);
 
-static inline void bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low, int32_t *high)
+static inline void interfere_bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low,
+                                        int32_t *high)
 {
     int32_t less = x < y ? x : y, more = x < y ? y : x;
 
@@ -72,9 +73,9 @@ static inline void interfere_bound(const struct interfere_vec *p, const struct i
                                    const struct interfere_vec *r, struct interfere_vec *low,
                                    struct interfere_vec *high)
 {
-    bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
-    bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
-    bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
+    interfere_bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
+    interfere_bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
+    interfere_bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
 }
 
 /* The vertex of a that is number `at` of the leaf. */

@@ -29,8 +29,9 @@ void step_select_pair(struct step_visitor *v, const struct candidate *c)
     if (v->pair_number != c->pair) {
         v->pair = step_set_pair(v->step->w, c);
         v->pair_number = c->pair;
+    } else {
+        boyse_pair_for(v->pair, c);
     }
-    boyse_pair_for(v->pair, c);
 }
 
 int step_visit(struct step *s, struct step_visitor *v,
