@@ -316,7 +316,7 @@ build/tools/%.o: tools/%.cpp
 	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
 
 build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
-                           $(B)/src/paper/paper.o $(filter %/scene.o %/scene_sheet.o %_mesh.o,$(PROGRAM)) \
+                           $(B)/src/paper/paper.o $(SCENES_BUILT) \
                            $(B)/libtests.a $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
