@@ -42,10 +42,10 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
 PAPER_LINK := -Wl,--wrap=interfere_visit
-ENGINE_SOURCES := $(wildcard src/*.c)
+ENGINE_SOURCES := $(wildcard src/*/*.c)
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
-ENGINE_SOURCES += $(wildcard src/paper/*.c)
+ENGINE_SOURCES += $(wildcard tests/paper/*.c)
 CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
 LDFLAGS += $(PAPER_LINK)
 endif
@@ -278,7 +278,7 @@ $(B)/suite_%.elf: $(B)/tests/test_%.o $(B)/tests/main.o $(B)/libtests.a $(PROGRA
 	$(link)
 
 $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
-$(B)/host_paper.elf: $(call objects,$(wildcard src/paper/*.c))
+$(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))
 
 # Meshes: a generator prints OBJ, the converter makes it a C array.
 build/gen/head%: GENERATOR := tools/gen_head
@@ -316,7 +316,7 @@ build/tools/%.o: tools/%.cpp
 	    -isystem /usr/include/eigen3 -MMD -MP -c -o $@ $<
 
 build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.cpp)) \
-                           $(B)/src/paper/paper.o $(SCENES_BUILT) \
+                           $(B)/tests/paper/paper.o $(SCENES_BUILT) \
                            $(B)/libtests.a $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
@@ -327,8 +327,7 @@ build/tools/%.o: %.c
 	@echo '  cc    $< for tools'
 	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -MMD -MP -c -o $@ $<
 
-TOOL_ENGINE := $(wildcard src/fix*.c src/arena.c src/scan.c src/zlist.c src/mass.c src/mesh*.c \
-                 src/world_report.c)
+TOOL_ENGINE := $(wildcard src/num/*.c src/mesh/*.c) src/world/report.c
 build/tools/libmesh.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
 	@echo '  ar    $@'
 	rm -f $@

@@ -19,7 +19,7 @@
 
 #include "accuracy.h"
 #include "lab.h"
-#include "mass.h"
+#include "mesh/mass.h"
 
 #define ROWS         24 /* of a surface of revolution */
 #define VERTICES_MAX (ROWS * ROWS)

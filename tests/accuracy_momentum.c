@@ -20,7 +20,7 @@
 
 #include "accuracy.h"
 #include "crowd.h"
-#include "world.h"
+#include "world/world.h"
 
 #define BODIES 32
 #define FRAMES 80 /* a run */

@@ -13,7 +13,7 @@
 #include <math.h>
 
 #include "accuracy.h"
-#include "body.h"
+#include "body/body.h"
 #include "lab.h"
 
 #define FRAMES 1000000

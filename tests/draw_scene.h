@@ -9,7 +9,7 @@
 #define CAROM_TESTS_DRAW_SCENE_H
 
 #include "carom.h"
-#include "draw.h"
+#include "draw/draw.h"
 #include "test.h"
 
 #define SIZE      64

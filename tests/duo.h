@@ -6,7 +6,7 @@
 #ifndef CAROM_TEST_DUO_H
 #define CAROM_TEST_DUO_H
 
-#include "boyse.h"
+#include "boyse/boyse.h"
 #include "shapes.h"
 
 #define DUO_UNIT (1.0 / 4194304) /* a unit of the last place of q22 */

@@ -8,7 +8,7 @@
 #define CAROM_TESTS_FIRST_HIT_H
 
 #include "oracle.h"
-#include "world_step_parts.h"
+#include "step/parts.h"
 
 /* A mesh as the engine has it, as the oracle has it, and the features that are tested. */
 struct first_hit_mesh {

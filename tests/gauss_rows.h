@@ -3,7 +3,7 @@
 #ifndef CAROM_TEST_GAUSS_ROWS_H
 #define CAROM_TEST_GAUSS_ROWS_H
 
-#include "impact_rows.h"
+#include "solve/rows.h"
 
 /* Solve what is in w->a: 0, or -1. */
 static inline int gauss_rows_solve(struct gauss *w, int n)

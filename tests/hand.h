@@ -3,7 +3,7 @@
 #ifndef CAROM_TEST_HAND_H
 #define CAROM_TEST_HAND_H
 
-#include "rest.h"
+#include "solve/rest.h"
 #include "shapes.h"
 #include "test.h"
 

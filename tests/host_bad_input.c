@@ -399,7 +399,7 @@ static void test_mesh_memory(struct lab *lab)
     end("bad_input/mesh_memory");
 }
 
-/* The box as the converter writes it: see src/mesh_blob.c. Returns its bytes. */
+/* The box as the converter writes it: see src/mesh/blob.c. Returns its bytes. */
 static size_t write_blob(uint8_t *out)
 {
     const uint8_t header[16] = {'C', 'R', 'M', '1', 1, CAROM_SOLID, 12, 0, 8, 0, 0, 0, 12, 0, 0, 0};

@@ -256,7 +256,7 @@ static struct mean roll(double slope, double mu)
 }
 
 /*
- * Rolling friction is a moment of r / 64 times the pressure (src/rest_roll.c). A solid ball's moment
+ * Rolling friction is a moment of r / 64 times the pressure (src/solve/roll.c). A solid ball's moment
  * of inertia is 2/5 m r^2: on a slope it rolls at 5/7 (tan - 1/64) g cos as long as friction can
  * turn it. Else it slides at (tan - mu) g cos, its lowest point at (tan - 7/2 mu + 5/2 / 64) g cos.
  */

@@ -9,7 +9,7 @@
 #ifndef CAROM_TESTS_IMPACT_REAL_H
 #define CAROM_TESTS_IMPACT_REAL_H
 
-#include "impact.h"
+#include "solve/impact.h"
 
 /* ---------------------------------------------------------------- arithmetic */
 

@@ -16,7 +16,7 @@
  */
 #include "plays.h"
 #include "port.h"
-#include "world.h"
+#include "world/world.h"
 
 #ifdef SCENE_ROM
 /* a board with little memory: snapshots are handed on by others */

@@ -9,7 +9,7 @@
 #ifndef CAROM_TESTS_MEETING_H
 #define CAROM_TESTS_MEETING_H
 
-#include "boyse.h"
+#include "boyse/boyse.h"
 #include "shapes.h"
 
 #define MEETING_UNIT (1.0L / 4194304) /* a unit of the last place of q22 */

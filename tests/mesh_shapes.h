@@ -8,7 +8,7 @@
 #ifndef CAROM_TEST_MESH_SHAPES_H
 #define CAROM_TEST_MESH_SHAPES_H
 
-#include "mesh.h"
+#include "mesh/mesh.h"
 #include "test.h"
 
 #define V_MAX 1600

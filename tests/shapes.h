@@ -8,7 +8,7 @@
 #ifndef CAROM_TEST_SHAPES_H
 #define CAROM_TEST_SHAPES_H
 
-#include "interfere.h"
+#include "interfere/interfere.h"
 #include "scene.h"
 #include "test.h"
 

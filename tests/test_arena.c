@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "arena.h"
+#include "num/arena.h"
 #include "test.h"
 
 static _Alignas(8) uint8_t block[64];

@@ -8,7 +8,7 @@
 #include "scene.h"
 #include "shapes.h"
 #include "test.h"
-#include "world.h"
+#include "world/world.h"
 
 #define FRAMES   240
 #define EVERY    4

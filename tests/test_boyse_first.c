@@ -3,7 +3,7 @@
  * First hits against the true motion in double precision: the distance of two features is sampled
  * over the slice and every change of its sign is closed in on.
  */
-#include "boyse_event.h"
+#include "boyse/event.h"
 #include "duo.h"
 #include "real.h"
 #include "test.h"

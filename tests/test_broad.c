@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "broad.h"
+#include "pairs/broad.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "contact.h"
+#include "contact/contact.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Places of contacts against the features of duo.h in double precision. */
-#include "contact.h"
+#include "contact/contact.h"
 #include "duo.h"
 #include "real.h"
 #include "test.h"

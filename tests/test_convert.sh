@@ -355,7 +355,7 @@ for kind in head field; do
     [ $kind = field ] && option=--surface || option=
     # shellcheck disable=SC2086
     "$convert" $option --index --name indexed -o indexed.c $kind.obj >said 2>&1 &&
-        cc -std=c11 -I"$root/include" -o index index.c indexed.c "$root"/src/*.c >>said 2>&1 &&
+        cc -std=c11 -I"$root/include" -o index index.c indexed.c "$root"/src/*/*.c >>said 2>&1 &&
         ./index
     report $? "${kind}_indexed"
 done

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "draw.h"
+#include "draw/draw.h"
 #include "port.h"
 #include "scene.h"
 #include "shapes.h"

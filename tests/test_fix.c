@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "fix.h"
+#include "num/fix.h"
 #include "real.h"
 #include "test.h"
 

@@ -50,7 +50,7 @@ readme_output()
          inside && /int main\(void\)/ { program = 1 }' README.md
 }
 
-gcc -Iinclude examples/hello.c src/*.c -o "$work/hello" >"$work/said" 2>&1 && [ ! -s "$work/said" ]
+gcc -Iinclude examples/hello.c src/*/*.c -o "$work/hello" >"$work/said" 2>&1 && [ ! -s "$work/said" ]
 report $? "builds" "$work/said"
 "$work/hello" >"$work/output" 2>&1 </dev/null
 report $? "runs" "$work/output"

@@ -3,7 +3,7 @@
  * Candidates against trying everything: in double precision, every vertex and face, and every two
  * edges, of two meshes.
  */
-#include "interfere.h"
+#include "interfere/interfere.h"
 #include "real.h"
 #include "solids.h"
 #include "test.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "mass.h"
+#include "mesh/mass.h"
 #include "test.h"
 
 #ifdef TEST_LONG

@@ -50,8 +50,8 @@ spoil()
     copy
     sed -i "/^void step_mark(/,/^{/ s/^{/{\n    static int frame = 1;\n\n    if (frame == $1 \&\& \
 stage == CAROM_STAGE_$2) {\n        $3;\n    }\n    frame += stage == CAROM_STAGE_COMMIT;/" \
-        "$work/src/world_step_move.c"
-    ! cmp -s src/world_step_move.c "$work/src/world_step_move.c"
+        "$work/src/step/move.c"
+    ! cmp -s src/step/move.c "$work/src/step/move.c"
 }
 
 # Two scenes go on from a snapshot, from either machine to the other.
@@ -76,14 +76,14 @@ report $? 'a path that differs: the stage that made it'
 
 # Bytes the other way round are right for whoever wrote them, but for nobody else.
 copy
-sed -i 's/v >> (8 \* i)/v >> (8 * (bytes - 1 - i))/' "$work/src/world_snapshot.c"
-! cmp -s src/world_snapshot.c "$work/src/world_snapshot.c" &&
+sed -i 's/v >> (8 \* i)/v >> (8 * (bytes - 1 - i))/' "$work/src/world/snapshot.c"
+! cmp -s src/world/snapshot.c "$work/src/world/snapshot.c" &&
     { matrix --scene pile --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'has another snapshot of frame 500' 'load: ' '0 snapshots gone on with'
 report $? 'a snapshot of another byte order is refused'
 
 copy
-echo 'int one = "one";' >>"$work/src/fix.c"
+echo 'int one = "one";' >>"$work/src/num/fix.c"
 { matrix --targets m68k --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'FAIL m68k gcc -O0: compile: ' '0 builds, 0 scenes, 1 failures'
 report $? 'a build that cannot be made is a failure'

@@ -6,7 +6,7 @@
  * double precision.
  */
 #include "crossing.h"
-#include "interfere.h"
+#include "interfere/interfere.h"
 #include "real.h"
 #include "solids.h"
 #include "test.h"

@@ -15,7 +15,7 @@
  * Two frictionless impacts at once are held against a solution in double precision.
  */
 #include "real.h"
-#include "rest_parts.h"
+#include "solve/parts.h"
 #include "shapes.h"
 #include "test.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "scan.h"
+#include "mesh/scan.h"
 #include "test.h"
 
 #ifdef TEST_LONG

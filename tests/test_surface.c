@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "contact.h"
+#include "contact/contact.h"
 #include "shapes.h"
 
 #define SIDE  6

@@ -9,7 +9,7 @@
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
-#include "world_step_parts.h"
+#include "step/parts.h"
 
 #define CAPS 4, 4, 4, 4, 4, 4
 #define ONE  ((int64_t)1 << 40) /* a unit, or a radian, a frame */

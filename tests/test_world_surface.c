@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "shapes.h"
-#include "world.h"
+#include "world/world.h"
 
 #define CAPS(entries) 6, 12, 64, 256, entries, 512
 #define MOST          512

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "test.h"
-#include "zlist.h"
+#include "mesh/zlist.h"
 
 #ifdef TEST_LONG
 #define CASES 3000

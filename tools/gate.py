@@ -10,9 +10,8 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 os.chdir(ROOT)
 
-# The stages of the engine; each may use only what stands before it.
-STAGES = """fix arena gauss scan zlist mass mesh body broad interfere boyse contact impact rest
-            world world_step draw""".split()
+# The folders of src/, a stage each; each may use only those before it.
+STAGES = "num mesh body pairs interfere boyse contact solve world step draw".split()
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]
@@ -52,7 +51,7 @@ def sources(*suffixes):
 
 
 def engine():
-    return sorted(glob.glob("src/*.c"))
+    return sorted(glob.glob("src/*/*.c"))
 
 
 def objects(folder, compiler, flags):
@@ -81,10 +80,18 @@ def sections(made):
 
 
 def stage(path):
-    """The stage of a source or header: the longest that its name begins with, or None."""
-    name = os.path.basename(path).rsplit(".", 1)[0]
-    fitting = [s for s in STAGES if name == s or name.startswith(s + "_")]
-    return max(fitting, key=len, default=None)
+    """The stage of a source or header: the folder of src/ that it is in, or None."""
+    parts = os.path.normpath(path).split(os.sep)
+    return parts[1] if len(parts) == 3 and parts[0] == "src" and parts[1] in STAGES else None
+
+
+def included(path, name):
+    """The file of the engine that `path` includes as "name", or None."""
+    for folder in (os.path.dirname(path), "include"):
+        found = os.path.normpath(os.path.join(folder, name))
+        if os.path.isfile(found) and found.split(os.sep)[0] in ("src", "include"):
+            return found
+    return None
 
 
 def code(text):

@@ -139,7 +139,7 @@ void put(std::string &blob, uint64_t number, int bytes)
     }
 }
 
-/* The layout that carom_mesh_read takes; see src/mesh_blob.c. */
+/* The layout that carom_mesh_read takes; see src/mesh/blob.c. */
 std::string binary_blob(const Mesh &mesh)
 {
     std::string blob = "CRM1";

@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * body - poses, momenta and the motion of one body over a slice of a frame: an exact parabola of
+ * the centre of mass together with a Cayley rotation about it.
+ *
+ * A slice runs over a common t in [0, 1]. With u the Cayley vector of the whole slice,
+ *
+ *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u)
+ * normalised
+ *
+ * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
+ * relative to the body's origin: its position at the start of the slice rounded to q22.
+ */
+#ifndef CAROM_SRC_BODY_H
+#define CAROM_SRC_BODY_H
+
+#include "../mesh/mesh.h"
+
+#define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
+#define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
+#define BODY_RADIUS_MAX_Q22 (32 << 22) /* of a moving body */
+#define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
+#define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
+#define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
+#define BODY_REGION_FRAMES  8
+
+/* What a step changes: all of it is hashed and saved. */
+struct body_state {
+    carom_v3_q32 position;
+    carom_v3_q40 momentum; /* m v */
+    carom_v3_q40 angular;  /* I w, world axes, about the centre of mass */
+    carom_quat_q30 rotation;
+    uint8_t asleep, out;
+    uint8_t quiet; /* frames in a row that the body was slow in contact */
+    uint8_t woken; /* since the last step */
+};
+
+struct body_path {
+    union {
+        struct {
+            int64_t origin_q22[3];
+            carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
+            carom_quat_q30 q;  /* the rotation at its start */
+            carom_v3_q30 u;    /* the Cayley vector, in the body's axes */
+            int32_t u2_q30;    /* |u|^2 */
+        };
+        /* a solve's, from whose end on a body has no path until one is set */
+        struct {
+            carom_v3_q40 saved_angular; /* before it, for the energy rule */
+            int64_t dv[3], dw[3];       /* what it changes velocities by, in its units */
+            struct carom_sym3 turning;  /* R J^-1 R^T by the solver's unit of length squared */
+        };
+    };
+    struct {
+        carom_m3_q30 r;
+        struct {
+            int16_t c[3];
+        } x; /* q32, what the origin leaves of the position */
+    } start;
+    bool turns;
+};
+
+/*
+ * What candidates were gathered for: the motion along a path, and all motions that stay near it.
+ * Every point of the body must be within `room` of where it is on that path at the same time.
+ */
+struct body_region {
+    carom_v3_q32 at;        /* the pose at its start */
+    carom_v3_q40 way, bend; /* of the centre over its time: way t + bend t^2 */
+    carom_quat_q30 q;
+    carom_v3_q30 u;     /* its turn's Cayley vector, in the body's axes; if it turns */
+    carom_v3_q30 turn;  /* twice that, in world axes */
+    int32_t u_q30;      /* |u|, rounded up */
+    int32_t length_q22; /* of the centre's way, rounded up */
+    int32_t bend_q22;   /* |bend|, rounded up */
+    int32_t room_q22;
+    int64_t time_q30; /* frames, at most BODY_REGION_FRAMES */
+    /* used up */
+    int64_t elapsed_q30;
+    int64_t turned_off_q30; /* angle between the body and the path, at most */
+};
+
+struct body {
+    const struct carom_mesh *mesh; /* NULL: the place is free */
+    bool moving;
+    bool standing; /* still, and the path, the region and the box are those of where it is */
+
+    /* of a step; the rest of that is below */
+    bool active;      /* was to move when its region was set */
+    bool boxed;       /* its box is around its mesh's; else around its sphere */
+    bool in_contact;  /* took the frame's acceleration at once; moves straight */
+    bool touched;     /* had a contact in this step */
+    bool grounded;    /* and one with a body that stands still */
+    bool entering;    /* in_contact is new */
+    bool rewound;     /* is back where the frame found it */
+    bool woke;        /* in the static check at hand */
+    bool solving;     /* has a contact in the solve at hand */
+    int8_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
+    uint16_t island, next_in_island; /* its lowest body, and the next higher one */
+    uint16_t contacts;               /* where the island's contacts are listed */
+
+    uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
+    struct fix_scaled mass, inverse_mass;
+    int32_t restitution_q30;
+    uint32_t friction_q16;
+    int32_t radius_q22;
+    int32_t skin_q22;   /* EPS: a resting contact keeps half of this gap to all */
+    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
+    carom_v3_q40 acceleration; /* by gravity and force */
+    int64_t acceleration_q40;  /* its length */
+
+    /* scratch of a step */
+    struct body_path path;
+    struct body_region region;
+    int32_t reach_q22; /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;  /* and how far the body may turn, radians */
+    union {
+        int32_t box_q18[2][3];       /* in world axes around it, grown by the reach: by broad */
+        carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
+    };
+    carom_v3_q40 velocity, spin; /* before a solve */
+    union {
+        struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
+        int64_t lift_q32;      /* between steps: what they lift an island by, at its lowest body */
+    };
+};
+
+/* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
+void body_set_mass(struct body *b, struct fix_scaled mass);
+
+/* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
+void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
+void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+               carom_v3_q40 *w);
+/* The momenta that give v and w. */
+void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
+                     const carom_v3_q40 *w);
+/* p.v + L.w, twice the kinetic energy, 80 fractional bits. */
+struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
+                              const carom_m3_q30 *r);
+
+/* No less than that, and sooner: for bodies that hardly move. */
+struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s);
+
+/*
+ * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
+ * is lifted by a part of its skin gains that much; anything above is not lifting.
+ */
+struct fix_wide body_lift2(const struct body *b);
+
+/* out = m v for a symmetric m within 2^30; |v| < 2^62; out may be v. */
+void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);
+
+/* R J R^T: inertia by mass in world axes. */
+void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out);
+
+void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
+/* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
+void body_normalise(carom_quat_q30 *q);
+
+/* Where a path at the body's pose begins; the rest of it stays as it is. */
+void body_place_origin(struct body *b, const struct body_state *s);
+/* A path of no motion at the body's pose. */
+void body_place(struct body *b, const struct body_state *s);
+/*
+ * The path over tau_q30 of a frame, 0 < tau <= 1, at a turn of at most BODY_TURN_MAX_Q30.
+ * gravity: units / frame^2, or NULL for a straight path.
+ */
+void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
+                  const carom_v3_q40 *gravity);
+/*
+ * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
+ * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.
+ */
+static inline bool body_calm(const struct body *b, const struct body_state *s)
+{
+    return fix_sum(s->momentum.c) < b->calm_momentum_q40 &&
+           fix_sum(s->angular.c) < b->calm_angular_q40;
+}
+/* The longest slice, at most tau_q30, that turns by BODY_TURN_MAX_Q30 at the present spin. */
+int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
+
+/* How far the centre is at t of the path from its start, and the rotation there. */
+carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30);
+carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30);
+/* The axes of a rotation, turned on by a Cayley vector in them, |u| <= 0.31. */
+void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r);
+/* Take the pose at t as the new state, with the momentum that gravity gave over it. */
+void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
+                  const carom_v3_q40 *gravity);
+
+/* How far any point goes from 0 to t of the path, and how far the body turns. Rounded up. */
+void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
+
+/*
+ * Make the region that of the path, which takes slice_q30 of a frame, gone on with until time_q30:
+ * reach_q22 and turn_q30 as well. What else a body does on the way must stay within room_q22 of it.
+ * |u| time / slice is to be at most BODY_TURN_MAX_Q30 / 2 when time is longer than the slice.
+ */
+void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
+                       int64_t time_q30, int32_t room_q22);
+/* Where the centre of the region goes in its time, and the axes at its start and at its end. */
+carom_v3_q40 body_region_way(const struct body_region *region);
+void body_region_axes(const struct body_region *region, carom_m3_q30 *start, carom_m3_q30 *end);
+/* Whether the present path, which takes time_q30, stays within the region. */
+bool body_region_holds(const struct body *b, int32_t time_q30);
+/* Go on by t of the present path. */
+void body_region_advance(struct body *b, int32_t t_q30, int32_t time_q30);
+
+#endif

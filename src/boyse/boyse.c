@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/* The first of the roots of P(t) that is a hit. */
+#include "event.h"
+#include "place.h"
+
+/*
+ * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
+ */
+#define ROOT_LEVEL_Q22 3
+
+/*
+ * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
+ * or overlaps; 0 for one that does not.
+ */
+static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
+                            const struct boyse_places *start, int64_t gap_q40)
+{
+    struct boyse_touch touch;
+    int32_t limit_q22 = pair->skin_q22 / 2;
+
+    /* of edges this is |w| times the gap, which is no wider than it */
+    if (carom_abs(gap_q40) >> 18 >= limit_q22) {
+        return 0;
+    }
+    boyse_test(pair, c, start, 0, &touch);
+    return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
+                                                                                        : 0;
+}
+
+/* Go through the roots until one is a hit. `shift`: what P is less than its true value, q40. */
+static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
+                      const struct boyse_places *start, const struct curve *curve,
+                      int64_t shift_q40, struct boyse_hit *hit)
+{
+    struct walk walk;
+    int32_t last_root = 0;
+
+    walk_begin(&walk, curve);
+    while (walk_next(&walk, curve)) {
+        struct boyse_touch touch;
+        int32_t scale_q30 = 0;
+
+        touch.valid = false;
+
+        /* a vertex that comes out through the back of a face is no hit, wherever it does */
+        if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
+            scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
+        }
+        if (touch.valid && touch.sign * walk.slope8 < 0) {
+            struct opening o;
+
+            o.pair = pair;
+            o.edges = c->kind == CANDIDATE_EDGE_EDGE ? start : NULL;
+            o.curve = curve;
+            o.sign = touch.sign;
+            o.shift = curve_units(curve, touch.sign * shift_q40);
+            hit->root_q30 = walk.t_q30;
+            hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
+            return true;
+        }
+        last_root = walk.t_q30;
+        walk_over(&walk, curve);
+    }
+    return false;
+}
+
+/*
+ * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
+ * event gap, however small the angle between edges is.
+ */
+static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
+                         const struct boyse_places *start)
+{
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
+    int32_t largest = 0;
+
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        return level;
+    }
+    for (int k = 0; k < 3; k++) {
+        int32_t part = start->w[k] < 0 ? -start->w[k] : start->w[k];
+
+        largest = part > largest ? part : largest;
+    }
+    most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
+    return level < most ? level : most;
+}
+
+/*
+ * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then commit
+ * an overlap: look for the root of a surface a little nearer. What touches already must not get
+ * deeper. Returns what P is lowered by.
+ */
+static int64_t lower(int64_t gap_q40, int touching, int64_t level)
+{
+    int64_t size = carom_abs(gap_q40), shift;
+
+    if (touching != 0) {
+        return gap_q40 - touching * level;
+    }
+    shift = size > 2 * level ? level : size > level ? size - level : 0;
+    return gap_q40 > 0 ? shift : -shift;
+}
+
+bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+                 uint32_t *roots)
+{
+    struct boyse_places start;
+    struct curve curve;
+    int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
+    int degree, touching;
+
+    if (!boyse_may_meet(pair, c)) {
+        return false;
+    }
+    boyse_place_start(pair, c, &start);
+    degree = boyse_polynomial(pair, c, &start, a);
+    touching = touches_at_start(pair, c, &start, a[0]);
+    if (touching * a[1] < 0) {
+        ++*roots;
+        hit->t_q30 = hit->root_q30 = 0;
+        return true;
+    }
+    if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
+        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start));
+    }
+    a[0] -= shift_q40;
+    if (!curve_init(&curve, a, degree)) {
+        return false;
+    }
+    ++*roots;
+    return first_hit(pair, c, &start, &curve, shift_q40, hit);
+}

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+#include "event.h"
+
+/* The time of an event is found when the gap is within this of the wanted one. */
+#define EVENT_SLACK_Q22 4
+/* More than P can be. */
+#define BEYOND ((int32_t)1 << 30)
+
+/* A time, and by how much the features are farther apart than wanted at it. */
+struct sample {
+    int32_t t_q30, excess;
+};
+
+static int32_t open_at(const struct opening *o, int32_t t_q30)
+{
+    int32_t p = curve_at(o->curve, t_q30);
+
+    return o->sign < 0 ? -p : p;
+}
+
+/* 1 + s_a^2 t^2 less 1; the products of both are left out where only one turns. */
+static int32_t growth_q30(const struct body_path *path, int32_t t2_q30)
+{
+    return path->turns ? carom_mul_q30(path->u2_q30, t2_q30) : 0;
+}
+
+/* scale (1 + s_a^2 t^2) (1 + s_b^2 t^2), q30: below 1.3 */
+static int32_t factor_q30(const struct boyse_pair *pair, int32_t t_q30, int32_t scale_q30)
+{
+    int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
+
+    scale_q30 += carom_mul_q30(scale_q30, growth_q30(&pair->a->path, t2_q30));
+    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(&pair->b->path, t2_q30));
+}
+
+static int32_t limited(int64_t v)
+{
+    return v < BEYOND ? v > -BEYOND ? (int32_t)v : -BEYOND : BEYOND;
+}
+
+/* What the event gap comes to in P where edges are at an angle of the sine `scale`. */
+static void set_wanted(struct opening *o, int32_t t_q30, int32_t scale_q30)
+{
+    int32_t factor = factor_q30(o->pair, t_q30, scale_q30);
+    int64_t gap_q40 = (int64_t)factor * (o->pair->skin_q22 / 2) >> 12;
+
+    o->wanted = limited(curve_units(o->curve, gap_q40) - o->shift);
+    o->slack = limited(curve_units(o->curve, factor >> (12 - 2)) + 1);
+}
+
+static struct sample sample_at(struct opening *o, int32_t t_q30)
+{
+    if (o->by_time) {
+        set_wanted(o, t_q30, o->edges ? boyse_scale(o->pair, o->edges, t_q30) : CAROM_ONE_Q30);
+    }
+    return (struct sample){t_q30, open_at(o, t_q30) - o->wanted};
+}
+
+/*
+ * Between a time at which the features are farther apart than wanted and a later one at which they
+ * are not, find one at which they are as wanted, or farther by no more than the slack: by secants,
+ * halving when they gain little.
+ */
+static int32_t narrow_down(struct opening *o, struct sample far, struct sample near)
+{
+    for (int round = 0; near.t_q30 - far.t_q30 > 1 && far.excess > o->slack; round++) {
+        int32_t width = near.t_q30 - far.t_q30, step = width / 2;
+        struct sample s;
+
+        if (round % 3 != 2) {
+            /* aim at the middle of the slack, so that the next time is far and close */
+            uint32_t part_q30 = curve_quotient_q30((uint32_t)(far.excess - o->slack / 2),
+                                                   (uint32_t)far.excess - (uint32_t)near.excess);
+
+            step = (int32_t)((uint64_t)part_q30 * (uint32_t)width >> 30);
+            step = step < 1 ? 1 : step >= width ? width - 1 : step;
+        }
+        s = sample_at(o, far.t_q30 + step);
+        if (s.excess >= 0) {
+            far = s;
+        } else {
+            near = s;
+        }
+    }
+    return far.t_q30;
+}
+
+/* The time of the widest opening of 33 samples between two roots. */
+static int32_t widest(const struct opening *o, int32_t from, int32_t root, int32_t *open)
+{
+    int32_t best = from;
+
+    *open = open_at(o, from);
+    for (int k = 0; k < 32; k++) {
+        int32_t t_q30 = from + (int32_t)((int64_t)(root - from) * (2 * k + 1) >> 6);
+        int32_t there = open_at(o, t_q30);
+
+        if (there > *open) {
+            *open = there;
+            best = t_q30;
+        }
+    }
+    return best;
+}
+
+/*
+ * Of features that never open by the event gap: the time of half their largest opening, at far, but
+ * no nearer than they start; 0 when they are never open.
+ */
+static int32_t half_open(struct opening *o, int32_t from, int32_t far, int32_t open, int32_t root)
+{
+    int32_t start = from == 0 ? open_at(o, 0) : 0;
+
+    if (open <= 0) {
+        return 0;
+    }
+    o->wanted = open > o->shift ? limited((open - o->shift) / 2) : 0;
+    o->wanted = o->wanted < start ? start : o->wanted;
+    o->by_time = false;
+    return narrow_down(o, (struct sample){far, open - o->wanted},
+                       (struct sample){root, o->wanted > 0 ? -o->wanted : -1});
+}
+
+/* The event, looked for at first `back` before the root. */
+static int32_t search(struct opening *o, int32_t from, struct sample root, uint32_t back)
+{
+    struct sample far, near = root;
+
+    for (;;) {
+        far =
+            sample_at(o, back < (uint32_t)(root.t_q30 - from) ? root.t_q30 - (int32_t)back : from);
+        if (far.excess >= 0 || far.t_q30 == from) {
+            break;
+        }
+        near = far;
+        back *= 2;
+    }
+    if (far.excess < 0) {
+        int32_t open, time = widest(o, from, root.t_q30, &open);
+
+        /* whether they open far enough goes by what is wanted there, not at the root */
+        o->by_time = true;
+        far = sample_at(o, time);
+        near = root;
+        if (far.excess < 0) {
+            return half_open(o, from, time, open, root.t_q30);
+        }
+    }
+    return narrow_down(o, far, near);
+}
+
+/*
+ * Whether what is wanted in P a time dt before the root is so much other than there that the event
+ * gap is off by half the slack. The factor of P changes by up to 2 (s_a^2 + s_b^2) dt of itself, |w| by
+ * up to 2 (s_a + s_b) dt; of edges both are less by their sine.
+ */
+static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
+{
+    int32_t squares_q30 = o->pair->a->path.u2_q30 + o->pair->b->path.u2_q30;
+    int32_t change_q30 = carom_mul_q30(2 * squares_q30, dt_q30);
+
+    if (o->edges) {
+        change_q30 =
+            carom_mul_q30(change_q30, scale_q30) + carom_mul_q30(o->pair->turn_q30, dt_q30);
+    }
+    return (int64_t)change_q30 * (o->pair->skin_q22 / 2) >
+           (int64_t)scale_q30 * (EVENT_SLACK_Q22 / 2);
+}
+
+int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root, int32_t scale_q30)
+{
+    int32_t steep8 = root->slope8 < 0 ? -root->slope8 : root->slope8, missing, t_q30;
+    struct sample met = {root->t_q30, 0};
+    uint32_t back;
+
+    o->by_time = false;
+    set_wanted(o, root->t_q30, scale_q30);
+    missing = o->wanted - (o->sign < 0 ? -root->p : root->p);
+    missing = missing > 0 ? missing : 1;
+    met.excess = -missing;
+    /* first guess: the way at the closing speed of the root, and a little more */
+    back =
+        curve_quotient_q30((uint32_t)missing + (uint32_t)o->slack / 2, (uint32_t)steep8 + 1) >> 3;
+    t_q30 = search(o, from, met, back < 64 ? 64 : back);
+    if (!o->by_time && time_matters(o, scale_q30, root->t_q30 - t_q30)) {
+        o->by_time = true;
+        t_q30 = search(o, from, met, (uint32_t)(root->t_q30 - t_q30) + 64);
+    }
+    return t_q30;
+}

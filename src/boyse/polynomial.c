@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: MIT */
+/* Features at the start of a path, and the coefficients of P(t). */
+#include "place.h"
+
+void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
+                       struct boyse_places *p)
+{
+    const struct boyse_view *view = boyse_view(pair, c);
+    const struct carom_mesh *from = view->from->mesh, *to = view->to->mesh;
+    uint32_t v = c->i;
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        p->edge_a = &from->edges[c->i];
+        p->edge_b = &to->edges[c->j];
+        v = p->edge_a->vertex[0];
+    }
+    p->vertex = mesh_vertex(from, v);
+    carom_rotate(p->vertex.c, &view->r, p->vertex.c);
+    for (int k = 0; k < 3; k++) {
+        p->vertex.c[k] += view->centre.c[k];
+    }
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        p->n = to->faces[c->j].normal.c;
+        return;
+    }
+    p->start_b = mesh_vertex(to, p->edge_b->vertex[0]);
+    p->f = p->edge_b->direction.c;
+    carom_rotate(p->e, &view->r, p->edge_a->direction.c);
+    boyse_complete_edges(p);
+}
+
+/* ------------------------------------------------------------- can they meet? */
+
+bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+                int32_t margin_q22)
+{
+    struct boyse_places p;
+    int64_t gap_q22;
+
+    boyse_place_start(pair, c, &p);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        /* |w|_1 >= |w| */
+        int64_t size = carom_abs(p.w[0]) + carom_abs(p.w[1]) + carom_abs(p.w[2]);
+
+        return carom_abs(carom_dot(p.w, p.d)) <= size * (margin_q22 + 1);
+    }
+    gap_q22 = boyse_plane_gap_q52(boyse_view(pair, c), c, &p) >> 30;
+    return gap_q22 <= margin_q22 && gap_q22 >= deepest_q22;
+}
+
+/* --------------------------------------------------------------- coefficients */
+
+/*
+ * Below, directions are q30 and lengths have as many bits beyond q22 as fit 30 (view->fine): the
+ * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are summed
+ * up whole, for each power of t: below 2^62, as all lengths of a pair together are below 2^30, and
+ * the coefficients of a direction below 1, 0.7 and 0.3. They are kept as q40.
+ */
+static int64_t sum_q40(int64_t sum, int fine)
+{
+    return carom_round(sum, 12 + fine);
+}
+
+static int64_t dot_q40(const int32_t direction[3], const int32_t length[3], int fine)
+{
+    return sum_q40(carom_dot(direction, length), fine);
+}
+
+static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = v_q22[k] * (1 << fine);
+    }
+}
+
+/*
+ * A vector that turns with a body, times 1 + s^2 t^2: c[0] + c[1] t + c[2] t^2. The formula is that
+ * of Cayley: r + 2t u x r + t^2 (2 u (u.r) - s^2 r).
+ */
+struct quadratic {
+    int32_t c[3][3];
+};
+
+static void turning(struct quadratic *q, const int32_t r[3], const struct body_path *path,
+                    const carom_v3_q30 *u)
+{
+    int32_t along;
+
+    q->c[0][0] = r[0];
+    q->c[0][1] = r[1];
+    q->c[0][2] = r[2];
+    if (!path->turns) {
+        return; /* c[1] and c[2] are not looked at */
+    }
+    carom_cross(q->c[1], u->c, r, 29);
+    along = (int32_t)carom_round(carom_dot(u->c, r), 29);
+    for (int k = 0; k < 3; k++) {
+        q->c[2][k] =
+            (int32_t)carom_round((int64_t)u->c[k] * along - (int64_t)path->u2_q30 * r[k], 30);
+    }
+}
+
+/* sum += x.y for a direction x and lengths y, both of which turn: by powers, up to 4. */
+static void add_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            sum[i + j] += carom_dot(x->c[i], y->c[j]);
+        }
+    }
+}
+
+/* sum = x.y of two that turn or move, but for sum[0]. */
+static void set_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
+{
+    sum[1] = carom_dot(x->c[0], y->c[1]) + carom_dot(x->c[1], y->c[0]);
+    sum[2] =
+        carom_dot(x->c[0], y->c[2]) + carom_dot(x->c[1], y->c[1]) + carom_dot(x->c[2], y->c[0]);
+    sum[3] = carom_dot(x->c[1], y->c[2]) + carom_dot(x->c[2], y->c[1]);
+    sum[4] = carom_dot(x->c[2], y->c[2]);
+}
+
+/* v s^2, as fix_mul has it, which is called too often here: |v| < 2^52. */
+static inline int64_t times_u2(int64_t v, const struct body_path *path)
+{
+    int64_t high = (v >> 32) * path->u2_q30, low = (int64_t)(uint32_t)v * path->u2_q30;
+
+    return high * 4 + carom_round(low, 30);
+}
+
+/*
+ * The way of from's centre. A point that does not turn is its own centre, which keeps the numbers
+ * of large meshes small: `at` is where it starts from, about to's centre of reference. False when
+ * it is farther away than any two features can come together from.
+ */
+static bool centre_way(struct quadratic *q, const struct boyse_view *view, const int32_t at_q22[3])
+{
+    const int32_t limit = (int32_t)1 << (30 - view->fine);
+    int up = view->fine - 2, down = up < 0 ? -up : 0;
+
+    for (int k = 0; k < 3; k++) {
+        if (at_q22[k] > limit || at_q22[k] < -limit) {
+            return false;
+        }
+        q->c[0][k] = at_q22[k] * (1 << view->fine);
+        q->c[1][k] = up < 0 ? (view->v.c[k] + down) >> down : view->v.c[k] * (1 << up);
+        q->c[2][k] = up < 0 ? (view->g.c[k] + down) >> down : view->g.c[k] * (1 << up);
+    }
+    return true;
+}
+
+/* Coefficients without a root. */
+static int never(int64_t *a)
+{
+    a[0] = (int64_t)1 << 40;
+    a[1] = a[2] = 0;
+    return 2;
+}
+
+/* Where from's feature starts, from its centre of mass. */
+static void arm_of(int32_t arm_q22[3], const struct boyse_view *view,
+                   const struct boyse_places *start)
+{
+    for (int k = 0; k < 3; k++) {
+        arm_q22[k] = start->vertex.c[k] - view->centre.c[k];
+    }
+}
+
+/* A vertex that moves before a face that does not turn. */
+static int moving_vertex(const struct boyse_view *view, const struct boyse_places *start,
+                         int64_t *a)
+{
+    const struct body_path *path = &view->from->path;
+    int32_t arm[3], once[3], twice[3];
+    int64_t v = carom_round(carom_dot(start->n, view->v.c), 14);
+    int64_t g = carom_round(carom_dot(start->n, view->g.c), 14);
+
+    a[1] = v;
+    a[2] = g;
+    if (!path->turns) {
+        return 2;
+    }
+    /* r(t) (1 + s^2 t^2) = r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)) */
+    arm_of(arm, view, start);
+    refine(arm, arm, view->fine);
+    carom_cross(once, view->u.c, arm, 29);
+    carom_cross(twice, view->u.c, once, 30);
+    a[1] += dot_q40(start->n, once, view->fine);
+    a[2] += dot_q40(start->n, twice, view->fine) + times_u2(a[0], path);
+    a[3] = times_u2(v, path);
+    a[4] = times_u2(g, path);
+    return 4;
+}
+
+/*
+ * n(t).(c(t) + r(t)) - offset, n turning with `to`: c is the way of the vertex's centre, r the
+ * vertex about it. Only what turns has its factor.
+ */
+static int turning_face(const struct boyse_view *view, const struct boyse_places *start,
+                        int32_t offset_q22, int64_t *a)
+{
+    const struct body_path *from = &view->from->path, *to = &view->to->path;
+    struct quadratic n, centre, arm;
+    int64_t along[5], sum[5], plane = carom_shl(offset_q22, 18);
+    int32_t r[3], at[3];
+
+    for (int k = 0; k < 3; k++) {
+        at[k] = from->turns ? view->centre.c[k] : start->vertex.c[k];
+    }
+    if (!centre_way(&centre, view, at)) {
+        return never(a);
+    }
+    turning(&n, start->n, to, &to->u);
+    set_product(along, &n, &centre);
+    for (int k = 1; k < 5; k++) {
+        along[k] = sum_q40(along[k], view->fine);
+    }
+    along[2] -= times_u2(plane, to);
+    for (int k = 1; k < 5; k++) {
+        a[k] = along[k];
+    }
+    if (!from->turns) {
+        return 4; /* a[0] is the exact one */
+    }
+    along[0] = sum_q40(carom_dot(n.c[0], centre.c[0]), view->fine) - plane;
+    for (int k = 0; k < 3; k++) {
+        a[k + 2] += times_u2(along[k], from);
+    }
+    a[5] = times_u2(along[3], from);
+    a[6] = times_u2(along[4], from);
+    arm_of(r, view, start);
+    refine(r, r, view->fine);
+    turning(&arm, r, from, &view->u);
+    set_product(sum, &n, &arm);
+    for (int k = 1; k < 5; k++) {
+        a[k] += sum_q40(sum[k], view->fine);
+    }
+    return 6;
+}
+
+/* out = x x y for a direction x that turns and lengths y, collected by powers: degree 4. */
+static void cross_product(int32_t out[5][3], const struct quadratic *x, const struct quadratic *y)
+{
+    for (int k = 0; k < 3; k++) {
+        out[3][k] = out[4][k] = 0;
+    }
+    for (int j = 0; j < 3; j++) {
+        carom_cross(out[j], x->c[0], y->c[j], 30);
+    }
+    for (int i = 1; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            int32_t part[3];
+
+            carom_cross(part, x->c[i], y->c[j], 30);
+            for (int k = 0; k < 3; k++) {
+                out[i + j][k] += part[k];
+            }
+        }
+    }
+}
+
+/* Where c is at the start: see edge_polynomial. */
+static void place_centres(int32_t at[3], const struct boyse_pair *pair,
+                          const struct boyse_places *start)
+{
+    bool a_turns = pair->a->path.turns, b_turns = pair->b->path.turns;
+
+    for (int i = 0; i < 3; i++) {
+        at[i] = a_turns ? pair->view[0].centre.c[i] : start->vertex.c[i];
+        at[i] -= b_turns ? 0 : start->start_b.c[i];
+    }
+    if (!b_turns) {
+        /* of b's line, take the point that is nearest: it keeps long edges in range */
+        int32_t along_q22 = (int32_t)carom_round(carom_dot(start->f, at), 30);
+
+        for (int i = 0; i < 3; i++) {
+            at[i] -= carom_mul_q30(along_q22, start->f[i]);
+        }
+    }
+}
+
+/* The moment of a's line about a's centre, r_a x e, or of b's about b's, as it turns with its body. */
+static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
+                          const struct boyse_places *start, bool of_a)
+{
+    const struct boyse_view *view = &pair->view[0];
+    int32_t moment[3];
+
+    if (of_a) {
+        arm_of(moment, view, start);
+        carom_cross(moment, moment, start->e, 30 - view->fine);
+        turning(k, moment, &pair->a->path, &view->u);
+    } else {
+        carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
+        turning(k, moment, &pair->b->path, &pair->b->path.u);
+    }
+}
+
+/* Both bodies turn: degree 6. */
+static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                      const struct boyse_places *start, const struct quadratic *centre)
+{
+    struct quadratic e, f, k;
+    int32_t way[5][3];
+
+    turning(&e, start->e, &pair->a->path, &pair->view[0].u);
+    turning(&f, start->f, &pair->b->path, &pair->b->path.u);
+    cross_product(way, &f, centre);
+    for (int i = 0; i <= BOYSE_DEGREE; i++) {
+        sum[i] = 0;
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 5; j++) {
+            sum[i + j] += carom_dot(e.c[i], way[j]);
+        }
+    }
+    set_moment_of(&k, pair, start, true);
+    add_product(sum, &f, &k);
+    set_moment_of(&k, pair, start, false);
+    add_product(sum, &e, &k);
+}
+
+/*
+ * One body turns, with its edge x, or none: x.(y x c) + y.k with k the moment of x, in which y does
+ * not turn; the triple product changes its sign with the roles of the edges. Returns the degree.
+ */
+static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
+                     const struct boyse_places *start, const struct quadratic *centre)
+{
+    bool of_a = !pair->b->path.turns;
+    const struct body_path *path = of_a ? &pair->a->path : &pair->b->path;
+    const int32_t *y = of_a ? start->f : start->e;
+    struct quadratic x, way, k;
+
+    for (int j = 0; j < 3; j++) {
+        const int32_t *c = centre->c[j];
+
+        carom_cross(way.c[j], of_a ? y : c, of_a ? c : y, 30);
+    }
+    turning(&x, of_a ? start->e : start->f, path, of_a ? &pair->view[0].u : &path->u);
+    if (!path->turns) {
+        sum[1] = carom_dot(x.c[0], way.c[1]);
+        sum[2] = carom_dot(x.c[0], way.c[2]);
+        return 2;
+    }
+    set_product(sum, &x, &way);
+    set_moment_of(&k, pair, start, of_a);
+    sum[1] += carom_dot(y, k.c[1]);
+    sum[2] += carom_dot(y, k.c[2]);
+    return 4;
+}
+
+/*
+ * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
+ *
+ *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) + e.(r_b x f)
+ *
+ * where r_a x e turns with a, and r_b x f with b. A line that does not turn is referred to a point
+ * on it, so that its r is 0.
+ */
+static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
+                           int64_t *a)
+{
+    struct quadratic centre;
+    int64_t sum[BOYSE_DEGREE + 1];
+    int32_t at[3];
+    int degree = BOYSE_DEGREE;
+
+    place_centres(at, pair, start);
+    if (!centre_way(&centre, &pair->view[0], at)) {
+        return never(a);
+    }
+    if (pair->a->path.turns && pair->b->path.turns) {
+        both_turn(sum, pair, start, &centre);
+    } else {
+        degree = one_turns(sum, pair, start, &centre);
+    }
+    a[0] = carom_round(carom_dot(start->w, start->d), 12);
+    for (int i = 1; i <= degree; i++) {
+        a[i] = sum_q40(sum[i], pair->view[0].fine);
+    }
+    return degree;
+}
+
+int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1])
+{
+    const struct boyse_view *view = boyse_view(pair, c);
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        return edge_polynomial(pair, start, a_q40);
+    }
+    a_q40[0] = carom_round(boyse_plane_gap_q52(view, c, start), 12);
+    return view->to->path.turns
+               ? turning_face(view, start, view->to->mesh->faces[c->j].offset_q22, a_q40)
+               : moving_vertex(view, start, a_q40);
+}

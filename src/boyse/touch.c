@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: MIT */
+/* Features of a candidate at a given time: their places, their distance, and the exact test. */
+#include "place.h"
+
+/* ------------------------------------------------------------------ places at t */
+
+/*
+ * 2^59 / d for 2^29 <= d <= 2^30, within 2 units: 15 bits of it by division, the others by a step of
+ * Newton's, y + y (2^45 - d y) / 2^45. What is in the brackets fits 32 bits, being less than 2 d.
+ */
+static int32_t inverse_q59(uint32_t d)
+{
+    uint32_t y = UINT32_MAX / (d >> 13);
+    int32_t rest = (int32_t)(0 - d * y);
+
+    return (int32_t)(y << 14) + (int32_t)((int64_t)rest * (int32_t)y >> 31);
+}
+
+/*
+ * Cayley's turn at one time, 1 + k t [u] + k t^2 (u u^T - s^2), k = 2 / (1 + s^2 t^2); not set when
+ * the body does not turn.
+ */
+struct turn {
+    bool turns;
+    carom_m3_q30 r;
+};
+
+static void turn_at(struct turn *turn, const struct body_path *path, const carom_v3_q30 *u,
+                    int32_t t_q30, int32_t t2_q30)
+{
+    int32_t k_q29, once[3], twice[3], xx, yy, zz, xy, yz, zx;
+
+    turn->turns = path->turns;
+    if (!path->turns) {
+        return;
+    }
+    /* s t < 0.31: the divisor is 1 to 1.1 */
+    k_q29 =
+        inverse_q59(((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
+    t_q30 = carom_mul_q30(k_q29, t_q30);
+    t2_q30 = carom_mul_q30(k_q29, t2_q30);
+    for (int i = 0; i < 3; i++) {
+        once[i] = (int32_t)carom_round((int64_t)t_q30 * u->c[i], 29);
+        twice[i] = (int32_t)carom_round((int64_t)t2_q30 * u->c[i], 29);
+    }
+    xx = carom_mul_q30(twice[0], u->c[0]);
+    yy = carom_mul_q30(twice[1], u->c[1]);
+    zz = carom_mul_q30(twice[2], u->c[2]);
+    xy = carom_mul_q30(twice[0], u->c[1]);
+    yz = carom_mul_q30(twice[1], u->c[2]);
+    zx = carom_mul_q30(twice[2], u->c[0]);
+    turn->r = (carom_m3_q30){{{CAROM_ONE_Q30 - yy - zz, xy - once[2], zx + once[1]},
+                              {xy + once[2], CAROM_ONE_Q30 - zz - xx, yz - once[0]},
+                              {zx - once[1], yz + once[0], CAROM_ONE_Q30 - xx - yy}}};
+}
+
+/* v in any format is turned in place; its length keeps it within int32. */
+static void apply(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate(v, &turn->r, v);
+    }
+}
+
+static void apply_back(const struct turn *turn, int32_t v[3])
+{
+    if (turn->turns) {
+        carom_rotate_back(v, &turn->r, v);
+    }
+}
+
+/* A view at one time. */
+struct moment {
+    const struct boyse_view *view;
+    struct turn from, to;
+    int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
+};
+
+static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+{
+    int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
+
+    m->view = view;
+    turn_at(&m->from, &view->from->path, &view->u, t_q30, t2_q30);
+    turn_at(&m->to, &view->to->path, &view->to->path.u, t_q30, t2_q30);
+    return t2_q30;
+}
+
+static void set_moment(struct moment *m, const struct boyse_view *view, int32_t t_q30)
+{
+    int32_t t2_q30 = set_turns(m, view, t_q30);
+
+    for (int k = 0; k < 3; k++) {
+        /* q24 x q30 = q54: |v t + g t^2| < 2^8 units */
+        int64_t way_q54 = (int64_t)view->v.c[k] * t_q30 + (int64_t)view->g.c[k] * t2_q30;
+
+        m->centre_q22[k] = view->centre.c[k] + (int32_t)carom_round(way_q54, 32);
+    }
+}
+
+/* A direction of from's in to's mesh axes as it is at the start, and back to from's mesh. */
+static void direction_to(const struct moment *m, const int32_t start[3], int32_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = start[k];
+    }
+    apply(&m->from, out);
+    apply_back(&m->to, out);
+}
+
+static void direction_back(const struct moment *m, const int32_t n[3], int32_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = n[k];
+    }
+    apply(&m->to, out);
+    apply_back(&m->from, out);
+    carom_rotate_back(out, &m->view->r, out);
+}
+
+/* A point of from, in to's mesh axes and about to's centre as the start is. */
+static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
+{
+    carom_v3_q22 p;
+
+    for (int k = 0; k < 3; k++) {
+        p.c[k] = start->c[k] - m->view->centre.c[k];
+    }
+    apply(&m->from, p.c);
+    for (int k = 0; k < 3; k++) {
+        p.c[k] += m->centre_q22[k];
+    }
+    apply_back(&m->to, p.c);
+    return p;
+}
+
+/* A direction from to's mesh axes to the world's. */
+static void to_world(const struct moment *m, int32_t v[3])
+{
+    apply(&m->to, v);
+    carom_rotate(v, &m->view->to->path.start.r, v);
+}
+
+/* The features of a candidate at one time. */
+static void place(const struct moment *m, const struct candidate *c,
+                  const struct boyse_places *start, struct boyse_places *p)
+{
+    p->vertex = point_to(m, &start->vertex);
+    if (c->kind != CANDIDATE_EDGE_EDGE) {
+        p->n = start->n;
+        return;
+    }
+    p->edge_a = start->edge_a;
+    p->edge_b = start->edge_b;
+    p->start_b = start->start_b;
+    p->f = start->f;
+    direction_to(m, start->e, p->e);
+    boyse_complete_edges(p);
+}
+
+/* --------------------------------------------------------- a vertex and a face */
+
+static void test_vertex_face(const struct moment *m, const struct candidate *c,
+                             const struct boyse_places *p, struct boyse_touch *touch)
+{
+    int32_t n[3];
+
+    touch->gap_q22 = (int32_t)(boyse_plane_gap_q52(m->view, c, p) >> 30);
+    touch->sign = 1;
+    touch->valid = false;
+    if (mesh_over_face(m->view->to->mesh, c->j, &p->vertex, BOYSE_POINT_NOISE_Q22)) {
+        direction_back(m, p->n, n);
+        touch->valid = mesh_vertex_cone(m->view->from->mesh, c->i, n, INTERFERE_CONE_Q30);
+    }
+}
+
+/* ------------------------------------------------------------------ two edges */
+
+/* 1 / |w| of edges as m 2^-(29 - up), for an angle of no less than the one that counts. */
+struct inverse {
+    int32_t m; /* 2^29 .. 2^30 */
+    int up;    /* 0 .. 8 */
+};
+
+static struct inverse inverse_of(int32_t sine_q30)
+{
+    uint32_t d = sine_q30 > BOYSE_PARALLEL_Q30 ? (uint32_t)sine_q30 : BOYSE_PARALLEL_Q30;
+    int up = 30 - fix_bits32(d);
+
+    /* a sine of 1, and a little more by rounding */
+    return up < 0 ? (struct inverse){1 << 29, 0} : (struct inverse){inverse_q59(d << up), up};
+}
+
+/* v times the inverse, rounded down; |v| < 2^51. */
+static int64_t over_sine(int64_t v, struct inverse sine)
+{
+    uint64_t wide = (uint64_t)v << (3 + sine.up);
+    uint32_t low = (uint32_t)((wide & 0xffffffffu) * (uint32_t)sine.m >> 32);
+
+    return (int64_t)(int32_t)(uint32_t)(wide >> 32) * sine.m + low;
+}
+
+/* w.d is kept to q32 until it is divided by |w|: nearly parallel edges lose nothing. */
+static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
+{
+    int64_t gap = over_sine(sign * wd_q52 >> 20, sine) >> 10;
+
+    if (gap > INT32_MAX || gap < -INT32_MAX) {
+        return gap > 0 ? INT32_MAX : -INT32_MAX; /* nearly parallel and far apart */
+    }
+    return (int32_t)gap;
+}
+
+/* a b, rounded down; |a| < 2^61 */
+static int64_t times_q30(int64_t a, int32_t b_q30)
+{
+    int64_t a4 = carom_shl(a, 2), low = (int64_t)(uint32_t)a4 * b_q30;
+
+    return (a4 >> 32) * b_q30 + (low >> 32);
+}
+
+/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22: the difference is
+ * no more than the sine times such a length. */
+static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
+{
+    return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
+}
+
+/*
+ * Whether the places of nearest approach along the two lines are on the edges. With b = e.f and
+ * D = 1 - b^2 = |w|^2: s = (b d.f - d.e) / D and q = (d.f - b d.e) / D.
+ */
+static bool meet_on_edges(const struct boyse_places *p, struct inverse sine)
+{
+    int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
+    int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
+    int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
+    int64_t s_q22 = -along(de_q32, b_q30, df_q32, sine);
+    int64_t q_q22 = along(df_q32, b_q30, de_q32, sine);
+
+    return s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
+           q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
+           q_q22 <= p->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
+}
+
+/* The unit normal w / |w| of two edges, in the mesh axes of both. */
+struct edge_normal {
+    int32_t on_a[3], on_b[3];
+};
+
+static void set_normal(struct edge_normal *n, const struct moment *m, const struct boyse_places *p,
+                       struct inverse sine)
+{
+    for (int k = 0; k < 3; k++) {
+        n->on_b[k] = (int32_t)carom_round((int64_t)p->w[k] * sine.m, 29 - sine.up);
+    }
+    direction_back(m, n->on_b, n->on_a);
+}
+
+/*
+ * What N = w / |w| makes of the faces of two edges, cosines. Out: by how much they look along N, out
+ * of b and against a. N leaves b's edge outwards and enters a's, on neither side inside a face, when
+ * `most` is not above 0, and -N when `least` is not below it.
+ */
+struct cones {
+    int32_t out, most, least;
+    bool border; /* one has a face on one side alone: there N may look away from it */
+};
+
+static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
+{
+    return (int32_t)(carom_dot(a, b) >> 30);
+}
+
+/*
+ * Along the inward normal of a face with normal f at an edge of direction d, N is N.(f x d), which is
+ * f.(d x N); and the opposite at the other side of the edge.
+ */
+static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
+                      const struct carom_edge *edge, const int32_t n[3], bool outwards)
+{
+    int32_t across[3];
+
+    carom_cross(across, edge->direction.c, n, 30);
+    for (int side = 0; side < 2; side++) {
+        if (edge->face[side] != CAROM_NO_FACE) {
+            const int32_t *face = mesh->faces[edge->face[side]].normal.c;
+            int32_t along = cosine_q30(face, n) >> 2, inward = cosine_q30(face, across);
+
+            inward = (side == 0) == outwards ? inward : -inward;
+            cones->out += outwards ? along : -along;
+            cones->most = inward > cones->most ? inward : cones->most;
+            cones->least = inward < cones->least ? inward : cones->least;
+        } else {
+            cones->border = true;
+        }
+    }
+}
+
+/*
+ * The sign of N, by the way that the faces of both edges look: edges that are nearly flat have both
+ * normals within the tolerance of their cones. 0: neither is. The two faces of a convex edge look
+ * along any N between them, taken together, so a sign that nothing but the tolerance allows is none.
+ */
+static int sign_of(const struct moment *m, const struct boyse_places *p,
+                   const struct edge_normal *n)
+{
+    struct cones cones = {0, 0, 0, false};
+    int sign;
+
+    add_cones(&cones, m->view->to->mesh, p->edge_b, n->on_b, true);
+    add_cones(&cones, m->view->from->mesh, p->edge_a, n->on_a, false);
+    sign = cones.out >= 0 ? 1 : -1;
+    for (int turn = 0; turn < 2; turn++, sign = -sign) {
+        if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30 &&
+            (cones.border || sign * cones.out >= -INTERFERE_CONE_Q30)) {
+            return sign;
+        }
+    }
+    return 0;
+}
+
+/* Returns |w|; `n` is set when the touch is valid. */
+static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
+                          struct boyse_touch *touch, struct edge_normal *n)
+{
+    int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
+
+    const struct inverse sine = inverse_of(sine_q30);
+    const int64_t wd_q52 = carom_dot(p->w, p->d);
+
+    touch->valid = false;
+    touch->sign = 1;
+    if (sine_q30 >= BOYSE_PARALLEL_Q30 && meet_on_edges(p, sine)) {
+        int sign;
+
+        set_normal(n, m, p, sine);
+        sign = sign_of(m, p, n);
+
+        touch->valid = sign != 0;
+        touch->sign = (int8_t)(sign < 0 ? -1 : 1);
+    }
+    touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
+    return sine_q30;
+}
+
+/* -------------------------------------------------------------- the exact test */
+
+int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30)
+{
+    struct moment m;
+    int32_t e[3], w[3];
+
+    set_turns(&m, &pair->view[0], t_q30);
+    direction_to(&m, start->e, e);
+    carom_cross(w, e, start->f, 30);
+    return (int32_t)fix_sqrt((uint64_t)carom_dot(w, w));
+}
+
+int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
+                   const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch)
+{
+    struct moment m;
+    struct boyse_places p;
+    struct edge_normal n;
+
+    set_moment(&m, boyse_view(pair, c), t_q30);
+    place(&m, c, start, &p);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        return test_edges(&m, &p, touch, &n);
+    }
+    test_vertex_face(&m, c, &p, touch);
+    return CAROM_ONE_Q30;
+}
+
+void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30,
+                 struct boyse_touch *touch)
+{
+    struct moment m;
+    struct boyse_places start, p;
+    struct edge_normal n;
+    const int32_t *normal = n.on_b;
+    int sign;
+
+    boyse_place_start(pair, c, &start);
+    set_moment(&m, boyse_view(pair, c), t_q30);
+    place(&m, c, &start, &p);
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        (void)test_edges(&m, &p, touch, &n);
+        sign = touch->sign;
+    } else {
+        test_vertex_face(&m, c, &p, touch);
+        normal = p.n; /* of the face */
+        sign = c->kind == CANDIDATE_VERTEX_FACE ? 1 : -1;
+    }
+    if (!touch->valid) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        touch->normal.c[k] = sign * normal[k];
+    }
+    to_world(&m, touch->normal.c);
+}

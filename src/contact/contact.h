@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * contact - the paper's static interference check: where bodies touch in a fixed pose, with
+ * positions and normals, each place once.
+ */
+#ifndef CAROM_SRC_CONTACT_H
+#define CAROM_SRC_CONTACT_H
+
+#include "../boyse/boyse.h"
+
+/* One of a contact's two bodies. Index 0 is a, 1 is b. */
+struct contact_side {
+    struct body *body; /* NULL: stationary; the rest is then without meaning */
+    /* from the centre of mass to the contact, over the body's unit of length */
+    int32_t arm_q30[3];
+};
+
+/* What an impulse at a contact does to one of its bodies, in the solver's units (rest.h). */
+struct contact_lever {
+    int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
+    int32_t turn[3][3]; /* change of spin by an impulse, times 2^-turn_bits */
+    int32_t turn_bits;
+};
+
+/* Rolling friction of a pair, at its first contact in an island; rest_roll.c. */
+struct contact_roll {
+    int32_t unit_bits; /* of length: the shorter of the two bodies' */
+    int32_t arm_q30;   /* the patch over which contacts press, in that unit */
+    int32_t mass_q24;  /* change of spin by a unit moment, at most */
+    int32_t step_q30;  /* its inverse */
+    union {
+        struct {
+            int32_t spin[3]; /* relative, before the solve, in solver units */
+            int32_t gain[3], way[3];
+            int32_t moment[3]; /* accumulated */
+        };
+        carom_v3_q40 moment_q40; /* the result, when the sweeps are over: on a, its opposite on b */
+    };
+};
+
+/*
+ * What the solver works out of a contact of the island at hand, and needs no longer than that. It
+ * lies apart from the contact, where other stages have their own.
+ */
+struct contact_work {
+    struct contact_lever lever[2];
+    struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
+    bool rolls;                /* and it takes part in the sweeps at hand */
+    bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
+    int8_t fine_bits;
+    int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
+    int64_t target_q40; /* wanted V'.N */
+    struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
+    int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
+    int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
+    int32_t step[2]; /* of a sweep when it slides, so too: along N, and one scalar across */
+    union {
+        int32_t inverse[6];      /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
+        carom_v3_q40 wanted_q40; /* while the energy rule looks for less: without friction */
+    };
+
+    /* the sweeps', in solver units */
+    uint32_t friction_q16;
+    int32_t before[3]; /* V - wanted N before, with a slip that sweeps can follow */
+    int32_t band;      /* band_q30 */
+    int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
+};
+
+struct contact {
+    /* found by the static check */
+    struct candidate key;
+    carom_v3_q30 normal; /* N, from b into a */
+    int32_t gap_q22;
+    int32_t skin_q22;   /* of the pair */
+    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
+    struct contact_side side[2];
+
+    /* worked out by the solver */
+    struct contact_work *work; /* NULL: not yet taken up */
+    /* contacts[n].order is the n-th contact when islands come one after the other */
+    uint16_t order;
+    bool idle;    /* nothing asks for its island to be solved now */
+    bool resting; /* solved without any impact in its island */
+    bool impact;
+    int32_t
+        chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
+    int64_t speed_q40; /* V.N before */
+    union {
+        struct {
+            /* change of the impulse in two sweeps, and the way it is going */
+            int32_t gain[3], way[3];
+        };
+        carom_v3_q40 velocity_q40; /* V before, until the sweeps begin */
+        carom_v3_q40 impulse_q40;  /* the result, when they are over: P on a, -P on b */
+    };
+};
+
+/* The contacts of a world at the present poses, sorted by key, with their pool. */
+struct contact_list {
+    struct contact *contacts;
+    struct pool *pool;
+};
+
+/*
+ * Where the features of a candidate meet in the placed poses, halfway between the surfaces, as arms
+ * from both centres of mass: arm[0] - arm[1] is what lies between the centres.
+ *
+ *   normal  N, across both features; edges: not parallel
+ * Error     of a vertex 2^-31 of its distance from the centre; of edges that over their sine
+ */
+void contact_place(const struct boyse_pair *pair, const struct candidate *c,
+                   const carom_v3_q30 *normal, carom_v3_q40 arm[2]);
+
+/* Fractional bits of arm_q30 taken as a length. */
+static inline int contact_arm_bits(const struct body *b)
+{
+    return 30 + 22 - b->unit_bits;
+}
+
+/* From the centre of mass of a, which moves, to the contact; and the place in the world. */
+static inline carom_v3_q22 contact_arm(const struct contact *c)
+{
+    const struct contact_side *side = &c->side[0];
+    int down = contact_arm_bits(side->body) - 22;
+    carom_v3_q22 arm;
+
+    for (int k = 0; k < 3; k++) {
+        arm.c[k] = (int32_t)(((int64_t)side->arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
+    }
+    return arm;
+}
+
+carom_v3_q32 contact_point(const struct contact *c);
+
+/*
+ * Take in a contact of a pair at a place. One of that key stays as it was. Returns false when the
+ * list is full.
+ */
+bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
+                    const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,
+                    const carom_v3_q40 arm[2]);
+
+/*
+ * Take in a candidate if its features touch within `margin` in the placed poses: as the visitor of
+ * all candidates does. Returns false when the list is full.
+ */
+bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
+                 const struct candidate *c, int32_t margin_q22);
+
+/*
+ * Make sure that the pair of a hit is among the contacts, with the normal found at the root and the
+ * place of its features in the placed poses; the surfaces may be farther apart than the margin along
+ * another normal by now. It takes the place of contacts of the same vertex with nearly the same
+ * normal, and the least gap of them.
+ */
+bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
+                   const struct boyse_hit *hit);
+
+/*
+ * How the surface of b moves at a contact, in world axes: what it moved by since the last step, a
+ * frame; 0 for all else.
+ *   arm  from b's centre to the contact
+ */
+void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
+                   const carom_v3_q40 *arm, carom_v3_q40 *drift);
+
+/* The part of the drift along the normal. */
+static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)
+{
+    return fix_mul(drift->c[0], n->c[0], 30) + fix_mul(drift->c[1], n->c[1], 30) +
+           fix_mul(drift->c[2], n->c[2], 30);
+}
+
+/*
+ * Merge contacts of a pair that share place and normal; the smallest gap stays.
+ * Indeterminate cases are settled here and by the normal cones: a vertex on a vertex or an edge
+ * answers to every face normal in its cone, and what coincides becomes one.
+ */
+void contact_merge(struct contact_list *list);
+
+#endif

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * draw - a picture of a world: camera, clipping, flat shading row by row, wireframe.
+ *
+ * Four frames of reference:
+ *
+ *   world   q32
+ *   mesh    relative to the eye along the mesh's axes, q22 shifted right by the body's `shift`, so
+ *           that nothing that belongs to the body is longer than 2^29
+ *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
+ *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
+ *           and y from 7/16 above the top side of the pixel `middle`, so that a
+ *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
+ *           row before
+ *
+ * The guard band is a square of DRAW_GUARD pixels either way of the middle of the picture. It holds
+ * the largest picture, so that faces are clipped exactly only against it and the near plane; the
+ * rows cut the rest at the edges of the picture.
+ *
+ * Depth is w_q26 = 1 / z: it is linear over the picture, larger is nearer, and it is 2^31 on the
+ * near plane, 1/32 unit in front of the eye.
+ *
+ * FLAT works on a part of the picture, a rectangle, at a time: all of it when the workspace holds
+ * all faces that show in it. They are listed by the row in which they begin. Then each row knows
+ * its faces from left to right; where one alone covers a pixel no depth is looked at, and every
+ * pixel is written about once.
+ */
+#ifndef CAROM_SRC_DRAW_H
+#define CAROM_SRC_DRAW_H
+
+#include "../world/world.h"
+
+#define DRAW_GUARD 1024
+
+/* Ramps of carom_draw_palette, in its order. Interfering faces are HOT. */
+enum draw_ramp {
+    DRAW_BACKGROUND, /* from the top of the picture to the bottom */
+    DRAW_STATIONARY, /* from shadow to light */
+    DRAW_MOVING,
+    DRAW_STATIONARY_HOT,
+    DRAW_MOVING_HOT,
+    DRAW_RAMPS
+};
+#define DRAW_SHADES 32
+
+/* The palette entry of a shade of a body's ramp. */
+static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
+{
+    return (uint32_t)(DRAW_STATIONARY + moving + 2 * hot) * DRAW_SHADES + shade;
+}
+
+/* A rectangle of pixels; x1 and y1 are outside. */
+struct draw_rect {
+    int32_t x0, y0, x1, y1;
+};
+
+/* ---- draw_view.c: from the world to the picture */
+
+#define DRAW_SIDES 5
+
+/* Pixels that the largest body covers: what is further away than w there is hidden. */
+struct draw_cover {
+    uint32_t body;
+    uint32_t radius2_q8; /* of a circle on the picture; 0: none */
+    int32_t x_q4, y_q4;
+    uint32_t w_q26;
+    carom_v3_q30 axis; /* from the eye through its middle, in the world */
+    int32_t slope_q16; /* how fast what is covered opens along that */
+};
+
+/* The camera, and the part of the picture that is being drawn. */
+struct draw_view {
+    carom_v3_q32 eye;
+    carom_m3_q30 axes; /* rows: right, down and forward in the world */
+    int64_t focal_q16; /* pixels */
+    int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
+    int z_shift;
+    int32_t middle[2];     /* the pixel from which pixels are counted; in an even column */
+    int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
+    struct draw_rect rect; /* the part, counted from there */
+    carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
+    struct draw_cover cover;
+};
+
+/* A body as the camera sees it. */
+struct draw_body {
+    const struct carom_mesh *mesh;
+    bool moving;
+    int sees; /* 2 when all of it lies inside of the part, else 1 */
+    int shift;
+    int32_t near;                  /* view z of the near plane */
+    int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
+    carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
+    carom_v3_q30 cover;            /* its axis, in the same */
+    uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
+    carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
+    /* view = (to_view (vertex << up) + origin) / 2^30 */
+    carom_m3_q30 to_view;
+    int64_t origin[3];
+    int up, w_shift;
+    int32_t round_q29[2]; /* the view's */
+};
+
+/*
+ * A corner on the picture. With y in the upper half, corners compare by height, and the row is the
+ * upper 12 bits.
+ */
+struct draw_vertex {
+    int32_t yx_q4;
+    uint32_t w_q26;
+};
+
+static inline int32_t draw_x(int32_t yx_q4)
+{
+    return (int16_t)(yx_q4 & 0xffff);
+}
+
+static inline int32_t draw_y(int32_t yx_q4)
+{
+    return yx_q4 >> 16;
+}
+
+static inline int32_t draw_row(int32_t yx_q4)
+{
+    return yx_q4 >> 20;
+}
+
+/* Returns CAROM_OK, CAROM_ERR_ARGUMENT or CAROM_ERR_RANGE. */
+int draw_view_init(struct draw_view *view, const struct carom_camera *camera, int32_t width,
+                   int32_t height);
+/* Choose the part of the picture to draw. */
+void draw_view_rect(struct draw_view *view, struct draw_rect rect);
+
+/* All of a picture. */
+static inline struct draw_rect draw_whole(const struct draw_view *view,
+                                          const struct carom_picture *picture)
+{
+    int32_t x0 = -view->middle[0], y0 = -view->middle[1];
+
+    return (struct draw_rect){x0, y0, x0 + picture->width, y0 + picture->height};
+}
+
+/* Prepare a body for the view's part; false when nothing of it can show there. */
+bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
+                    const struct body_state *state);
+/*
+ * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
+ * 1, or 2 when all of it does.
+ */
+int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
+
+/* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
+bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
+
+/* How far some vertices reach on the picture. */
+struct draw_extent {
+    int32_t low[2][2], high[2][2]; /* of view x / z and y / z, as two numbers */
+    bool near;                     /* one of them is too near to say */
+};
+
+void draw_extent_begin(struct draw_extent *extent);
+void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, uint32_t number);
+/* A pixel more on each side, within the view's part; nothing of no vertices. */
+struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view);
+
+/*
+ * Clip a face, or an edge as a polygon of two corners, given by its vertices.
+ *   out  what is left, on the picture; of an edge, the first two
+ * Returns their number: a triangle gains at most one corner a plane.
+ */
+#define DRAW_CLIP_MAX 8
+int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
+              struct draw_vertex out[DRAW_CLIP_MAX]);
+
+/* ---- draw_divide.c: quotients for processors that cannot divide */
+
+/* n / d by a table of inverses and products; n < 2^31, 0 < d < 2^16. */
+uint32_t draw_quotient(uint32_t n, uint32_t d);
+
+/* The same, of a signed n, by what is quicker. */
+static inline int32_t draw_divide(int32_t n, int32_t d)
+{
+#if defined __arm__ && !defined __ARM_FEATURE_IDIV
+    uint32_t size = (uint32_t)(n < 0 ? -n : n);
+    int32_t quotient = (int32_t)draw_quotient(size, (uint32_t)d);
+
+    return n < 0 ? -quotient : quotient;
+#else
+    return n / d;
+#endif
+}
+
+/* ---- draw_cover.c: what a body surely hides */
+
+/* Find the view's cover. */
+void draw_cover_init(struct draw_view *view, const struct carom_world *world);
+
+/* Whether some of a leaf may be covered. */
+bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
+                    const struct carom_leaf *leaf);
+
+static inline bool draw_covers(const struct draw_cover *cover, const struct draw_vertex *vertex)
+{
+    /* both are within 1026 pixels of the middle: a sum below 2^32 */
+    int32_t dx = draw_x(vertex->yx_q4) - cover->x_q4, dy = draw_y(vertex->yx_q4) - cover->y_q4;
+
+    return (uint32_t)(dx * dx) + (uint32_t)(dy * dy) < cover->radius2_q8 &&
+           vertex->w_q26 < cover->w_q26;
+}
+
+/* ---- draw_flat.c: the faces that show, part by part */
+
+/* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
+int draw_flat(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture, struct draw_rect rect);
+
+/* ---- draw_rows.c: their pixels, row by row */
+
+/* A triangle on the picture. It begins with its top corner and runs counter-clockwise. */
+struct draw_face {
+    uint16_t corner[3]; /* into the vertices */
+    uint16_t next;      /* in its row's list: 1 + where it is, 0 at the end */
+    uint16_t colour;    /* palette entry */
+};
+
+/*
+ * What shows in a part of the picture: vertices from one end of the workspace, faces from the
+ * other, the last one first. What is between them is for the rows.
+ */
+struct draw_list {
+    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin */
+    struct draw_vertex *vertices;
+    struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
+    uint32_t vertex_count, face_count; /* with these two */
+    size_t room;                       /* bytes between */
+};
+
+/* Draw the part. False when there is too little room for one of its rows, unless it must be. */
+bool draw_rows(const struct draw_view *view, const struct draw_list *list,
+               const struct carom_picture *picture, bool must);
+
+/* ---- draw_depth.c: where faces cover each other */
+
+/* A face in the row at hand. */
+struct draw_span {
+    int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
+    int32_t rows;                  /* before an edge ends */
+    int32_t rest;   /* after that: > 0 with a new left edge, < 0 with a new right one */
+    uint32_t pixel; /* its colour, over a whole word */
+    const struct draw_face *face;
+    uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
+    struct draw_span *next; /* of those that begin, or of those that are free */
+};
+
+#define DRAW_UNDER_MAX 64
+
+/* A row of which the pixels before x are done. */
+struct draw_sweep {
+    const struct draw_view *view;
+    const struct draw_vertex *vertices;
+    uint8_t *row; /* its pixel 0 */
+    int32_t safe; /* a run that ends here may write 3 bytes more */
+    int pixel_shift;
+    int32_t y, x;
+    uint32_t ground;       /* the background */
+    struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
+    int32_t end;           /* where it ends */
+    int32_t gate;          /* a span that begins here or later meets no other */
+    uint32_t under_high;   /* the least depth of the others, w_q26 */
+    int under_count;
+    struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
+};
+
+/* The least and the most of a face's depth, when they are needed first. */
+void draw_depths(const struct draw_sweep *s, struct draw_span *span);
+
+/* Whether the top span is in front of all of another one, which can wait until it ends. */
+static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, struct draw_span *span)
+{
+    if (top->w_high == 0) {
+        draw_depths(s, top);
+    }
+    if (top->w_low > span->w_high && s->under_count < DRAW_UNDER_MAX) {
+        s->under[s->under_count++] = span;
+        if (s->under_high < span->w_high) {
+            s->under_high = span->w_high;
+        }
+        return true;
+    }
+    return false;
+}
+
+/* Whether a span is in front of all others, as far as is known. */
+static inline bool draw_shows(const struct draw_sweep *s, const struct draw_span *span)
+{
+    return span->w_low > s->under_high;
+}
+
+/* Go on to pixel `to`. */
+void draw_advance(struct draw_sweep *s, int32_t to);
+/* Take in a span of which the first pixel is not before x. */
+void draw_overlap(struct draw_sweep *s, struct draw_span *span);
+
+/* ---- draw_pixels.c: runs of pixels in memory */
+
+/*
+ * Stores of 2 and 4 bytes into memory of any type. Where the processor takes words at odd places they
+ * may lie there; where it does not, a compiler would make four byte stores of one, so that runs are
+ * written by what their ends allow. Pixels of two bytes or four are never written by the byte: the
+ * video memory of some machines does not take that.
+ */
+#if defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__
+#define DRAW_ANYWHERE 1
+#define DRAW_ALIGNED  aligned(1)
+#else
+#define DRAW_ANYWHERE 0
+#define DRAW_ALIGNED
+#endif
+#if defined __GNUC__
+typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
+typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
+#else
+typedef uint16_t draw_half;
+typedef uint32_t draw_word;
+#endif
+
+/* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */
+int draw_pixel_shift(uint8_t format);
+
+/* Where pixel x of a row is, or the byte that it is in. */
+static inline uint8_t *draw_pixel(uint8_t *row, int pixel_shift, int32_t x)
+{
+    return row + (pixel_shift < 0 ? x >> 1 : x * (1 << pixel_shift));
+}
+
+/* Pixel 0 of row y, both counted from the middle of the picture. */
+uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
+
+/* Pixels from <= x < to of a row in one colour, and no others. */
+void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel);
+
+/* The background of row y of the view's part. */
+uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
+
+/* ---- draw_wire.c */
+
+void draw_wire(const struct carom_world *world, struct draw_view *view,
+               const struct carom_picture *picture, struct draw_rect part);
+
+/* ---- draw_palette.c */
+
+/* A palette entry as a pixel of the format, over a whole word as often as it fits. */
+uint32_t draw_colour(uint8_t format, uint32_t index);
+
+/* ---- draw.c: a picture and its parts */
+
+/* Whether a picture can be drawn, but for the camera. Returns what carom_draw does. */
+int draw_check(const struct carom_world *world, const struct carom_camera *camera,
+               const struct carom_picture *picture, enum carom_draw_style style);
+
+/* Draw a part of the picture; nothing outside of it changes. */
+int draw_part(const struct carom_world *world, struct draw_view *view,
+              const struct carom_picture *picture, enum carom_draw_style style,
+              struct draw_rect part);
+
+#endif

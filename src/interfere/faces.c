@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/* The list of interfering faces, and the order of candidates. */
+#include "narrow.h"
+
+int candidate_compare(const struct candidate *a, const struct candidate *b)
+{
+    if (a->pair != b->pair) {
+        return a->pair < b->pair ? -1 : 1;
+    }
+    if (a->kind != b->kind) {
+        return a->kind < b->kind ? -1 : 1;
+    }
+    if (a->i != b->i) {
+        return a->i < b->i ? -1 : 1;
+    }
+    return a->j < b->j ? -1 : a->j > b->j;
+}
+
+static uint32_t face_key(struct carom_face_ref f)
+{
+    return (uint32_t)f.body << 16 | f.face;
+}
+
+static void sift_down(struct carom_face_ref *heap, uint32_t at, uint32_t n)
+{
+    struct carom_face_ref moving = heap[at];
+
+    while (2 * at + 1 < n) {
+        uint32_t child = 2 * at + 1;
+
+        if (child + 1 < n && face_key(heap[child]) < face_key(heap[child + 1])) {
+            child++;
+        }
+        if (face_key(heap[child]) <= face_key(moving)) {
+            break;
+        }
+        heap[at] = heap[child];
+        at = child;
+    }
+    heap[at] = moving;
+}
+
+void interfere_finish(struct interfere *w)
+{
+    struct carom_face_ref *f = w->faces;
+    uint32_t n = w->face_pool->used, kept = 0;
+
+    for (uint32_t i = n / 2; i-- > 0;) {
+        sift_down(f, i, n);
+    }
+    for (uint32_t end = n; end-- > 1;) {
+        struct carom_face_ref top = f[0];
+
+        f[0] = f[end];
+        f[end] = top;
+        sift_down(f, 0, end);
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        if (kept == 0 || face_key(f[i]) != face_key(f[kept - 1])) {
+            f[kept++] = f[i];
+        }
+    }
+    w->face_pool->used = kept;
+    if (kept > w->face_pool->peak) {
+        w->face_pool->peak = kept;
+    }
+}
+
+/* Whether a face is in the list, which must be sorted. */
+static bool has_face(const struct interfere *w, struct carom_face_ref face)
+{
+    uint32_t low = 0, high = w->face_pool->used;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+
+        if (face_key(w->faces[middle]) < face_key(face)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
+}
+
+void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face)
+{
+    struct carom_face_ref ref = {body, face};
+    struct pool *pool = w->face_pool;
+
+    if (pool->used == pool->size) {
+        interfere_finish(w); /* most of a full list are repetitions */
+        if (has_face(w, ref)) {
+            return;
+        }
+    }
+    if (pool->used == pool->size) {
+        pool->refused++;
+        w->error = CAROM_ERR_FACES_FULL;
+        return;
+    }
+    w->faces[pool->used++] = ref;
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether two features of faces that are near each other can touch. */
+#include "narrow.h"
+
+static inline int32_t most(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
+{
+    return (struct interfere_vec){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
+}
+
+/* ---------------------------------------------------------- vertices, faces */
+
+/* |v| in 32 bits */
+static inline int32_t magnitude(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+/* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
+static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
+                         const struct interfere_vec *const t[3], const int32_t n[3])
+{
+    int32_t x = magnitude(n[0]), y = magnitude(n[1]), z = magnitude(n[2]);
+    int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
+    int i = axis == 2 ? 0 : axis + 1, j = i == 2 ? 0 : i + 1;
+
+    for (int k = 0; k < 3; k++) {
+        const int32_t *from = t[k]->c, *to = t[k == 2 ? 0 : k + 1]->c;
+        int32_t ex = to[i] - from[i], ey = to[j] - from[j];
+        int64_t inside = (int64_t)ex * (p->c[j] - from[j]) - (int64_t)ey * (p->c[i] - from[i]);
+
+        if (n[axis] < 0) {
+            inside = -inside;
+        }
+        if (inside <
+            -((int64_t)magnitude(ex) * l->reach.c[j] + (int64_t)magnitude(ey) * l->reach.c[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool interfere_vertex_face(const struct interfere *w, const struct target *t, uint32_t at)
+{
+    const struct interfere_leaf *l = w->leaf;
+    const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
+    int32_t n[3];
+
+    if (stays_beside(l, &l->p[at], corners, t->face->normal.c)) {
+        return false;
+    }
+    carom_rotate_back(n, &l->to_b, t->face->normal.c);
+    return mesh_vertex_cone(w->a->mesh, interfere_vertex(w, at), n, l->cone_q30);
+}
+
+bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k)
+{
+    const struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
+    const int32_t *n = l->planes[i].n_q30;
+    const struct carom_mesh *mb = w->b->mesh;
+
+    return !stays_beside(l, &t->p[k], p, n) &&
+           mesh_vertex_cone(mb, mb->raw.faces[t->number][k], n, l->cone_q30);
+}
+
+/* -------------------------------------------------------------------- edges */
+
+/* Two edges in the middle of the way, in b's mesh axes. */
+struct lines {
+    const struct carom_edge *a, *b;
+    const struct interfere_vec *start_a, *start_b;
+    int32_t e[3]; /* direction of a's; of b's: b->direction */
+    int32_t w[3]; /* e x f, q30 */
+};
+
+static int64_t size_of(const int32_t v[3])
+{
+    return (int64_t)((uint32_t)magnitude(v[0]) + (uint32_t)magnitude(v[1]) +
+                     (uint32_t)magnitude(v[2]));
+}
+
+/*
+ * Which of +w and -w lies between the faces of an edge, a bit each, d being the direction of the other
+ * edge: square to its edge in a face with normal n, (e x f).(n x f) is e.n, and (e x f).(n x e) is -f.n.
+ */
+static uint32_t sides_between(const struct carom_mesh *mesh, const struct carom_edge *edge,
+                              const int32_t d[3], int32_t tolerance_q28)
+{
+    int32_t on_q28[2];
+
+    for (int side = 0; side < 2; side++) {
+        uint16_t face = edge->face[side];
+
+        on_q28[side] = face == CAROM_NO_FACE ? 0 : interfere_dot(mesh->faces[face].normal.c, d);
+    }
+    return (uint32_t)(on_q28[0] <= tolerance_q28 && -on_q28[1] <= tolerance_q28) |
+           (uint32_t)(-on_q28[0] <= tolerance_q28 && on_q28[1] <= tolerance_q28) << 1;
+}
+
+/*
+ * Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
+ * The angle turned moves w / |w| by up to turn / sine; all is multiplied by the sine.
+ */
+static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t sine_q30)
+{
+    int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
+    int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
+    int32_t f_a[3], tolerance_q28 = (int32_t)(tolerance_q60 >> 32) + 1;
+    uint32_t sides = sides_between(in->b->mesh, l->b, l->e, tolerance_q28);
+
+    if (sides == 0) {
+        return false;
+    }
+    carom_rotate_back(f_a, &in->leaf->to_b, l->b->direction.c);
+    return (sides & sides_between(in->a->mesh, l->a, f_a, tolerance_q28)) != 0;
+}
+
+/*
+ * Whether an edge stays beside the line of the other one, seen along w: what begins at `start` from
+ * the line and runs along `other`.
+ */
+static bool passes_by(const struct interfere *in, const int32_t w[3], const int32_t line[3],
+                      const struct interfere_vec *start, const int32_t other[3], int32_t length_q22)
+{
+    int32_t axis[3];
+    int64_t from, run, limit;
+
+    carom_cross(axis, w, line, 30);
+    from = carom_dot(axis, start->c);
+    run = (carom_dot(axis, other) >> 30) * (length_q22 >> 2);
+    limit = (size_of(axis) + 4) * (in->leaf->near_q20 + 4) + length_q22 +
+            carom_abs(carom_dot(axis, in->leaf->shift.c)) / 2;
+    return from + (run < 0 ? run : 0) > limit || from + (run > 0 ? run : 0) < -limit;
+}
+
+/* Whether two edges of which neither box keeps them apart can touch. */
+static bool edges_may_touch(const struct interfere *in, struct lines *l)
+{
+    const int32_t *f = l->b->direction.c;
+    struct interfere_vec d, d_back;
+    int64_t sine_q30, limit;
+    int32_t largest;
+
+    carom_rotate(l->e, &in->leaf->to_b, l->a->direction.c);
+    carom_cross(l->w, l->e, f, 30);
+    largest = most(most(magnitude(l->w[0]), magnitude(l->w[1])), magnitude(l->w[2]));
+    if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
+        return true; /* may be parallel somewhere on the way: leave it to the exact test */
+    }
+    sine_q30 = size_of(l->w) + 4; /* at least */
+    d = difference(l->start_a, l->start_b);
+    limit = sine_q30 * (in->leaf->near_q20 + 4) + carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
+    if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
+        return false;
+    }
+    d_back = difference(l->start_b, l->start_a);
+    return !passes_by(in, l->w, f, &d, l->e, l->a->length_q22) &&
+           !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
+}
+
+bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
+                         int j)
+{
+    /* an owned edge runs with its face */
+    struct lines lines;
+
+    lines.a = &w->a->mesh->edges[w->a->mesh->faces[interfere_face(w, i)].edge[k]];
+    lines.b = &w->b->mesh->edges[t->face->edge[j]];
+    lines.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
+    lines.start_b = &t->p[j];
+    return edges_may_touch(w, &lines);
+}

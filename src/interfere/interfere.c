@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Which faces of two bodies are near each other on their way: leaves of a, swept, against b's
+ * z-lists.
+ *
+ * A point of a goes from start to end, seen from b, within `near` of the straight way from x - shift
+ * / 2 to x + shift / 2, x being the mean of both. If it meets a point y of b on it then for any
+ * vector k, |k.(x - y)| <= |k| near + |k.shift| / 2. All that is dropped here is dropped by that. Of
+ * a whole leaf the shift is its centre's: from the middle, others differ by half of their turn.
+ */
+#include "narrow.h"
+
+/* What is cut off by carrying points into b's frame, q20. */
+#define PLACE_NOISE_Q20 8
+
+/* ------------------------------------------------------------------- leaves */
+
+/* Cell of a coordinate in quanta along one axis of a grid, clamped to it. */
+static int32_t clamp_cell(int32_t x, int32_t x0, int shift, int32_t n)
+{
+    int32_t cell = (x - x0) >> shift;
+
+    return cell < 0 ? 0 : cell >= n ? n - 1 : cell;
+}
+
+/* The cells under a box of quanta. */
+struct cells {
+    int32_t col[2], row[2];
+};
+
+static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3],
+                                const int32_t high[3])
+{
+    int shift = mb->grid_shift;
+
+    return (struct cells){
+        {clamp_cell(low[0], mb->grid_x0, shift, mb->grid_nx),
+         clamp_cell(high[0], mb->grid_x0, shift, mb->grid_nx)},
+        {clamp_cell(low[1], mb->grid_y0, shift, mb->grid_ny),
+         clamp_cell(high[1], mb->grid_y0, shift, mb->grid_ny)},
+    };
+}
+
+/* The highest z of b in a cell; below all of it when there is none. */
+static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const uint32_t *start = &mb->cell_start[cell];
+
+    if (w->pooled) {
+        uint16_t head = w->lists.head[cell];
+
+        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
+    }
+    return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
+}
+
+/* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
+static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+                             int32_t enough)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct cells cells = cells_under(mb, low, high);
+    int32_t top = INT16_MIN - 1;
+
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
+        uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
+
+        for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
+            int32_t z = cell_top(w, cell++);
+
+            top = z > top ? z : top;
+            if (z >= enough) {
+                return z;
+            }
+        }
+    }
+    return top;
+}
+
+bool interfere_reaches_leaf(const struct interfere *w)
+{
+    const struct interfere_leaf *l = w->leaf;
+    int32_t low = l->quanta_low[2];
+
+    return highest_under(w, l->quanta_low, l->quanta_high, low) >= low;
+}
+
+/* The highest z of b in the cells under a on its way. */
+static int32_t highest_of_b(const struct interfere *w)
+{
+    int64_t around_q22 = w->a->radius_q22 + w->leaf->near_q22 +
+                         fix_mul(w->a->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
+    int32_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+
+    for (int k = 0; k < 2; k++) {
+        int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->leaf->moves.c[k]) / 2 +
+                        2 * PLACE_NOISE_Q20;
+
+        low[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
+        high[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
+    }
+    return highest_under(w, low, high, INT32_MAX);
+}
+
+/* A coordinate of the sphere around a leaf, swept along its way. */
+static inline void sweep_sphere(struct interfere *w, int k)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct interfere_leaf *l = w->leaf;
+    int32_t radius = (l->leaf->radius_q22 >> 2) + 1;
+    int32_t x = interfere_dot(w->leaf->to_b.c[k], l->leaf->centre.c) + w->leaf->at.c[k];
+    int32_t shift = interfere_dot(w->leaf->change.c[k], l->leaf->centre.c) + w->leaf->moves.c[k];
+    int32_t reach = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
+
+    l->shift.c[k] = shift;
+    l->reach.c[k] = reach;
+    l->quanta_low[k] = interfere_quanta(mb, x - radius - reach, k);
+    l->quanta_high[k] = interfere_quanta(mb, x + radius + reach, k) + 1;
+}
+
+/* Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it. */
+static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+{
+    const int16_t(*box)[3] = w->b->mesh->box;
+    struct interfere_leaf *l = w->leaf;
+    int32_t around_q22 =
+        carom_mul_q30(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30);
+
+    l->leaf = leaf;
+    l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
+    sweep_sphere(w, 2);
+    if (l->quanta_low[2] > w->leaf->top || l->quanta_high[2] < box[0][2]) {
+        return false;
+    }
+    for (int k = 0; k < 2; k++) {
+        sweep_sphere(w, k);
+        if (l->quanta_low[k] > box[1][k] || l->quanta_high[k] < box[0][k]) {
+            return false;
+        }
+    }
+    return interfere_reaches_leaf(w);
+}
+
+static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16_t p[3])
+{
+    return l->axis_q15[0] * p[0] + l->axis_q15[1] * p[1] + l->axis_q15[2] * p[2];
+}
+
+/* Whether three places are all on one side of an interval. */
+static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32_t high)
+{
+    return (p < low && q < low && r < low) || (p > high && q > high && r > high);
+}
+
+/*
+ * Whether a face of b meets the box and the slab of the swept leaf: seen from above, for its z in the
+ * cell was looked at.
+ */
+static inline bool face_near(const struct interfere *w, uint16_t face)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = w->leaf;
+    const uint16_t *corner = mb->raw.faces[face];
+    const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
+                  *r = mb->raw.vertices[corner[2]];
+
+    return !is_beside(p[0], q[0], r[0], l->quanta_low[0], l->quanta_high[0]) &&
+           !is_beside(p[1], q[1], r[1], l->quanta_low[1], l->quanta_high[1]) &&
+           !is_beside(along_slab_q15(l, p), along_slab_q15(l, q), along_slab_q15(l, r),
+                      l->slab_low_q15, l->slab_high_q15);
+}
+
+/* Whether a face comes up for the first time, as far as is remembered. */
+static inline bool is_new(struct interfere *w, uint16_t face)
+{
+    uint16_t *seen = &w->leaf->seen[face % INTERFERE_SEEN];
+
+    if (*seen == face) {
+        return false;
+    }
+    *seen = face;
+    return true;
+}
+
+static inline void visit_face(struct interfere *w, uint16_t face)
+{
+    if (is_new(w, face) && face_near(w, face)) {
+        interfere_narrow(w, face);
+    }
+}
+
+/* The faces of b in one cell, from the highest z1 down to the leaf. */
+static void visit_cell(struct interfere *w, uint32_t cell)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
+    const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
+    const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
+
+    for (; r < end && r->z1 >= low; r++) {
+        if (r->z0 <= high) {
+            visit_face(w, r->face);
+        }
+    }
+}
+
+/* The same of the lists that were made. */
+static void visit_made(struct interfere *w, uint32_t cell)
+{
+    const struct zentry *entry = w->lists.entry;
+    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
+
+    for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
+         i = entry[i].next) {
+        if (entry[i].z0 <= high) {
+            visit_face(w, entry[i].face);
+        }
+    }
+}
+
+static void visit_leaf(struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct cells cells;
+
+    if (!interfere_place_leaf(w)) {
+        return;
+    }
+    memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* CAROM_NO_FACE */
+    cells = cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
+    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
+        for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
+            uint32_t cell = (uint32_t)(row * mb->grid_nx + col);
+
+            if (w->pooled) {
+                visit_made(w, cell);
+            } else {
+                visit_cell(w, cell);
+            }
+        }
+    }
+    for (uint32_t i = 0; w->leaf->busy >> i != 0; i++) {
+        if (w->leaf->busy >> i & 1) {
+            interfere_add_face(w, w->body_a, (uint16_t)interfere_face(w, i));
+        }
+    }
+}
+
+/* -------------------------------------------------------------------- pair */
+
+/*
+ * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
+ * the fastest bodies do not.
+ */
+static bool in_range(const struct body *a, const struct body *b)
+{
+    return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
+}
+
+/*
+ * How high the centre of a leaf may be above its radius, q20, for leaf_near to find that it is not above
+ * b: with what no leaf reaches beyond, for its sphere is within twice the radius of a.
+ */
+static int32_t highest_centre(const struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    const struct interfere_leaf *l = w->leaf;
+    int64_t turns_q30 = l->angle_q30 / 2 + l->skew_q30, reach_q20;
+
+    for (int k = 0; k < 3; k++) {
+        turns_q30 += carom_abs(l->change.c[2][k]) / 2;
+    }
+    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->radius_q22, 30)) >> 2) +
+                carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 4;
+    reach_q20 += (int64_t)(l->top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
+                 (mb->mass.centre.c[2] >> 2) - l->at.c[2];
+    return (int32_t)(reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2);
+}
+
+void interfere_leaves(struct interfere *w)
+{
+    const struct carom_leaf *leaf = w->a->mesh->leaves, *end = leaf + w->a->mesh->leaf_count;
+    const int32_t up[3] = {w->leaf->to_b.c[2][0], w->leaf->to_b.c[2][1], w->leaf->to_b.c[2][2]};
+    int32_t highest_q20;
+
+    w->leaf->top = highest_of_b(w);
+    highest_q20 = highest_centre(w);
+    for (; leaf < end && !w->error; leaf++) {
+        /* most end here */
+        if (interfere_dot(up, leaf->centre.c) - (leaf->radius_q22 >> 2) <= highest_q20 &&
+            leaf_near(w, leaf)) {
+            visit_leaf(w);
+        }
+    }
+}
+
+static void gather_pair(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                        uint32_t number)
+{
+    const struct pair *p = &pairs[number];
+    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
+
+    w->pair = (uint16_t)number;
+    w->body_a = p->a;
+    w->body_b = p->b;
+    w->a = &bodies[p->a];
+    w->b = &bodies[p->b];
+    w->pooled = interfere_makes_lists(w->b->mesh);
+    if (!interfere_set_motion(w)) {
+        return;
+    }
+    if (!in_range(w->a, w->b)) {
+        w->error = CAROM_ERR_RANGE;
+        return;
+    }
+    w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
+    w->meet = interfere_features;
+    interfere_leaves(w);
+}
+
+/* The pairs from the first on that have the same b, against each chunk of its lists. */
+static void gather_over(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                        uint32_t pair_count, uint32_t first)
+{
+    const uint16_t b = pairs[first].b;
+    const struct interfere_area area = interfere_area_under(bodies, pairs, pair_count, b);
+    struct interfere_place place = {0, 0};
+    bool last = false;
+
+    while (!last && !w->error) {
+        last = interfere_make_lists(w, bodies[b].mesh, &area, &place);
+        for (uint32_t i = first; i < pair_count && !w->error; i++) {
+            if (pairs[i].b == b) {
+                gather_pair(w, bodies, pairs, i);
+            }
+        }
+    }
+}
+
+/* Whether a pair is the first one that has its b. */
+static bool comes_first(const struct pair *pairs, uint32_t number)
+{
+    uint32_t i = 0;
+
+    while (pairs[i].b != pairs[number].b) {
+        i++;
+    }
+    return i == number;
+}
+
+void interfere_begin(struct interfere *w)
+{
+    w->whole = w->stale = false;
+    w->enough = UINT32_MAX;
+    w->error = CAROM_OK;
+}
+
+int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                    uint32_t pair_count, struct candidate_visitor *visitor)
+{
+    if (!w->whole) {
+        w->whole = true;
+        w->visitor = visitor;
+        w->gathers++;
+        pool_clear(w->candidate_pool);
+        for (uint32_t i = 0; i < pair_count && !w->error; i++) {
+            if (!interfere_makes_lists(bodies[pairs[i].b].mesh)) {
+                gather_pair(w, bodies, pairs, i);
+            } else if (comes_first(pairs, i)) {
+                gather_over(w, bodies, pairs, pair_count, i);
+            }
+        }
+        if (w->error) {
+            w->whole = false;
+            return w->error;
+        }
+    }
+    visitor->visit(visitor, w->candidates, w->candidate_pool->used);
+    return CAROM_OK;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * interfere - from pairs of bodies to interfering faces and candidates for the collision test.
+ *
+ * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready. The
+ * leaves of a that survive a sphere test are carried into that frame and swept along their way; the
+ * z-lists of the cells under a swept leaf name the faces of b near it. What lies apart by planes is
+ * dropped, a bit for each vertex; the rest is narrowed to the vertex/face and edge/edge pairs that
+ * can touch.
+ *
+ * The result is conservative for every motion that stays within the bodies' regions: it may hold
+ * pairs that do not touch and lacks none that do. So how it is cut into chunks, which duplicates
+ * survive and what is culled early change the cost of a step, never its outcome.
+ */
+#ifndef CAROM_SRC_INTERFERE_H
+#define CAROM_SRC_INTERFERE_H
+
+#include "../pairs/broad.h"
+
+enum candidate_kind {
+    CANDIDATE_VERTEX_FACE, /* vertex i of a, face j of b */
+    CANDIDATE_FACE_VERTEX, /* vertex i of b, face j of a */
+    CANDIDATE_EDGE_EDGE    /* edge i of a, edge j of b */
+};
+
+struct candidate {
+    uint16_t pair;
+    uint8_t kind;
+    uint32_t i, j;
+};
+
+/* Order of candidates, hits and contacts: by pair, kind, i, j. Negative when a comes first. */
+int candidate_compare(const struct candidate *a, const struct candidate *b);
+
+#define INTERFERE_TOO_MANY 1
+
+/* Told of every candidate, some at a time. */
+struct candidate_visitor {
+    void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
+};
+
+/* Cosine tolerance of the normal cones in the collision test, 0.02. */
+#define INTERFERE_CONE_Q30 21474836
+
+/*
+ * Faces of b that a leaf has come up with lately: a face lies in several cells. One that takes the
+ * slot of another makes it forgotten, which is only work done twice.
+ */
+#define INTERFERE_SEEN 64
+
+/* A point or direction in b's mesh axes, from b's centre of mass. */
+struct interfere_vec {
+    int32_t c[3];
+};
+
+/* The plane of a face of the leaf in the middle of its way, by the reach along its normal over and under. */
+struct interfere_plane {
+    int32_t n_q30[3], above_q18, below_q18;
+};
+
+/* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are
+ * q20. */
+struct interfere_leaf {
+    /* of its pair */
+    carom_m3_q30 to_b;       /* from a's mesh axes to b's: the mean of start and end */
+    struct interfere_vec at; /* a's centre of mass in b's mesh frame, likewise */
+    carom_m3_q30 change;     /* from start to end */
+    struct interfere_vec moves;
+    int64_t near_q22;  /* how far points may be off the straight way between both */
+    int32_t angle_q30; /* how far one body turns as seen from the other */
+    int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
+    int32_t cone_q30;  /* cosine tolerance of normal cones */
+    int32_t top;       /* the highest z of b under a, quanta */
+
+    const struct carom_leaf *leaf;
+    uint16_t seen[INTERFERE_SEEN];
+    struct interfere_vec shift;
+    int32_t near_q20;                            /* the tolerance */
+    struct interfere_vec reach;                  /* it and half of the shift, along each axis */
+    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices in the middle of their ways */
+    int32_t quanta_low[3], quanta_high[3]; /* around the ways, in b's quanta from its origin */
+    int32_t axis_q15[3];                   /* of its slab */
+    int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
+    bool listed;
+    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, once listed, a bit each */
+    uint32_t boxed;                     /* faces with boxes around their ways, a bit each */
+    struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
+    uint32_t placed; /* faces whose planes are known, a bit each */
+    struct interfere_plane planes[CAROM_LEAF_FACES];
+    uint32_t busy; /* faces with candidates */
+};
+
+struct target;
+struct interfere_query;
+/* A rectangle seen from above, quanta. */
+struct interfere_area {
+    int32_t low[2], high[2];
+};
+
+struct interfere {
+    struct candidate *candidates;
+    struct pool *candidate_pool;
+    struct carom_face_ref *faces;
+    struct pool *face_pool;
+    struct zlist lists;
+    uint32_t gathers, candidate_count; /* for the statistics */
+    uint32_t enough;                   /* a gather that has more candidates stops */
+
+    bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
+    bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
+    int error;
+    struct candidate_visitor *visitor;
+
+    /* what becomes of face i of the leaf and a face of b that no plane parts: candidates, or a pair */
+    bool (*meet)(struct interfere *w, const struct target *t, uint32_t i);
+    struct interfere_query *query; /* of a query */
+
+    /* the pair being worked on */
+    const struct body *a, *b;
+    uint16_t pair, body_a, body_b;
+    struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
+
+    bool pooled;                     /* b's z-lists are in `lists` */
+    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
+    struct interfere_area area;      /* where they hold all of it */
+};
+
+/*
+ * Forget the candidates: the regions of all bodies have been set anew.
+ */
+void interfere_begin(struct interfere *w);
+
+/*
+ * Hand every candidate of the pairs to the visitor.
+ * Returns CAROM_OK, CAROM_ERR_FACES_FULL, or CAROM_ERR_RANGE for a pair too large and fast for q22.
+ */
+int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+                    uint32_t pair_count, struct candidate_visitor *visitor);
+
+/* Forget z-lists that were made; the surface has moved or gone. */
+void interfere_forget_lists(struct interfere *w);
+
+/* Sort the interfering faces and drop repeated ones. */
+void interfere_finish(struct interfere *w);
+
+/* A body where it is. */
+struct interfere_placed {
+    const struct body *body;
+    const struct body_state *state;
+};
+
+/*
+ * The face pairs of a and b that interfere at their poses, each once: every pair that has a point in
+ * common, and hardly any other. Candidates and interfering faces in w stay as they are.
+ * Returns how many, or CAROM_ERR_FACES_FULL; some pairs are in `out` then all the same.
+ */
+int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                    struct carom_face_pair *out, uint32_t room);
+
+/* Whether a's first vertex is inside b, or under a SURFACE. No faces of both may interfere. */
+bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
+
+#endif

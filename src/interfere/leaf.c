@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/* A leaf of a, carried into b's frame in the middle of its way: its vertices, its slab, its faces. */
+#include "narrow.h"
+
+/* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
+static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct interfere_leaf *l = w->leaf;
+    /* copies: what is stored might be a part of w for all that a compiler knows */
+    const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
+                  at = w->leaf->at.c[k];
+    const carom_v3_q22 *end = local + l->leaf->vertex_count;
+    int32_t low = INT32_MAX, high = INT32_MIN, *to = &l->p[0].c[k];
+
+    for (; local < end; local++, to += 3) {
+        int32_t x = interfere_dot(row, local->c) + at;
+
+        *to = x;
+        low = x < low ? x : low;
+        high = x > high ? x : high;
+    }
+    l->quanta_low[k] = interfere_quanta(mb, low - l->reach.c[k], k);
+    l->quanta_high[k] = interfere_quanta(mb, high + l->reach.c[k], k) + 1;
+}
+
+/* A length in quanta, q15; what does not fit is as good as the largest that does. */
+static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
+{
+    int64_t x_q15 = x_q18 * ((int64_t)1 << (mesh->raw.quantum_bits - 3));
+
+    return x_q15 > INT32_MAX ? INT32_MAX : x_q15 < -INT32_MAX ? -INT32_MAX : (int32_t)x_q15;
+}
+
+/*
+ * Where the slab of the leaf is, seen along its axis from b's origin. A product of the axis and a
+ * vertex of b is below 2^15 times the length of the vertex, sqrt 3 2^15: 32 bits hold it. The axis is
+ * off by half a unit along each of b's, the product by half of the vertex's coordinates.
+ */
+static void place_slab(struct interfere *w)
+{
+    const struct carom_mesh *mb = w->b->mesh;
+    struct interfere_leaf *l = w->leaf;
+    int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
+
+    carom_rotate(axis_q30, &w->leaf->to_b, l->leaf->axis.c);
+    at_q18 =
+        interfere_dot(axis_q30, w->leaf->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
+    for (int k = 0; k < 3; k++) {
+        int32_t low = -mb->box[0][k], high = mb->box[1][k];
+
+        l->axis_q15[k] = (int32_t)carom_round(axis_q30[k], 15);
+        rounding_q15 += (low > high ? low : high) / 2 + 1;
+    }
+    /* low and high are those of a's own axes: to_b has them but for its skew */
+    reach_q18 = interfere_reach_q18(l, axis_q30) +
+                (int32_t)(fix_mul(w->a->radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
+                (rounding_q15 >> (mb->raw.quantum_bits - 3));
+    l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
+    l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
+}
+
+bool interfere_place_leaf(struct interfere *w)
+{
+    const struct carom_mesh *ma = w->a->mesh;
+    struct interfere_leaf *l = w->leaf;
+    const struct carom_leaf *leaf = l->leaf;
+    const uint16_t *vertex = &ma->leaf_vertices[leaf->first_vertex];
+    /* copies, again */
+    const int16_t(*quanta)[3] = ma->raw.vertices;
+    const int32_t one = (int32_t)1 << (22 - ma->raw.quantum_bits), x = -ma->mass.centre.c[0],
+                  y = -ma->mass.centre.c[1], z = -ma->mass.centre.c[2];
+    carom_v3_q22 local[CAROM_LEAF_VERTICES], *end = local + leaf->vertex_count;
+
+    for (carom_v3_q22 *to = local; to < end; to++) {
+        const int16_t *from = quanta[*vertex++];
+
+        to->c[0] = from[0] * one + x;
+        to->c[1] = from[1] * one + y;
+        to->c[2] = from[2] * one + z;
+    }
+    place_axis(w, local, 2);
+    if (!interfere_reaches_leaf(w)) {
+        return false;
+    }
+    place_axis(w, local, 0);
+    place_axis(w, local, 1);
+    place_slab(w);
+    l->listed = false;
+    l->busy = 0;
+    return true;
+}
+
+void interfere_list_faces(struct interfere *w)
+{
+    struct interfere_leaf *l = w->leaf;
+
+    l->listed = true;
+    l->boxed = l->placed = 0;
+    for (uint32_t i = 0; i < l->leaf->face_count; i++) {
+        const uint8_t *corner = interfere_corners(w, i);
+
+        l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
+    }
+}
+
+void interfere_box_face(struct interfere *w, uint32_t i)
+{
+    struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
+
+    l->boxed |= 1u << i;
+    interfere_bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
+                    &l->face_high[i]);
+    for (int k = 0; k < 3; k++) {
+        l->face_low[i].c[k] -= l->reach.c[k];
+        l->face_high[i].c[k] += l->reach.c[k];
+    }
+}
+
+void interfere_place_plane(struct interfere *w, uint32_t i)
+{
+    struct interfere_leaf *l = w->leaf;
+    struct interfere_plane *plane = &l->planes[i];
+    int32_t offset_q18, reach_q18;
+
+    l->placed |= 1u << i;
+    carom_rotate(plane->n_q30, &l->to_b, w->a->mesh->faces[interfere_face(w, i)].normal.c);
+    offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
+    reach_q18 = interfere_reach_q18(l, plane->n_q30);
+    plane->above_q18 = offset_q18 + reach_q18;
+    plane->below_q18 = offset_q18 - reach_q18;
+}

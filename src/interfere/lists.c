@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Z-lists made within a step, for surfaces that move. When the pool of entries is short they come in
+ * chunks, and pairs are gathered for each: a face lies in all of its cells, in one chunk or another.
+ */
+#include "narrow.h"
+
+/* Enter a face in its cells from the place on; false when the pool is full. */
+static bool enter_face(struct interfere *w, const struct carom_mesh *mesh,
+                       struct interfere_place *at)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+    struct zface z = mesh_zface(mesh, at->face);
+    struct scan_cells scan;
+    struct scan_run run;
+    uint32_t cells = 0;
+
+    mesh_scan_face(&scan, mesh, at->face);
+    while (scan_cells_next(&scan, &run)) {
+        for (int32_t col = run.x0; col < run.x1; col++) {
+            int16_t z0, z1;
+
+            if (cells++ < at->cells) {
+                continue;
+            }
+            zface_interval(&z, &grid, col, run.y, &z0, &z1);
+            if (!zlist_enter(&w->lists, (uint32_t)(run.y * grid.nx + col), z0, z1,
+                             (uint16_t)at->face)) {
+                return false;
+            }
+            at->cells++;
+        }
+    }
+    return true;
+}
+
+static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct interfere_area *area)
+{
+    const uint16_t *corner = mesh->raw.faces[face];
+    const int16_t *p = mesh->raw.vertices[corner[0]], *q = mesh->raw.vertices[corner[1]],
+                  *r = mesh->raw.vertices[corner[2]];
+
+    for (int k = 0; k < 2; k++) {
+        int32_t low = area->low[k], high = area->high[k];
+
+        if ((p[k] < low && q[k] < low && r[k] < low) ||
+            (p[k] > high && q[k] > high && r[k] > high)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Whether the lists at hand are of that mesh and hold all of an area. */
+static bool hold(const struct interfere *w, const struct carom_mesh *mesh,
+                 const struct interfere_area *area)
+{
+    return w->listed == mesh && w->area.low[0] <= area->low[0] && w->area.low[1] <= area->low[1] &&
+           w->area.high[0] >= area->high[0] && w->area.high[1] >= area->high[1];
+}
+
+bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
+                          const struct interfere_area *area, struct interfere_place *from)
+{
+    bool first = from->face == 0 && from->cells == 0;
+
+    if (first && hold(w, mesh, area)) {
+        return true;
+    }
+    w->listed = NULL;
+    zlist_clear(&w->lists);
+    for (; from->face < mesh->raw.face_count; from->face++, from->cells = 0) {
+        if (face_in(mesh, from->face, area) && !enter_face(w, mesh, from)) {
+            return false;
+        }
+    }
+    w->listed = first ? mesh : NULL;
+    w->area = *area;
+    return true;
+}
+
+struct interfere_area interfere_area_under(const struct body *bodies, const struct pair *pairs,
+                                           uint32_t pair_count, uint16_t b)
+{
+    struct interfere_area area = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
+    const struct body *surface = &bodies[b];
+    int shift = 32 - surface->mesh->raw.quantum_bits;
+    carom_m3_q30 r;
+
+    body_matrix(&r, &surface->region.q);
+    for (uint32_t i = 0; i < pair_count; i++) {
+        const struct body *a = &bodies[pairs[i].a];
+        int64_t way[3], around_q22 = (int64_t)a->radius_q22 + a->reach_q22 + surface->reach_q22;
+        int32_t around = (int32_t)(around_q22 >> (shift - 10)) + 2;
+
+        for (int k = 0; k < 3; k++) {
+            way[k] = a->region.at.c[k] - surface->region.at.c[k];
+        }
+        fix_rotate_back(way, &r, way);
+        for (int k = 0; pairs[i].b == b && k < 2; k++) {
+            /* places are below 2^14 units: 2^34 quanta */
+            int64_t at = way[k] >> shift;
+            int32_t middle = (int32_t)(at < -(1 << 20) ? -(1 << 20) : at > 1 << 20 ? 1 << 20 : at);
+
+            area.low[k] = middle - around < area.low[k] ? middle - around : area.low[k];
+            area.high[k] = middle + around > area.high[k] ? middle + around : area.high[k];
+        }
+    }
+    return area;
+}
+
+void interfere_forget_lists(struct interfere *w)
+{
+    w->listed = NULL;
+}

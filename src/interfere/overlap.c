@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Which faces of two bodies interfere at their poses: the leaves of a against b's z-lists, as in a
+ * step but without motion, and what no plane of theirs parts by an edge of each.
+ *
+ * Places in b's frame are off by a few units of q20, and faces are dropped only when a direction is
+ * known in which they are farther apart than that: no pair that crosses is lost, however thin.
+ */
+#include "narrow.h"
+
+/* Boxes of bodies are compared with some room, q22. */
+#define BOX_MARGIN_Q22 256
+
+struct interfere_query {
+    struct carom_face_pair *out;
+    uint32_t room, count;
+    bool swapped; /* a is the caller's b */
+    bool again;   /* leaves come up again, for other z-lists of b */
+
+    /* of the leaf at hand */
+    const struct carom_leaf *leaf;
+    uint32_t first;     /* its first pair */
+    int32_t edge_scale; /* makes its edges as long as fits 2^30 */
+};
+
+/* ------------------------------------------------------------------- leaves */
+
+/* The power of two that makes lengths up to this as large as fits 2^30; length_q20 < 2^30. */
+static int32_t scale_for(int32_t length_q20)
+{
+    CAROM_ASSERT(length_q20 > 0 && length_q20 < 1 << 30);
+    return (int32_t)1 << (30 - fix_bits32((uint32_t)length_q20));
+}
+
+static void begin_leaf(struct interfere_query *q, const struct carom_leaf *leaf)
+{
+    q->leaf = leaf;
+    q->first = q->again ? 0 : q->count;
+    /* an edge is shorter than the sphere is wide, but for what cutting off makes of it */
+    q->edge_scale = scale_for((leaf->radius_q22 >> 1) + 8);
+}
+
+/* -------------------------------------------------------------------- pairs */
+
+/* Two faces, the corner that is alone on its side of the other one's plane first. */
+struct meeting {
+    const struct interfere_vec *p[3], *q[3];
+    int32_t scale_p, scale_q; /* for their edges */
+    int32_t near_q20;
+};
+
+static struct interfere_vec way(const struct interfere_vec *from, const struct interfere_vec *to,
+                                int32_t scale)
+{
+    return (struct interfere_vec){{(to->c[0] - from->c[0]) * scale, (to->c[1] - from->c[1]) * scale,
+                                   (to->c[2] - from->c[2]) * scale}};
+}
+
+static int64_t rise(const int32_t w[3], const struct interfere_vec *from,
+                    const struct interfere_vec *to)
+{
+    return carom_dot(w, way(from, to, 1).c);
+}
+
+/*
+ * Whether the direction across edge 0 k of both faces keeps them apart, q being the upper one or not.
+ * Sides and signs only say what is worth a try: in the end all six corners are looked at.
+ *
+ * Bounds: edges are scaled up to 2^30, w is cut to 2^29. The boxes of the faces meet, so corners
+ * differ by less than 2^30, and the three products by less than 2^61 together.
+ */
+static bool apart_across(const struct meeting *m, int k, bool upper)
+{
+    const struct interfere_vec *from = m->p[0];
+    struct interfere_vec e = way(from, m->p[k], m->scale_p);
+    struct interfere_vec f = way(m->q[0], m->q[k], m->scale_q);
+    int64_t gap, limit, top = 0;
+    int32_t w[3];
+
+    if (upper) {
+        carom_cross(w, e.c, f.c, 32);
+    } else {
+        carom_cross(w, f.c, e.c, 32);
+    }
+    gap = rise(w, from, m->q[0]);
+    CAROM_ASSERT(carom_abs(gap) < (int64_t)1 << 61);
+    limit = (carom_abs(w[0]) + carom_abs(w[1]) + carom_abs(w[2])) * m->near_q20;
+    if (gap <= limit) {
+        return false;
+    }
+    for (int i = 1; i < 3; i++) {
+        int64_t p = rise(w, from, m->p[i]), q = rise(w, from, m->q[i]);
+
+        top = p > top ? p : top;
+        gap = q < gap ? q : gap;
+    }
+    return gap - top > limit;
+}
+
+/* The corner that is alone on its side of a plane, by the bits of those over it. */
+static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
+
+/*
+ * Whether two faces that each reach through the other one's plane are apart. On the line in which
+ * the planes meet each face covers an interval between its two edges from the lone corner. The faces
+ * cross if the intervals overlap; otherwise the edges at the ends that are nearest each other keep
+ * them apart. Which ends these are follows from the sides of the lone corners.
+ */
+static bool intervals_apart(struct meeting *m, const struct interfere_vec *const p[3],
+                            const struct interfere_vec q[3], uint32_t over_p, uint32_t over_q)
+{
+    static const uint8_t next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
+    int i = lone[over_p], j = lone[over_q];
+    bool p_over = over_p == 1u << i, q_over = over_q == 1u << j, same = p_over == q_over;
+
+    m->p[0] = p[i];
+    m->p[1] = p[next[i]];
+    m->p[2] = p[last[i]];
+    m->q[0] = &q[j];
+    m->q[1] = &q[same ? next[j] : last[j]];
+    m->q[2] = &q[same ? last[j] : next[j]];
+    return apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
+}
+
+/* A face lies in several cells and may come up again: pairs are listed once. */
+static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
+{
+    struct interfere_query *q = w->query;
+    const struct carom_face_pair pair = {q->swapped ? face_b : face_a,
+                                         q->swapped ? face_a : face_b};
+
+    for (uint32_t i = q->first; i < q->count; i++) {
+        if (q->out[i].a == pair.a && q->out[i].b == pair.b) {
+            return;
+        }
+    }
+    if (q->count == q->room) {
+        w->error = CAROM_ERR_FACES_FULL;
+        return;
+    }
+    q->out[q->count++] = pair;
+}
+
+/* Whether face i of the leaf and b's face may have a point in common, their planes met. */
+static bool faces_cross(const struct interfere *w, const struct target *t, uint32_t i)
+{
+    const struct interfere_leaf *l = w->leaf;
+    const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
+    struct meeting m = {.scale_p = w->query->edge_scale, .near_q20 = l->near_q20};
+    uint32_t over_p = 0;
+    int32_t size = 0;
+
+    for (int k = 0; k < 3; k++) {
+        size |= t->high.c[k] - t->low.c[k]; /* has the bits of the largest */
+        over_p |= (t->over >> corner[k] & 1) << k;
+    }
+    m.scale_q = scale_for(size);
+    return !intervals_apart(&m, p, t->p, over_p, t->corners_over);
+}
+
+static bool meet(struct interfere *w, const struct target *t, uint32_t i)
+{
+    struct interfere_query *q = w->query;
+
+    if (q->leaf != w->leaf->leaf) {
+        begin_leaf(q, w->leaf->leaf);
+    }
+    if (faces_cross(w, t, i)) {
+        add_pair(w, (uint16_t)interfere_face(w, i), t->number);
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------- bodies */
+
+/*
+ * Where a is as seen from b. Bounds: boxes of bodies meet, and no point of a body is more than 444
+ * units from its centre or origin, so places in b's frame are within 1332 units and fit q20.
+ */
+static void place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
+{
+    carom_m3_q30 r_a, r_b;
+    int64_t d_q32[3];
+
+    body_matrix(&r_a, &a->rotation);
+    body_matrix(&r_b, &b->rotation);
+    for (int k = 0; k < 3; k++) {
+        d_q32[k] = a->position.c[k] - b->position.c[k];
+    }
+    fix_rotate_back(d_q32, &r_b, d_q32);
+    for (int k = 0; k < 3; k++) {
+        w->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
+    }
+    interfere_relate(&w->leaf->to_b, &r_b, &r_a);
+}
+
+/* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
+static struct interfere_area area_at(const struct interfere *w)
+{
+    int shift = 20 - w->b->mesh->raw.quantum_bits;
+    int32_t around = (w->a->radius_q22 >> 2) + BOX_MARGIN_Q22;
+    struct interfere_area area;
+
+    for (int k = 0; k < 2; k++) {
+        area.low[k] = (w->leaf->at.c[k] - around) >> shift;
+        area.high[k] = (w->leaf->at.c[k] + around) >> shift;
+    }
+    return area;
+}
+
+/* All leaves of a, against each chunk of b's z-lists when they are made from the pool. */
+static void visit_leaves(struct interfere *w)
+{
+    const struct interfere_area area = area_at(w);
+    struct interfere_place place = {0, 0};
+    bool last = false;
+
+    w->pooled = interfere_makes_lists(w->b->mesh);
+    while (!last && !w->error) {
+        last = !w->pooled || interfere_make_lists(w, w->b->mesh, &area, &place);
+        interfere_leaves(w);
+        w->query->again = true;
+    }
+}
+
+int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                    struct carom_face_pair *out, uint32_t room)
+{
+    struct interfere_query q;
+    int result;
+
+    if (!broad_near(a.body, a.state, b.body, b.state, BOX_MARGIN_Q22)) {
+        return 0;
+    }
+    q.out = out;
+    q.room = room;
+    q.count = 0;
+    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
+    q.leaf = NULL;
+    q.again = false;
+    w->a = q.swapped ? b.body : a.body;
+    w->b = q.swapped ? a.body : b.body;
+    place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state);
+    memset(&w->leaf->change, 0, sizeof w->leaf->change);
+    memset(&w->leaf->moves, 0, sizeof w->leaf->moves);
+    w->leaf->near_q22 = 0;
+    w->leaf->angle_q30 = w->leaf->skew_q30 = 0;
+    w->error = CAROM_OK;
+    w->meet = meet;
+    w->query = &q;
+    visit_leaves(w);
+    w->query = NULL;
+    result = w->error ? w->error : (int)q.count;
+    w->error = CAROM_OK;
+    return result;
+}
+
+/* -------------------------------------------------------------- containment */
+
+/* Where a's first vertex is in b's mesh, q22; false when it is too far away to fit. */
+static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct interfere_placed b)
+{
+    const struct carom_mesh *mb = b.body->mesh;
+    carom_v3_q22 v = mesh_vertex(a.body->mesh, 0);
+    int64_t p_q32[3];
+    carom_m3_q30 r;
+
+    for (int k = 0; k < 3; k++) {
+        p_q32[k] = carom_shl(v.c[k], 10);
+    }
+    body_matrix(&r, &a.state->rotation);
+    fix_rotate(p_q32, &r, p_q32);
+    for (int k = 0; k < 3; k++) {
+        p_q32[k] += a.state->position.c[k] - b.state->position.c[k];
+    }
+    body_matrix(&r, &b.state->rotation);
+    fix_rotate_back(p_q32, &r, p_q32);
+    for (int k = 0; k < 3; k++) {
+        p_q32[k] += carom_shl(mb->mass.centre.c[k], 10);
+        if (carom_abs(p_q32[k]) >= (int64_t)256 << 32) {
+            return false; /* meshes are within 256 units */
+        }
+        out->c[k] = (int32_t)(p_q32[k] >> 10);
+    }
+    return true;
+}
+
+/*
+ * 1 when a point is on the left of an edge seen from above, else -1. One that is on its line counts
+ * as moved a little along x, and far less along y, for all edges alike: so no column slips between
+ * two faces or meets both. Bounds: all is within 2^30, so the products are below 2^62.
+ */
+static int side_of(const carom_v3_q22 *from, const carom_v3_q22 *to, const carom_v3_q22 *p)
+{
+    int64_t ex = (int64_t)to->c[0] - from->c[0], ey = (int64_t)to->c[1] - from->c[1];
+    int64_t left = ex * ((int64_t)p->c[1] - from->c[1]) - ey * ((int64_t)p->c[0] - from->c[0]);
+
+    left = left != 0 ? left : ey != 0 ? -ey : ex;
+    return left > 0 ? 1 : -1;
+}
+
+/* 1 for a face over a point that looks up, -1 for one that looks down, 0 for one elsewhere. */
+static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v3_q22 *p)
+{
+    carom_v3_q22 corner[3], d;
+    int64_t height;
+    int side;
+
+    for (int k = 0; k < 3; k++) {
+        const int16_t *quanta = mesh->raw.vertices[mesh->raw.faces[face][k]];
+
+        for (int i = 0; i < 3; i++) {
+            corner[k].c[i] = quanta[i] * ((int32_t)1 << (22 - mesh->raw.quantum_bits));
+        }
+    }
+    side = side_of(&corner[0], &corner[1], p);
+    if (side_of(&corner[1], &corner[2], p) != side || side_of(&corner[2], &corner[0], p) != side) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        d.c[k] = p->c[k] - corner[0].c[k];
+    }
+    height = carom_dot(mesh->faces[face].normal.c, d.c);
+    return (side > 0 ? height < 0 : height > 0) ? side : 0;
+}
+
+/* How often more faces over a point look up than down, by the z-lists of its cell. */
+static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
+{
+    int to_quanta = 22 - mesh->raw.quantum_bits, winding = 0;
+    int32_t col = ((p->c[0] >> to_quanta) - mesh->grid_x0) >> mesh->grid_shift;
+    int32_t row = ((p->c[1] >> to_quanta) - mesh->grid_y0) >> mesh->grid_shift;
+    const struct carom_zref *r, *end;
+    uint32_t cell;
+
+    if (col < 0 || col >= mesh->grid_nx || row < 0 || row >= mesh->grid_ny) {
+        return 0;
+    }
+    cell = (uint32_t)(row * mesh->grid_nx + col);
+    end = &mesh->zrefs[mesh->cell_start[cell + 1]];
+    for (r = &mesh->zrefs[mesh->cell_start[cell]]; r < end && r->z1 >= p->c[2] >> to_quanta; r++) {
+        winding += face_over(mesh, r->face, p);
+    }
+    return winding;
+}
+
+/* The same for a mesh whose own z-lists are those of another shape. */
+static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
+{
+    int winding = 0;
+
+    for (uint32_t face = 0; face < mesh->raw.face_count; face++) {
+        winding += face_over(mesh, (uint16_t)face, p);
+    }
+    return winding;
+}
+
+bool interfere_inside(struct interfere_placed a, struct interfere_placed b)
+{
+    const struct carom_mesh *mb = b.body->mesh;
+    carom_v3_q22 p;
+
+    return place_probe(&p, a, b) &&
+           (interfere_makes_lists(mb) ? winding_of_all(mb, &p) : winding_at(mb, &p)) > 0;
+}

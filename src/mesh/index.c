@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: MIT */
+#include "build.h"
+
+/* ------------------------------------------------------------------- leaves */
+
+/* A face's number in the low bits of its key. */
+static uint16_t key_face(uint64_t key)
+{
+    return (uint16_t)(key & 0xffff);
+}
+
+/* Three times coordinate `axis` of a face's centre, in quanta above the box; below 2^18. */
+static uint32_t centre3(const struct carom_mesh *mesh, uint16_t face, int axis)
+{
+    const uint16_t *corner = mesh->raw.faces[face];
+    int32_t sum = mesh->raw.vertices[corner[0]][axis] + mesh->raw.vertices[corner[1]][axis] +
+                  mesh->raw.vertices[corner[2]][axis];
+
+    return (uint32_t)(sum - 3 * mesh->box[0][axis]);
+}
+
+/* The axis along which the centres of n faces spread most. */
+static int widest_axis(const struct carom_mesh *mesh, const uint64_t *keys, uint32_t n)
+{
+    uint32_t widest = 0;
+    int best = 0;
+
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t low = UINT32_MAX, high = 0;
+
+        for (uint32_t i = 0; i < n; i++) {
+            uint32_t c = centre3(mesh, key_face(keys[i]), axis);
+
+            low = c < low ? c : low;
+            high = c > high ? c : high;
+        }
+        if (high - low > widest) {
+            widest = high - low;
+            best = axis;
+        }
+    }
+    return best;
+}
+
+static void sort_along(const struct carom_mesh *mesh, uint64_t *keys, uint32_t n, int axis)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        uint16_t face = key_face(keys[i]);
+
+        keys[i] = (uint64_t)centre3(mesh, face, axis) << 16 | face;
+    }
+    mesh_sort(keys, n);
+}
+
+/* The arrays that leaves are put into, and how much of them is taken. */
+struct leaf_builder {
+    struct carom_leaf *leaves;
+    uint16_t *faces, *vertices;
+    uint8_t (*corners)[3];
+    uint32_t face_count, vertex_count;
+};
+
+/* Add a face to a leaf, unless that would make it too large. */
+static bool add_face(struct leaf_builder *l, struct carom_leaf *leaf, const uint16_t corner[3],
+                     uint16_t face)
+{
+    uint16_t *vertices = &l->vertices[leaf->first_vertex];
+    uint32_t place = leaf->first_face + leaf->face_count;
+    int count = leaf->vertex_count;
+
+    if (leaf->face_count == CAROM_LEAF_FACES) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = 0;
+
+        while (i < count && vertices[i] != corner[k]) {
+            i++;
+        }
+        if (i == CAROM_LEAF_VERTICES) {
+            return false;
+        }
+        vertices[i] = corner[k];
+        l->corners[place][k] = (uint8_t)i;
+        count += i == count;
+    }
+    l->faces[place] = face;
+    leaf->face_count++;
+    leaf->vertex_count = (uint8_t)count;
+    return true;
+}
+
+/*
+ * The sphere around a leaf, about the middle of its box.
+ * Bounds: the middle is within the mesh's box, so the differences fit q22 as the vertices do.
+ */
+static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf)
+{
+    const uint16_t *vertices = &mesh->leaf_vertices[leaf->first_vertex];
+
+    for (int k = 0; k < 3; k++) {
+        int32_t low = INT16_MAX, high = INT16_MIN;
+
+        for (int i = 0; i < leaf->vertex_count; i++) {
+            int32_t c = mesh->raw.vertices[vertices[i]][k];
+
+            low = c < low ? c : low;
+            high = c > high ? c : high;
+        }
+        leaf->centre.c[k] =
+            (int32_t)(carom_shl(low + high, 21 - mesh->raw.quantum_bits) - mesh->mass.centre.c[k]);
+    }
+    leaf->radius_q22 = 0;
+    for (int i = 0; i < leaf->vertex_count; i++) {
+        carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
+        int64_t from_centre[3];
+
+        for (int k = 0; k < 3; k++) {
+            from_centre[k] = (int64_t)p.c[k] - leaf->centre.c[k];
+        }
+        leaf->radius_q22 = (int32_t)mesh_longest(leaf->radius_q22, from_centre);
+    }
+}
+
+/* The slab in which a leaf lies, and its vertices that belong to its faces. */
+static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf)
+{
+    const uint16_t *vertices = &mesh->leaf_vertices[leaf->first_vertex];
+    int64_t sum[3] = {0, 0, 0};
+
+    leaf->owned = 0;
+    for (uint32_t i = leaf->first_face; i < leaf->first_face + leaf->face_count; i++) {
+        const struct carom_face *face = &mesh->faces[mesh->leaf_faces[i]];
+
+        for (int k = 0; k < 3; k++) {
+            sum[k] += face->normal.c[k];
+            leaf->owned |= face->own & 1 << k ? 1u << mesh->leaf_corners[i][k] : 0;
+        }
+    }
+    if (!fix_normalise(&leaf->axis, sum)) {
+        leaf->axis = (carom_v3_q30){{0, 0, CAROM_ONE_Q30}};
+    }
+    leaf->low_q22 = INT32_MAX;
+    leaf->high_q22 = INT32_MIN;
+    for (int i = 0; i < leaf->vertex_count; i++) {
+        carom_v3_q22 p = mesh_vertex(mesh, vertices[i]);
+        int32_t height = (int32_t)carom_round(carom_dot(leaf->axis.c, p.c), 30);
+
+        leaf->low_q22 = height < leaf->low_q22 ? height : leaf->low_q22;
+        leaf->high_q22 = height > leaf->high_q22 ? height : leaf->high_q22;
+    }
+}
+
+void mesh_shape_leaves(struct mesh_builder *b)
+{
+    for (uint32_t i = 0; i < b->mesh->leaf_count; i++) {
+        bound_leaf(b->mesh, &b->leaves[i]);
+        set_slab(b->mesh, &b->leaves[i]);
+    }
+}
+
+/* Make leaves of n <= 16 neighbouring faces: one, or two where there are too many vertices for one,
+ * since any ten faces fit. */
+static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
+                       const uint64_t *keys, uint32_t n)
+{
+    for (uint32_t i = 0; i < n;) {
+        struct carom_leaf *leaf = &l->leaves[(*leaf_count)++];
+
+        leaf->first_face = l->face_count;
+        leaf->first_vertex = l->vertex_count;
+        while (i < n && add_face(l, leaf, mesh->raw.faces[key_face(keys[i])], key_face(keys[i]))) {
+            i++;
+        }
+        l->face_count += leaf->face_count;
+        l->vertex_count += leaf->vertex_count;
+    }
+}
+
+/*
+ * Halve the faces across their widest axis until no more than a leaf's are together. The left part
+ * is a multiple of a leaf, so that all leaves but the last can be full. What waits on the stack is
+ * where a range ends; it begins where the one before it ended. A left part is at most half of its
+ * range, so 16 places do for 65535 faces.
+ */
+static void split_faces(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
+                        uint64_t *keys)
+{
+    uint32_t end[16], depth = 0, first = 0;
+
+    end[depth++] = mesh->raw.face_count;
+    while (depth > 0) {
+        uint32_t n = end[depth - 1] - first;
+
+        if (n <= CAROM_LEAF_FACES) {
+            add_leaves(mesh, l, leaf_count, &keys[first], n);
+            first = end[--depth];
+        } else {
+            uint32_t leaves = (n + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES;
+
+            sort_along(mesh, &keys[first], n, widest_axis(mesh, &keys[first], n));
+            CAROM_ASSERT(depth < 16);
+            end[depth++] = first + leaves / 2 * CAROM_LEAF_FACES;
+        }
+    }
+}
+
+void mesh_build_leaves(struct mesh_builder *b)
+{
+    struct carom_mesh *mesh = b->mesh;
+    uint32_t n = mesh->raw.face_count;
+    uint32_t most_leaves = 2 * ((n + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
+    struct leaf_builder l = {0};
+
+    l.leaves = arena_carve(&b->arena, most_leaves * sizeof l.leaves[0]);
+    l.faces = arena_carve(&b->arena, n * sizeof l.faces[0]);
+    l.vertices = arena_carve(&b->arena, 3 * n * sizeof l.vertices[0]);
+    l.corners = arena_carve(&b->arena, n * sizeof l.corners[0]);
+    for (uint32_t f = 0; f < n; f++) {
+        b->keys[f] = f;
+    }
+    split_faces(mesh, &l, &mesh->leaf_count, b->keys);
+    mesh->leaves = l.leaves;
+    mesh->leaf_faces = l.faces;
+    mesh->leaf_vertices = l.vertices;
+    mesh->leaf_corners = (const uint8_t(*)[3])l.corners;
+    b->leaves = l.leaves;
+    mesh_shape_leaves(b);
+}
+
+/* ------------------------------------------------------------------ z-lists */
+
+/*
+ * How many cells of 2^shift quanta cover an extent, and where they begin. The overhang is shared by
+ * both ends, so that vertices on a regular grid do not fall on the sides of cells; where a cell too
+ * many would be needed for that, an extent of whole cells has no overhang.
+ */
+static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
+{
+    int32_t side = (int32_t)1 << shift;
+    int32_t n = (high - low) / side + 1;
+
+    if (n > MESH_GRID_SIDE_MAX && (high - low) % side == 0) {
+        n--;
+    }
+    *start = low - (n * side - (high - low)) / 2;
+    return n;
+}
+
+/* Lay the grid with cells of 2^shift quanta. False when these are more cells than there may be. */
+static bool lay_grid(struct carom_mesh *mesh, int shift)
+{
+    int32_t nx = fit_cells(mesh->box[0][0], mesh->box[1][0], shift, &mesh->grid_x0);
+    int32_t ny = fit_cells(mesh->box[0][1], mesh->box[1][1], shift, &mesh->grid_y0);
+
+    if (nx > MESH_GRID_SIDE_MAX || ny > MESH_GRID_SIDE_MAX) {
+        return false;
+    }
+    mesh->grid_shift = (uint8_t)shift;
+    mesh->grid_nx = (uint8_t)nx;
+    mesh->grid_ny = (uint8_t)ny;
+    /* At least 3/2 faces for each cell, so up to 6; a single cell is always allowed. */
+    return nx * ny == 1 || (uint32_t)(3 * nx * ny) <= 2 * mesh->raw.face_count;
+}
+
+void mesh_scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+    int32_t xy[3][2];
+
+    for (int i = 0; i < 3; i++) {
+        xy[i][0] = mesh->raw.vertices[mesh->raw.faces[face][i]][0];
+        xy[i][1] = mesh->raw.vertices[mesh->raw.faces[face][i]][1];
+    }
+    scan_cells_begin(s, &grid, (const int32_t(*)[2])xy, 3, 0);
+}
+
+/* Count every cell's entries; returns their number. */
+static uint32_t count_entries(const struct carom_mesh *mesh, uint32_t *count)
+{
+    uint32_t total = 0;
+
+    memset(count, 0, ZLIST_CELLS_MAX * sizeof count[0]);
+    for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
+        struct scan_cells scan;
+        struct scan_run run;
+
+        mesh_scan_face(&scan, mesh, f);
+        while (scan_cells_next(&scan, &run)) {
+            for (int32_t col = run.x0; col < run.x1; col++) {
+                count[run.y * mesh->grid_nx + col]++;
+                total++;
+            }
+        }
+    }
+    return total;
+}
+
+struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face)
+{
+    struct zface z;
+
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            z.p[i][k] = mesh->raw.vertices[mesh->raw.faces[face][i]][k];
+        }
+    }
+    z.grow = 0;
+    return z;
+}
+
+/*
+ * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is
+ * left with where it starts, and a cell's faces stand in rising order.
+ */
+static void fill_lists(const struct carom_mesh *mesh, uint32_t *cell, struct carom_zref *zrefs)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+
+    for (uint32_t f = mesh->raw.face_count; f-- > 0;) {
+        struct zface z = mesh_zface(mesh, f);
+        struct scan_cells scan;
+        struct scan_run run;
+
+        mesh_scan_face(&scan, mesh, f);
+        while (scan_cells_next(&scan, &run)) {
+            for (int32_t col = run.x0; col < run.x1; col++) {
+                struct carom_zref *entry = &zrefs[--cell[run.y * grid.nx + col]];
+
+                zface_interval(&z, &grid, col, run.y, &entry->z0, &entry->z1);
+                entry->face = (uint16_t)f;
+            }
+        }
+    }
+}
+
+/* Sort a list by z1, highest first; equal ones keep their order. By insertion: lists are short. */
+static void sort_list(struct carom_zref *list, uint32_t n)
+{
+    for (uint32_t i = 1; i < n; i++) {
+        struct carom_zref entry = list[i];
+        uint32_t place = i;
+
+        for (; place > 0 && list[place - 1].z1 < entry.z1; place--) {
+            list[place] = list[place - 1];
+        }
+        list[place] = entry;
+    }
+}
+
+/* Whether a side of face f has all of face g outside or on it, seen from above.
+ * Bounds: differences are < 2^16, the cross product < 2^33. */
+static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_t g)
+{
+    for (int k = 0; k < 3; k++) {
+        const int16_t *a = raw->vertices[raw->faces[f][k]];
+        const int16_t *b = raw->vertices[raw->faces[f][(k + 1) % 3]];
+        int outside = 0;
+
+        for (int i = 0; i < 3; i++) {
+            const int16_t *p = raw->vertices[raw->faces[g][i]];
+
+            outside +=
+                (int64_t)(b[0] - a[0]) * (p[1] - a[1]) - (int64_t)(b[1] - a[1]) * (p[0] - a[0]) <=
+                0;
+        }
+        if (outside == 3) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether two faces of a list overlap seen from above: then the surface has two heights there. */
+static bool list_overlaps(const struct carom_mesh_raw *raw, const struct carom_zref *list,
+                          uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        for (uint32_t j = 0; j < i; j++) {
+            uint32_t f = list[i].face, g = list[j].face;
+
+            if (!side_separates(raw, f, g) && !side_separates(raw, g, f)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+int mesh_build_zlists(struct mesh_builder *b)
+{
+    struct carom_mesh *mesh = b->mesh;
+    uint32_t *cell = arena_carve(&b->arena, (ZLIST_CELLS_MAX + 1) * sizeof cell[0]);
+    struct carom_zref *zrefs;
+    uint32_t total, end = 0, cells;
+    int shift = 0;
+
+    do {
+        while (!lay_grid(mesh, shift)) {
+            shift++;
+        }
+        total = count_entries(mesh, cell);
+        shift++;
+    } while (total > MESH_ENTRIES_PER_FACE * mesh->raw.face_count);
+    cells = (uint32_t)mesh->grid_nx * mesh->grid_ny;
+    for (uint32_t c = 0; c < cells; c++) {
+        end += cell[c];
+        cell[c] = end;
+    }
+    cell[cells] = total;
+    zrefs = arena_carve(&b->arena, total * sizeof zrefs[0]);
+    fill_lists(mesh, cell, zrefs);
+    for (uint32_t c = 0; c < cells; c++) {
+        struct carom_zref *list = &zrefs[cell[c]];
+
+        sort_list(list, cell[c + 1] - cell[c]);
+        if (mesh->raw.kind == CAROM_SURFACE &&
+            list_overlaps(&mesh->raw, list, cell[c + 1] - cell[c])) {
+            return CAROM_ERR_MESH_SURFACE;
+        }
+    }
+    mesh->zref_count = total;
+    mesh->cell_start = cell;
+    mesh->zrefs = zrefs;
+    return CAROM_OK;
+}

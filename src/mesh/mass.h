@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * mass - volume, centre of mass and inertia of a closed mesh, by the divergence theorem over its
+ * faces, in integers: sums are exact in 128 bits and rounded once.
+ */
+#ifndef CAROM_SRC_MASS_H
+#define CAROM_SRC_MASS_H
+
+#include "carom.h"
+#include "../num/fix.h"
+
+/*
+ * Mass properties of a closed, outward-oriented mesh.
+ *
+ *   raw   in   the mesh, already checked
+ *   out   volume in cubic units, centre of mass, and inertia divided by mass (square units) about
+ *         the centre of mass in the mesh's axes
+ *
+ * Error    1e-8 of the largest entry
+ * Returns  CAROM_OK; CAROM_ERR_MESH_INSIDE_OUT when the volume is negative;
+ *          CAROM_ERR_MESH_EMPTY when it is zero. Unless CAROM_OK, nothing is written.
+ */
+int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
+
+/*
+ * Inverse of a symmetric positive matrix of shared exponent, as a sum of two.
+ *   in    xx, yy, zz, xy, yz, zx times 2^-e, each within 2^30
+ *   out   its inverse, 30 bits
+ *   rest  what that leaves, to 2^-59 of the largest entry: across the axis of a thin body, 30 bits
+ *         for all leave hardly any
+ * Returns 0, or -1 when it is singular.
+ */
+int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT */
+/* The rule that a single impact never gains energy. */
+#include "rows.h"
+
+#define HALVINGS_MAX 30
+
+/* a k^2 + b k + c with k in q30; |a|, |b|, |c| < 2^60. */
+static int64_t quadratic(const int64_t abc[3], int32_t k_q30)
+{
+    return fix_mul(fix_mul(abc[0], k_q30, 30) + abc[1], k_q30, 30) + abc[2];
+}
+
+/* The largest k in [0, 1] whose quadratic is not positive, rounded down; c <= 0 <= a. */
+static struct fix_scaled largest_feasible(int64_t abc[3])
+{
+    struct fix_scaled k = {.m = 0, .e = 30};
+
+    /* Halve until 1/2 is feasible, so that a small k has its 30 digits too. */
+    while (k.e < 30 + HALVINGS_MAX && quadratic(abc, CAROM_ONE_Q30 / 2) > 0) {
+        abc[0] = (abc[0] + 3) >> 2; /* upwards: on the safe side */
+        abc[1] = (abc[1] + 1) >> 1;
+        k.e++;
+    }
+    for (int32_t digit = CAROM_ONE_Q30 / 2; digit > 0; digit >>= 1) {
+        if (quadratic(abc, k.m + digit) <= 0) {
+            k.m += digit;
+        }
+    }
+    return k;
+}
+
+/* Twice the energy that an answer adds, in the solver's units: P.(2V + K P). */
+static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *x)
+{
+    int64_t sum[3];
+
+    for (int k = 0; k < 3; k++) {
+        sum[k] = 2 * v_q40[k] + x->dv_q40[k];
+    }
+    return fix_wide_dot(x->p_q40, sum);
+}
+
+static void speeds(const struct impact_problem *p, const struct impact_answer *x, int64_t v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        v[k] = impact_shift(p->in->velocity.c[k], -x->unit);
+    }
+}
+
+bool impact_gains(const struct impact_problem *p, const struct impact_answer *x)
+{
+    int64_t v[3];
+
+    speeds(p, x, v);
+    return fix_wide_sign(gain(v, x)) > 0;
+}
+
+/*
+ * With D = P* - P0, twice the energy change of P0 + k D is
+ *
+ *   P0.(2V + K P0) + 2k D.V + k^2 D.K D
+ *
+ * because N.K D = 0: both impulses give the same V'.N. The first term is (P0.N) (V.N + target),
+ * formed from V itself because at e = 1 it is a difference of nearly equal numbers; it is not
+ * positive while e <= 1. The last is not negative. So from the largest k with a value <= 0 on, all
+ * are positive.
+ */
+void impact_energy_rule(const struct impact_problem *p, const struct impact_answer *free,
+                        struct impact_answer *x)
+{
+    struct impact_answer d = impact_subtract(x, free);
+    struct fix_wide square, slope;
+    struct fix_scaled loss;
+    int64_t v[3], abc[3];
+    int down;
+
+    speeds(p, x, v);
+    for (int k = 0; k < 3; k++) {
+        x->p_q40[k] -= d.p_q40[k];
+        x->dv_q40[k] -= d.dv_q40[k];
+    }
+    square = fix_wide_dot(d.p_q40, d.dv_q40);
+    slope = fix_wide_dot(d.p_q40, v);
+    slope = fix_wide_add(slope, slope);
+    down =
+        fix_wide_bits(square) > fix_wide_bits(slope) ? fix_wide_bits(square) : fix_wide_bits(slope);
+    down = down > 59 ? down - 59 : 0;
+    abc[0] = fix_wide_shift(square, down);
+    abc[1] = fix_wide_shift(slope, down);
+    /* 2 V.N + wanted = V.N + target */
+    loss = fix_wide_ratio(
+        fix_wide_add(fix_wide_add(p->wanted_q70, impact_speed_q70(p->in, &p->frame.n)),
+                     impact_speed_q70(p->in, &p->frame.n)),
+        fix_wide_mul(1, 1));
+    loss.e += 30 + x->unit + down;
+    abc[2] = loss.m < 0 ? fix_mul_scaled(impact_dot(x->p_q40, &p->frame.n), loss) : 0;
+    impact_add_scaled(x, &d, largest_feasible(abc));
+}

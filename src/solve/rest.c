@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+/*
+ * A gap from half a skin to this much more than a skin is as good as closed. A rigid body cannot
+ * follow targets that differ by a hair at each of its contacts: nothing is asked for there, or the
+ * sweeps would shift its weight from corner to corner without end, and each time it would slip a
+ * little downhill.
+ */
+#define NEAR_DIVISOR 8
+/* What is nearer is opened by 1/64 of a skin a frame, evenly for the same reason ... */
+#define LIFT_DIVISOR 64
+/* ... and by a fifth of what is missing to half a skin besides. */
+#define RECOVERY_DIVISOR 5
+/* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
+#define TOO_NEAR_DIVISOR 16
+/* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
+#define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
+/* What rounding may have made of a gap since the hit was found. */
+#define HIT_GAP_NOISE_Q22 8
+
+int32_t rest_restitution(const struct body *a, const struct body *b)
+{
+    return a->restitution_q30 < b->restitution_q30 ? a->restitution_q30 : b->restitution_q30;
+}
+
+uint32_t rest_friction(const struct body *a, const struct body *b)
+{
+    return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
+}
+
+/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
+void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
+{
+    for (int k = 0; k < 3; k++) {
+        v->c[k] = -c->drift.c[k];
+    }
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
+        const int32_t *arm = c->side[s].arm_q30;
+
+        for (int k = 0; b && k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3, bits = contact_arm_bits(b);
+            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], bits) -
+                         fix_mul(b->spin.c[j], arm[i], bits);
+
+            v->c[k] += s == 0 ? at : -at;
+        }
+    }
+}
+
+static int64_t speed_along_normal_q40(const struct contact *c)
+{
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return rest_along_q40(&v, &c->normal);
+}
+
+/* Velocities of the bodies that have contacts, each once. */
+static void load_velocities(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->body_count; i++) {
+        r->bodies[i].solving = r->bodies[i].entering = false;
+    }
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        struct contact *c = &r->list.contacts[i];
+
+        for (int s = 0; s < 2; s++) {
+            struct body *b = c->side[s].body;
+
+            if (b && !b->solving) {
+                b->solving = true;
+                body_velocity(b, rest_state(r, c, s), &b->velocity);
+                body_spin(b, rest_state(r, c, s), &b->path.start.r, &b->spin);
+            }
+        }
+    }
+}
+
+static int32_t restitution(const struct rest *r, const struct contact *c)
+{
+    return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
+}
+
+/* An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. */
+static int64_t slow_q40(const struct rest *r, const struct contact *c)
+{
+    int64_t largest_q40 = 0;
+
+    for (int s = 0; s < 2 && restitution(r, c) < CAROM_ONE_Q30; s++) {
+        const struct body *b = c->side[s].body;
+
+        if (b && b->acceleration_q40 > largest_q40) {
+            largest_q40 = b->acceleration_q40;
+        }
+    }
+    return 4 * largest_q40;
+}
+
+/*
+ * Newton's e. Where no gravity tells an impact from rest a body may come back again and again; what
+ * paths bend by would add up to an overlap, so a gap that is all but closed opens, by no more than
+ * the approach.
+ */
+static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
+{
+    int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
+    int64_t back_q40 = carom_shl(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22, 18);
+
+    back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
+    return target_q40 > back_q40 ? target_q40 : back_q40;
+}
+
+/* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
+static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+{
+    return way_q22 < 1 << 22 ? (way_q22 << 40) / (time_q30 >> 8)
+                             : ((way_q22 << 30) / (time_q30 >> 8)) << 10;
+}
+
+/*
+ * The surface stands still within a step, where it will be at its end: nobody can follow it farther
+ * down than that. What would have to counts it as standing still along the normal.
+ */
+static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
+{
+    int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
+    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
+
+    if (c->work->target_q40 + rise_q40 >= least_q40) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
+
+        c->drift.c[k] -= rise;
+        c->velocity_q40.c[k] += rise;
+    }
+    c->speed_q40 += rise_q40;
+    c->work->target_q40 = least_q40;
+}
+
+/* The wanted normal velocity after the solve. */
+static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
+{
+    int32_t e_q30 = restitution(r, c);
+    int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
+    /* a surface that goes down has left behind what is going to follow it */
+    int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
+    int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
+
+    c->impact = c->speed_q40 < -slow_q40(r, c);
+    if (c->impact) {
+        c->work->target_q40 = impact_target_q40(c, e_q30);
+    } else if (e_q30 == CAROM_ONE_Q30) {
+        c->work->target_q40 = 0;
+    } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
+        c->work->target_q40 = 0;
+    } else if (open_q22 > 0) {
+        /* may come nearer until the skins touch; q22 to q40 over the time */
+        int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
+
+        c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
+    } else {
+        c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
+        c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
+    }
+    c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
+    /* what the path's bend takes back of V.N must be there to begin with */
+    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
+        int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
+
+        c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;
+    }
+    if (rise_q40 < 0) {
+        hold_above(c, tau_q30, rise_q40);
+    }
+}
+
+void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
+                   const int64_t moment_q40[3])
+{
+    for (int s = 0; s < 2; s++) {
+        struct body_state *state = rest_state(r, c, s);
+        const struct body *b = c->side[s].body;
+        const int32_t *arm = c->side[s].arm_q30;
+
+        for (int k = 0; b && k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+            int64_t moment =
+                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
+
+            state->momentum.c[k] += s == 0 ? p[k] : -p[k];
+            state->angular.c[k] += s == 0 ? moment : -moment;
+        }
+    }
+}
+
+void rest_apply(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+
+        rest_apply_at(r, c, c->impulse_q40.c, rest_moment(c)->c);
+    }
+}
+
+static void impact_side(const struct contact_side *from, struct impact_side *to)
+{
+    memset(to, 0, sizeof *to);
+    if (from->body) {
+        to->moving = true;
+        to->inverse_mass = from->body->inverse_mass;
+        memcpy(to->arm.c, from->arm_q30, sizeof to->arm.c);
+        to->arm.e = contact_arm_bits(from->body);
+        body_world_inertia(from->body, &from->body->path.start.r, &to->inertia);
+    }
+}
+
+/* The paper's case: one impact between two bodies. */
+static int solve_impact(struct rest *r, struct contact *c)
+{
+    struct impact in;
+    struct impact_result out;
+    int result;
+
+    memset(&in, 0, sizeof in);
+    impact_side(&c->side[0], &in.a);
+    impact_side(&c->side[1], &in.b);
+    in.normal = c->normal;
+    in.velocity = c->velocity_q40;
+    in.target_q40 = c->work->target_q40;
+    in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
+    c->work = NULL; /* the elimination takes its room */
+    result = impact_solve(r->gauss, &in, &out);
+    if (result == CAROM_OK) {
+        c->impulse_q40 = out.impulse;
+        r->energy_rules += out.energy_rule;
+    }
+    return result;
+}
+
+/* Whether any contact is an impact; also fills in what the solvers need of each. */
+static bool prepare(struct rest *r, int32_t tau_q30)
+{
+    bool any = false;
+
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        rest_prepare_body(&r->bodies[i]);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->work = &r->works[r->first + i];
+        c->work->roll = NULL;
+        rest_relative_velocity(c, &c->velocity_q40);
+        c->speed_q40 = rest_along_q40(&c->velocity_q40, &c->normal);
+        rest_prepare_masses(c);
+        prepare_target(r, c, tau_q30);
+        any |= c->impact;
+        r->impacts += c->impact;
+    }
+    return any;
+}
+
+/* What resting contacts may add to twice the energy of the bodies at hand. */
+static struct fix_wide lift2(const struct rest *r)
+{
+    struct fix_wide sum = {0, 0};
+
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
+    }
+    return sum;
+}
+
+/* The island at hand. */
+static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
+{
+    struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST, true};
+    bool impacts = prepare(r, tau_q30);
+
+    if (impacts && r->count == 1) {
+        int result = solve_impact(r, rest_contact(r, 0));
+
+        if (result == CAROM_OK) {
+            rest_apply(r);
+        }
+        return result;
+    }
+    if (impacts) {
+        sw.residual = REST_RESIDUAL_IMPACT;
+        sw.rolls = false;
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        rest_contact(r, i)->resting = !impacts;
+    }
+    rest_save_momenta(r);
+    rest_solve_sweeps(r, &sw, warm);
+    rest_apply(r);
+    rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
+    return CAROM_OK;
+}
+
+/* Whoever asks for the contacts after the step is told where they are by this. */
+static void place_origins(struct rest *r)
+{
+    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+        body_place_origin(&r->bodies[i], &r->states[i]);
+    }
+}
+
+/* What surfaces that move have done on the island at hand: 2 P.drift. */
+static void book_work(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+        struct body *b = c->side[0].body;
+
+        b->work2 = fix_wide_add(b->work2, rest_work2(c));
+    }
+}
+
+int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
+{
+    int result = CAROM_OK;
+
+    load_velocities(r);
+    rest_list_islands(r);
+    for (r->first = 0; r->first < r->list.pool->used && result == CAROM_OK; r->first += r->count) {
+        if (rest_take_island(r)) {
+            result = solve_island(r, tau_q30, warm);
+            book_work(r);
+            place_origins(r);
+        }
+    }
+    if (warm) {
+        rest_store_warm(r);
+    }
+    return result;
+}
+
+void rest_keep_hits(struct rest *r, uint16_t pair)
+{
+    load_velocities(r);
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        struct contact *c = &r->list.contacts[i];
+        /* a hit stops at half the skin */
+        bool hits = c->gap_q22 < c->skin_q22 / 2 + HIT_GAP_NOISE_Q22 &&
+                    speed_along_normal_q40(c) < -slow_q40(r, c);
+
+        c->idle =
+            c->key.pair != pair && !hits && !rest_body(r, c, 0)->woke && !rest_body(r, c, 1)->woke;
+    }
+}
+
+/* Whether a contact has a body that moves and has not taken gravity. */
+static bool may_enter(const struct contact *c)
+{
+    return (c->side[0].body && !c->side[0].body->in_contact) ||
+           (c->side[1].body && !c->side[1].body->in_contact);
+}
+
+/* Whether a body is on a side of the contact that newly took gravity. */
+static bool enters(const struct contact *c)
+{
+    return (c->side[0].body && c->side[0].body->entering) ||
+           (c->side[1].body && c->side[1].body->entering);
+}
+
+bool rest_enter_contact(struct rest *r, int32_t tau_q30)
+{
+    bool any = false;
+
+    load_velocities(r);
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        struct contact *c = &r->list.contacts[i];
+
+        if (c->idle || !may_enter(c) || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
+            continue;
+        }
+        for (int s = 0; s < 2; s++) {
+            struct body *b = c->side[s].body;
+
+            if (b && !b->in_contact) {
+                b->in_contact = b->entering = any = true;
+            }
+        }
+    }
+    for (uint32_t i = 0; any && i < r->list.pool->used; i++) {
+        r->list.contacts[i].idle = !enters(&r->list.contacts[i]);
+    }
+    for (uint32_t i = 0; any && i < r->body_count; i++) {
+        const struct body *b = &r->bodies[i];
+
+        for (int k = 0; b->entering && k < 3; k++) {
+            r->states[i].momentum.c[k] +=
+                fix_mul_scaled(fix_mul(b->acceleration.c[k], tau_q30, 30), b->mass);
+        }
+    }
+    return any;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * rest - several contacts at once: continuous contact, and impacts at more than one place.
+ * Symmetric sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
+ * sleep.
+ *
+ * Solver units. A solve picks a power of two V* above every wanted change of normal velocity and
+ * counts velocities in units of V* / 2^REST_BITS. An impulse is counted in that unit of velocity
+ * times the lighter body's mass, spin in that unit over the body's unit of length. So every number
+ * has about the same size whatever the masses, sizes and speeds.
+ */
+#ifndef CAROM_SRC_REST_H
+#define CAROM_SRC_REST_H
+
+#include "../contact/contact.h"
+#include "impact.h"
+
+#define REST_BITS        27
+#define REST_SWEEPS_MAX  60 /* of an impact */
+#define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY 70 /* and at many */
+
+/* An impulse kept for the next frame; part of the state. */
+struct rest_warm {
+    uint16_t a, b;
+    carom_v3_q22 arm; /* on a, in its mesh's axes */
+    carom_v3_q30 normal;
+    int64_t normal_q40;       /* impulse along the normal */
+    carom_v3_q40 tangent_q40; /* and across it */
+};
+
+struct rest {
+    /* room to solve in: a single impact, or many contacts and rolling by pairs; one at a time */
+    struct gauss *gauss;
+    struct contact_work *works;
+    struct contact_roll *rolls;
+    struct contact_list list;
+    const struct pair *pairs;
+    struct body *bodies;
+    struct body_state *states;
+    uint32_t body_count;
+
+    struct rest_warm *warm; /* read and written; NULL: no warm start */
+    uint32_t warm_count;
+
+    /* the island being solved: its first body, and its contacts in the order of islands */
+    uint16_t island;
+    uint8_t sweep_cap; /* 0: none but those above */
+    uint32_t first, count;
+
+    uint32_t sweeps, impacts, energy_rules; /* for the statistics */
+};
+
+/*
+ * Find momenta after the contacts of the list, island by island: what happens in one does not show
+ * in another. An island is left alone when all of its contacts are idle.
+ *
+ *   tau_q30   what is left of the frame: resting contacts may close their gap in that time
+ *   warm      start from the impulses of the last frame and keep these for the next
+ *
+ * An island of a single impact is solved by the paper's 9x9 or 15x15, every other by sweeps.
+ * Returns  CAROM_OK or CAROM_ERR_RANGE
+ * Source   paper eq. (1)-(10), and "continuous contact"
+ */
+int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
+
+/*
+ * Leave idle what neither belongs to the pair that hit, nor hits at the same time, nor belongs to a
+ * body that the static check woke.
+ */
+void rest_keep_hits(struct rest *r, uint16_t pair);
+
+/*
+ * Bodies with a contact that is slower than 4 g h, and not idle, take the rest of the frame's
+ * gravity at once and move straight. Returns whether any body newly did; only the contacts of such
+ * bodies are not idle then.
+ */
+bool rest_enter_contact(struct rest *r, int32_t tau_q30);
+
+/* v, or +-(2^31 - 1). */
+int32_t rest_clamp(int64_t v);
+
+/* The moment of rolling friction that a contact was given with its impulse; on a. */
+const carom_v3_q40 *rest_moment(const struct contact *c);
+
+/* Part of a velocity or an impulse along a direction. */
+static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
+{
+    return fix_mul(v->c[0], n->c[0], 30) + fix_mul(v->c[1], n->c[1], 30) +
+           fix_mul(v->c[2], n->c[2], 30);
+}
+
+/* e and mu of a pair of bodies: the smaller of the two. */
+int32_t rest_restitution(const struct body *a, const struct body *b);
+uint32_t rest_friction(const struct body *a, const struct body *b);
+
+/*
+ * Islands are moving bodies that are connected by pairs: begin, join each pair, end. Then body.island
+ * is the lowest number in a body's island; the others follow by next_in_island.
+ */
+#define REST_ISLAND_END 0xffffu
+void rest_islands_begin(struct body *bodies, uint32_t body_count);
+void rest_islands_join(struct body *bodies, const struct pair *p);
+void rest_islands_end(struct body *bodies, uint32_t body_count);
+
+/* Count quiet frames and put whole islands, bodies that touch, to sleep. */
+void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
+                const struct pair *touching, uint32_t touching_count);
+
+#endif

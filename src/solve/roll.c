@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Rolling friction. Where bodies press on each other they touch over a patch, and the middle of
+ * the pressure can lie anywhere in it: besides an impulse the contact carries a moment of up to
+ * the patch's radius times the normal impulse, against the spin of one body relative to the other.
+ * Without it a body of many small faces rolls to and fro in a hollow for a long time.
+ */
+#include "rows.h"
+#include "parts.h"
+
+/*
+ * The arm of that moment in skins, 1/64 of a body's radius. A body of radius r that lies one skin,
+ * r / 2048, deep in what gives way has a patch of radius r / 32; nothing springs back at rest, so
+ * it is carried by the half of the patch that it rolls into, whose middle is half as far out.
+ */
+#define ROLL_SKINS 32
+
+/* Whether contact n is of the pair of contact i. */
+static bool same_pair(const struct rest *r, uint32_t i, uint32_t n)
+{
+    return n < r->count && rest_contact(r, n)->key.pair == rest_contact(r, i)->key.pair;
+}
+
+/* Whether contact i is the first of its pair. */
+static bool leads(const struct rest *r, uint32_t i)
+{
+    return i == 0 || !same_pair(r, i, i - 1);
+}
+
+/*
+ * A body rolls over one contact or two. Where three or more carry it, they resist rolling by the
+ * width of what they span, and a moment besides would only make the solution ambiguous. Which carry
+ * it is known from the last frame.
+ */
+static bool may_roll(const struct rest *r, uint32_t i)
+{
+    uint32_t all = 0, pressed = 0;
+
+    for (uint32_t n = i; same_pair(r, i, n); n++) {
+        all++;
+        pressed += rest_contact(r, n)->work->normal_impulse > 0;
+    }
+    return all <= 2 || (pressed > 0 && pressed <= 2);
+}
+
+/* How many bits shorter the unit of length is than the body's. */
+static int finer(const struct contact *c, const struct body *b)
+{
+    return b->unit_bits - c->work->roll->unit_bits;
+}
+
+/* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
+static int64_t turning_q30(const struct body *b, int32_t share_q30)
+{
+    const struct carom_sym3 *t = &b->path.turning;
+    int64_t largest = 0;
+
+    for (int i = 0; i < 3; i++) {
+        int64_t sum = 0;
+
+        for (int k = 0; k < 3; k++) {
+            sum += carom_abs(t->m[fix_sym3_at[i][k]]);
+        }
+        largest = sum > largest ? sum : largest;
+    }
+    return impact_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
+}
+
+bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
+{
+    struct contact *c = rest_contact(r, i);
+    struct contact_roll *roll = &r->rolls[c->key.pair];
+    const struct body *a = c->side[0].body, *b = c->side[1].body;
+    int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
+
+    c->work->roll = NULL;
+    if (!leads(r, i) || !may_roll(r, i) || c->work->friction_q16 == 0 ||
+        rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
+        return false;
+    }
+    c->work->roll = roll;
+    roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
+    roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
+    for (int s = 0; s < 2; s++) {
+        const struct contact_side *side = &c->side[s];
+
+        if (!side->body) {
+            continue;
+        }
+        mass_q30 +=
+            turning_q30(side->body, c->work->lever[s].share_q30) >> (2 * finer(c, side->body));
+        for (int k = 0; k < 3; k++) {
+            int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
+
+            spin[k] += s == 0 ? w : -w;
+        }
+    }
+    rest_cut(spin, INT32_MAX);
+    for (int k = 0; k < 3; k++) {
+        roll->spin[k] = (int32_t)spin[k];
+        roll->moment[k] = roll->gain[k] = roll->way[k] = 0;
+    }
+    roll->mass_q24 = rest_clamp(mass_q30 >> 6);
+    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (mass_q30 | 1));
+    return true;
+}
+
+/* Apply a moment to the bodies. */
+static void twist(struct contact *c, const int32_t moment[3])
+{
+    for (int s = 0; s < 2; s++) {
+        const struct contact_side *side = &c->side[s];
+        const struct carom_sym3 *t;
+        int32_t part[3];
+
+        if (!side->body) {
+            continue;
+        }
+        t = &side->body->path.turning;
+        for (int k = 0; k < 3; k++) {
+            int64_t m = carom_round((int64_t)moment[k] * c->work->lever[s].share_q30, 30);
+
+            part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
+        }
+        for (int k = 0; k < 3; k++) {
+            side->body->path.dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+        }
+    }
+}
+
+int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
+{
+    struct contact *c = rest_contact(r, i);
+    struct contact_roll *roll = c->work->roll;
+    int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
+    int32_t change[3], limit, most = 0, moved;
+
+    for (uint32_t n = i; same_pair(r, i, n); n++) {
+        pressure += rest_contact(r, n)->work->normal_impulse;
+    }
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
+
+        for (int k = 0; b && k < 3; k++) {
+            int64_t dw = b->path.dw[k] >> (REST_FINER_BITS + finer(c, b));
+
+            spin[k] += s == 0 ? dw : -dw;
+        }
+    }
+    /* so a component of the moment stays within 2^30 */
+    limit = rest_clamp(fix_mul(pressure, roll->arm_q30, 30));
+    limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
+    for (int k = 0; k < 3; k++) {
+        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q30) >> 30);
+    }
+    rest_cut(next, limit > 0 ? limit : 0);
+    for (int k = 0; k < 3; k++) {
+        int32_t size;
+
+        change[k] = (int32_t)next[k] - roll->moment[k];
+        size = change[k] < 0 ? -change[k] : change[k];
+        most = size > most ? size : most;
+    }
+    moved = rest_clamp(((int64_t)roll->mass_q24 * most) >> 24);
+    if (moved < quiet) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        roll->moment[k] += change[k];
+        roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
+    }
+    twist(c, change);
+    return moved;
+}
+
+const carom_v3_q40 *rest_moment(const struct contact *c)
+{
+    static const carom_v3_q40 none = {{0, 0, 0}};
+
+    return c->work && c->work->roll ? &c->work->roll->moment_q40 : &none;
+}
+
+void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
+{
+    struct fix_scaled unit = c->work->mass_unit;
+    struct contact_roll *roll = c->work->roll;
+
+    if (!c->work->rolls) {
+        return;
+    }
+    unit.e -= sw->unit + roll->unit_bits - 22;
+    for (int k = 0; k < 3; k++) {
+        roll->moment_q40.c[k] = fix_mul_scaled(roll->moment[k], unit);
+    }
+}
+
+/* A component of a moment: at most 2^30. */
+static int32_t within(int64_t v)
+{
+    return (int32_t)(v > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : v < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : v);
+}
+
+void rest_roll_accelerate(struct contact *c, int32_t part_q30)
+{
+    struct contact_roll *roll = c->work->roll;
+    int32_t gain[3];
+
+    for (int k = 0; k < 3; k++) {
+        gain[k] = carom_mul_q30(roll->way[k], part_q30);
+        roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);
+        roll->gain[k] = 0;
+        gain[k] = within((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
+        roll->moment[k] += gain[k];
+    }
+    twist(c, gain);
+}

@@ -1,0 +1,415 @@
+/* SPDX-License-Identifier: MIT */
+#include "rows.h"
+
+#define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
+#define SPEED_BITS   60 /* bits of V in q40 of the solver's unit, at most */
+
+int64_t impact_shift(int64_t v, int s)
+{
+    if (s >= 0) {
+        return carom_shl(v, s);
+    }
+    return s < -62 ? 0 : carom_round(v, -s);
+}
+
+static int bits3(const int64_t v[3])
+{
+    return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
+}
+
+int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
+{
+    return fix_mul(v[0], d->c[0], 30) + fix_mul(v[1], d->c[1], 30) + fix_mul(v[2], d->c[2], 30);
+}
+
+struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
+{
+    int64_t d64[3] = {d->c[0], d->c[1], d->c[2]};
+
+    return fix_wide_dot(in->velocity.c, d64);
+}
+
+/* ------------------------------------------------------------------- frame */
+
+bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
+{
+    struct fix_wide cross_q70[3];
+    int64_t across[3];
+    int bits = 0;
+    bool slips;
+
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3, b;
+
+        cross_q70[k] = fix_wide_add(fix_wide_mul(t[i], f->n.c[j]), fix_wide_mul(-t[j], f->n.c[i]));
+        b = fix_wide_bits(cross_q70[k]);
+        bits = b > bits ? b : bits;
+    }
+    /* Less than 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much. */
+    slips = bits > 34 && bits > bits3(t) + 30 - 28;
+    if (slips) {
+        for (int k = 0; k < 3; k++) {
+            across[k] = fix_wide_shift(cross_q70[k], bits > 62 ? bits - 62 : 0);
+        }
+    } else {
+        /* The axis farthest from N: its cross product with N is at least sqrt(2/3) long. */
+        int far = 0;
+
+        for (int k = 1; k < 3; k++) {
+            far = carom_abs(f->n.c[k]) < carom_abs(f->n.c[far]) ? k : far;
+        }
+        across[far] = 0;
+        across[(far + 1) % 3] = -f->n.c[(far + 2) % 3];
+        across[(far + 2) % 3] = f->n.c[(far + 1) % 3];
+    }
+    fix_normalise(&f->u, across);
+    carom_cross(f->v.c, f->n.c, f->u.c, 30);
+    /* Some units of 2^-30. */
+    f->un_q52 = (int32_t)carom_round(carom_dot(f->u.c, f->n.c), 8);
+    f->vn_q52 = (int32_t)carom_round(carom_dot(f->v.c, f->n.c), 8);
+    return slips;
+}
+
+/* -------------------------------------------------------------------- rows */
+
+/* The power of two of I / m and of the arm; returns the c that this body needs. */
+static int set_shape(struct impact_mover *m, const struct impact_side *side, int *g)
+{
+    uint32_t inertia = 0, arm = 0;
+    int top, power;
+
+    for (int k = 0; k < 6; k++) {
+        inertia |= (uint32_t)carom_abs(side->inertia.m[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        arm |= (uint32_t)carom_abs(side->arm.c[k]);
+    }
+    top = fix_bits(inertia);
+    for (int k = 0; k < 6; k++) {
+        m->inertia_q30[k] = (int32_t)impact_shift(side->inertia.m[k], 30 - top);
+    }
+    power = top - side->inertia.e; /* I / m = inertia_q30 2^power */
+    m->inertia_odd = power & 1;
+    *g = power >> 1;
+    return fix_bits(arm) - side->arm.e - *g + 1;
+}
+
+/* A number up to 1 in two parts. */
+static void split_q60(int64_t v_q60, int32_t *v_q30, int32_t *rest_q60)
+{
+    *v_q30 = (int32_t)carom_round(v_q60, 30);
+    *rest_q60 = (int32_t)(v_q60 - *v_q30 * ((int64_t)1 << 30));
+}
+
+/* m*, and the shares, exact to 60 bits: m* / m is 1/2 to 1 for the lighter body. */
+static void set_masses(struct impact_problem *p, const struct impact_side *side[2])
+{
+    int power[2], top = 0;
+
+    for (int b = 0; b < p->movers; b++) {
+        power[b] = 30 - side[b]->inverse_mass.e; /* 1 / m < 2^power */
+        top = b == 0 || power[b] > top ? power[b] : top;
+    }
+    p->mass_power = -top;
+    for (int b = 0; b < p->movers; b++) {
+        split_q60(impact_shift(side[b]->inverse_mass.m, 30 + power[b] - top),
+                  &p->mover[b].share_q30, &p->mover[b].share_rest_q60);
+    }
+}
+
+void impact_prepare(struct impact_problem *p)
+{
+    const struct impact *in = p->in;
+    const struct impact_side *side[2];
+    int g[2];
+
+    p->movers = 0;
+    if (in->a.moving) {
+        p->mover[p->movers].sign = 1;
+        side[p->movers++] = &in->a;
+    }
+    if (in->b.moving) {
+        p->mover[p->movers].sign = -1;
+        side[p->movers++] = &in->b;
+    }
+    CAROM_ASSERT(p->movers > 0);
+    p->n = 6 * p->movers + 3;
+    p->arm_shift = 0;
+    for (int b = 0; b < p->movers; b++) {
+        int c = set_shape(&p->mover[b], side[b], &g[b]);
+
+        p->arm_shift = c > p->arm_shift ? c : p->arm_shift;
+    }
+    for (int b = 0; b < p->movers; b++) {
+        for (int k = 0; k < 3; k++) {
+            /* |arm| < 2^(g + c - 1 + e), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
+            int shift = 60 - side[b]->arm.e - g[b] - p->arm_shift;
+
+            split_q60(impact_shift(side[b]->arm.c[k], shift), &p->mover[b].arm_q30[k],
+                      &p->mover[b].arm_rest_q60[k]);
+        }
+    }
+    set_masses(p, side);
+}
+
+/* (arm x P)_i has arm_j P_k with a plus sign: what an impulse along an axis turns by along another. */
+static int32_t turn_by(const struct impact_mover *m, int k)
+{
+    return (int32_t)carom_round((int64_t)(m->sign * m->share_q30) * m->arm_q30[k],
+                                30 + m->inertia_odd);
+}
+
+/* Row k of a body's six, equations (1) to (4). */
+static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
+{
+    const struct impact_mover *m = &p->mover[b];
+    int32_t *impulse = row + p->n - 3, *own = row + 6 * b;
+
+    if (k < 3) {
+        own[k] = CAROM_ONE_Q30;
+        impulse[k] = (int32_t)impact_shift(-(m->sign * m->share_q30), -p->arm_shift);
+    } else {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        for (int l = 0; l < 3; l++) {
+            own[3 + l] = m->inertia_q30[fix_sym3_at[k - 3][l]];
+        }
+        impulse[i] = turn_by(m, j);
+        impulse[j] = -turn_by(m, i);
+    }
+}
+
+/* The coefficients that give the change of V.d from dv and dw. */
+static void velocity_row(const struct impact_problem *p, const carom_v3_q30 *d, int32_t *row)
+{
+    for (int b = 0; b < p->movers; b++) {
+        const struct impact_mover *m = &p->mover[b];
+        int32_t turn[3];
+
+        carom_cross(turn, m->arm_q30, d->c, 30);
+        for (int k = 0; k < 3; k++) {
+            row[6 * b + k] = m->sign * (int32_t)impact_shift(d->c[k], -p->arm_shift);
+            row[6 * b + 3 + k] = m->sign * turn[k];
+        }
+    }
+}
+
+/* v 2^16 + mu N of (10), and the bits that it takes: (v + mu N) 2^(46 - bits) in 30 bits is its
+ * row. */
+static int slide_direction(const struct impact_problem *p, uint32_t friction_q16, int64_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = ((int64_t)p->frame.v.c[k] * ((int64_t)1 << 16)) +
+                 (int64_t)friction_q16 * p->frame.n.c[k];
+    }
+    return bits3(out);
+}
+
+/* Paper (9) and (10); mu = 0 gives the frictionless impulse. */
+static void slide_row(const struct impact_problem *p, uint32_t friction_q16, bool along,
+                      int32_t *row)
+{
+    int64_t direction[3];
+    int bits = slide_direction(p, friction_q16, direction);
+
+    for (int k = 0; k < 3; k++) {
+        row[p->n - 3 + k] =
+            along ? (int32_t)impact_shift(direction[k], 30 - bits) : p->frame.u.c[k];
+    }
+}
+
+/* ------------------------------------------------------------------- solve */
+
+/* What one solution asks for. */
+struct goal {
+    bool sticks;
+    uint32_t friction_q16; /* when it does not */
+    int bits;              /* of the unit, with 70 fractional bits */
+    int64_t change_q40[3]; /* of V along N, u, v, in the unit */
+};
+
+/* v in units of 2^bits. */
+static int64_t in_unit_q40(struct fix_wide v_q70, int bits)
+{
+    return bits > 40 ? carom_round(fix_wide_shift(v_q70, bits - 41), 1)
+                     : carom_shl(fix_wide_shift(v_q70, 0), 40 - bits);
+}
+
+/* The unit must not be so small that V does not fit, nor finer than the velocities are. */
+static int unit_bits(const struct impact_problem *p, int bits)
+{
+    int lowest = bits3(p->in->velocity.c) + 30 + 40 - SPEED_BITS;
+
+    return bits > lowest ? bits : lowest > 30 ? lowest : 30;
+}
+
+void impact_row(const struct impact_problem *p, bool sticks, uint32_t friction_q16, int i,
+                int32_t *row)
+{
+    const carom_v3_q30 *direction[3] = {&p->frame.n, &p->frame.u, &p->frame.v};
+    int last = i - (p->n - 3);
+
+    memset(row, 0, (size_t)(p->n + 1) * sizeof *row);
+    if (last < 0) {
+        body_row(p, i / 6, i % 6, row);
+    } else if (sticks || last == 0) {
+        velocity_row(p, direction[last], row);
+    } else {
+        slide_row(p, friction_q16, last == 2, row);
+    }
+}
+
+/* Gauss-Jordan on the rows; the solution is in p->w. */
+static int eliminate(const struct impact_problem *p, const struct goal *goal)
+{
+    int32_t row[GAUSS_MAX + 1];
+    int more;
+
+    for (int i = 0; i < p->n; i++) {
+        int last = i - (p->n - 3);
+
+        impact_row(p, goal->sticks, goal->friction_q16, i, p->w->a[i]);
+        if (last == 0 || (last > 0 && goal->sticks)) {
+            p->w->a[i][p->n] = (int32_t)carom_round(goal->change_q40[last], 10);
+        }
+    }
+    more = gauss_begin(p->w, p->n);
+    while (more > 0) {
+        more = gauss_correct(p->w, p->n);
+        for (int i = 0; i < p->n && more > 0; i++) {
+            impact_row(p, goal->sticks, goal->friction_q16, i, row);
+            gauss_take_out(p->w, p->n, i, row);
+        }
+    }
+    return more;
+}
+
+static int64_t times_share(const struct impact_mover *m, int64_t v)
+{
+    return fix_mul(v, m->share_q30, 30) + fix_mul(v, m->share_rest_q60, 60);
+}
+
+static int64_t times_arm(const struct impact_mover *m, int64_t v, int k)
+{
+    return fix_mul(v, m->arm_q30[k], 30) + fix_mul(v, m->arm_rest_q60[k], 60);
+}
+
+/* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
+static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
+{
+    memset(out_q40, 0, 3 * sizeof out_q40[0]);
+    for (int b = 0; b < p->movers; b++) {
+        const struct impact_mover *m = &p->mover[b];
+        const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
+
+        for (int k = 0; k < 3; k++) {
+            int i = (k + 1) % 3, j = (k + 2) % 3;
+
+            out_q40[k] += m->sign * (impact_shift(dv[k], -p->arm_shift) + times_arm(m, dw[i], j) -
+                                     times_arm(m, dw[j], i));
+        }
+    }
+}
+
+/* What the solution leaves over of (1) to (4), with nothing rounded but the last place of q40. */
+static void body_residual(const struct impact_problem *p, int b, int64_t *out_q40)
+{
+    const struct impact_mover *m = &p->mover[b];
+    const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3, *impulse = p->w->x_q40 + p->n - 3;
+    int64_t share[3];
+
+    for (int k = 0; k < 3; k++) {
+        share[k] = m->sign * times_share(m, impulse[k]);
+        out_q40[k] = impact_shift(share[k], -p->arm_shift) - dv[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        out_q40[3 + k] =
+            impact_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
+        for (int l = 0; l < 3; l++) {
+            out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[fix_sym3_at[k][l]], 30);
+        }
+    }
+}
+
+/*
+ * Refine the solution against the equations before their coefficients were rounded to rows. It
+ * matters where P is large beside the approach speed, as in a grazing contact that wedges.
+ */
+static int refine(const struct impact_problem *p, const struct goal *goal)
+{
+    const int64_t *impulse = p->w->x_q40 + p->n - 3;
+    const struct impact_frame *f = &p->frame;
+    int64_t residual_q40[GAUSS_MAX], *last = residual_q40 + p->n - 3, change[3], row[3];
+
+    for (int b = 0; b < p->movers; b++) {
+        body_residual(p, b, residual_q40 + 6 * b);
+    }
+    velocity_change(p, change);
+    last[0] = goal->change_q40[0] - impact_dot(change, &f->n);
+    if (goal->sticks) {
+        /* V' along N: V'.u is not 0 but the target times u.N. */
+        int64_t after = impact_shift(p->in->target_q40, 70 - goal->bits);
+
+        last[1] = goal->change_q40[1] - impact_dot(change, &f->u) + fix_mul(after, f->un_q52, 52);
+        last[2] = goal->change_q40[2] - impact_dot(change, &f->v) + fix_mul(after, f->vn_q52, 52);
+    } else {
+        int64_t normal = impact_dot(impulse, &f->n);
+        int64_t excess = impact_dot(impulse, &f->v) - fix_mul(normal, f->vn_q52, 52) +
+                         fix_mul(normal, (int32_t)goal->friction_q16, 16);
+
+        last[1] = fix_mul(normal, f->un_q52, 52) - impact_dot(impulse, &f->u);
+        last[2] = -impact_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
+    }
+    return gauss_add(p->w, p->n, residual_q40);
+}
+
+static int solve(const struct impact_problem *p, const struct goal *goal, struct impact_answer *out)
+{
+    const int64_t *x = p->w->x_q40;
+    uint64_t used = 0;
+
+    if (eliminate(p, goal)) {
+        return -1;
+    }
+    /* A contact about to wedge: too large for the sums that follow, and of no use. */
+    for (int j = 0; j < p->n; j++) {
+        used |= (uint64_t)carom_abs(x[j]);
+    }
+    if (used >> UNKNOWNS_MAX || refine(p, goal)) {
+        return -1;
+    }
+    out->unit = goal->bits - 70;
+    memcpy(out->p_q40, x + p->n - 3, sizeof out->p_q40);
+    velocity_change(p, out->dv_q40);
+    return 0;
+}
+
+int impact_stick(const struct impact_problem *p, struct impact_answer *out)
+{
+    struct fix_wide change_q70[3] = {p->wanted_q70,
+                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.u)),
+                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.v))};
+    struct goal goal = {.sticks = true, .bits = 0};
+
+    for (int k = 0; k < 3; k++) {
+        int b = fix_wide_bits(change_q70[k]);
+
+        goal.bits = b > goal.bits ? b : goal.bits;
+    }
+    goal.bits = unit_bits(p, goal.bits);
+    for (int k = 0; k < 3; k++) {
+        goal.change_q40[k] = in_unit_q40(change_q70[k], goal.bits);
+    }
+    return solve(p, &goal, out);
+}
+
+int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out)
+{
+    struct goal goal = {.friction_q16 = friction_q16,
+                        .bits = unit_bits(p, fix_wide_bits(p->wanted_q70))};
+
+    goal.change_q40[0] = in_unit_q40(p->wanted_q70, goal.bits);
+    return solve(p, &goal, out);
+}

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* Impulses kept from frame to frame, and where the next solve starts from. */
+#include "parts.h"
+
+/* Where the impulses of a pair begin: they are in the order of pairs. */
+static uint32_t first_warm(const struct rest *r, const struct pair *p)
+{
+    uint32_t low = 0, high = r->warm_count;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        const struct rest_warm *w = &r->warm[middle];
+
+        if (w->a < p->a || (w->a == p->a && w->b < p->b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* The last frame's contact that this one continues: same bodies, nearest place, similar normal. */
+static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
+{
+    const struct pair *p = &r->pairs[c->key.pair];
+    const struct body *a = rest_body(r, c, 0);
+    int32_t nearest = a->radius_q22 / 20;
+    struct rest_warm *best = NULL;
+    carom_v3_q22 arm = contact_arm(c);
+
+    carom_rotate_back(arm.c, &a->path.start.r, arm.c);
+    for (uint32_t i = first_warm(r, p); i < r->warm_count; i++) {
+        struct rest_warm *w = &r->warm[i];
+        int32_t distance = 0;
+
+        if (w->a != p->a || w->b != p->b) {
+            break;
+        }
+        if (w->normal_q40 == 0 ||
+            carom_dot(w->normal.c, c->normal.c) >> 30 < CAROM_ONE_Q30 / 10 * 9) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            int32_t d = (int32_t)carom_abs(w->arm.c[k] - arm.c[k]);
+
+            distance = d > distance ? d : distance;
+        }
+        if (distance < nearest) {
+            nearest = distance;
+            best = w;
+        }
+    }
+    return best;
+}
+
+/* Large impulses in several pushes. */
+static void push_all(struct contact *c)
+{
+    int64_t left[3];
+    bool more = true;
+
+    for (int k = 0; k < 3; k++) {
+        left[k] =
+            fix_mul(c->work->normal_impulse, c->normal.c[k], 30) + c->work->tangent_impulse[k];
+    }
+    while (more) {
+        int32_t part[3];
+
+        more = false;
+        for (int k = 0; k < 3; k++) {
+            part[k] = rest_clamp(left[k]);
+            left[k] -= part[k];
+            more |= left[k] != 0;
+        }
+        rest_push(c, part);
+    }
+}
+
+void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+        struct rest_warm *w = find_warm(r, c);
+        struct fix_scaled inverse = fix_scaled_inverse(c->work->mass_unit);
+        int64_t along;
+
+        if (!w) {
+            continue;
+        }
+        inverse.e += sw->unit;
+        along = rest_along_q40(&w->tangent_q40, &c->normal);
+        c->work->normal_impulse = fix_mul_scaled(w->normal_q40, inverse);
+        for (int k = 0; k < 3; k++) {
+            c->work->tangent_impulse[k] =
+                fix_mul_scaled(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
+        }
+        push_all(c);
+        w->normal_q40 = 0; /* used */
+    }
+}
+
+void rest_store_warm(struct rest *r)
+{
+    r->warm_count = 0;
+    for (uint32_t i = 0; i < r->list.pool->used; i++) {
+        const struct contact *c = &r->list.contacts[i];
+        struct rest_warm *w = &r->warm[r->warm_count];
+        carom_v3_q22 arm;
+
+        if (!c->resting) {
+            continue;
+        }
+        r->warm_count++;
+        w->a = r->pairs[c->key.pair].a;
+        w->b = r->pairs[c->key.pair].b;
+        w->normal = c->normal;
+        arm = contact_arm(c);
+        carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
+        w->normal_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
+        for (int k = 0; k < 3; k++) {
+            w->tangent_q40.c[k] = c->impulse_q40.c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);
+        }
+    }
+}

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: MIT */
+/* The energy of contact over a frame, island by island. */
+#include "parts.h"
+
+/* Rounding may have added this part of the kinetic energy: an excess below 2^-24 of it is none. */
+#define SLACK_BITS 24
+
+/* Twice the energies of an island, 80 fractional bits. */
+struct account {
+    struct fix_wide kinetic; /* now */
+    struct fix_wide excess; /* of energy over what it was, and what contact may have lifted it by */
+};
+
+static struct fix_wide kinetic2(const struct body *b, const struct body_state *s)
+{
+    carom_m3_q30 r;
+
+    body_matrix(&r, &s->rotation);
+    return body_kinetic2(b, s, &r);
+}
+
+/* -2 m a.(way from one place to another): q40 times q32 brought to q40. */
+static struct fix_wide climbed2(const struct body *b, const struct body_state *from,
+                                const struct body_state *to)
+{
+    struct fix_wide sum = {0, 0};
+
+    for (int k = 0; k < 3; k++) {
+        int64_t weight_q40 = fix_mul_scaled(b->acceleration.c[k], b->mass);
+        int64_t way_q32 = to->position.c[k] - from->position.c[k];
+
+        sum = fix_wide_add(sum, fix_wide_mul(-2 * weight_q40, carom_shl(way_q32, 8)));
+    }
+    return sum;
+}
+
+/* What of a gain is height, less what surfaces and closing skins account for. */
+static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
+                               const struct body_state *to)
+{
+    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(b->work2));
+
+    return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
+}
+
+/* Whether an island may have gained anything: not when less is left than closing skins may add. */
+static bool may_gain(const struct step *s, uint32_t first)
+{
+    struct fix_wide most = {0, 0};
+
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body *b = &s->w->bodies[i];
+        const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
+
+        if (b->mesh && !from->out && !to->out) {
+            most = fix_wide_add(most, body_kinetic2_most(b, to));
+            most = fix_wide_add(most, lifted2(b, from, to));
+        }
+    }
+    return fix_wide_sign(most) > 0;
+}
+
+/* What an island has gained. A body that left the world in this frame took its own along. */
+static struct account audit(const struct step *s, uint32_t first)
+{
+    struct account sum = {{0, 0}, {0, 0}};
+
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body *b = &s->w->bodies[i];
+        const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
+
+        if (!b->mesh || from->out) {
+            continue;
+        }
+        sum.excess = fix_wide_add(sum.excess, fix_wide_neg(kinetic2(b, from)));
+        if (to->out) {
+            continue;
+        }
+        sum.kinetic = fix_wide_add(sum.kinetic, kinetic2(b, to));
+        sum.excess = fix_wide_add(sum.excess, lifted2(b, from, to));
+    }
+    sum.excess = fix_wide_add(sum.excess, sum.kinetic);
+    return sum;
+}
+
+/* Twice the kinetic energy of an island in its motion as one rigid body. */
+static struct fix_wide rigid_kinetic2(const struct step *s, const struct step_rigid *rigid)
+{
+    struct fix_wide sum = {0, 0};
+
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        struct body_state state = step_rigid_state(s, rigid, i);
+
+        sum = fix_wide_add(sum, kinetic2(&s->w->bodies[i], &state));
+    }
+    return sum;
+}
+
+/* from + factor (to - from) in both momenta */
+static void scale_about(struct body_state *to, const struct body_state *from, int32_t factor_q30)
+{
+    for (int k = 0; k < 3; k++) {
+        int64_t p = from->momentum.c[k], l = from->angular.c[k];
+
+        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
+        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
+    }
+}
+
+/* All of an island's momentum and angular momentum about its centre. */
+static void sum_momenta(const struct step *s, const struct step_rigid *rigid,
+                        uint64_t linear_q40[3], struct fix_wide angular_q72[3])
+{
+    memset(linear_q40, 0, 3 * sizeof linear_q40[0]);
+    memset(angular_q72, 0, 3 * sizeof angular_q72[0]);
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        for (int k = 0; k < 3; k++) {
+            /* only differences are used: modulo 2^64 is enough */
+            linear_q40[k] += (uint64_t)s->next->bodies[i].momentum.c[k];
+        }
+        step_add_angular(s, &rigid->centre, i, angular_q72);
+    }
+}
+
+/*
+ * Scale what an island moves by beside its rigid motion; nothing outside acts on it, so its momenta
+ * stay. What rounding takes of them a heavy body gets.
+ */
+static void scale_free(struct step *s, const struct step_rigid *rigid, int32_t factor_q30)
+{
+    struct body_state *heavy = &s->next->bodies[rigid->heavy];
+    uint64_t linear[3], linear_after[3];
+    struct fix_wide angular[3], angular_after[3];
+
+    sum_momenta(s, rigid, linear, angular);
+    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+        struct body_state state = step_rigid_state(s, rigid, i);
+
+        scale_about(&s->next->bodies[i], &state, factor_q30);
+    }
+    sum_momenta(s, rigid, linear_after, angular_after);
+    for (int k = 0; k < 3; k++) {
+        heavy->momentum.c[k] += (int64_t)(linear[k] - linear_after[k]);
+    }
+    sum_momenta(s, rigid, linear_after, angular_after);
+    for (int k = 0; k < 3; k++) {
+        struct fix_wide taken_q72 = fix_wide_add(angular[k], fix_wide_neg(angular_after[k]));
+
+        heavy->angular.c[k] += carom_round(fix_wide_shift(taken_q72, 31), 1);
+    }
+}
+
+/* One that touches what stands still has no motion to keep. */
+static void scale_grounded(struct step *s, uint32_t island, int32_t factor_q30)
+{
+    const struct body_state none = {.momentum = {{0, 0, 0}}};
+
+    for (uint32_t i = step_island_first(s, island); i != REST_ISLAND_END;
+         i = step_island_next(s, i)) {
+        scale_about(&s->next->bodies[i], &none, factor_q30);
+    }
+}
+
+static bool moved(const struct body_state *from, const struct body_state *to)
+{
+    return memcmp(&from->position, &to->position, sizeof from->position) != 0 ||
+           memcmp(&from->rotation, &to->rotation, sizeof from->rotation) != 0;
+}
+
+/* The island goes back to where the frame found it; its momenta are what they were, or none. */
+static void rewind_island(struct step *s, uint32_t first, bool halt)
+{
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body_state *before = &world_now(s->w)->bodies[i];
+        struct body_state *state = &s->next->bodies[i];
+
+        if (!broad_active(&s->w->bodies[i], state)) {
+            continue;
+        }
+        s->w->bodies[i].rewound = true;
+        state->position = before->position;
+        state->rotation = before->rotation;
+        state->momentum = halt ? (carom_v3_q40){{0, 0, 0}} : before->momentum;
+        state->angular = halt ? (carom_v3_q40){{0, 0, 0}} : before->angular;
+    }
+}
+
+/* A body that moved and may now be where a body of another island was before; the end of islands: none. */
+static uint32_t intruder(const struct step *s, uint32_t body)
+{
+    const struct world_state *before = world_now(s->w);
+    const struct body *b = &s->w->bodies[body];
+
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *other = &s->w->bodies[i];
+
+        if (broad_active(other, &s->next->bodies[i]) && other->island != b->island &&
+            moved(&before->bodies[i], &s->next->bodies[i]) &&
+            broad_near(b, &before->bodies[body], other, &s->next->bodies[i], b->skin_q22)) {
+            return i;
+        }
+    }
+    return REST_ISLAND_END;
+}
+
+/*
+ * The island comes to a halt where the frame found it. An island that went where it was before has
+ * this frame undone as well, and so on: as the frame found them no two bodies are in each other.
+ */
+static void hold_still(struct step *s, uint32_t first)
+{
+    bool again = true;
+
+    s->w->interfere.stale = true;
+    rewind_island(s, first, true);
+    while (again) {
+        again = false;
+        for (uint32_t i = 0; i < s->w->body_count; i++) {
+            uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : REST_ISLAND_END;
+
+            if (by != REST_ISLAND_END) {
+                rewind_island(s, s->w->bodies[by].island, false);
+                again = true;
+            }
+        }
+    }
+}
+
+/* The factor for momenta that takes `excess` out of a kinetic energy; 0 when that is not enough. */
+static int32_t factor_q30(struct fix_wide kinetic, struct fix_wide excess)
+{
+    struct fix_wide kept = fix_wide_add(kinetic, fix_wide_neg(excess));
+    struct fix_scaled ratio;
+
+    if (fix_wide_sign(kept) <= 0) {
+        return 0;
+    }
+    ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
+    return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
+}
+
+static void limit_island(struct step *s, uint32_t first)
+{
+    struct account sum = audit(s, first);
+    struct fix_wide slack = {sum.kinetic.hi >> SLACK_BITS,
+                             (uint64_t)fix_wide_shift(sum.kinetic, SLACK_BITS)};
+    struct step_rigid rigid;
+
+    if (fix_wide_sign(fix_wide_add(sum.excess, fix_wide_neg(slack))) <= 0) {
+        return;
+    }
+    if (s->w->bodies[first].grounded) {
+        int32_t factor = factor_q30(sum.kinetic, sum.excess);
+
+        if (factor == 0) {
+            hold_still(s, first); /* it climbed by more than it has to give */
+        } else {
+            scale_grounded(s, first, factor);
+        }
+    } else if (step_rigid_motion(s, first, &rigid)) {
+        struct fix_wide beside = fix_wide_add(sum.kinetic, fix_wide_neg(rigid_kinetic2(s, &rigid)));
+
+        scale_free(s, &rigid, factor_q30(beside, sum.excess));
+    }
+}
+
+/*
+ * Bodies in contact took the gravity of the whole frame before they moved. When the frame is cut
+ * short, those of an island in the air give back what belongs to the time that was dropped: the
+ * island then has the momentum that gravity gave it on its way, and to scale its motion about its
+ * common velocity takes out whatever it gained. On the ground the weight is answered by impulses
+ * that belong to it; there the audit alone decides.
+ */
+static void give_back_gravity(struct step *s, uint32_t first)
+{
+    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+        const struct body *b = &s->w->bodies[i];
+
+        for (int k = 0; broad_active(b, &s->next->bodies[i]) && b->in_contact && k < 3; k++) {
+            s->next->bodies[i].momentum.c[k] -=
+                fix_mul_scaled(fix_mul(b->acceleration.c[k], s->left_q30, 30), b->mass);
+        }
+    }
+}
+
+void step_limit_energy(struct step *s, bool cut_short)
+{
+    struct carom_world *w = s->w;
+
+    if (s->next->touching_count == 0) {
+        return; /* nothing was in contact */
+    }
+    rest_islands_begin(w->bodies, w->body_count);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].touched = w->bodies[i].in_contact;
+        w->bodies[i].grounded = w->bodies[i].rewound = false;
+    }
+    for (uint32_t i = 0; i < s->next->touching_count; i++) {
+        const struct pair *p = &s->next->touching[i];
+
+        rest_islands_join(w->bodies, p);
+        w->bodies[p->a].touched |= cut_short;
+        w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
+    }
+    rest_islands_end(w->bodies, w->body_count);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[w->bodies[i].island].touched |= w->bodies[i].touched;
+        w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].island == i && w->bodies[i].touched) {
+            if (cut_short && !w->bodies[i].grounded) {
+                give_back_gravity(s, i);
+            }
+            if (may_gain(s, i)) {
+                limit_island(s, i);
+            }
+        }
+    }
+}

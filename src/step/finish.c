@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* The end of a step: bodies that left, events, statistics. */
+#include "parts.h"
+
+void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
+{
+    struct carom_event *e = &w->events[w->event_count];
+
+    if (w->event_count < 3 * w->config.caps.pairs + 2 * w->config.caps.bodies) {
+        w->event_count++;
+        memset(e, 0, sizeof *e);
+        e->kind = kind;
+        e->a = a;
+        e->b = b;
+    }
+}
+
+/* The same as world_in_range, sooner for most. */
+static bool in_range(const struct body *b, const struct body_state *s)
+{
+    return (body_calm(b, s) && world_each_within(s->position.c, (int64_t)BODY_WORLD_LIMIT << 32)) ||
+           world_in_range(b, s);
+}
+
+bool step_retire(struct step *s)
+{
+    struct carom_world *w = s->w;
+    bool any = false;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        if (broad_active(&w->bodies[i], state) && !in_range(&w->bodies[i], state)) {
+            struct body_state last = world_now(w)->bodies[i];
+
+            /* where it came from another body may be by now */
+            last.position = state->position;
+            last.rotation = state->rotation;
+            *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
+            state->out = 1;
+            step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+            any = w->interfere.stale = true;
+        }
+    }
+    return any;
+}
+
+/* Where a pair is in the list, or belongs. */
+static uint32_t touching_place(const struct world_state *s, const struct pair *p)
+{
+    uint32_t low = 0, high = s->touching_count;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        const struct pair *at = &s->touching[middle];
+
+        if (at->a < p->a || (at->a == p->a && at->b < p->b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static bool touching_at(const struct world_state *s, uint32_t place, const struct pair *p)
+{
+    return place < s->touching_count && s->touching[place].a == p->a &&
+           s->touching[place].b == p->b;
+}
+
+bool step_is_touching(const struct world_state *s, const struct pair *p)
+{
+    return touching_at(s, touching_place(s, p), p);
+}
+
+int step_note_touching(struct step *s, const struct pair *p)
+{
+    struct world_state *next = s->next;
+    uint32_t place = touching_place(next, p);
+
+    if (touching_at(next, place, p)) {
+        return CAROM_OK;
+    }
+    if (next->touching_count == s->w->config.caps.pairs) {
+        return CAROM_ERR_PAIRS_FULL;
+    }
+    memmove(&next->touching[place + 1], &next->touching[place],
+            (next->touching_count - place) * sizeof *p);
+    next->touching[place] = *p;
+    next->touching_count++;
+    return CAROM_OK;
+}
+
+/* Impulses of contacts that nobody will look at in the next frame. */
+void step_drop_warm(struct step *s)
+{
+    const struct carom_world *w = s->w;
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < w->rest.warm_count; i++) {
+        const struct rest_warm *warm = &s->next->warm[i];
+
+        if (broad_active(&w->bodies[warm->a], &s->next->bodies[warm->a]) ||
+            broad_active(&w->bodies[warm->b], &s->next->bodies[warm->b])) {
+            s->next->warm[kept++] = *warm;
+        }
+    }
+    s->next->warm_count = kept;
+}
+
+/* Whether nothing of a pair was computed, so that it still touches though nobody looked. */
+static bool left_alone(const struct step *s, const struct pair *p)
+{
+    const struct body *bodies = s->w->bodies;
+    const struct body_state *before = world_now(s->w)->bodies, *next = s->next->bodies;
+
+    return !broad_active(&bodies[p->a], &before[p->a]) &&
+           !broad_active(&bodies[p->b], &before[p->b]) &&
+           !broad_active(&bodies[p->a], &next[p->a]) && !broad_active(&bodies[p->b], &next[p->b]);
+}
+
+int step_finish_events(struct step *s)
+{
+    struct carom_world *w = s->w;
+    const struct world_state *before = world_now(w);
+    int result = CAROM_OK;
+
+    for (uint32_t i = 0; i < before->touching_count && result == CAROM_OK; i++) {
+        const struct pair *p = &before->touching[i];
+
+        if (left_alone(s, p)) {
+            result = step_note_touching(s, p);
+        } else if (!step_is_touching(s->next, p)) {
+            step_add_event(w, CAROM_EVENT_END, p->a, p->b);
+        }
+    }
+    for (uint32_t i = 0; i < s->next->touching_count; i++) {
+        if (!step_is_touching(before, &s->next->touching[i])) {
+            step_add_event(w, CAROM_EVENT_BEGIN, s->next->touching[i].a, s->next->touching[i].b);
+        }
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body_state *state = &s->next->bodies[i];
+
+        if (state->woken) {
+            step_add_event(w, CAROM_EVENT_WAKE, (uint16_t)i, 0);
+            state->woken = 0;
+        }
+        if (state->asleep && !before->bodies[i].asleep) {
+            step_add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);
+        }
+    }
+    return result;
+}
+
+void step_finish_stats(struct carom_world *w)
+{
+    struct carom_stats *st = &w->stats;
+
+    st->gathers = w->interfere.gathers;
+    st->candidates = w->interfere.candidate_count;
+    st->sweeps = w->rest.sweeps;
+    st->impacts = w->rest.impacts;
+    st->energy_rule = w->rest.energy_rules;
+    if (w->config.ticks) {
+        st->total_ticks = w->config.ticks() - w->start_tick;
+        for (uint32_t i = 1; i < CAROM_STAGE_COUNT; i++) {
+            if (st->ticks[i] > st->ticks[st->over_stage]) {
+                st->over_stage = i;
+            }
+        }
+    }
+}

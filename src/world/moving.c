@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Surfaces that the caller moves. One jumps between steps; what it went into is lifted out of it along
+ * its z, with all that touches it. How far is asked of the collision test: from a place that is above
+ * the surface for sure, bodies go down until they are at the event gap, or where they were.
+ */
+#include "world.h"
+#include "../boyse/boyse.h"
+
+/* Bodies that were lifted into each other are lifted together: so often at most. */
+#define ROUNDS_MAX 64
+/* A path is shorter than 64 units, with some skins. */
+#define RISE_MAX 60
+
+struct lift {
+    struct candidate_visitor base;
+    struct carom_world *w;
+    struct body_state *states; /* where bodies end, as far as it is known */
+    uint32_t surface;
+    int64_t up_q30[3];   /* the surface's z in the world */
+    int64_t rise_q32;    /* the surface is higher by no more than that */
+    int32_t pair_number; /* that the pair of the scratch is set up for; -1: none */
+    /* the first hit */
+    bool found;
+    int32_t t_q30;
+    struct candidate hit;
+};
+
+/* A path of a body from where it is, by a way along the surface's z; and its region. */
+static void set_path(const struct lift *l, struct body *b, const struct body_state *s,
+                     int64_t way_q32)
+{
+    body_place(b, s);
+    for (int k = 0; k < 3; k++) {
+        b->path.v.c[k] = fix_mul(way_q32, (int32_t)l->up_q30[k], 22);
+    }
+    body_region_begin(b, s, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
+}
+
+static void shift(const struct lift *l, struct body_state *s, int64_t way_q32)
+{
+    for (int k = 0; k < 3; k++) {
+        s->position.c[k] += fix_mul(way_q32, (int32_t)l->up_q30[k], 30);
+    }
+}
+
+static bool movable(const struct lift *l, uint32_t i)
+{
+    return l->w->bodies[i].mesh && l->w->bodies[i].moving && !l->states[i].out;
+}
+
+/* The islands of bodies that touched in the last step; each body's lift is none. */
+static void find_islands(struct carom_world *w)
+{
+    const struct world_state *now = world_now(w);
+
+    rest_islands_begin(w->bodies, w->body_count);
+    for (uint32_t i = 0; i < now->touching_count; i++) {
+        rest_islands_join(w->bodies, &now->touching[i]);
+    }
+    rest_islands_end(w->bodies, w->body_count);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].lift_q32 = 0;
+    }
+}
+
+static int add_pair(struct carom_world *w, uint32_t a, uint32_t b)
+{
+    int32_t place = pool_take(&w->pools[CAROM_POOL_pairs]);
+
+    if (place < 0) {
+        return CAROM_ERR_PAIRS_FULL;
+    }
+    w->pairs[place] = (struct pair){(uint16_t)a, (uint16_t)b};
+    return CAROM_OK;
+}
+
+static int visit(struct lift *l,
+                 void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+{
+    struct carom_world *w = l->w;
+
+    l->base.visit = f;
+    l->pair_number = -1;
+    l->found = false;
+    interfere_begin(&w->interfere);
+    return interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
+                           &l->base);
+}
+
+static bool hits(struct lift *l, const struct candidate *c, struct boyse_hit *hit)
+{
+    const struct pair *p = &l->w->pairs[c->pair];
+    struct boyse_pair *pair = &l->w->scratch->gather.pair;
+    uint32_t roots = 0;
+
+    if (l->pair_number != c->pair) {
+        boyse_pair_init(pair, &l->w->bodies[p->a], &l->w->bodies[p->b]);
+        l->pair_number = c->pair;
+    }
+    return boyse_first(pair, c, hit, &roots);
+}
+
+/* ------------------------------------------------- out of the surface, from above */
+
+/* A body so much higher is above the surface. */
+static int64_t clear_q32(const struct lift *l, const struct body *b)
+{
+    return l->rise_q32 + ((int64_t)b->skin_q22 << 10);
+}
+
+/* How far each island stays above where it was when it comes down on the surface. */
+static void visit_landing(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct lift *l = (struct lift *)self;
+    struct boyse_hit hit;
+
+    for (uint32_t i = 0; i < n; i++) {
+        const struct body *a = &l->w->bodies[l->w->pairs[c[i].pair].a];
+        struct body *island = &l->w->bodies[a->island];
+
+        if (hits(l, &c[i], &hit)) {
+            int64_t lift_q32 = fix_mul(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30, 30);
+
+            island->lift_q32 = lift_q32 > island->lift_q32 ? lift_q32 : island->lift_q32;
+        }
+    }
+}
+
+/* How far each island must be lifted by the surface itself. */
+static int find_lifts(struct lift *l)
+{
+    struct carom_world *w = l->w;
+    const struct body *surface = &w->bodies[l->surface];
+    int result = CAROM_OK;
+
+    pool_clear(&w->pools[CAROM_POOL_pairs]);
+    set_path(l, &w->bodies[l->surface], &l->states[l->surface], 0);
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        struct body *b = &w->bodies[i];
+        int64_t height_q32 = clear_q32(l, b);
+
+        if (movable(l, i) && broad_near(surface, &l->states[l->surface], b, &l->states[i],
+                                        (int32_t)(height_q32 >> 10))) {
+            struct body_state raised = l->states[i];
+
+            shift(l, &raised, height_q32);
+            set_path(l, b, &raised, -height_q32);
+            result = add_pair(w, i, l->surface);
+        }
+    }
+    return result == CAROM_OK ? visit(l, visit_landing) : result;
+}
+
+/* ------------------------------------------------------- and past other bodies */
+
+static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct lift *l = (struct lift *)self;
+    struct boyse_hit hit;
+
+    for (uint32_t i = 0; i < n; i++) {
+        if (hits(l, &c[i], &hit) &&
+            (!l->found || hit.t_q30 < l->t_q30 ||
+             (hit.t_q30 == l->t_q30 && candidate_compare(&c[i], &l->hit) < 0))) {
+            l->found = true;
+            l->t_q30 = hit.t_q30;
+            l->hit = c[i];
+        }
+    }
+}
+
+static int64_t lift_of(const struct carom_world *w, uint32_t i)
+{
+    return w->bodies[w->bodies[i].island].lift_q32;
+}
+
+/* Pairs of bodies that are lifted differently and are near each other on the way. */
+static int pair_lifted(struct lift *l)
+{
+    struct carom_world *w = l->w;
+    int result = CAROM_OK;
+
+    pool_clear(&w->pools[CAROM_POOL_pairs]);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].mesh) {
+            set_path(l, &w->bodies[i], &l->states[i], movable(l, i) ? lift_of(w, i) : 0);
+        }
+    }
+    for (uint32_t a = 0; a < w->body_count; a++) {
+        for (uint32_t b = 0; b < w->body_count && movable(l, a) && result == CAROM_OK; b++) {
+            bool pair = w->bodies[b].mesh && b != l->surface && !l->states[b].out &&
+                        (w->bodies[b].moving ? b < a : true);
+            int64_t most = lift_of(w, a);
+
+            most = pair && w->bodies[b].moving && lift_of(w, b) > most ? lift_of(w, b) : most;
+            if (pair && most > 0 && (!w->bodies[b].moving || lift_of(w, b) != lift_of(w, a)) &&
+                broad_near(&w->bodies[a], &l->states[a], &w->bodies[b], &l->states[b],
+                           (int32_t)(most >> 10) + 1)) {
+                result = add_pair(w, a, b);
+            }
+        }
+    }
+    return result;
+}
+
+/* Lift what would be run into as well. */
+static int spread(struct lift *l)
+{
+    struct carom_world *w = l->w;
+
+    for (int round = 0; round < ROUNDS_MAX; round++) {
+        int result = pair_lifted(l);
+        const struct pair *p;
+        int64_t most;
+
+        if (result == CAROM_OK && w->pools[CAROM_POOL_pairs].used > 0) {
+            result = visit(l, visit_first);
+        } else {
+            l->found = false;
+        }
+        if (result < 0 || !l->found) {
+            return result;
+        }
+        p = &w->pairs[l->hit.pair];
+        if (!w->bodies[p->b].moving) {
+            return CAROM_ERR_BLOCKED;
+        }
+        most = lift_of(w, p->a) > lift_of(w, p->b) ? lift_of(w, p->a) : lift_of(w, p->b);
+        w->bodies[w->bodies[p->a].island].lift_q32 = most;
+        w->bodies[w->bodies[p->b].island].lift_q32 = most;
+    }
+    return CAROM_ERR_BLOCKED;
+}
+
+/* Lift what the surface went into: where to, into the state that is not current. */
+static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
+{
+    struct lift l = {.w = w,
+                     .states = w->states[1 - w->now].bodies,
+                     .surface = surface,
+                     .rise_q32 = rise_q22 << 10};
+    carom_m3_q30 r;
+    int result;
+
+    if (rise_q22 > (int64_t)RISE_MAX << 22) {
+        return CAROM_ERR_RANGE;
+    }
+
+    memcpy(l.states, world_now(w)->bodies, w->body_count * sizeof *l.states);
+    find_islands(w);
+    body_matrix(&r, &l.states[surface].rotation);
+    for (int k = 0; k < 3; k++) {
+        l.up_q30[k] = r.c[k][2];
+    }
+    result = rise_q22 > 0 ? find_lifts(&l) : CAROM_OK;
+    if (result == CAROM_OK && rise_q22 > 0) {
+        result = spread(&l);
+    }
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        if (movable(&l, i) && lift_of(w, i) > 0) {
+            shift(&l, &l.states[i], lift_of(w, i));
+        }
+    }
+    return result;
+}
+
+/* ----------------------------------------------------------------- the calls */
+
+/* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
+static void stir(struct carom_world *w, uint32_t body)
+{
+    struct world_state *now = world_now(w);
+
+    world_wake_around(w, body);
+    for (uint32_t i = 0; i < now->touching_count; i++) {
+        if (now->touching[i].b == body) {
+            now->bodies[now->touching[i].a].quiet = 0;
+        }
+    }
+}
+
+static void forget_found(struct carom_world *w)
+{
+    w->interfere.stale = true;
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].standing = false; /* paths, regions and boxes are others */
+    }
+    pool_clear(&w->pools[CAROM_POOL_pairs]);
+    pool_clear(&w->pools[CAROM_POOL_faces]);
+    pool_clear(&w->pools[CAROM_POOL_contacts]);
+    interfere_forget_lists(&w->interfere);
+}
+
+static int move(struct carom_world *w, int body, const int16_t (*vertices)[3], bool drifts)
+{
+    struct carom_surface *s;
+    int64_t rise_q22;
+    int result;
+
+    if (!w || !vertices) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = w->bodies[body].mesh->surface;
+    if (!s) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (memcmp(s->now, vertices, s->mesh->raw.vertex_count * sizeof s->now[0]) == 0) {
+        if (!drifts) {
+            mesh_surface_halt(s);
+        }
+        return CAROM_OK; /* nothing moved: nothing wakes */
+    }
+    result = mesh_surface_try(s, vertices, drifts, &rise_q22);
+    if (result == CAROM_OK) {
+        forget_found(w);
+        result = drifts ? lift_all(w, (uint32_t)body, rise_q22) : CAROM_OK;
+        if (result < 0) {
+            mesh_surface_undo(s);
+        }
+        forget_found(w);
+    }
+    if (result < 0) {
+        return result;
+    }
+    mesh_surface_keep(s);
+    w->bodies[body].radius_q22 = s->mesh->radius_q22;
+    if (drifts) {
+        memcpy(world_now(w)->bodies, w->states[1 - w->now].bodies,
+               w->body_count * sizeof *world_now(w)->bodies);
+    } else {
+        mesh_surface_halt(s);
+    }
+    stir(w, (uint32_t)body);
+    return CAROM_OK;
+}
+
+int carom_surface_move(struct carom_world *w, int body, const int16_t (*vertices)[3])
+{
+    return move(w, body, vertices, true);
+}
+
+int carom_surface_set(struct carom_world *w, int body, const int16_t (*vertices)[3])
+{
+    return move(w, body, vertices, false);
+}
+
+void world_halt_surfaces(struct carom_world *w)
+{
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].mesh && mesh_drift_most(w->bodies[i].mesh) > 0) {
+            mesh_surface_halt(w->bodies[i].mesh->surface);
+            w->bodies[i].standing = false; /* its region had room for the drift */
+            w->interfere.stale = true;
+        }
+    }
+}
