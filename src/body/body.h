@@ -8,6 +8,9 @@
  *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u)
  * normalised
  *
+ * A part of a path is a path again: with its own t in [0, 1] the quaternion is (1 + c t, u t), whose
+ * norm is N(t) = (1 + c t)^2 + |u|^2 t^2. c is 0 of a path that body_predict makes.
+ *
  * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
  * relative to the body's origin: its position at the start of the slice rounded to q22.
  */
@@ -58,7 +61,15 @@ struct body_path {
         } x; /* q32, what the origin leaves of the position */
     } start;
     bool turns;
+    int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
 };
+
+/* c^2 + |u|^2, the last coefficient of N(t) */
+static inline int32_t body_norm2_q30(const struct body_path *path)
+{
+    return path->c_q30 == 0 ? path->u2_q30
+                            : path->u2_q30 + carom_mul_q30(path->c_q30, path->c_q30);
+}
 
 /*
  * What candidates were gathered for: the motion along a path, and all motions that stay near it.
@@ -168,6 +179,11 @@ void body_place(struct body *b, const struct body_state *s);
  */
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
+/*
+ * Make the path at hand, which body_predict set, its part from `from` to `to` in [0, 1]; s is the
+ * pose at its start. body_predict sets the whole again.
+ */
+void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30);
 /*
  * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
  * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.
