@@ -250,7 +250,7 @@ $(B)/lib%.a:
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
 
-link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
+link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
     $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))
 PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 

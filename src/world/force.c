@@ -2,47 +2,6 @@
 /* Gravity, lasting forces and pushes. */
 #include "world.h"
 
-bool world_each_within(const int64_t v[3], int64_t limit)
-{
-    for (int k = 0; k < 3; k++) {
-        if (v[k] > limit || v[k] < -limit) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool world_gravity_in_range(const carom_v3_q40 *gravity)
-{
-    return world_each_within(gravity->c, (int64_t)1 << 40);
-}
-
-bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
-                        const carom_v3_q40 *force, carom_v3_q40 *out)
-{
-    carom_v3_q40 sum = {{0, 0, 0}};
-
-    /* the largest mass is 2^10, so the limit is below 2^52 and what passes it can be divided */
-    if (b->moving && !world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->mass))) {
-        return false;
-    }
-    for (int k = 0; b->moving && k < 3; k++) {
-        sum.c[k] = gravity->c[k] + fix_mul_scaled(force->c[k], b->inverse_mass);
-    }
-    *out = sum;
-    return world_gravity_in_range(&sum);
-}
-
-void world_accelerate(struct carom_world *w, uint32_t body)
-{
-    struct body *b = &w->bodies[body];
-
-    if (b->mesh) {
-        world_acceleration(b, &w->config.gravity, &b->force, &b->acceleration);
-        b->acceleration_q40 = fix_length(b->acceleration.c);
-    }
-}
-
 int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
 {
     carom_v3_q40 sum;

@@ -122,32 +122,6 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 /* ------------------------------------------------------------------ bodies */
 
-static bool position_in_range(const carom_v3_q32 *p)
-{
-    return world_each_within(p->c, (int64_t)BODY_WORLD_LIMIT << 32);
-}
-
-/*
- * Whether every point of a body, of radius r, is slower than the limit: |v| + r |w| < 64, and |w| <
- * 64 when it is given. No impact can then make the centre faster than that within a frame, because
- * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
- */
-static bool points_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
-{
-    const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
-
-    return world_each_within(v->c, limit_q40) &&
-           fix_length(v->c) + fix_mul(fix_length(w->c), b->radius_q22, 22) < limit_q40;
-}
-
-bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
-{
-    const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
-
-    return world_each_within(w->c, limit_q40) && fix_length(w->c) < limit_q40 &&
-           points_in_range(b, v, w);
-}
-
 /* Length 1 within 2^-10; all zero stands for no rotation. */
 static bool rotation_valid(carom_quat_q30 *q)
 {
@@ -199,7 +173,7 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
         (!def->stationary && def->mesh->raw.kind != CAROM_SOLID)) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (!position_in_range(&def->position) ||
+    if (!world_position_in_range(&def->position) ||
         (!def->stationary && (def->mesh->radius_q22 > BODY_RADIUS_MAX_Q22 ||
                               def->mesh->radius_q22 < BODY_RADIUS_MIN_Q22))) {
         return CAROM_ERR_RANGE;
@@ -266,11 +240,6 @@ void world_put(struct carom_world *w, uint32_t body, const struct body_state *st
     w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
     w->bodies[body].standing = false;
     world_accelerate(w, body);
-}
-
-bool world_has_body(const struct carom_world *w, int body)
-{
-    return body >= 0 && (uint32_t)body < w->body_count && w->bodies[body].mesh;
 }
 
 int carom_body_remove(struct carom_world *w, int body)
@@ -345,7 +314,7 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     if (!rotation_valid(&q)) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (!position_in_range(&in->position) ||
+    if (!world_position_in_range(&in->position) ||
         (w->bodies[body].moving &&
          !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
@@ -365,20 +334,4 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     world_put(w, (uint32_t)body, &state);
     world_wake_around(w, (uint32_t)body);
     return CAROM_OK;
-}
-
-bool world_in_range(const struct body *b, const struct body_state *s)
-{
-    const int64_t angular_limit_q40 = (int64_t)1 << 62;
-    int64_t momentum_limit_q40 =
-        b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
-    carom_v3_q40 v, still = {{0, 0, 0}};
-
-    if (!position_in_range(&s->position) || !world_each_within(s->momentum.c, momentum_limit_q40) ||
-        !world_each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
-        return false;
-    }
-    /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
-    body_velocity(b, s, &v);
-    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
 }

@@ -70,6 +70,9 @@ static inline struct world_state *world_now(const struct carom_world *w)
 /* Whether a state's place and speed are within what the formats hold. */
 bool world_in_range(const struct body *b, const struct body_state *s);
 
+/* Whether each coordinate is within BODY_WORLD_LIMIT. */
+bool world_position_in_range(const carom_v3_q32 *p);
+
 /* Whether there is a body of this number. */
 bool world_has_body(const struct carom_world *world, int body);
 

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+#include "build.h"
+
+/* ------------------------------------------------------------- what is refused */
+
+static int check_header(const struct carom_mesh_raw *raw)
+{
+    if (raw->kind > CAROM_SURFACE || raw->quantum_bits < 7 || raw->quantum_bits > 20) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (raw->face_count == 0) {
+        return CAROM_ERR_MESH_EMPTY;
+    }
+    if (raw->vertex_count > 65535 || raw->face_count > 65535) {
+        return CAROM_ERR_MESH_SIZE;
+    }
+    return CAROM_OK;
+}
+
+static int check_corners(const struct carom_mesh_raw *raw)
+{
+    for (uint32_t f = 0; f < raw->face_count; f++) {
+        const uint16_t *v = raw->faces[f];
+
+        if (v[0] >= raw->vertex_count || v[1] >= raw->vertex_count || v[2] >= raw->vertex_count ||
+            v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+            return CAROM_ERR_MESH_INDEX;
+        }
+    }
+    return CAROM_OK;
+}
+
+/*
+ * Find the box, and refuse one with a side over 256 or a diagonal over 384 units: then differences
+ * of two vertices, and of a vertex and a point that a moving body can reach, fit q22, and so do
+ * lengths and the radius.
+ */
+static int find_box(struct carom_mesh *mesh)
+{
+    const struct carom_mesh_raw *raw = &mesh->raw;
+    int64_t side_q22[3];
+    bool fits = true;
+
+    for (int k = 0; k < 3; k++) {
+        mesh->box[0][k] = INT16_MAX;
+        mesh->box[1][k] = INT16_MIN;
+        for (uint32_t v = 0; v < raw->vertex_count; v++) {
+            int16_t c = raw->vertices[v][k];
+
+            mesh->box[0][k] = c < mesh->box[0][k] ? c : mesh->box[0][k];
+            mesh->box[1][k] = c > mesh->box[1][k] ? c : mesh->box[1][k];
+        }
+        side_q22[k] = carom_shl(mesh->box[1][k] - mesh->box[0][k], 22 - raw->quantum_bits);
+        fits = fits && side_q22[k] <= (int64_t)256 << 22;
+    }
+    return fits && fix_length(side_q22) <= (int64_t)384 << 22 ? CAROM_OK : CAROM_ERR_RANGE;
+}
+
+/*
+ * The normals of all faces; those of a SURFACE must look up.
+ * Bounds: a difference of corners is < 2^16, a component of the cross product < 2^33.
+ */
+static int find_normals(struct mesh_builder *b)
+{
+    const struct carom_mesh_raw *raw = &b->mesh->raw;
+    uint32_t up = 0, down = 0;
+
+    for (uint32_t f = 0; f < raw->face_count; f++) {
+        const int16_t *p0 = raw->vertices[raw->faces[f][0]];
+        const int16_t *p1 = raw->vertices[raw->faces[f][1]];
+        const int16_t *p2 = raw->vertices[raw->faces[f][2]];
+        int64_t n[3];
+
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+
+            n[i] = (int64_t)(p1[j] - p0[j]) * (p2[k] - p0[k]) -
+                   (int64_t)(p1[k] - p0[k]) * (p2[j] - p0[j]);
+        }
+        if (!fix_normalise(&b->faces[f].normal, n)) {
+            return CAROM_ERR_MESH_DEGENERATE;
+        }
+        up += n[2] > 0;
+        down += n[2] < 0;
+    }
+    return raw->kind == CAROM_SOLID || up == raw->face_count ? CAROM_OK
+           : down == raw->face_count                         ? CAROM_ERR_MESH_INSIDE_OUT
+                                                             : CAROM_ERR_MESH_SURFACE;
+}
+
+/* -------------------------------------------------------------------- build */
+
+/* The smallest sphere around the centre of mass that holds every vertex, rounded up. */
+static int32_t find_radius(const struct carom_mesh *mesh)
+{
+    int64_t radius = 0;
+
+    for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
+        carom_v3_q22 p = mesh_vertex(mesh, v);
+        int64_t wide[3] = {p.c[0], p.c[1], p.c[2]};
+
+        radius = mesh_longest(radius, wide);
+    }
+    return (int32_t)radius;
+}
+
+/* Where the planes of all faces lie; they need the centre of mass. */
+static void find_offsets(struct mesh_builder *b)
+{
+    for (uint32_t f = 0; f < b->mesh->raw.face_count; f++) {
+        carom_v3_q22 corner = mesh_corner(b->mesh, f, 0);
+
+        b->faces[f].offset_q22 =
+            (int32_t)carom_round(carom_dot(b->faces[f].normal.c, corner.c), 30);
+    }
+}
+
+/*
+ * Every stage of the build, in order. The block holds CAROM_MESH_BYTES, so that no carve fails.
+ * Orientation is judged after the edges, because it means nothing while a mesh is not closed.
+ */
+static int build(struct mesh_builder *b)
+{
+    struct carom_mesh *mesh = b->mesh;
+    int error = check_corners(&mesh->raw), orientation;
+
+    if (error) {
+        return error;
+    }
+    error = find_box(mesh);
+    if (error) {
+        return error;
+    }
+    b->faces = arena_carve(&b->arena, mesh->raw.face_count * sizeof b->faces[0]);
+    mesh->faces = b->faces;
+    orientation = find_normals(b);
+    if (orientation == CAROM_ERR_MESH_DEGENERATE) {
+        return orientation;
+    }
+    error = mesh_build_edges(b);
+    if (error) {
+        return error;
+    }
+    if (orientation == CAROM_OK && mesh->raw.kind == CAROM_SOLID) {
+        orientation = mass_of_mesh(&mesh->raw, &mesh->mass);
+    }
+    if (orientation) {
+        return orientation;
+    }
+    /* one that is too thin for an inverse may still stand still */
+    mass_invert(&mesh->mass.inertia, &mesh->inverse, &mesh->inverse_rest);
+    find_offsets(b);
+    mesh->radius_q22 = find_radius(mesh);
+    mesh_build_leaves(b);
+    return mesh_build_zlists(b);
+}
+
+int mesh_refresh(struct mesh_builder *b)
+{
+    int error = find_box(b->mesh);
+
+    if (error == CAROM_OK) {
+        error = find_normals(b);
+    }
+    if (error == CAROM_OK) {
+        mesh_shape_edges(b);
+        find_offsets(b);
+        b->mesh->radius_q22 = find_radius(b->mesh);
+        mesh_shape_leaves(b);
+    }
+    return error;
+}
+
+int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct carom_mesh_raw *raw,
+              void *mem, size_t bytes)
+{
+    struct carom_mesh built;
+    int error;
+
+    if (!mesh || !raw || !raw->vertices || !raw->faces || !mem) {
+        return CAROM_ERR_NULL;
+    }
+    error = check_header(raw);
+    if (error) {
+        return error;
+    }
+    if ((uintptr_t)mem % 8 || bytes < CAROM_MESH_BYTES(raw->vertex_count, raw->face_count)) {
+        return CAROM_ERR_MEMORY;
+    }
+    memset(&built, 0, sizeof built);
+    built.raw = *raw;
+    b->mesh = &built;
+    arena_init(&b->arena, mem, bytes);
+    b->keys = (uint64_t *)mem + bytes / 8 - (size_t)3 * raw->face_count;
+    error = build(b);
+    b->mesh = mesh;
+    if (error == CAROM_OK) {
+        *mesh = built;
+    }
+    return error;
+}
+
+int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                     size_t bytes)
+{
+    struct mesh_builder b;
+
+    return mesh_make(&b, mesh, raw, mem, bytes);
+}
+
+int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes)
+{
+    struct carom_mesh mesh;
+
+    return carom_mesh_build(&mesh, raw, scratch, bytes);
+}
