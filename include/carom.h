@@ -237,13 +237,13 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(768, 776)
-#define CAROM_PAIR_BYTES           CAROM_BYTES_(84, 84)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(816, 824)
+#define CAROM_PAIR_BYTES           CAROM_BYTES_(116, 116)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(520, 696)
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(560, 760)
 #define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
 /* What stages work in one after the other: so much, or for each contact and pair that is solved. */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
@@ -404,7 +404,8 @@ enum carom_event_kind {
     CAROM_EVENT_END,   /* a and b no longer touch */
     CAROM_EVENT_REST,  /* a fell asleep */
     CAROM_EVENT_OUT,   /* a left the world's range and is frozen */
-    CAROM_EVENT_WAKE   /* a woke, in the step or since the one before */
+    CAROM_EVENT_WAKE,  /* a woke, in the step or since the one before */
+    CAROM_EVENT_CUT    /* a, b and what they touch used up their hits: they stood for a part of the frame */
 };
 
 struct carom_event {
@@ -486,6 +487,8 @@ struct carom_stats {
     uint32_t sweeps;      /* of all solves of several contacts */
     uint32_t impacts;     /* contacts solved as impacts */
     uint32_t energy_rule; /* impacts that the energy rule changed */
+    uint32_t cut_islands; /* that stood still for the rest of the frame: they used up their hits */
+    uint32_t calmed;      /* islands that a solve could not part and that went on as one body */
 };
 /* What the last step did, by stage. */
 int carom_stats(const struct carom_world *world, struct carom_stats *stats);

@@ -110,7 +110,7 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
     memset(to, 0, sizeof *to);
     to->base.visit = collect;
     to->set = set;
-    interfere_begin(&work);
+    
     result = interfere_visit(&work, bodies, pairs, 1, &to->base);
     interfere_finish(&work);
     return result;

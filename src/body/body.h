@@ -87,8 +87,17 @@ struct body_region {
     int32_t room_q22;
     int64_t time_q30; /* frames, at most BODY_REGION_FRAMES */
     /* used up */
-    int64_t elapsed_q30;
+    int64_t elapsed_q30;    /* when the path at hand begins */
     int64_t turned_off_q30; /* angle between the body and the path, at most */
+};
+
+/* A part of a region's time: where the motion starts and ends, and bounds of what lies between. */
+struct body_sweep {
+    carom_v3_q32 at;                /* the centre at the start */
+    carom_v3_q40 way;               /* and from there to the end */
+    carom_m3_q30 start, end;        /* axes */
+    int32_t length_q22, bend_q22;   /* of the centre's way, rounded up */
+    int32_t u_q30, whole_u_q30;     /* |u| of the part and of the region, rounded up */
 };
 
 struct body {
@@ -98,6 +107,7 @@ struct body {
 
     /* of a step; the rest of that is below */
     bool active;      /* was to move when its region was set */
+    bool alone;       /* had no pairs then */
     bool boxed;       /* its box is around its mesh's; else around its sphere */
     bool in_contact;  /* took the frame's acceleration at once; moves straight */
     bool touched;     /* had a contact in this step */
@@ -120,15 +130,22 @@ struct body {
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
+    /* its clock: the part of the frame that the path at hand takes */
+    int32_t from_q30, to_q30;
+    uint16_t events;     /* hits that it took part in, in this frame */
+    uint8_t cuts;        /* how often the path at hand was set again for an earlier end */
+    uint8_t shorter;     /* the next path is shorter by so many factors of 4 */
+    bool member, placed; /* of the hit at hand; its path is that of a place where it only is looked at */
+    bool stands;         /* for what is left of the frame */
+    bool strained;       /* left a path that turns before its end */
+
     /* scratch of a step */
     struct body_path path;
     struct body_region region;
     int32_t reach_q22; /* how far any point may go in the region, and the margin */
     int32_t turn_q30;  /* and how far the body may turn, radians */
-    union {
-        int32_t box_q18[2][3];       /* in world axes around it, grown by the reach: by broad */
-        carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
-    };
+    int32_t box_q18[2][3];       /* in world axes around the region, grown by the reach: by broad */
+    carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
     carom_v3_q40 velocity, spin; /* before a solve */
     union {
         struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
@@ -215,12 +232,12 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22);
-/* Where the centre of the region goes in its time, and the axes at its start and at its end. */
-carom_v3_q40 body_region_way(const struct body_region *region);
-void body_region_axes(const struct body_region *region, carom_m3_q30 *start, carom_m3_q30 *end);
+/* The part of a region that begins at `from` and takes `time`; both in frames, within its time. */
+void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
+                       struct body_sweep *sweep);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
-/* Go on by t of the present path. */
-void body_region_advance(struct body *b, int32_t t_q30, int32_t time_q30);
+/* Go on along the present path, which takes time_q30, by a part of that. */
+void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30);
 
 #endif

@@ -58,26 +58,6 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }
 
-carom_v3_q40 body_region_way(const struct body_region *region)
-{
-    carom_v3_q40 way;
-
-    for (int k = 0; k < 3; k++) {
-        way.c[k] = region->way.c[k] + region->bend.c[k];
-    }
-    return way;
-}
-
-void body_region_axes(const struct body_region *region, carom_m3_q30 *start, carom_m3_q30 *end)
-{
-    body_matrix(start, &region->q);
-    if (region->u_q30 > 0) {
-        body_turned(&region->q, &region->u, end);
-    } else {
-        *end = *start;
-    }
-}
-
 /*
  * A part of a region's time, which is at most 8 frames and so below 2^33: three bits are cut off to
  * divide in 64 bits.
@@ -88,6 +68,52 @@ static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
         return CAROM_ONE_Q30;
     }
     return (int32_t)(((elapsed_q30 >> 3) << 30) / (region->time_q30 >> 3));
+}
+
+/* Rotations along the region's turn. */
+static void axes_at(const struct body_region *region, int32_t t_q30, carom_m3_q30 *axes)
+{
+    carom_v3_q30 u;
+
+    for (int k = 0; k < 3; k++) {
+        u.c[k] = carom_mul_q30(region->u.c[k], t_q30);
+    }
+    body_turned(&region->q, &u, axes);
+}
+
+/*
+ * way t + bend t^2 from p on for w is (way + 2 bend p) w + bend w^2; turns about one axis are the
+ * less the later they are, so |u| w bounds that of the part.
+ */
+void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
+                       struct body_sweep *sweep)
+{
+    int32_t p_q30 = from_q30 > 0 ? part_of(region, from_q30) : 0;
+    int32_t w_q30 = time_q30 < region->time_q30 - from_q30 ? part_of(region, time_q30)
+                                                           : CAROM_ONE_Q30 - p_q30;
+    int64_t bend[3];
+
+    for (int k = 0; k < 3; k++) {
+        int64_t way = region->way.c[k] + 2 * fix_mul(region->bend.c[k], p_q30, 30);
+
+        bend[k] = fix_mul(fix_mul(region->bend.c[k], w_q30, 30), w_q30, 30);
+        sweep->way.c[k] = fix_mul(way, w_q30, 30) + bend[k];
+        way = fix_mul(region->way.c[k] + fix_mul(region->bend.c[k], p_q30, 30), p_q30, 30);
+        sweep->at.c[k] = region->at.c[k] + (way >> 8);
+    }
+    sweep->bend_q22 = (int32_t)(fix_length_bound(bend) >> 18) + 1;
+    sweep->length_q22 = (int32_t)(fix_length_bound(sweep->way.c) >> 18) + 3 + sweep->bend_q22;
+    sweep->whole_u_q30 = region->u_q30;
+    sweep->u_q30 = region->u_q30 > 0 ? carom_mul_q30(region->u_q30, w_q30) + 2 : 0;
+    body_matrix(&sweep->start, &region->q);
+    sweep->end = sweep->start;
+    if (region->u_q30 > 0) {
+        if (p_q30 > 0) {
+            axes_at(region, p_q30, &sweep->start);
+        }
+        p_q30 = w_q30 < CAROM_ONE_Q30 - p_q30 ? p_q30 + w_q30 : CAROM_ONE_Q30;
+        axes_at(region, p_q30, &sweep->end);
+    }
 }
 
 /* How far the centre is off the region's path at a time, x_q32 being where it is. */
@@ -164,11 +190,11 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     return off <= region->room_q22;
 }
 
-void body_region_advance(struct body *b, int32_t t_q30, int32_t time_q30)
+void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30)
 {
     struct body_region *region = &b->region;
 
     /* the path turns evenly but for cubes */
     region->turned_off_q30 += turns_off_q30(b, time_q30);
-    region->elapsed_q30 += ((int64_t)time_q30 * t_q30) >> 30;
+    region->elapsed_q30 += part_q30;
 }

@@ -237,3 +237,18 @@ void contact_merge(struct contact_list *list)
     }
     list->pool->used = kept;
 }
+
+void contact_drop_pair(struct contact_list *list, uint16_t pair)
+{
+    uint32_t first = 0, end;
+
+    while (first < list->pool->used && list->contacts[first].key.pair < pair) {
+        first++;
+    }
+    for (end = first; end < list->pool->used && list->contacts[end].key.pair == pair;) {
+        end++;
+    }
+    memmove(&list->contacts[first], &list->contacts[end],
+            (list->pool->used - end) * sizeof *list->contacts);
+    list->pool->used -= end - first;
+}

@@ -178,4 +178,7 @@ static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3
  */
 void contact_merge(struct contact_list *list);
 
+/* Take out the contacts of a pair. */
+void contact_drop_pair(struct contact_list *list, uint16_t pair);
+
 #endif

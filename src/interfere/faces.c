@@ -83,7 +83,7 @@ static bool has_face(const struct interfere *w, struct carom_face_ref face)
     return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
 }
 
-void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face)
+static void add_face(struct interfere *w, uint16_t body, uint16_t face)
 {
     struct carom_face_ref ref = {body, face};
     struct pool *pool = w->face_pool;
@@ -100,4 +100,60 @@ void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face)
         return;
     }
     w->faces[pool->used++] = ref;
+}
+
+/* The face that owns a vertex: every one that is tested has just one. */
+static uint16_t owner_of_vertex(const struct carom_mesh *mesh, uint32_t v)
+{
+    for (uint32_t r = mesh->ring_start[v]; r < mesh->ring_start[v + 1]; r++) {
+        const struct carom_edge *edge = &mesh->edges[mesh->ring[r] >> 1];
+
+        for (int side = 0; side < 2; side++) {
+            uint16_t f = edge->face[side];
+
+            for (int k = 0; f != CAROM_NO_FACE && k < 3; k++) {
+                if (mesh->raw.faces[f][k] == v && (mesh->faces[f].own >> k & 1)) {
+                    return f;
+                }
+            }
+        }
+    }
+    return CAROM_NO_FACE;
+}
+
+static uint16_t owner_of_edge(const struct carom_mesh *mesh, uint32_t e)
+{
+    for (int side = 0; side < 2; side++) {
+        uint16_t f = mesh->edges[e].face[side];
+
+        for (int k = 0; f != CAROM_NO_FACE && k < 3; k++) {
+            if (mesh->faces[f].edge[k] == e && (mesh->faces[f].own >> (3 + k) & 1)) {
+                return f;
+            }
+        }
+    }
+    return CAROM_NO_FACE;
+}
+
+void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+                          const struct candidate *c, uint32_t n)
+{
+    for (uint32_t i = 0; i < n && !w->error; i++) {
+        const struct pair *p = &all->pairs[c[i].pair];
+        const struct carom_mesh *a = all->bodies[p->a].mesh, *b = all->bodies[p->b].mesh;
+        uint16_t of_a, of_b;
+
+        if (c[i].kind == CANDIDATE_EDGE_EDGE) {
+            of_a = owner_of_edge(a, c[i].i);
+            of_b = owner_of_edge(b, c[i].j);
+        } else if (c[i].kind == CANDIDATE_VERTEX_FACE) {
+            of_a = owner_of_vertex(a, c[i].i);
+            of_b = (uint16_t)c[i].j;
+        } else {
+            of_a = (uint16_t)c[i].j;
+            of_b = owner_of_vertex(b, c[i].i);
+        }
+        add_face(w, p->a, of_a);
+        add_face(w, p->b, of_b);
+    }
 }

@@ -240,23 +240,9 @@ static void visit_leaf(struct interfere *w)
             }
         }
     }
-    for (uint32_t i = 0; w->leaf->busy >> i != 0; i++) {
-        if (w->leaf->busy >> i & 1) {
-            interfere_add_face(w, w->body_a, (uint16_t)interfere_face(w, i));
-        }
-    }
 }
 
 /* -------------------------------------------------------------------- pair */
-
-/*
- * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
- * the fastest bodies do not.
- */
-static bool in_range(const struct body *a, const struct body *b)
-{
-    return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
-}
 
 /*
  * How high the centre of a leaf may be above its radius, q20, for leaf_near to find that it is not above
@@ -293,89 +279,4 @@ void interfere_leaves(struct interfere *w)
             visit_leaf(w);
         }
     }
-}
-
-static void gather_pair(struct interfere *w, const struct body *bodies, const struct pair *pairs,
-                        uint32_t number)
-{
-    const struct pair *p = &pairs[number];
-    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
-
-    w->pair = (uint16_t)number;
-    w->body_a = p->a;
-    w->body_b = p->b;
-    w->a = &bodies[p->a];
-    w->b = &bodies[p->b];
-    w->pooled = interfere_makes_lists(w->b->mesh);
-    if (!interfere_set_motion(w)) {
-        return;
-    }
-    if (!in_range(w->a, w->b)) {
-        w->error = CAROM_ERR_RANGE;
-        return;
-    }
-    w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
-    w->meet = interfere_features;
-    interfere_leaves(w);
-}
-
-/* The pairs from the first on that have the same b, against each chunk of its lists. */
-static void gather_over(struct interfere *w, const struct body *bodies, const struct pair *pairs,
-                        uint32_t pair_count, uint32_t first)
-{
-    const uint16_t b = pairs[first].b;
-    const struct interfere_area area = interfere_area_under(bodies, pairs, pair_count, b);
-    struct interfere_place place = {0, 0};
-    bool last = false;
-
-    while (!last && !w->error) {
-        last = interfere_make_lists(w, bodies[b].mesh, &area, &place);
-        for (uint32_t i = first; i < pair_count && !w->error; i++) {
-            if (pairs[i].b == b) {
-                gather_pair(w, bodies, pairs, i);
-            }
-        }
-    }
-}
-
-/* Whether a pair is the first one that has its b. */
-static bool comes_first(const struct pair *pairs, uint32_t number)
-{
-    uint32_t i = 0;
-
-    while (pairs[i].b != pairs[number].b) {
-        i++;
-    }
-    return i == number;
-}
-
-void interfere_begin(struct interfere *w)
-{
-    w->whole = w->stale = false;
-    w->enough = UINT32_MAX;
-    w->error = CAROM_OK;
-}
-
-int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
-                    uint32_t pair_count, struct candidate_visitor *visitor)
-{
-    if (!w->whole) {
-        w->whole = true;
-        w->visitor = visitor;
-        w->gathers++;
-        pool_clear(w->candidate_pool);
-        for (uint32_t i = 0; i < pair_count && !w->error; i++) {
-            if (!interfere_makes_lists(bodies[pairs[i].b].mesh)) {
-                gather_pair(w, bodies, pairs, i);
-            } else if (comes_first(pairs, i)) {
-                gather_over(w, bodies, pairs, pair_count, i);
-            }
-        }
-        if (w->error) {
-            w->whole = false;
-            return w->error;
-        }
-    }
-    visitor->visit(visitor, w->candidates, w->candidate_pool->used);
-    return CAROM_OK;
 }

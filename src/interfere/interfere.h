@@ -87,7 +87,6 @@ struct interfere_leaf {
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
-    uint32_t busy; /* faces with candidates */
 };
 
 struct target;
@@ -97,17 +96,32 @@ struct interfere_area {
     int32_t low[2], high[2];
 };
 
+/* The part of both regions' time that a pair is gathered for, frames. */
+struct interfere_span {
+    int64_t from_a_q30, from_b_q30, time_q30;
+};
+
+/* All pairs of a world, and their bodies. */
+struct interfere_pairs {
+    const struct body *bodies;
+    const struct pair *pairs;
+    uint32_t count;
+};
+
 struct interfere {
     struct candidate *candidates;
     struct pool *candidate_pool;
+    struct pair_work *meetings; /* of all pairs; NULL: none is kept */
+    uint32_t pair_count;      /* so many */
+    uint32_t own_first;       /* where the candidates of the pair at hand begin */
     struct carom_face_ref *faces;
     struct pool *face_pool;
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
     uint32_t enough;                   /* a gather that has more candidates stops */
 
-    bool whole; /* the pool holds every candidate of the pairs: no need to gather again */
-    bool stale; /* the bodies are not those of the last gather: the next frame begins with one */
+    bool whole; /* the pool holds every candidate of the pair at hand */
+    bool stale; /* the bodies are not those that regions and pairs were set for */
     int error;
     struct candidate_visitor *visitor;
 
@@ -117,7 +131,8 @@ struct interfere {
 
     /* the pair being worked on */
     const struct body *a, *b;
-    uint16_t pair, body_a, body_b;
+    struct interfere_span span;
+    uint16_t pair;
     struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
 
     bool pooled;                     /* b's z-lists are in `lists` */
@@ -126,16 +141,21 @@ struct interfere {
 };
 
 /*
- * Forget the candidates: the regions of all bodies have been set anew.
+ * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew
+ * for a span of both regions; in chunks when the pool has not room for all of them.
+ * Returns CAROM_OK; INTERFERE_TOO_MANY for more than w->enough; CAROM_ERR_RANGE for a pair too large
+ * and fast for q22.
  */
-void interfere_begin(struct interfere *w);
+int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
+                         const struct interfere_span *span, struct candidate_visitor *visitor);
 
-/*
- * Hand every candidate of the pairs to the visitor.
- * Returns CAROM_OK, CAROM_ERR_FACES_FULL, or CAROM_ERR_RANGE for a pair too large and fast for q22.
- */
+/* The same of all pairs, for the whole of the regions, and none is kept. */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);
+
+/* Note the faces that own the features of candidates as interfering ones. */
+void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+                          const struct candidate *c, uint32_t n);
 
 /* Forget z-lists that were made; the surface has moved or gone. */
 void interfere_forget_lists(struct interfere *w);

@@ -87,7 +87,6 @@ bool interfere_place_leaf(struct interfere *w)
     place_axis(w, local, 1);
     place_slab(w);
     l->listed = false;
-    l->busy = 0;
     return true;
 }
 

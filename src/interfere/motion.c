@@ -20,20 +20,20 @@ void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q
  * and that by at most 4 |u|^2 (1 + |u|) r; in axes that turn so themselves there is twice the turn
  * times the way on top.
  */
-static int64_t sag_q22(const struct interfere *w, int64_t distance_q22)
+static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
+                       const struct body_sweep *b, int64_t distance_q22)
 {
-    const struct body_region *a = &w->a->region, *b = &w->b->region;
     int64_t bend = 2 * ((int64_t)a->bend_q22 + b->bend_q22);
     int64_t way = (int64_t)a->length_q22 + b->length_q22;
     int32_t twice_q30 = 2 * a->u_q30;
 
     way += fix_mul(w->a->radius_q22, twice_q30, 30);
-    bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->u_q30, 30);
+    bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
     if (b->u_q30 > 0) {
         twice_q30 = 2 * b->u_q30;
         bend += 2 * fix_mul(way, twice_q30, 30);
         bend += fix_mul(fix_mul(distance_q22 + w->a->radius_q22 + way, twice_q30, 30),
-                        twice_q30 + b->u_q30, 30);
+                        twice_q30 + b->whole_u_q30, 30);
     }
     return bend / 8 + 2;
 }
@@ -41,22 +41,20 @@ static int64_t sag_q22(const struct interfere *w, int64_t distance_q22)
 bool interfere_set_motion(struct interfere *w)
 {
     struct interfere_leaf *l = w->leaf;
-    const struct body_region *a = &w->a->region, *b = &w->b->region;
+    struct body_sweep sweep[2], *a = &sweep[0], *b = &sweep[1];
     const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
-    const carom_v3_q40 way_a = body_region_way(a), way_b = body_region_way(b);
     int64_t start[3], end[3], distance = 0;
-    carom_m3_q30 r_a, r_b, end_a, end_b;
 
-    body_region_axes(a, &r_a, &end_a);
-    body_region_axes(b, &r_b, &end_b);
+    body_region_sweep(&w->a->region, w->span.from_a_q30, w->span.time_q30, a);
+    body_region_sweep(&w->b->region, w->span.from_b_q30, w->span.time_q30, b);
     for (int k = 0; k < 3; k++) {
         start[k] = a->at.c[k] - b->at.c[k];
-        end[k] = start[k] + ((way_a.c[k] - way_b.c[k]) >> 8);
+        end[k] = start[k] + ((a->way.c[k] - b->way.c[k]) >> 8);
     }
-    if ((b->q.c[1] | b->q.c[2] | b->q.c[3]) != 0 || b->u_q30 > 0) {
+    if ((w->b->region.q.c[1] | w->b->region.q.c[2] | w->b->region.q.c[3]) != 0 || b->u_q30 > 0) {
         /* most ground is not turned, and does not turn */
-        fix_rotate_back(start, &r_b, start);
-        fix_rotate_back(end, &end_b, end);
+        fix_rotate_back(start, &b->start, start);
+        fix_rotate_back(end, &b->end, end);
     }
     for (int k = 0; k < 3; k++) {
         if (carom_abs(start[k]) > (int64_t)400 << 32) {
@@ -66,10 +64,10 @@ bool interfere_set_motion(struct interfere *w)
         l->at.c[k] = (int32_t)(start[k] >> 12) + l->moves.c[k] / 2;
         distance += carom_abs(start[k]) >> 10;
     }
-    interfere_relate(&l->to_b, &r_b, &r_a);
+    interfere_relate(&l->to_b, &b->start, &a->start);
     memset(&l->change, 0, sizeof l->change);
     if (a->u_q30 > 0 || b->u_q30 > 0) {
-        interfere_relate(&l->change, &end_b, &end_a);
+        interfere_relate(&l->change, &b->end, &a->end);
         for (int i = 0; i < 9; i++) {
             l->change.c[i / 3][i % 3] -= l->to_b.c[i / 3][i % 3];
             l->to_b.c[i / 3][i % 3] += l->change.c[i / 3][i % 3] / 2;
@@ -78,7 +76,7 @@ bool interfere_set_motion(struct interfere *w)
     l->angle_q30 = 2 * (a->u_q30 + b->u_q30);
     /* 1 - cos^2 of half of the angle, at most a quarter of its square */
     l->skew_q30 = carom_mul_q30(l->angle_q30, l->angle_q30) / 4 + 1;
-    l->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + a->room_q22 + b->room_q22 +
-                  sag_q22(w, distance);
+    l->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + w->a->region.room_q22 +
+                  w->b->region.room_q22 + sag_q22(w, a, b, distance);
     return true;
 }

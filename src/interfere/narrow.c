@@ -93,30 +93,6 @@ static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 
 /* ----------------------------------------------------------------- features */
 
-static void emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
-{
-    struct pool *pool = w->candidate_pool;
-    struct candidate *c;
-    int32_t place = pool_take(pool);
-
-    if (place < 0) {
-        /* a chunk: hand over what there is and go on */
-        w->visitor->visit(w->visitor, w->candidates, pool->used);
-        w->whole = false;
-        pool_clear(pool);
-        place = pool_take(pool);
-    }
-    c = &w->candidates[place];
-    c->pair = w->pair;
-    c->kind = kind;
-    c->i = i;
-    c->j = j;
-    w->candidate_count++;
-    if (pool->used > w->enough) {
-        w->error = INTERFERE_TOO_MANY;
-    }
-}
-
 /* Whether a point of the leaf stays out of the box of b's face on its way. */
 static bool outside_target(const struct interfere_leaf *l, const struct interfere_vec *p,
                            const struct target *t)
@@ -148,7 +124,7 @@ static bool vertices_face(struct interfere *w, const struct target *t, uint32_t 
     for (; own != 0; own >>= 1, corner++) {
         if ((own & 1) && !((t->over | t->under) >> *corner & 1) &&
             !outside_target(l, &l->p[*corner], t) && interfere_vertex_face(w, t, *corner)) {
-            emit(w, CANDIDATE_VERTEX_FACE, interfere_vertex(w, *corner), t->number);
+            interfere_emit(w, CANDIDATE_VERTEX_FACE, interfere_vertex(w, *corner), t->number);
             any = true;
         }
     }
@@ -163,7 +139,7 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
     for (int k = 0; left >> k != 0; k++) {
         if ((left >> k & 1) && !outside_face(w->leaf, &t->p[k], i) &&
             interfere_face_vertex(w, t, i, k)) {
-            emit(w, CANDIDATE_FACE_VERTEX, w->b->mesh->raw.faces[t->number][k],
+            interfere_emit(w, CANDIDATE_FACE_VERTEX, w->b->mesh->raw.faces[t->number][k],
                  interfere_face(w, i));
             any = true;
         }
@@ -214,7 +190,7 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i,
             if ((left >> j & 1) &&
                 !boxes_miss(w, &l->p[from], &l->p[to], &t->p[j], &t->p[j == 2 ? 0 : j + 1]) &&
                 interfere_edge_edge(w, t, i, k, j)) {
-                emit(w, CANDIDATE_EDGE_EDGE, w->a->mesh->faces[interfere_face(w, i)].edge[k],
+                interfere_emit(w, CANDIDATE_EDGE_EDGE, w->a->mesh->faces[interfere_face(w, i)].edge[k],
                      t->face->edge[j]);
                 any = true;
             }
@@ -248,7 +224,6 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
     struct interfere_leaf *l = w->leaf;
     struct target t; /* the rest of it is set by and by: nearly all end here */
-    uint32_t busy = 0;
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];
@@ -265,12 +240,8 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
 
         /* does it reach to both sides of the plane, or near to it? */
         if ((corners & ~over) != 0 && (corners & ~under) != 0 && boxes_meet(w, l, &t, i) &&
-            is_reached(w, &t, i) && w->meet(w, &t, i)) {
-            busy |= 1u << i;
+            is_reached(w, &t, i)) {
+            w->meet(w, &t, i);
         }
-    }
-    if (busy != 0) {
-        l->busy |= busy;
-        interfere_add_face(w, w->body_b, face_b);
     }
 }

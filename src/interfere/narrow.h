@@ -135,7 +135,7 @@ struct interfere_place {
 bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from);
 
-/* Note an interfering face; an error is left in w. */
-void interfere_add_face(struct interfere *w, uint16_t body, uint16_t face);
+/* Take a candidate of the pair at hand into the pool; what has no room there goes to the visitor. */
+void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j);
 
 #endif

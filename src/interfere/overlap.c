@@ -43,7 +43,7 @@ static void begin_leaf(struct interfere_query *q, const struct carom_leaf *leaf)
 /* -------------------------------------------------------------------- pairs */
 
 /* Two faces, the corner that is alone on its side of the other one's plane first. */
-struct meeting {
+struct overlap {
     const struct interfere_vec *p[3], *q[3];
     int32_t scale_p, scale_q; /* for their edges */
     int32_t near_q20;
@@ -69,7 +69,7 @@ static int64_t rise(const int32_t w[3], const struct interfere_vec *from,
  * Bounds: edges are scaled up to 2^30, w is cut to 2^29. The boxes of the faces meet, so corners
  * differ by less than 2^30, and the three products by less than 2^61 together.
  */
-static bool apart_across(const struct meeting *m, int k, bool upper)
+static bool apart_across(const struct overlap *m, int k, bool upper)
 {
     const struct interfere_vec *from = m->p[0];
     struct interfere_vec e = way(from, m->p[k], m->scale_p);
@@ -106,7 +106,7 @@ static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
  * cross if the intervals overlap; otherwise the edges at the ends that are nearest each other keep
  * them apart. Which ends these are follows from the sides of the lone corners.
  */
-static bool intervals_apart(struct meeting *m, const struct interfere_vec *const p[3],
+static bool intervals_apart(struct overlap *m, const struct interfere_vec *const p[3],
                             const struct interfere_vec q[3], uint32_t over_p, uint32_t over_q)
 {
     static const uint8_t next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
@@ -147,7 +147,7 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     const struct interfere_leaf *l = w->leaf;
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
-    struct meeting m = {.scale_p = w->query->edge_scale, .near_q20 = l->near_q20};
+    struct overlap m = {.scale_p = w->query->edge_scale, .near_q20 = l->near_q20};
     uint32_t over_p = 0;
     int32_t size = 0;
 

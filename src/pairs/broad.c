@@ -9,15 +9,15 @@ static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t h
 }
 
 /* The box of a body in world axes, grown by its reach. */
-static void bounds(const struct body *b, const struct body_state *s, int32_t reach_q22,
-                   int32_t box_q18[2][3])
+static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_quat_q30 *q,
+                   int32_t reach_q22, int32_t box_q18[2][3])
 {
     const struct carom_mesh *mesh = b->mesh;
     int shift = 22 - mesh->raw.quantum_bits;
     int64_t middle[3], half[3];
     carom_m3_q30 r;
 
-    body_matrix(&r, &s->rotation);
+    body_matrix(&r, q);
     for (int k = 0; k < 3; k++) {
         int64_t low = mesh->box[0][k], high = mesh->box[1][k];
 
@@ -25,7 +25,7 @@ static void bounds(const struct body *b, const struct body_state *s, int32_t rea
         half[k] = carom_shl(high - low, shift) / 2 + 1;
     }
     for (int k = 0; k < 3; k++) {
-        int64_t m = carom_round(s->position.c[k], 10);
+        int64_t m = carom_round(at->c[k], 10);
         int64_t h = reach_q22 + 8; /* 8: the roundings of this function */
 
         for (int j = 0; j < 3; j++) {
@@ -36,18 +36,7 @@ static void bounds(const struct body *b, const struct body_state *s, int32_t rea
     }
 }
 
-/* A larger box that costs little: that of the sphere around the body. */
-static void bounds_of_sphere(const struct body *b, const struct body_state *s,
-                             int32_t box_q18[2][3])
-{
-    int64_t h = (int64_t)b->radius_q22 + b->reach_q22 + 1;
-
-    for (int k = 0; k < 3; k++) {
-        set_side(box_q18, k, carom_round(s->position.c[k], 10), h);
-    }
-}
-
-static bool overlap(int32_t a[2][3], int32_t b[2][3])
+static bool overlap(const int32_t a[2][3], const int32_t b[2][3])
 {
     for (int k = 0; k < 3; k++) {
         if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) {
@@ -62,68 +51,73 @@ bool broad_near(const struct body *a, const struct body_state *state_a, const st
 {
     int32_t box_a[2][3], box_b[2][3];
 
-    bounds(a, state_a, margin_q22, box_a);
-    bounds(b, state_b, margin_q22, box_b);
-    return overlap(box_a, box_b);
+    bounds(a, &state_a->position, &state_a->rotation, margin_q22, box_a);
+    bounds(b, &state_b->position, &state_b->rotation, margin_q22, box_b);
+    return overlap((const int32_t(*)[3])box_a, (const int32_t(*)[3])box_b);
 }
 
-/* Whether two boxes overlap; those of spheres are only trusted when they do not. */
-static bool boxes_overlap(struct body *bodies, const struct body_state *states, uint32_t a,
-                          uint32_t b)
+static void set_mesh_box(struct body *b)
 {
-    const uint32_t both[2] = {a, b};
+    bounds(b, &b->region.at, &b->region.q, b->reach_q22, b->box_q18);
+    b->boxed = true;
+}
 
-    if (!overlap(bodies[a].box_q18, bodies[b].box_q18)) {
+void broad_set_box(struct body *b)
+{
+    int64_t half_q22 = (int64_t)b->radius_q22 + b->reach_q22 + 1;
+
+    if (!b->active) {
+        set_mesh_box(b);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        set_side(b->box_q18, k, carom_round(b->region.at.c[k], 10), half_q22);
+    }
+    b->boxed = false;
+}
+
+bool broad_boxes_meet(struct body *a, struct body *b)
+{
+    if (!overlap((const int32_t(*)[3])a->box_q18, (const int32_t(*)[3])b->box_q18)) {
         return false;
     }
-    for (int i = 0; i < 2; i++) {
-        struct body *body = &bodies[both[i]];
-
-        if (!body->boxed) {
-            bounds(body, &states[both[i]], body->reach_q22, body->box_q18);
-            body->boxed = true;
-        }
+    if (a->boxed && b->boxed) {
+        return true;
     }
-    return overlap(bodies[a].box_q18, bodies[b].box_q18);
+    if (!a->boxed) {
+        set_mesh_box(a);
+    }
+    if (!b->boxed) {
+        set_mesh_box(b);
+    }
+    return overlap((const int32_t(*)[3])a->box_q18, (const int32_t(*)[3])b->box_q18);
+}
+
+bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,
+                   uint32_t b)
+{
+    return bodies[a].mesh && bodies[a].moving && !states[a].out && bodies[b].mesh &&
+           !states[b].out && (bodies[b].moving ? b < a : true) &&
+           (broad_active(&bodies[a], &states[a]) || broad_active(&bodies[b], &states[b]));
 }
 
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
                 const struct body_state *states, uint32_t body_count)
 {
     pool_clear(pool);
-    for (uint32_t i = 0; i < body_count; i++) {
-        struct body *b = &bodies[i];
-
-        /* the box of what stands still is worked out once */
-        if (b->mesh && !b->standing) {
-            b->boxed = !broad_active(b, &states[i]);
-            if (b->boxed) {
-                bounds(b, &states[i], b->reach_q22, b->box_q18);
-            } else {
-                bounds_of_sphere(b, &states[i], b->box_q18);
-            }
-        }
-    }
     for (uint32_t a = 0; a < body_count; a++) {
-        bool active = broad_active(&bodies[a], &states[a]);
-
-        if (!bodies[a].mesh || !bodies[a].moving || states[a].out) {
-            continue;
-        }
         for (uint32_t b = 0; b < body_count; b++) {
             int32_t place;
 
-            if (!bodies[b].mesh || (bodies[b].moving && b >= a) || states[b].out ||
-                !(active || broad_active(&bodies[b], &states[b])) ||
-                !boxes_overlap(bodies, states, a, b)) {
+            if (!broad_is_pair(bodies, states, a, b) ||
+                !broad_boxes_meet(&bodies[a], &bodies[b])) {
                 continue;
             }
             place = pool_take(pool);
             if (place < 0) {
                 return CAROM_ERR_PAIRS_FULL;
             }
-            pairs[place].a = (uint16_t)a;
-            pairs[place].b = (uint16_t)b;
+            pairs[place] = (struct pair){(uint16_t)a, (uint16_t)b};
         }
     }
     return CAROM_OK;

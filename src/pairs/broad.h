@@ -17,6 +17,24 @@ struct pair {
     uint16_t a, b;
 };
 
+/* What a step keeps of a pair while its bodies are near each other. */
+struct pair_work {
+    /* by interfere: where the pool has all of its candidates, when it has */
+    uint32_t first, count;
+    /* by the search for hits: the next one, in the time of the frame, or PAIRS_NEVER */
+    int32_t hit_q30;
+    int32_t root_q30; /* where the surfaces meet, a time of the window that was searched */
+    uint32_t i, j;    /* its features */
+    uint8_t kind;
+    uint8_t late : 1; /* nothing can be solved where the window begins: the hit comes later */
+    uint8_t kept : 1; /* first and count are set */
+    /* by the answer to hits */
+    uint8_t checked : 1; /* its contacts are those of the hit at hand */
+    uint8_t repeats;      /* how often, without any time between */
+    int32_t answered_q30; /* when last */
+};
+#define PAIRS_NEVER INT32_MAX
+
 /* A moving body that is neither asleep nor frozen. */
 static inline bool broad_active(const struct body *b, const struct body_state *s)
 {
@@ -28,8 +46,24 @@ bool broad_near(const struct body *a, const struct body_state *state_a, const st
                 const struct body_state *state_b, int32_t margin_q22);
 
 /*
- * Fill pairs with every pair of an active body and another whose boxes, grown by the bodies' reach,
- * overlap; in order of (a, b). Returns CAROM_OK or CAROM_ERR_PAIRS_FULL.
+ * Set the box of a body that has a region: around the sphere of the region's reach when it moves, for
+ * most bodies are far from all others; around the mesh when it stands still.
+ */
+void broad_set_box(struct body *b);
+
+/* Whether the boxes of two bodies overlap; spheres' boxes that do give way to those of the meshes. */
+bool broad_boxes_meet(struct body *a, struct body *b);
+
+/*
+ * Whether bodies a and b may be a pair, in that order: a moves, and of two that do it is the higher
+ * number; one of them is active and none is frozen.
+ */
+bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,
+                   uint32_t b);
+
+/*
+ * Fill pairs with every pair whose boxes meet, in order of (a, b). Returns CAROM_OK or
+ * CAROM_ERR_PAIRS_FULL.
  */
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
                 const struct body_state *states, uint32_t body_count);

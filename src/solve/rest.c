@@ -67,7 +67,7 @@ static void load_velocities(struct rest *r)
         struct contact *c = &r->list.contacts[i];
 
         for (int s = 0; s < 2; s++) {
-            struct body *b = c->side[s].body;
+            struct body *b = c->idle ? NULL : c->side[s].body;
 
             if (b && !b->solving) {
                 b->solving = true;

@@ -5,79 +5,39 @@
 static void visit_contacts(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
-    struct carom_world *w = v->step->w;
 
     for (uint32_t i = 0; i < n && !v->error; i++) {
-        int32_t margin;
-
-        step_select_pair(v, &c[i]);
-        /* bodies that bounce for ever must not be held by their margin */
-        margin =
-            v->pair->skin_q22 *
-            (rest_restitution(v->pair->a, v->pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
-        if (!contact_add(&w->rest.list, v->pair, &c[i], margin)) {
+        boyse_pair_for(v->pair, &c[i]);
+        if (!contact_add(&v->step->w->rest.list, v->pair, &c[i], v->margin_q22)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }
     }
 }
 
-/* The static check in the present poses. */
-static int check(struct step *s)
+int step_check_pair(struct step *s, uint32_t number)
 {
+    const struct pair_work *m = &s->w->meetings[number];
+    const struct pair *p = &s->w->pairs[number];
     struct step_visitor v;
 
-    step_place_all(s);
-    pool_clear(s->w->rest.list.pool);
-    return step_visit(s, &v, visit_contacts);
+    if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
+        return CAROM_OK;
+    }
+    v.pair = step_set_pair(s->w, number);
+    /* bodies that bounce for ever must not be held by their margin */
+    v.margin_q22 = v.pair->skin_q22 *
+                   (rest_restitution(v.pair->a, v.pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    return step_visit(s, number, &v, visit_contacts);
 }
 
-/*
- * The contacts at the present poses, among them the hit that led here, if one did. What sleeps and
- * is touched wakes: then there are more bodies to gather for, and maybe more contacts.
- */
-static int gather_contacts(struct step *s, bool at_hit)
-{
-    struct carom_world *w = s->w;
-    struct pair p = {0, 0};
-    int result;
-
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].woke = false;
-    }
-    if (at_hit) {
-        p = w->pairs[s->hit.candidate.pair];
-    }
-    for (;;) {
-        result = check(s);
-        if (result == CAROM_OK && at_hit) {
-            if (!contact_force(&w->rest.list, step_set_pair(w, &s->hit.candidate), &s->hit)) {
-                result = CAROM_ERR_CONTACTS_FULL;
-            }
-        }
-        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
-            return result;
-        }
-        result = step_gather(s);
-        if (result < 0) {
-            return result;
-        }
-        if (at_hit) {
-            s->hit.candidate.pair = step_pair_number(w, &p);
-        }
-    }
-}
-
-/* The static check: contacts, each place once, and which pairs touch. */
-static int find_contacts(struct step *s, bool at_hit)
+int step_settle_contacts(struct step *s)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
-    int result = gather_contacts(s, at_hit);
+    int result = CAROM_OK;
 
-    if (result == CAROM_OK) {
-        contact_merge(list);
-        w->stats.contacts = list->pool->used;
-    }
+    contact_merge(list);
+    w->stats.contacts = list->pool->used;
     for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK; i++) {
         uint16_t pair = list->contacts[i].key.pair;
 
@@ -134,16 +94,6 @@ static int64_t gap_change(const struct boyse_pair *pair, const struct candidate 
     return (int64_t)(to.sign == from.sign ? to.gap_q22 : -to.gap_q22) - from.gap_q22;
 }
 
-/* Straight paths of a slice for all that move. */
-static void predict_straight(struct step *s, int32_t slice_q30)
-{
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (broad_active(&s->w->bodies[i], &s->next->bodies[i])) {
-            body_predict(&s->w->bodies[i], &s->next->bodies[i], slice_q30, NULL);
-        }
-    }
-}
-
 /*
  * Whether the path of a contact may be off the straight one by more than a small part of the skin:
  * r w^2 / 8 of both bodies. The spins are those of the last look at the contacts.
@@ -165,86 +115,131 @@ static bool bends(const struct contact *c, int32_t left_q30)
     return bend_q22 > c->skin_q22 / CHORD_BEND_DIVISOR;
 }
 
+/* The slice that both bodies of a pair are going to take, and straight paths for it. */
+static int32_t straight_paths(struct step *s, const struct pair *p)
+{
+    const uint32_t both[2] = {p->a, p->b};
+    int32_t slice_q30 = CAROM_ONE_Q30 - s->now_q30;
+
+    for (int k = 0; k < 2; k++) {
+        if (step_active(s, both[k])) {
+            slice_q30 = step_slice(s, both[k], slice_q30);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        struct body *b = &s->w->bodies[both[k]];
+
+        if (step_active(s, both[k]) && !b->stands && b->to_q30 != s->now_q30 + slice_q30) {
+            body_predict(b, &s->next->bodies[both[k]], slice_q30, NULL);
+            b->to_q30 = s->now_q30 + slice_q30;
+        }
+    }
+    return slice_q30;
+}
+
+/* The paths of chords are none: a solve works where they were. */
+static void forget_paths(struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
+        const struct contact *c = &s->w->rest.list.contacts[i];
+
+        for (int k = 0; !c->idle && k < 2; k++) {
+            if (c->side[k].body) {
+                c->side[k].body->to_q30 = s->now_q30;
+            }
+        }
+    }
+}
+
 /*
  * How the gap of each contact is going to change in the next slice. A body that rolls or tips does
  * not keep the V.N that it starts with: its arm turns, and so does its spin. Without this it comes
- * back to the surface within the frame, at once if it rolls fast, and uses up the sub-steps.
+ * back to the surface within the frame, at once if it rolls fast, and uses up its hits.
  */
 static void find_chords(struct step *s)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
-    struct step_visitor v = {.step = s, .pair_number = -1};
-    int32_t slice_q30 = 0; /* not yet known */
+    const struct boyse_pair *pair = NULL;
+    uint32_t pair_number = UINT32_MAX;
+    int32_t slice_q30 = 0;
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
         int64_t way_q22;
 
         c->chord_q28 = INT32_MAX;
-        if (!bends(c, s->left_q30)) {
+        if (c->idle || !bends(c, CAROM_ONE_Q30 - s->now_q30)) {
             continue;
         }
-        if (slice_q30 == 0) {
-            slice_q30 = step_slice(s);
-            predict_straight(s, slice_q30);
+        if (pair_number != c->key.pair) {
+            pair_number = c->key.pair;
+            slice_q30 = straight_paths(s, &w->pairs[pair_number]);
+            pair = step_set_pair(w, pair_number);
         }
         if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
             continue;
         }
-        step_select_pair(&v, &c->key);
-        way_q22 = gap_change(v.pair, &c->key) + 4;
+        boyse_pair_for((struct boyse_pair *)pair, &c->key);
+        way_q22 = gap_change(pair, &c->key) + 4;
         if (carom_abs(way_q22) < 1 << 24) {
             c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));
         }
     }
+    forget_paths(s);
 }
 
-static int solve(struct step *s, bool warm)
+int step_solve(struct step *s, bool warm)
 {
     struct carom_world *w = s->w;
     uint32_t impacts = w->rest.impacts;
     int result;
 
     find_chords(s);
-    result = rest_solve(&w->rest, s->left_q30, warm);
+    result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm);
     note_hits(s);
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);
     return result;
 }
 
-/* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
-int step_start_contacts(struct step *s)
+/* The contacts of all pairs where the frame begins. What sleeps and is touched wakes. */
+static int find_contacts(struct step *s)
 {
+    struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    /* most bodies are far from all others: the paths at hand stay as they are */
-    if (s->w->pools[CAROM_POOL_pairs].used > 0) {
-        result = find_contacts(s, false);
-        if (result < 0) {
-            return result;
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].woke = false;
+    }
+    for (;;) {
+        pool_clear(w->rest.list.pool);
+        for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used && result == CAROM_OK; n++) {
+            if (step_active(s, w->pairs[n].a) || step_active(s, w->pairs[n].b)) {
+                result = step_check_pair(s, n);
+            }
         }
+        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
+            break;
+        }
+        for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+            if (w->bodies[i].woke && w->bodies[i].standing) {
+                result = step_adopt(s, i);
+            }
+        }
+    }
+    return result == CAROM_OK ? step_settle_contacts(s) : result;
+}
+
+int step_start_contacts(struct step *s)
+{
+    int result = s->w->pools[CAROM_POOL_pairs].used > 0 ? find_contacts(s) : CAROM_OK;
+
+    if (result < 0) {
+        return result;
     }
     if (s->w->rest.list.pool->used == 0 || !rest_enter_contact(&s->w->rest, CAROM_ONE_Q30)) {
         s->w->rest.warm_count = 0;
         return CAROM_OK;
     }
-    return solve(s, true);
-}
-
-/* Resolve a hit: the impact, then what it left slow goes into continuous contact. */
-int step_respond(struct step *s)
-{
-    int result;
-
-    s->w->stats.hits++;
-    result = find_contacts(s, true);
-    if (result == CAROM_OK) {
-        rest_keep_hits(&s->w->rest, s->hit.candidate.pair);
-        result = solve(s, false);
-    }
-    if (result == CAROM_OK && rest_enter_contact(&s->w->rest, s->left_q30)) {
-        result = solve(s, false);
-    }
-    return result;
+    return step_solve(s, true);
 }

@@ -265,8 +265,8 @@ static void limit_island(struct step *s, uint32_t first)
 }
 
 /*
- * Bodies in contact took the gravity of the whole frame before they moved. When the frame is cut
- * short, those of an island in the air give back what belongs to the time that was dropped: the
+ * Bodies in contact took the gravity of the rest of the frame before they moved. Those of an island in
+ * the air that stands still give back what belongs to the time that they dropped: the
  * island then has the momentum that gravity gave it on its way, and to scale its motion about its
  * common velocity takes out whatever it gained. On the ground the weight is answered by impulses
  * that belong to it; there the audit alone decides.
@@ -276,14 +276,35 @@ static void give_back_gravity(struct step *s, uint32_t first)
     for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body *b = &s->w->bodies[i];
 
-        for (int k = 0; broad_active(b, &s->next->bodies[i]) && b->in_contact && k < 3; k++) {
+        for (int k = 0; step_active(s, i) && b->stands && b->in_contact && k < 3; k++) {
             s->next->bodies[i].momentum.c[k] -=
-                fix_mul_scaled(fix_mul(b->acceleration.c[k], s->left_q30, 30), b->mass);
+                fix_mul_scaled(fix_mul(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30, 30),
+                               b->mass);
         }
     }
 }
 
-void step_limit_energy(struct step *s, bool cut_short)
+void step_calm_island(struct step *s, uint32_t body)
+{
+    uint32_t first = s->w->bodies[body].island;
+    bool grounded = false;
+    struct step_rigid rigid;
+
+    for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
+        const struct contact *c = &s->w->rest.list.contacts[i];
+        const struct pair *p = &s->w->pairs[c->key.pair];
+
+        grounded |= s->w->bodies[p->a].island == first && !s->w->bodies[p->b].moving;
+    }
+    if (grounded) {
+        scale_grounded(s, first, 0);
+    } else if (step_rigid_motion(s, first, &rigid)) {
+        scale_free(s, &rigid, 0);
+    }
+    s->w->stats.calmed++;
+}
+
+void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;
 
@@ -292,14 +313,14 @@ void step_limit_energy(struct step *s, bool cut_short)
     }
     rest_islands_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].touched = w->bodies[i].in_contact;
+        w->bodies[i].touched =
+            w->bodies[i].in_contact || w->bodies[i].stands || w->bodies[i].strained;
         w->bodies[i].grounded = w->bodies[i].rewound = false;
     }
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
 
         rest_islands_join(w->bodies, p);
-        w->bodies[p->a].touched |= cut_short;
         w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
     }
     rest_islands_end(w->bodies, w->body_count);
@@ -309,7 +330,7 @@ void step_limit_energy(struct step *s, bool cut_short)
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].island == i && w->bodies[i].touched) {
-            if (cut_short && !w->bodies[i].grounded) {
+            if (s->cut_short && !w->bodies[i].grounded) {
                 give_back_gravity(s, i);
             }
             if (may_gain(s, i)) {

@@ -22,27 +22,55 @@ static bool in_range(const struct body *b, const struct body_state *s)
            world_in_range(b, s);
 }
 
-bool step_retire(struct step *s)
+bool step_retire(struct step *s, uint32_t i)
 {
     struct carom_world *w = s->w;
-    bool any = false;
+    struct body_state *state = &s->next->bodies[i], last;
 
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        struct body_state *state = &s->next->bodies[i];
-
-        if (broad_active(&w->bodies[i], state) && !in_range(&w->bodies[i], state)) {
-            struct body_state last = world_now(w)->bodies[i];
-
-            /* where it came from another body may be by now */
-            last.position = state->position;
-            last.rotation = state->rotation;
-            *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
-            state->out = 1;
-            step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
-            any = w->interfere.stale = true;
-        }
+    if (!step_active(s, i) || in_range(&w->bodies[i], state)) {
+        return false;
     }
-    return any;
+    last = world_now(w)->bodies[i];
+    /* where it came from another body may be by now */
+    last.position = state->position;
+    last.rotation = state->rotation;
+    *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
+    state->out = 1;
+    step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
+    w->interfere.stale = true;
+    return true;
+}
+
+static void visit_faces(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    const struct carom_world *w = ((struct step_visitor *)self)->step->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+
+    interfere_note_faces(&((struct step_visitor *)self)->step->w->interfere, &all, c, n);
+}
+
+int step_note_faces(struct step *s)
+{
+    struct interfere *in = &s->w->interfere;
+    struct step_visitor v;
+    int result = CAROM_OK;
+
+    if (in->gathers == 0) {
+        return CAROM_OK;
+    }
+    pool_clear(in->face_pool);
+    in->error = CAROM_OK;
+    for (uint32_t n = 0; n < s->w->pools[CAROM_POOL_pairs].used && result == CAROM_OK; n++) {
+        const struct pair *p = &s->w->pairs[n];
+
+        if (!step_active(s, p->a) && !step_active(s, p->b)) {
+            continue;
+        }
+        result = step_visit(s, n, &v, visit_faces);
+        result = result == CAROM_OK ? in->error : result;
+    }
+    interfere_finish(in);
+    return result;
 }
 
 /* Where a pair is in the list, or belongs. */

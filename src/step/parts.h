@@ -1,11 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * world_step_parts - what the files of a step share. world_step.c is the pipeline; the others are
- * its stations: gather (regions, candidates), move (predict, first hit, advance), contacts (static
- * check, solve), energy (of contact over the frame), finish (events, statistics).
+ * What the files of a step share. Each body has a clock of its own: its path takes a part of the frame,
+ * from_q30 to to_q30, and its state is that at the path's start. Each pair of bodies that are near each
+ * other has candidates and its next hit. The step takes events one by one in the order of time, and an
+ * event changes the bodies that it belongs to and nobody else.
+ *
+ *   step      the frame on one page
+ *   clock     paths: set, left at a time, looked at in a place; the ends of slices
+ *   region    regions of bodies, and the pairs that these make
+ *   search    the next hit of a pair
+ *   cut       paths that are set again for the hit they lead to
+ *   answer    a hit: the island that it belongs to, its contacts, the solve, and the last resort
+ *   contacts  the static check, chords, and what contacts leave behind
+ *   energy    of contact over the frame; rigid: the motion of an island as one body
+ *   finish    events, statistics
  */
-#ifndef CAROM_SRC_WORLD_STEP_PARTS_H
-#define CAROM_SRC_WORLD_STEP_PARTS_H
+#ifndef CAROM_SRC_STEP_PARTS_H
+#define CAROM_SRC_STEP_PARTS_H
 
 #include "../world/world.h"
 
@@ -16,81 +27,111 @@
 struct step {
     struct carom_world *w;
     struct world_state *next;
-    int32_t left_q30; /* of the frame */
-    int32_t
-        path_q30; /* the slice that the paths at hand are of, and no state changed since; or 0 */
-    uint32_t substep_cap;
-    struct boyse_hit hit;
+    int32_t now_q30;    /* of the last event */
+    uint32_t active;    /* bodies that are awake */
+    bool single;        /* regions last no longer than the frame */
+    bool cut_short;     /* some island stands still for a part of the frame */
+    uint32_t event_cap; /* hits of a body */
 };
+
+static inline bool step_active(const struct step *s, uint32_t i)
+{
+    return broad_active(&s->w->bodies[i], &s->next->bodies[i]);
+}
 
 /* Start the next state as a copy of the current one, with nothing found yet. */
 void step_begin(struct step *s, struct carom_world *w);
 
-/* A visitor of candidates that knows which pair they belong to. */
-struct step_visitor {
-    struct candidate_visitor base;
-    struct step *step;
-    struct boyse_pair *pair;
-    int32_t pair_number; /* that `pair` is set up for; -1: none */
-    bool found;
-    int error;
-};
-
-/* Hand every candidate to f. */
-int step_visit(struct step *s, struct step_visitor *v,
-               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
-void step_select_pair(struct step_visitor *v, const struct candidate *c);
-/* Set the pair of a candidate up for it, in the room there is for one. */
-struct boyse_pair *step_set_pair(const struct carom_world *w, const struct candidate *c);
-
 /* Book the ticks since the last mark on a stage. */
 void step_mark(struct carom_world *w, enum carom_stage stage);
 
-/* Give every body a path of no motion at its present pose. */
-void step_place_all(struct step *s);
+/* -------------------------------------------------------------------- clocks */
 
-/* Set the paths of a slice. */
-void step_predict_all(struct step *s, int32_t tau_q30);
+/* The state that a body has at a time of its path. */
+struct body_state step_state_at(const struct step *s, uint32_t i, int32_t t_q30);
 
-/*
- * Set the paths of a slice, and gather pairs, interfering faces and candidates for a region around
- * them that may last for some frames; or for the paths at hand, of a slice, alone.
- */
-int step_gather(struct step *s);
-int step_gather_slice(struct step *s, int32_t slice_q30);
-
-/* Whether a body may leave its region on its path, which takes slice_q30. */
-bool step_leaves_region(const struct step *s, int32_t slice_q30);
-
-/* The same at the start of a frame, unless the last frame's still hold. */
-int step_gather_first(struct step *s);
-
-/* Pairs have new numbers after they were gathered again; this one is still there. */
-uint16_t step_pair_number(const struct carom_world *w, const struct pair *p);
-
-/* The longest slice of what is left that every body's turn allows. */
-int32_t step_slice(const struct step *s);
-
-/* Set the paths of that slice. */
-int step_predict(struct step *s, int32_t *slice_q30);
-
-/* The earliest hit on the paths, into s->hit. */
-int step_first_hit(struct step *s, bool *found);
-
-/* Go to t of the paths. */
-void step_advance(struct step *s, int32_t t_q30, int32_t slice_q30);
+/* Leave the path of a body at a time: its state is that there, and it has no path until one is set. */
+void step_leave_path(struct step *s, uint32_t i, int32_t t_q30);
 
 /*
- * Go to the hit, on paths that end at it. `met` is false when it turns out to be one of a long path
- * only: then the bodies went on a part of the slice in which nothing is hit.
+ * Look at a body where it is at a time, by a path of no motion; go back to its own path. Its state and
+ * its clock stay as they are.
  */
-int step_go_to_hit(struct step *s, int32_t slice_q30, bool *met);
+void step_look_at(struct step *s, uint32_t i, int32_t t_q30);
+void step_look_away(struct step *s, uint32_t i);
+
+/* Set the path of a body from now on, and its region when it leaves the one it has. */
+int step_set_path(struct step *s, uint32_t i);
+
+/* The longest slice, of a time that is left, that the turn and the way of a body allow. */
+int32_t step_slice(const struct step *s, uint32_t i, int32_t left_q30);
+
+/* ------------------------------------------------------------ regions and pairs */
+
+/* Regions and pairs at the start of a frame: those that do not hold any more are set anew. */
+int step_begin_regions(struct step *s);
+
+/* Set the region of a body, whose path is at hand and takes slice_q30, and its pairs. */
+int step_set_region(struct step *s, uint32_t i, int32_t slice_q30);
+
+/* Give a body that was woken a region where it is. */
+int step_adopt(struct step *s, uint32_t i);
+
+/* ------------------------------------------------------------------------ pairs */
+
+/* A visitor of a pair's candidates. */
+struct step_visitor {
+    struct candidate_visitor base;
+    struct step *step;
+    struct boyse_pair *pair; /* set up */
+    int32_t window_q30;      /* what its paths take */
+    bool found;
+    struct boyse_hit hit;
+    int32_t margin_q22; /* of contacts */
+    int error;
+};
+
+/* Set up a pair with the paths of its bodies at hand, in the room there is for one. */
+struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number);
+
+/* Hand every candidate of a pair to f. */
+int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
+
+/* The window of a pair: the time that both paths take, when there is any. */
+bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32_t *to_q30);
+/* Paths of both bodies for a window; and back to their own. */
+void step_open_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
+void step_close_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
+
+/* Find the next hit of a pair; of all pairs of bodies that are members. */
+int step_search(struct step *s, uint32_t number);
+int step_search_members(struct step *s);
+
+/* The first of all hits, and the body whose slice ends first; what comes first: its time. */
+enum step_event { STEP_END, STEP_HIT, STEP_SLICE };
+enum step_event step_next(const struct step *s, uint32_t *number);
+
+/* ------------------------------------------------------------------------- hits */
+
+/*
+ * Set the paths of a pair's bodies again so that they end at its hit: the turn over a part of a slice is
+ * not a part of the turn over the whole. Whether that was done: then there may be another hit first.
+ */
+int step_cut(struct step *s, uint32_t number, bool *done);
+
+/* Answer the hit of a pair. */
+int step_answer(struct step *s, uint32_t number);
 
 /* Bodies that lie on others: gravity at once, held up by last frame's impulses. */
 int step_start_contacts(struct step *s);
 
-/* Resolve the hit: the impact, then what it left slow goes into continuous contact. */
-int step_respond(struct step *s);
+/* Take the contacts of a pair into the list in the place of those it has there. */
+int step_check_pair(struct step *s, uint32_t number);
+/* Sort out the contacts of the list: each place once, and which pairs touch. */
+int step_settle_contacts(struct step *s);
+/* Solve those contacts that are not idle. */
+int step_solve(struct step *s, bool warm);
 
 /* Append an event while there is room. */
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b);
@@ -102,13 +143,21 @@ void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 bool step_is_touching(const struct world_state *s, const struct pair *p);
 int step_note_touching(struct step *s, const struct pair *p);
 
+/* ----------------------------------------------------------------------- energy */
+
 /*
  * Contact must not gain energy over a frame, beyond lifting bodies within their skins: scale the
  * momenta of an island down if it did. A body in contact takes gravity before it moves, so one that
- * is turned upwards on its way would climb for nothing; and a frame cut short has lost track of what
- * it owes. An island is what was connected by touching in this step.
+ * is turned upwards on its way would climb for nothing; and one that stands still for a part of the
+ * frame has lost track of what it owes. An island is what was connected by touching in this step.
  */
-void step_limit_energy(struct step *s, bool cut_short);
+void step_limit_energy(struct step *s);
+
+/*
+ * The last resort for an island that a solve did not part: at rest when it touches what stands still,
+ * else in its motion as one rigid body.
+ */
+void step_calm_island(struct step *s, uint32_t island);
 
 /* The active bodies of an island, in order; REST_ISLAND_END after the last. */
 uint32_t step_island_first(const struct step *s, uint32_t island);
@@ -135,14 +184,19 @@ struct body_state step_rigid_state(const struct step *s, const struct step_rigid
 void step_add_angular(const struct step *s, const carom_v3_q32 *about, uint32_t i,
                       struct fix_wide sum_q72[3]);
 
+/* ------------------------------------------------------------------------ finish */
+
 /* Keep the impulses of contacts that the next frame may continue. */
 void step_drop_warm(struct step *s);
 
 /*
- * Freeze bodies that left the range of the formats: where they are, or when that place is out of
- * range in the pose they began the frame with. Returns whether any did.
+ * Freeze a body that left the range of the formats: where it is, or when that place is out of range in
+ * the pose it began the frame with. Returns whether it did.
  */
-bool step_retire(struct step *s);
+bool step_retire(struct step *s, uint32_t i);
+
+/* The list of interfering faces, when pairs were gathered in this step. */
+int step_note_faces(struct step *s);
 
 /* Begin and end of touching, waking and rest; CAROM_OK or CAROM_ERR_PAIRS_FULL. */
 int step_finish_events(struct step *s);

@@ -2,10 +2,16 @@
 /*
  * world_step - one frame, top to bottom: the paper's figures 4 and 5.
  *
+ * A frame is a sequence of events: a pair hits, or a body's slice ends. Each changes the bodies that it
+ * belongs to, at its own time; all others go on along their paths.
+ *
  * The frame is built in the state that is not current and becomes current at the very end, so that
  * an error on the way leaves the world as it was.
  */
 #include "parts.h"
+
+/* Hits of a body in a frame, unless the caller says otherwise. */
+#define EVENTS_OF_A_BODY 32
 
 /* The bodies that are awake. */
 static uint32_t count_active(const struct carom_world *w)
@@ -28,6 +34,15 @@ static void forget(struct carom_world *w)
     pool_clear(&w->pools[CAROM_POOL_contacts]);
 }
 
+static void begin_clock(struct body *b)
+{
+    b->touched = b->in_contact;
+    b->in_contact = b->stands = b->strained = b->placed = b->member = false;
+    b->from_q30 = b->to_q30 = 0;
+    b->events = b->cuts = b->shorter = 0;
+    b->work2 = (struct fix_wide){0, 0};
+}
+
 /*
  * What stands still is the same in both states. So is what sleeps in both: it did so in the step
  * before, and whatever changes it wakes it.
@@ -43,8 +58,7 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
         if (w->bodies[i].moving && !(from->asleep && to->asleep && !to->woken)) {
             *to = *from;
         }
-        w->bodies[i].in_contact = false;
-        w->bodies[i].work2 = (struct fix_wide){0, 0};
+        begin_clock(&w->bodies[i]);
     }
 }
 
@@ -52,14 +66,12 @@ void step_begin(struct step *s, struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
     struct world_state *next = &w->states[1 - w->now];
-    uint32_t active = count_active(w);
-
     s->w = w;
     s->next = next;
-    s->left_q30 = CAROM_ONE_Q30;
-    s->path_q30 = 0;
-    /* 8 sub-steps a frame and 2 for each body that is awake, unless the caller says otherwise */
-    s->substep_cap = w->config.substep_cap > 0 ? w->config.substep_cap : 8 + 2 * active;
+    s->now_q30 = 0;
+    s->active = count_active(w);
+    s->cut_short = false;
+    s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     copy_bodies(w, next);
     memcpy(next->warm, now->warm, now->warm_count * sizeof *next->warm);
     next->warm_count = now->warm_count;
@@ -78,42 +90,88 @@ void step_begin(struct step *s, struct carom_world *w)
     pool_clear(&w->pools[CAROM_POOL_contacts]);
 }
 
-/* To the first hit and through it, or to the end of a slice without one. */
-static int substep(struct step *s)
+/* The paths of all that move, at the start of the frame, and the first hits on them. */
+static int set_out(struct step *s)
 {
-    int32_t slice_q30;
-    bool found = false;
+    struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    s->w->stats.substeps++;
-    /* what nothing has changed since it was gathered for is in range */
-    if (s->path_q30 == 0 && step_retire(s)) {
-        result = step_gather(s);
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        w->bodies[i].member = step_active(s, i);
+        if (w->bodies[i].member) {
+            result = step_set_path(s, i);
+        }
     }
-    if (result == CAROM_OK) {
-        result = step_predict(s, &slice_q30);
+    step_mark(w, CAROM_STAGE_PREDICT);
+    return result == CAROM_OK ? step_search_members(s) : result;
+}
+
+/* The end of a body's slice: the next one begins. */
+static int end_slice(struct step *s, uint32_t i)
+{
+    int result;
+
+    for (uint32_t k = 0; k < s->w->body_count; k++) {
+        s->w->bodies[k].member = k == i;
     }
-    if (result == CAROM_OK) {
-        result = step_first_hit(s, &found);
+    s->now_q30 = s->w->bodies[i].to_q30;
+    step_leave_path(s, i, s->now_q30);
+    result = step_set_path(s, i);
+    step_mark(s->w, CAROM_STAGE_PREDICT);
+    return result == CAROM_OK ? step_search_members(s) : result;
+}
+
+/* Events one by one, until none is left in the frame. */
+static int run(struct step *s)
+{
+    enum step_event event;
+    uint32_t number = 0;
+    int result = CAROM_OK;
+
+    while (result == CAROM_OK && (event = step_next(s, &number)) != STEP_END) {
+        bool cut = false;
+
+        s->w->stats.substeps++;
+        if (event == STEP_SLICE) {
+            result = end_slice(s, number);
+            continue;
+        }
+        result = step_cut(s, number, &cut);
+        if (result == CAROM_OK && !cut) {
+            result = step_answer(s, number);
+        }
     }
-    if (result == CAROM_OK && !found) {
-        step_advance(s, CAROM_ONE_Q30, slice_q30);
-        return CAROM_OK;
+    return result;
+}
+
+/* Where everybody is when the frame ends. */
+static void arrive(struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        struct body *b = &s->w->bodies[i];
+
+        if (step_active(s, i) && b->stands) {
+            body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
+        } else if (step_active(s, i)) {
+            step_leave_path(s, i, CAROM_ONE_Q30);
+        }
     }
-    if (result == CAROM_OK) {
-        result = step_go_to_hit(s, slice_q30, &found);
-    }
-    return result == CAROM_OK && found ? step_respond(s) : result;
+    step_mark(s->w, CAROM_STAGE_ADVANCE);
 }
 
 /* What a whole frame ends with. */
-static int finish(struct step *s, bool cut_short)
+static int finish(struct step *s)
 {
     struct carom_world *w = s->w;
+    int result = step_note_faces(s);
 
-    interfere_finish(&w->interfere);
-    step_limit_energy(s, cut_short);
-    step_retire(s);
+    if (result < 0) {
+        return result;
+    }
+    step_limit_energy(s);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        (void)step_retire(s, i);
+    }
     if (w->config.sleep) {
         rest_sleep(w->bodies, s->next->bodies, w->body_count, s->next->touching,
                    s->next->touching_count);
@@ -153,35 +211,45 @@ static void step_idle(struct carom_world *w)
     }
 }
 
-/* A frame; whether the sub-steps did not suffice for the whole of it. */
-static int step_frame(struct carom_world *w, bool *cut_short)
+/* A frame; `single`: regions for this one alone. */
+static int step_frame(struct carom_world *w, bool single, bool *cut_short)
 {
     struct step s;
     int result;
 
     step_begin(&s, w);
-    result = step_gather_first(&s);
+    s.single = single;
+    result = step_begin_regions(&s);
     if (result == CAROM_OK) {
         result = step_start_contacts(&s);
     }
-    while (result == CAROM_OK && s.left_q30 > 0 && !*cut_short) {
-        *cut_short = w->stats.substeps == s.substep_cap;
-        if (!*cut_short) {
-            result = substep(&s);
-        }
+    if (result == CAROM_OK) {
+        result = set_out(&s);
     }
     if (result == CAROM_OK) {
-        result = finish(&s, *cut_short);
+        result = run(&s);
+    }
+    if (result == CAROM_OK) {
+        arrive(&s);
+        result = finish(&s);
     }
     if (result < 0) {
         forget(w);
         return result;
     }
+    *cut_short = s.cut_short;
     w->now = 1 - w->now;
     world_halt_surfaces(w);
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);
     return result;
+}
+
+/* What regions of several frames may have more of than one frame has. */
+static bool may_be_less(int error)
+{
+    return error == CAROM_ERR_FACES_FULL || error == CAROM_ERR_PAIRS_FULL ||
+           error == CAROM_ERR_RANGE;
 }
 
 int carom_world_step(struct carom_world *w)
@@ -198,11 +266,9 @@ int carom_world_step(struct carom_world *w)
     if (w->idle || is_idle(w)) {
         step_idle(w);
     } else {
-        status = step_frame(w, &cut_short);
-        if (status == CAROM_ERR_FACES_FULL) {
-            /* what was gathered for several frames may have more faces than this one: gather anew */
-            cut_short = false;
-            status = step_frame(w, &cut_short);
+        status = step_frame(w, false, &cut_short);
+        if (may_be_less(status)) {
+            status = step_frame(w, true, &cut_short);
         }
     }
     if (cut_short && status == CAROM_OK) {

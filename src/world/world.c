@@ -7,7 +7,8 @@
 /* The sizes that CAROM_WORLD_BYTES promises: what there is for one of each ... */
 #define OF_BODY                                                                                    \
     (sizeof(struct body) + 2 * sizeof(struct body_state) + 2 * sizeof(struct carom_event))
-#define OF_PAIR    (3 * sizeof(struct pair) + 3 * sizeof(struct carom_event))
+#define OF_PAIR                                                                                    \
+    (3 * sizeof(struct pair) + sizeof(struct pair_work) + 3 * sizeof(struct carom_event))
 #define OF_CONTACT (sizeof(struct contact) + 2 * sizeof(struct rest_warm))
 _Static_assert(OF_BODY <= CAROM_BODY_BYTES, "CAROM_BODY_BYTES");
 _Static_assert(OF_PAIR <= CAROM_PAIR_BYTES, "CAROM_PAIR_BYTES");
@@ -21,6 +22,7 @@ _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDA
 #define ROUNDINGS                                                                                  \
     (ROUNDING(struct carom_world) + ROUNDING(struct contact_work) +                                \
      ROUNDING(struct contact_roll) + ROUNDING(struct body) + 3 * ROUNDING(struct pair) +           \
+     ROUNDING(struct pair_work) +                                                                  \
      2 * ROUNDING(struct body_state) + 2 * ROUNDING(struct rest_warm) +                            \
      ROUNDING(struct carom_event) + ROUNDING(struct contact) + ROUNDING(struct carom_face_ref) +   \
      ROUNDING(struct zentry) + ROUNDING(struct candidate))
@@ -65,6 +67,7 @@ static void carve(struct carom_world *w, struct arena *arena)
     w->rest.rolls = (struct contact_roll *)((uint8_t *)w->scratch + works);
     w->bodies = arena_carve(arena, caps->bodies * sizeof *w->bodies);
     w->pairs = arena_carve(arena, caps->pairs * sizeof *w->pairs);
+    w->meetings = arena_carve(arena, caps->pairs * sizeof *w->meetings);
     for (int i = 0; i < 2; i++) {
         struct world_state *s = &w->states[i];
 
@@ -116,6 +119,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     w->interfere.face_pool = &w->pools[CAROM_POOL_faces];
     w->interfere.lists.pool = &w->pools[CAROM_POOL_entries];
     w->interfere.candidate_pool = &w->pools[CAROM_POOL_candidates];
+    w->interfere.meetings = w->meetings;
     *world = w;
     return CAROM_OK;
 }

@@ -44,8 +44,9 @@ struct carom_world {
     uint32_t now; /* which of the two is current */
     bool idle;    /* the last step found nothing awake, and nothing has changed since */
 
-    /* set by broad */
+    /* set by broad, in order; and what belongs to each */
     struct pair *pairs;
+    struct pair_work *meetings;
 
     union world_scratch *scratch;
 

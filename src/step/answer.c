@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The answer to a hit: the island that the two bodies belong to at that time, its contacts, the solve,
+ * and new paths for its bodies. Nobody else is changed.
+ */
+#include "parts.h"
+
+/* A pair that hits again without any time between: so often with shorter paths, */
+#define SHORTER_MAX 5
+/* and then the island goes on as one body. */
+#define CALM_AFTER 1
+
+/* The hit of a pair, with the features as they meet. */
+static struct boyse_hit hit_of(struct step *s, uint32_t number)
+{
+    const struct pair_work *m = &s->w->meetings[number];
+    struct boyse_hit hit = {.candidate = {(uint16_t)number, m->kind, m->i, m->j}};
+    int32_t from_q30, to_q30, t_q30;
+    struct boyse_pair *pair;
+
+    (void)step_window(s, number, &from_q30, &to_q30);
+    t_q30 = (int32_t)(((int64_t)(m->hit_q30 - from_q30) << 30) / (to_q30 - from_q30));
+    step_open_window(s, number, from_q30, to_q30);
+    pair = step_set_pair(s->w, number);
+    boyse_pair_for(pair, &hit.candidate);
+    hit.touch.valid = false;
+    if (m->late) {
+        boyse_touch(pair, &hit.candidate, t_q30, &hit.touch);
+    }
+    if (!hit.touch.valid) {
+        boyse_touch(pair, &hit.candidate, m->root_q30, &hit.touch);
+    }
+    step_close_window(s, number, from_q30, to_q30);
+    return hit;
+}
+
+/* A body of the island: it leaves its path. */
+static void join(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    if (step_active(s, i) && !b->member) {
+        step_leave_path(s, i, s->now_q30);
+        body_place(b, &s->next->bodies[i]);
+        b->member = true;
+    }
+}
+
+/*
+ * Contacts of a pair of which one body is a member. The other is one as well when they touch. Returns
+ * an error, or whether there is a new member.
+ */
+static int check_with(struct step *s, uint32_t number)
+{
+    const struct carom_world *w = s->w;
+    const struct pair *p = &w->pairs[number];
+    uint32_t other = w->bodies[p->a].member ? p->b : p->a, before;
+    int result;
+
+    step_look_at(s, other, s->now_q30);
+    contact_drop_pair(&s->w->rest.list, (uint16_t)number);
+    before = w->rest.list.pool->used;
+    result = step_check_pair(s, number);
+    if (result == CAROM_OK && w->rest.list.pool->used > before && step_active(s, other) &&
+        !w->bodies[other].member) {
+        join(s, other);
+        return 1;
+    }
+    return result;
+}
+
+/* The island of the members at hand, and all of its contacts. */
+static int grow(struct step *s)
+{
+    struct carom_world *w = s->w;
+    int result = 1;
+
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        w->meetings[n].checked = false;
+    }
+    while (result == 1) {
+        result = CAROM_OK;
+        for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used && result >= 0; n++) {
+            const struct pair *p = &w->pairs[n];
+
+            if (!w->meetings[n].checked && (w->bodies[p->a].member || w->bodies[p->b].member)) {
+                int grown = check_with(s, n);
+
+                w->meetings[n].checked = true;
+                result = grown != CAROM_OK ? grown : result;
+            }
+        }
+    }
+    return result;
+}
+
+/* Bodies that were woken take part from now on. */
+static int adopt_woken(struct step *s)
+{
+    int result = CAROM_OK;
+
+    for (uint32_t i = 0; i < s->w->body_count && result == CAROM_OK; i++) {
+        if (s->w->bodies[i].woke && s->w->bodies[i].standing) {
+            result = step_adopt(s, i);
+        }
+    }
+    return result;
+}
+
+static uint32_t find_pair(const struct carom_world *w, const struct pair *p)
+{
+    uint32_t n = 0;
+
+    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
+        n++;
+        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
+    }
+    return n;
+}
+
+/* The island of a hit with its contacts, that of the hit among them. What sleeps there wakes. */
+static int gather_island(struct step *s, const struct pair *p, struct boyse_hit *hit)
+{
+    struct carom_world *w = s->w;
+    int result;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].member = w->bodies[i].woke = false;
+    }
+    for (;;) {
+        join(s, p->a);
+        join(s, p->b);
+        for (uint32_t i = 0; i < w->body_count; i++) {
+            if (w->bodies[i].woke) {
+                join(s, i);
+            }
+        }
+        result = grow(s);
+        if (result == CAROM_OK) {
+            struct boyse_pair *pair = step_set_pair(w, hit->candidate.pair);
+
+            boyse_pair_for(pair, &hit->candidate);
+            if (!contact_force(&w->rest.list, pair, hit)) {
+                result = CAROM_ERR_CONTACTS_FULL;
+            }
+        }
+        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
+            return result;
+        }
+        result = adopt_woken(s);
+        if (result < 0) {
+            return result;
+        }
+        hit->candidate.pair = (uint16_t)find_pair(w, p);
+    }
+}
+
+/* Only the island's contacts are solved. */
+static void leave_others_idle(struct step *s)
+{
+    const struct carom_world *w = s->w;
+
+    for (uint32_t i = 0; i < w->rest.list.pool->used; i++) {
+        struct contact *c = &w->rest.list.contacts[i];
+        const struct pair *p = &w->pairs[c->key.pair];
+
+        c->idle = !w->bodies[p->a].member && !w->bodies[p->b].member;
+    }
+}
+
+static int solve_island(struct step *s)
+{
+    struct carom_world *w = s->w;
+    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
+    int result = step_settle_contacts(s);
+
+    leave_others_idle(s);
+    if (result == CAROM_OK) {
+        result = step_solve(s, false);
+    }
+    if (result == CAROM_OK && rest_enter_contact(&w->rest, left_q30)) {
+        result = step_solve(s, false);
+    }
+    return result;
+}
+
+/*
+ * A pair that hits again where it was answered. The turn of a path is that of its middle, so a long path
+ * may close what opens as the bodies move now: shorter ones do not. When these hit as well the solve
+ * was not able to part the bodies.
+ */
+static void insist(struct step *s, const struct pair *p, uint32_t repeats)
+{
+    struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    bool turn = (s->next->bodies[p->a].angular.c[0] | s->next->bodies[p->a].angular.c[1] |
+                 s->next->bodies[p->a].angular.c[2] | s->next->bodies[p->b].angular.c[0] |
+                 s->next->bodies[p->b].angular.c[1] | s->next->bodies[p->b].angular.c[2]) != 0;
+
+    if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0)) {
+        step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
+    } else if (turn && repeats > 0) {
+        a->shorter = b->shorter = (uint8_t)(repeats < SHORTER_MAX ? repeats : SHORTER_MAX);
+    }
+}
+
+/* Count a hit of a body; whether that was one too many. */
+static bool spend(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    return step_active(s, i) && ++b->events > s->event_cap;
+}
+
+/* The island stands still for what is left of the frame. */
+static void stop_island(struct step *s, const struct pair *p)
+{
+    struct carom_world *w = s->w;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].stands |= w->bodies[i].member;
+    }
+    s->cut_short = true;
+    step_add_event(w, CAROM_EVENT_CUT, p->a, p->b);
+    w->stats.cut_islands++;
+}
+
+/* Members have new paths; what was only looked at goes on along its own. */
+static int go_on(struct step *s)
+{
+    struct carom_world *w = s->w;
+    int result = CAROM_OK;
+
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        if (w->bodies[i].member) {
+            result = step_set_path(s, i);
+            w->bodies[i].shorter = 0;
+        } else if (w->bodies[i].placed) {
+            step_look_away(s, i);
+        }
+    }
+    step_mark(w, CAROM_STAGE_PREDICT);
+    return result == CAROM_OK ? step_search_members(s) : result;
+}
+
+int step_answer(struct step *s, uint32_t number)
+{
+    struct carom_world *w = s->w;
+    struct pair_work *m = &w->meetings[number];
+    const struct pair p = w->pairs[number];
+    struct boyse_hit hit = hit_of(s, number);
+    uint32_t repeats;
+    int result;
+
+    s->now_q30 = m->hit_q30;
+    repeats = m->answered_q30 == s->now_q30 ? m->repeats + 1u : 0;
+    m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
+    m->answered_q30 = s->now_q30;
+    w->stats.hits++;
+    result = gather_island(s, &p, &hit);
+    if (result == CAROM_OK) {
+        result = solve_island(s);
+    }
+    if (result < 0) {
+        return result;
+    }
+    insist(s, &p, repeats);
+    if (spend(s, p.a) | spend(s, p.b)) {
+        stop_island(s, &p);
+    }
+    return go_on(s);
+}

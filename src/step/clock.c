@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT */
+/* Clocks and paths: each body's path takes a part of the frame of its own. */
+#include "parts.h"
+
+/* A path ends where so little is left of it. */
+#define END_Q30 2
+/* A slice ends when the centre has gone so many radii: what is swept for it stays bounded. */
+#define WAY_RADII 16
+
+void step_mark(struct carom_world *w, enum carom_stage stage)
+{
+    if (w->config.ticks) {
+        uint32_t now = w->config.ticks();
+
+        w->stats.ticks[stage] += now - w->mark_tick;
+        w->mark_tick = now;
+    }
+}
+
+/* What a body takes of gravity on its path: in contact it has taken all of it. */
+static const carom_v3_q40 *pull_on(const struct body *b)
+{
+    return b->in_contact || b->stands ? NULL : &b->acceleration;
+}
+
+/* A time of the frame as one of a body's path. */
+static int32_t path_time(const struct body *b, int32_t t_q30)
+{
+    int32_t slice_q30 = b->to_q30 - b->from_q30;
+
+    if (t_q30 <= b->from_q30) {
+        return 0;
+    }
+    return t_q30 >= b->to_q30 - END_Q30
+               ? CAROM_ONE_Q30
+               : (int32_t)(((int64_t)(t_q30 - b->from_q30) << 30) / slice_q30);
+}
+
+/* The body's own path, from its clock. */
+static void set_own_path(const struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    if (b->stands || b->to_q30 == b->from_q30) {
+        body_place(b, &s->next->bodies[i]);
+    } else {
+        body_predict(b, &s->next->bodies[i], b->to_q30 - b->from_q30, pull_on(b));
+    }
+}
+
+struct body_state step_state_at(const struct step *s, uint32_t i, int32_t t_q30)
+{
+    const struct body *b = &s->w->bodies[i];
+    struct body_state state = s->next->bodies[i];
+
+    if (step_active(s, i) && !b->stands && t_q30 > b->from_q30) {
+        body_advance(b, &state, path_time(b, t_q30), b->to_q30 - b->from_q30, pull_on(b));
+    }
+    return state;
+}
+
+void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    struct body_state *state = &s->next->bodies[i];
+
+    if (b->placed) {
+        step_look_away(s, i);
+    }
+    if (t_q30 > b->from_q30) {
+        b->strained |= b->path.turns && !b->in_contact && path_time(b, t_q30) < CAROM_ONE_Q30;
+        body_region_advance(b, t_q30 - b->from_q30, b->to_q30 - b->from_q30);
+        *state = step_state_at(s, i, t_q30);
+    }
+    b->from_q30 = b->to_q30 = t_q30;
+}
+
+void step_look_at(struct step *s, uint32_t i, int32_t t_q30)
+{
+    struct body *b = &s->w->bodies[i];
+
+    if (step_active(s, i) && !b->placed) {
+        struct body_state state = step_state_at(s, i, t_q30);
+
+        body_place(b, &state);
+        b->placed = true;
+    }
+}
+
+void step_look_away(struct step *s, uint32_t i)
+{
+    s->w->bodies[i].placed = false;
+    set_own_path(s, i);
+}
+
+int32_t step_slice(const struct step *s, uint32_t i, int32_t left_q30)
+{
+    return body_slice(&s->w->bodies[i], &s->next->bodies[i], left_q30);
+}
+
+/* The slice cut where the path at hand has gone as far as one may. */
+static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
+{
+    int64_t most_q22 = (int64_t)b->radius_q22 * WAY_RADII, way_q22;
+    const int64_t *v = b->path.v.c;
+
+    if ((carom_abs(v[0]) + carom_abs(v[1]) + carom_abs(v[2])) >> 18 <= most_q22) {
+        return slice_q30;
+    }
+    way_q22 = fix_length_bound(v) >> 18;
+    return way_q22 <= most_q22 ? slice_q30 : (int32_t)(slice_q30 * most_q22 / (way_q22 + 1)) + 1;
+}
+
+/* What is left of a frame is not to be a sliver. */
+static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
+{
+    return left_q30 > slice_q30 && left_q30 - slice_q30 < STEP_SLICE_MIN_Q30 &&
+                   slice_q30 > 2 * STEP_SLICE_MIN_Q30
+               ? slice_q30 - STEP_SLICE_MIN_Q30
+               : slice_q30;
+}
+
+int step_set_path(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30, shorter_q30;
+
+    b->placed = false;
+    b->cuts = 0;
+    b->from_q30 = s->now_q30;
+    b->to_q30 = CAROM_ONE_Q30;
+    if (left_q30 == 0 || step_retire(s, i)) {
+        body_place(b, &s->next->bodies[i]);
+        return CAROM_OK;
+    }
+    if (!b->stands) {
+        slice_q30 = step_slice(s, i, left_q30);
+        shorter_q30 = slice_q30 >> (2 * b->shorter);
+        if (b->shorter > 0) {
+            slice_q30 = shorter_q30 > STEP_SLICE_MIN_Q30 ? shorter_q30 : slice_q30;
+        }
+        slice_q30 = avoid_sliver(slice_q30, left_q30);
+        b->to_q30 = s->now_q30 + slice_q30;
+    }
+    set_own_path(s, i);
+    shorter_q30 = cut_by_way(b, slice_q30);
+    if (shorter_q30 < slice_q30) {
+        slice_q30 = avoid_sliver(shorter_q30, left_q30);
+        b->to_q30 = s->now_q30 + slice_q30;
+        set_own_path(s, i);
+    }
+    return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
+}
+
+/* ------------------------------------------------------------------ windows */
+
+bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32_t *to_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    const uint32_t both[2] = {p->a, p->b};
+
+    *from_q30 = 0;
+    *to_q30 = CAROM_ONE_Q30;
+    for (int k = 0; k < 2; k++) {
+        const struct body *b = &s->w->bodies[both[k]];
+
+        if (s->next->bodies[both[k]].out) {
+            return false;
+        }
+        if (step_active(s, both[k])) {
+            *from_q30 = b->from_q30 > *from_q30 ? b->from_q30 : *from_q30;
+            *to_q30 = b->to_q30 < *to_q30 ? b->to_q30 : *to_q30;
+        }
+    }
+    return *to_q30 > *from_q30 && (step_active(s, p->a) || step_active(s, p->b));
+}
+
+/* Whether a body's path is another than that of a window. */
+static bool has_own_window(const struct step *s, uint32_t i, int32_t from_q30, int32_t to_q30)
+{
+    const struct body *b = &s->w->bodies[i];
+
+    return step_active(s, i) && !b->stands && (b->from_q30 != from_q30 || b->to_q30 != to_q30);
+}
+
+void step_open_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
+{
+    const uint32_t both[2] = {s->w->pairs[number].a, s->w->pairs[number].b};
+
+    for (int k = 0; k < 2; k++) {
+        struct body *b = &s->w->bodies[both[k]];
+
+        if (has_own_window(s, both[k], from_q30, to_q30)) {
+            body_cut_path(b, &s->next->bodies[both[k]], path_time(b, from_q30),
+                          path_time(b, to_q30));
+        }
+    }
+}
+
+void step_close_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
+{
+    const uint32_t both[2] = {s->w->pairs[number].a, s->w->pairs[number].b};
+
+    for (int k = 0; k < 2; k++) {
+        if (has_own_window(s, both[k], from_q30, to_q30)) {
+            set_own_path(s, both[k]);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Paths that are set again for the hit they lead to. The turn over a part of a slice is not a part of
+ * the turn over the whole, and only at the end of a path has a body the energy that it had before.
+ */
+#include "parts.h"
+
+/* A path is set again so often at most, */
+#define CUTS_MAX 8
+/* and not for so little of its end. */
+#define END_Q30 2
+
+/* Whether a body's path turns and goes on behind a hit. */
+static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
+{
+    const struct body *b = &s->w->bodies[i];
+
+    return step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
+           b->cuts < CUTS_MAX && b->to_q30 - t_q30 > END_Q30 &&
+           t_q30 - b->from_q30 >= STEP_SLICE_MIN_Q30;
+}
+
+/* Whether nobody near the body was asked in between, with a path that has gone since. */
+static bool may_cut(const struct step *s, uint32_t i)
+{
+    const struct carom_world *w = s->w;
+
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        const struct pair *p = &w->pairs[n];
+        const struct pair_work *m = &w->meetings[n];
+        uint32_t other = p->a == i ? p->b : p->a;
+
+        if ((p->a == i || p->b == i) && !(m->kept && m->count == 0) && step_active(s, other) &&
+            w->bodies[other].from_q30 > w->bodies[i].from_q30) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Set the path of a body again to end at a time; false when it leaves its region. */
+static bool set_end(struct step *s, uint32_t i, int32_t to_q30)
+{
+    struct body *b = &s->w->bodies[i];
+
+    b->to_q30 = to_q30;
+    body_predict(b, &s->next->bodies[i], to_q30 - b->from_q30, &b->acceleration);
+    return body_region_holds(b, to_q30 - b->from_q30);
+}
+
+/* Whether any pair of the members hits before the last event. */
+static bool hits_in_the_past(const struct step *s)
+{
+    const struct carom_world *w = s->w;
+
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        if ((w->bodies[w->pairs[n].a].member || w->bodies[w->pairs[n].b].member) &&
+            w->meetings[n].hit_q30 < s->now_q30) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
+{
+    struct boyse_touch touch;
+
+    boyse_touch(pair, c, t_q30, &touch);
+    return touch.valid ? touch.gap_q22 : INT32_MAX;
+}
+
+/*
+ * Paths that end at a hit have no root before their end as a rule, and the features are at the event
+ * gap there, or as near as makes no difference: then that is the hit. A path that ends nearer is left
+ * where a quarter of the skin, or what there was at its start, is left of the gap.
+ */
+static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
+{
+    struct pair_work *m = &s->w->meetings[number];
+    const struct candidate c = {(uint16_t)number, m->kind, m->i, m->j};
+    int32_t low = 0, high = CAROM_ONE_Q30, least, end;
+    struct boyse_pair *pair;
+
+    step_open_window(s, number, from_q30, to_q30);
+    pair = step_set_pair(s->w, number);
+    boyse_pair_for(pair, &c);
+    end = gap_at(pair, &c, high);
+    least = gap_at(pair, &c, 0);
+    least = least < pair->skin_q22 / 4 ? least : pair->skin_q22 / 4;
+    for (int round = 0; round < 12 && end < least; round++) {
+        int32_t middle = low + (high - low) / 2;
+
+        *(gap_at(pair, &c, middle) >= least ? &low : &high) = middle;
+    }
+    if (end <= pair->skin_q22 / 2 + pair->skin_q22 / 32) {
+        low = end < least ? low : CAROM_ONE_Q30;
+        m->hit_q30 = from_q30 + (int32_t)(((int64_t)(to_q30 - from_q30) * low) >> 30);
+        m->root_q30 = CAROM_ONE_Q30;
+        m->late = false;
+    }
+    step_close_window(s, number, from_q30, to_q30);
+}
+
+static void set_members(struct step *s, const struct pair *p, const bool cut[2])
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        s->w->bodies[i].member = (cut[0] && i == p->a) || (cut[1] && i == p->b);
+    }
+}
+
+int step_cut(struct step *s, uint32_t number, bool *done)
+{
+    const struct pair p = s->w->pairs[number];
+    const struct pair_work was = s->w->meetings[number];
+    const uint32_t both[2] = {p.a, p.b};
+    const bool cut[2] = {turns_on(s, p.a, was.hit_q30), turns_on(s, p.b, was.hit_q30)};
+    int32_t old_q30[2], from_q30, to_q30;
+    bool good = true;
+    int result;
+
+    *done = false;
+    if ((!cut[0] && !cut[1]) || (cut[0] && !may_cut(s, p.a)) || (cut[1] && !may_cut(s, p.b))) {
+        return CAROM_OK;
+    }
+    set_members(s, &p, cut);
+    for (int k = 0; k < 2; k++) {
+        struct body *b = &s->w->bodies[both[k]];
+
+        old_q30[k] = b->to_q30;
+        if (cut[k]) {
+            b->cuts++;
+            good &= set_end(s, both[k], was.hit_q30);
+        }
+    }
+    s->w->stats.refinements++;
+    result = good ? step_search_members(s) : CAROM_OK;
+    if (result < 0) {
+        return result;
+    }
+    *done = good && !hits_in_the_past(s);
+    if (*done) {
+        struct pair_work *m = &s->w->meetings[number];
+
+        if (m->hit_q30 == PAIRS_NEVER && step_window(s, number, &from_q30, &to_q30)) {
+            m->kind = was.kind;
+            m->i = was.i;
+            m->j = was.j;
+            meet_at_end(s, number, from_q30, to_q30);
+        }
+        return CAROM_OK;
+    }
+    for (int k = 0; k < 2; k++) { /* back to the paths that were asked */
+        if (cut[k]) {
+            (void)set_end(s, both[k], old_q30[k]);
+            s->w->bodies[both[k]].cuts = CUTS_MAX;
+        }
+    }
+    result = step_search_members(s);
+    s->w->meetings[number] = (struct pair_work){
+        .first = s->w->meetings[number].first, .count = s->w->meetings[number].count,
+        .kept = s->w->meetings[number].kept, .hit_q30 = was.hit_q30, .root_q30 = was.root_q30,
+        .late = was.late, .kind = was.kind, .i = was.i, .j = was.j, .repeats = was.repeats,
+        .answered_q30 = was.answered_q30};
+    return result;
+}

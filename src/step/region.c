@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Regions of bodies, and the pairs that these make. A region costs its own body's pairs a new search
+ * and nobody else. What is here changes what a frame costs, never what it computes.
+ */
+#include "parts.h"
+
+/*
+ * A region ends when a body has gone this part of its radius: one in contact, one in flight, which a hit may
+ * lead aside long before, or one while nothing is near.
+ */
+#define REGION_PARTS        10
+#define REGION_PARTS_FLIGHT 20
+#define REGION_PARTS_FREE   4
+/* A hit leads a body that goes farther than this in a slice aside by more than any room. */
+#define ROOM_WAY_SKINS 10
+
+/* ------------------------------------------------------------------ numbers */
+
+/* Where a pair is in the list, or belongs. */
+static uint32_t place_of(const struct carom_world *w, uint32_t a, uint32_t b)
+{
+    uint32_t low = 0, high = w->pools[CAROM_POOL_pairs].used;
+
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        const struct pair *p = &w->pairs[middle];
+
+        if (p->a < a || (p->a == a && p->b < b)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
+{
+    return place < w->pools[CAROM_POOL_pairs].used && w->pairs[place].a == a &&
+           w->pairs[place].b == b;
+}
+
+/* Pairs from a place on have other numbers: in the pool of candidates and in the list of contacts. */
+static void renumber(struct carom_world *w, uint32_t place, int by)
+{
+    struct contact_list *list = &w->rest.list;
+
+    for (uint32_t i = 0; i < w->pools[CAROM_POOL_candidates].used; i++) {
+        struct candidate *c = &w->interfere.candidates[i];
+
+        c->pair = (uint16_t)(c->pair >= place ? c->pair + by : c->pair);
+    }
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        struct candidate *key = &list->contacts[i].key;
+
+        key->pair = (uint16_t)(key->pair >= place ? key->pair + by : key->pair);
+    }
+}
+
+static int insert_pair(struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
+{
+    struct pool *pool = &w->pools[CAROM_POOL_pairs];
+    uint32_t behind = pool->used - place;
+
+    if (pool_take(pool) < 0) {
+        return CAROM_ERR_PAIRS_FULL;
+    }
+    memmove(&w->pairs[place + 1], &w->pairs[place], behind * sizeof *w->pairs);
+    memmove(&w->meetings[place + 1], &w->meetings[place], behind * sizeof *w->meetings);
+    w->pairs[place] = (struct pair){(uint16_t)a, (uint16_t)b};
+    w->meetings[place] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
+    renumber(w, place, 1);
+    return CAROM_OK;
+}
+
+static void remove_pair(struct carom_world *w, uint32_t place)
+{
+    struct pool *pool = &w->pools[CAROM_POOL_pairs];
+    struct contact_list *list = &w->rest.list;
+
+    contact_drop_pair(list, (uint16_t)place);
+    w->meetings[place].kept = false;
+    pool->used--;
+    memmove(&w->pairs[place], &w->pairs[place + 1], (pool->used - place) * sizeof *w->pairs);
+    memmove(&w->meetings[place], &w->meetings[place + 1],
+            (pool->used - place) * sizeof *w->meetings);
+    /* its candidates are garbage of a pair that keeps none of them there */
+    renumber(w, place + 1, -1);
+}
+
+/* The pairs of a body whose region is new: they are gathered when somebody asks for them. */
+static int set_pairs(struct step *s, uint32_t i)
+{
+    struct carom_world *w = s->w;
+    int result = CAROM_OK;
+
+    for (uint32_t k = 0; k < w->body_count && result == CAROM_OK; k++) {
+        bool first = broad_is_pair(w->bodies, s->next->bodies, i, k);
+        uint32_t a = first ? i : k, b = first ? k : i, place;
+        bool near = k != i && (first || broad_is_pair(w->bodies, s->next->bodies, k, i)) &&
+                    broad_boxes_meet(&w->bodies[i], &w->bodies[k]);
+
+        if (!near && !first) { /* the other way round, if it was one that is none any more */
+            a = w->bodies[i].moving && (!w->bodies[k].moving || i > k) ? i : k;
+            b = a == i ? k : i;
+        }
+        place = place_of(w, a, b);
+        if (is_at(w, place, a, b)) {
+            w->meetings[place].kept = false;
+            if (!near) {
+                remove_pair(w, place);
+            }
+        } else if (near) {
+            result = insert_pair(w, place, a, b);
+        }
+    }
+    return result;
+}
+
+static bool has_pairs(const struct carom_world *w, uint32_t i)
+{
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        if (w->pairs[n].a == i || w->pairs[n].b == i) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------ regions */
+
+/*
+ * Candidates are gathered for the path at hand, and for what differs from it by no more than some
+ * skins and a part of the way. In flight only a hit changes the path, and after a hit we gather anyway.
+ * So it is with a fast body in contact when the region ends with its path.
+ */
+static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
+{
+    int64_t way_q22, turn_q30, skin_q22 = b->skin_q22;
+    bool contact = b->in_contact || b->touched;
+
+    body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+    if (s->active > 1) {
+        return contact ? 10 * skin_q22 + way_q22 / 16 : 3 * skin_q22 + way_q22 / 64;
+    }
+    if (!lasts && way_q22 > ROOM_WAY_SKINS * skin_q22) {
+        return skin_q22 / 4;
+    }
+    return contact ? 10 * skin_q22 + way_q22 / 32 : skin_q22 + way_q22 / 256;
+}
+
+/*
+ * How long a region may last, for what is swept grows with the time: while no part of the body goes
+ * farther than a part of its radius; as long as the last one held, twice that when it held to its end.
+ */
+static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30)
+{
+    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
+    int64_t way_q22, turn_q30, most_q22, frames = BODY_REGION_FRAMES, held = 1;
+
+    if (slice_q30 < left_q30 || slice_q30 < STEP_SLICE_MIN_Q30 || s->single) {
+        return slice_q30;
+    }
+    if (b->active) {
+        bool to_end = b->region.time_q30 - b->region.elapsed_q30 < CAROM_ONE_Q30;
+
+        held = (b->region.elapsed_q30 >> 30) << to_end;
+    }
+    body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+    way_q22 = (way_q22 << 30) / slice_q30 + 1;
+    most_q22 = b->radius_q22 / (b->alone                      ? REGION_PARTS_FREE
+                                : b->in_contact || b->touched ? REGION_PARTS
+                                                              : REGION_PARTS_FLIGHT);
+    frames = frames * way_q22 > most_q22 ? most_q22 / way_q22 : frames;
+    frames = frames > held ? held : frames;
+    return left_q30 + ((frames > 1 ? frames - 1 : 0) << 30);
+}
+
+static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int64_t time_q30 = region_time(s, b, slice_q30);
+    int64_t room_q22 = room_for(s, b, time_q30 != slice_q30);
+
+    b->active = true;
+    b->standing = false;
+    room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
+    body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
+    broad_set_box(b);
+}
+
+/* A body that stands still: its path, region and box are those of where it is. */
+static void begin_standing(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    b->active = false;
+    b->standing = true;
+    body_place(b, &s->next->bodies[i]);
+    body_region_begin(b, &s->next->bodies[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
+                      mesh_drift_most(b->mesh));
+    broad_set_box(b);
+}
+
+int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int result;
+
+    begin_region(s, i, slice_q30);
+    result = set_pairs(s, i);
+    if (b->alone && has_pairs(s->w, i)) {
+        b->alone = false; /* near others regions are shorter */
+        begin_region(s, i, slice_q30);
+        result = set_pairs(s, i);
+    }
+    b->alone = result == CAROM_OK && !has_pairs(s->w, i);
+    return result;
+}
+
+/* A body's region at the start of a frame, of the path that it is going to take if it goes on so. */
+static void foresee(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t slice_q30 = step_slice(s, i, CAROM_ONE_Q30 - s->now_q30);
+
+    body_predict(b, &s->next->bodies[i], slice_q30, b->touched ? NULL : &b->acceleration);
+    begin_region(s, i, slice_q30);
+    body_place(b, &s->next->bodies[i]);
+}
+
+int step_adopt(struct step *s, uint32_t i)
+{
+    s->w->bodies[i].from_q30 = s->w->bodies[i].to_q30 = s->now_q30;
+    foresee(s, i);
+    return set_pairs(s, i);
+}
+
+/* All regions and all pairs. */
+static int begin_all(struct step *s)
+{
+    struct carom_world *w = s->w;
+    int result;
+
+    pool_clear(&w->pools[CAROM_POOL_candidates]);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (step_active(s, i)) {
+            foresee(s, i);
+        } else if (w->bodies[i].mesh && !w->bodies[i].standing) {
+            begin_standing(s, i);
+        }
+    }
+    result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
+                         w->body_count);
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        w->meetings[n] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
+    }
+    w->interfere.stale = false;
+    return result;
+}
+
+/* A body whose region does not hold any more, or that went to sleep or stopped. */
+static int begin_one(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    if (!step_active(s, i)) {
+        if (b->standing) {
+            return CAROM_OK;
+        }
+        begin_standing(s, i);
+        return set_pairs(s, i);
+    }
+    if (b->active) {
+        body_place(b, &s->next->bodies[i]);
+        if (b->region.elapsed_q30 < b->region.time_q30 && body_region_holds(b, 0)) {
+            return CAROM_OK;
+        }
+    }
+    foresee(s, i);
+    return set_pairs(s, i);
+}
+
+int step_begin_regions(struct step *s)
+{
+    struct carom_world *w = s->w;
+    int result = CAROM_OK;
+
+    /* where nothing is near, to begin anew costs less than to ask whether regions hold */
+    if (w->interfere.stale || s->single || w->pools[CAROM_POOL_pairs].used == 0) {
+        result = begin_all(s);
+    } else {
+        for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+            w->meetings[n].hit_q30 = PAIRS_NEVER;
+            w->meetings[n].answered_q30 = -1;
+        }
+        for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+            result = w->bodies[i].mesh ? begin_one(s, i) : CAROM_OK;
+        }
+    }
+    step_mark(w, CAROM_STAGE_BROAD);
+    return result;
+}

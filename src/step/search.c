@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/* The next hit of a pair, in the window that both paths take. */
+#include "parts.h"
+
+/* A hit in so small a part of the window takes no time. */
+#define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
+/* Gaps change by less through rounding. */
+#define NOISE_Q22 4
+/* Time is halved so often to find when features face each other. */
+#define HALVINGS 20
+
+struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number)
+{
+    const struct pair *p = &w->pairs[number];
+    struct boyse_pair *pair = &w->scratch->gather.pair;
+
+    boyse_pair_begin(pair, &w->bodies[p->a], &w->bodies[p->b]);
+    return pair;
+}
+
+/* How much of a body's region is used up at a time, and what is left of it. */
+static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t *left_q30)
+{
+    const struct body *b = &s->w->bodies[i];
+    int64_t used = 0;
+
+    if (step_active(s, i)) {
+        used = b->region.elapsed_q30 + (t_q30 - b->from_q30);
+        *left_q30 = b->region.time_q30 - used < *left_q30 ? b->region.time_q30 - used : *left_q30;
+    }
+    return used;
+}
+
+/* A pair is gathered from the latest start of its bodies' paths on: before that it was asked. */
+static struct interfere_span span_of(const struct step *s, const struct pair *p)
+{
+    struct interfere_span span = {0, 0, (int64_t)BODY_REGION_FRAMES << 30};
+    int32_t from_q30 = 0;
+
+    if (step_active(s, p->a)) {
+        from_q30 = s->w->bodies[p->a].from_q30;
+    }
+    if (step_active(s, p->b) && s->w->bodies[p->b].from_q30 > from_q30) {
+        from_q30 = s->w->bodies[p->b].from_q30;
+    }
+    span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
+    span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
+    return span;
+}
+
+int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+{
+    struct carom_world *w = s->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    const struct interfere_span span = span_of(s, &w->pairs[number]);
+    int result;
+
+    v->base.visit = f;
+    v->step = s;
+    v->found = false;
+    v->error = CAROM_OK;
+    result = interfere_visit_pair(&w->interfere, &all, number, &span, &v->base);
+    return v->error ? v->error : result;
+}
+
+/* The gap along the normal that the features have at the root, and whether they face each other. */
+static int32_t gap_by(const struct boyse_pair *pair, const struct candidate *c, int8_t sign,
+                      int32_t t_q30, bool *valid)
+{
+    struct boyse_touch touch;
+
+    boyse_touch(pair, c, t_q30, &touch);
+    *valid = touch.valid && touch.sign == sign;
+    return touch.sign == sign ? touch.gap_q22 : -touch.gap_q22;
+}
+
+/*
+ * A hit that takes no time is one when the features face each other and it is how the bodies move now
+ * that closes them: an eighth of the way to the root then takes a sixteenth of the gap or more, for a
+ * linear approach takes an eighth and a quadratic one a 64th. Else nothing can be solved yet, and the
+ * bodies go on until the features face each other, or half of the gap is left. Returns that time, or 0.
+ */
+static int32_t later(const struct boyse_pair *pair, const struct candidate *c, int32_t root_q30)
+{
+    struct boyse_touch root;
+    int32_t low = 0, high = root_q30, gap;
+    bool valid, there;
+
+    boyse_touch(pair, c, high, &root);
+    if (high <= 1 || !root.valid) {
+        return 0;
+    }
+    gap = gap_by(pair, c, root.sign, 0, &valid);
+    if (valid && (gap <= 2 * NOISE_Q22 || gap - gap_by(pair, c, root.sign, high >> 3, &there) >
+                                              gap / 16 + NOISE_Q22)) {
+        return 0;
+    }
+    for (int round = 0; round < HALVINGS && high - low > 1; round++) {
+        int32_t middle = low + (high - low) / 2;
+        int32_t left = gap_by(pair, c, root.sign, middle, &there);
+
+        *((valid ? left >= gap / 2 : !there) ? &low : &high) = middle;
+    }
+    return valid ? low : high;
+}
+
+/* The earliest hit; equal times go to the first in the order of candidates. */
+static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct step_visitor *v = (struct step_visitor *)self;
+    struct boyse_hit *best = &v->hit;
+
+    for (uint32_t i = 0; i < n; i++) {
+        struct boyse_hit hit;
+
+        boyse_pair_for(v->pair, &c[i]);
+        if (!boyse_first(v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
+            continue;
+        }
+        hit.touch.valid = false; /* it is not put off */
+        if (hit.t_q30 < NO_TIME_Q30) {
+            int32_t t_q30 = later(v->pair, &c[i], hit.root_q30);
+
+            hit.touch.valid = t_q30 > hit.t_q30;
+            hit.t_q30 = t_q30 > hit.t_q30 ? t_q30 : hit.t_q30;
+        }
+        hit.candidate = c[i];
+        if (!v->found || hit.t_q30 < best->t_q30 ||
+            (hit.t_q30 == best->t_q30 && candidate_compare(&c[i], &best->candidate) < 0)) {
+            *best = hit;
+            v->found = true;
+        }
+    }
+}
+
+int step_search(struct step *s, uint32_t number)
+{
+    struct pair_work *m = &s->w->meetings[number];
+    struct step_visitor v;
+    int32_t from_q30, to_q30;
+    int result;
+
+    m->hit_q30 = PAIRS_NEVER;
+    if (!step_window(s, number, &from_q30, &to_q30) || (m->kept && m->count == 0)) {
+        return CAROM_OK;
+    }
+    step_open_window(s, number, from_q30, to_q30);
+    v.pair = step_set_pair(s->w, number);
+    result = step_visit(s, number, &v, visit_first);
+    m = &s->w->meetings[number];
+    if (result == CAROM_OK && v.found) {
+        m->hit_q30 = from_q30 + (int32_t)(((int64_t)(to_q30 - from_q30) * v.hit.t_q30) >> 30);
+        m->root_q30 = v.hit.root_q30;
+        m->late = v.hit.touch.valid ? 1 : 0;
+        m->kind = v.hit.candidate.kind;
+        m->i = v.hit.candidate.i;
+        m->j = v.hit.candidate.j;
+    }
+    step_close_window(s, number, from_q30, to_q30);
+    return result;
+}
+
+int step_search_members(struct step *s)
+{
+    const struct carom_world *w = s->w;
+    int result = CAROM_OK;
+
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used && result == CAROM_OK; n++) {
+        if (w->bodies[w->pairs[n].a].member || w->bodies[w->pairs[n].b].member) {
+            result = step_search(s, n);
+        }
+    }
+    step_mark(s->w, CAROM_STAGE_BOYSE);
+    return result;
+}
+
+enum step_event step_next(const struct step *s, uint32_t *number)
+{
+    const struct carom_world *w = s->w;
+    enum step_event event = STEP_END;
+    int32_t first_q30 = CAROM_ONE_Q30;
+
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        if (w->meetings[n].hit_q30 < first_q30) {
+            first_q30 = w->meetings[n].hit_q30;
+            *number = n;
+            event = STEP_HIT;
+        }
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (step_active(s, i) && w->bodies[i].to_q30 < first_q30) {
+            first_q30 = w->bodies[i].to_q30;
+            *number = i;
+            event = STEP_SLICE;
+        }
+    }
+    return event;
+}
