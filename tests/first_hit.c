@@ -66,7 +66,7 @@ static void ask(struct search *s, uint8_t kind, uint32_t i, uint32_t j)
 
     hit.candidate = (struct candidate){0, kind, i, j};
     if (boyse_first(&s->pair, &hit.candidate, &hit, &roots) &&
-        (!s->found || comes_first(&hit, &s->best))) {
+        ((void)step_put_off(&s->pair, &hit), !s->found || comes_first(&hit, &s->best))) {
         s->best = hit;
         s->found = true;
     }
@@ -182,6 +182,15 @@ static void judge_hit(const struct first_hit_motion *motion, const struct first_
 
 /* -------------------------------------------------------------------- judge */
 
+/* The end of the time that both paths take from the start of the frame. */
+static int32_t window_end(const struct step *s)
+{
+    int32_t from_q30, to_q30;
+
+    (void)step_window(s, 0, &from_q30, &to_q30);
+    return to_q30;
+}
+
 /*
  * Where the step goes: on paths set up again for the time up to the hit. A turn over a part of a
  * slice is not a part of the turn over the whole. While a body turns by an angle a its spin changes
@@ -189,12 +198,14 @@ static void judge_hit(const struct first_hit_motion *motion, const struct first_
  * so the turn over a part t differs from t a by at most t (1 - t) a^2 / 2 <= a^2 / 8, and the step
  * may stop that far from the surface.
  */
-static void go_to_hit(struct step *s, const struct first_hit_motion *motion, int32_t slice_q30,
-                      struct first_hit_verdict *verdict)
+static void go_to_hit(struct step *s, const struct first_hit_motion *motion,
+                      const struct boyse_hit *hit, struct first_hit_verdict *verdict)
 {
+    enum step_event event;
+    uint32_t number;
     struct first_hit_track track[2];
     double allowed = 8 * UNIT + 1.01 * verdict->event_gap, n[3];
-    bool met;
+    bool cut = true;
 
     first_hit_read_tracks(track, s);
     for (int i = 0; i < 2; i++) {
@@ -203,15 +214,33 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion, int
         allowed += angle * angle / 8 * track[i].radius;
     }
     allowed += first_hit_speed(track) * ldexp(1, -29);
-    expect(step_go_to_hit(s, slice_q30, &met), "go to hit");
-    step_place_all(s);
+    step_close_window(s, 0, 0, window_end(s));
+    for (uint32_t i = 0; i < 2; i++) {
+        s->w->bodies[i].member = true;
+    }
+    expect(step_search_members(s), "search");
+    for (event = STEP_HIT; cut;) {
+        cut = false;
+        event = step_next(s, &number);
+        if (event == STEP_HIT) {
+            s->now_q30 = 0;
+            expect(step_cut(s, number, &cut), "cut");
+        }
+    }
+    verdict->late |= event == STEP_END;
+    for (uint32_t i = 0; i < 2; i++) {
+        if (step_active(s, i)) {
+            step_leave_path(s, i, event == STEP_HIT ? s->w->meetings[0].hit_q30 : window_end(s));
+            body_place(&s->w->bodies[i], &s->next->bodies[i]);
+        }
+    }
     first_hit_read_tracks(track, s);
     verdict->crossed = first_hit_cross(motion, track, 0);
     for (int k = 0; k < 3; k++) {
-        n[k] = lab_double(s->hit.touch.normal.c[k], 30);
+        n[k] = lab_double(hit->touch.normal.c[k], 30);
     }
-    verdict->left = first_hit_features(motion, track, &s->hit.candidate, n, 0).gap;
-    verdict->early |= met && verdict->left > allowed;
+    verdict->left = first_hit_features(motion, track, &hit->candidate, n, 0).gap;
+    verdict->early |= event == STEP_HIT && verdict->left > allowed;
 }
 
 void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_verdict *verdict)
@@ -220,31 +249,43 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
     struct search search = {.found = false};
     struct first_hit_track track[2];
     struct step s;
-    int32_t slice_q30;
+    struct step_visitor v;
 
     memset(verdict, 0, sizeof *verdict);
     step_begin(&s, w);
-    expect(step_gather(&s), "gather");
+    expect(step_begin_regions(&s), "regions");
     if (motion->in_contact) {
         expect(step_start_contacts(&s), "contacts");
     }
-    expect(step_predict(&s, &slice_q30), "predict");
-    expect(step_first_hit(&s, &verdict->hit), "first hit");
-
+    for (uint32_t i = 0; i < 2; i++) {
+        if (step_active(&s, i)) {
+            expect(step_set_path(&s, i), "path");
+        }
+    }
+    v.found = false;
+    if (w->pools[CAROM_POOL_pairs].used > 0) {
+        step_open_window(&s, 0, 0, window_end(&s));
+        expect(step_first_hit(&s, 0, &v), "first hit");
+        if (v.found) {
+            boyse_pair_for(v.pair, &v.hit.candidate);
+            boyse_touch(v.pair, &v.hit.candidate, v.hit.root_q30, &v.hit.touch);
+        }
+    }
+    verdict->hit = v.found;
     boyse_pair_init(&search.pair, &w->bodies[1], &w->bodies[0]);
     search_all(&search, motion->mesh[1], motion->mesh[0]);
     verdict->different =
-        verdict->hit != search.found || (search.found && !same_hit(&s.hit, &search.best));
+        verdict->hit != search.found || (search.found && !same_hit(&v.hit, &search.best));
     verdict->event_gap = lab_double(search.pair.skin_q22 / 2, 22);
     first_hit_read_tracks(track, &s);
     verdict->crossing =
-        first_hit_crossing(motion, track, verdict->hit ? lab_double(s.hit.t_q30, 30) : 1);
+        first_hit_crossing(motion, track, verdict->hit ? lab_double(v.hit.t_q30, 30) : 1);
     verdict->missed = verdict->crossing <= 1;
     if (verdict->hit) {
-        verdict->t_q30 = s.hit.t_q30;
-        verdict->candidate = s.hit.candidate;
-        judge_hit(motion, track, &s.hit, verdict);
-        go_to_hit(&s, motion, slice_q30, verdict);
+        verdict->t_q30 = v.hit.t_q30;
+        verdict->candidate = v.hit.candidate;
+        judge_hit(motion, track, &v.hit, verdict);
+        go_to_hit(&s, motion, &v.hit, verdict);
     }
 }
 
@@ -280,7 +321,9 @@ bool first_hit_overlap(const struct first_hit_motion *motion)
     struct step s;
 
     step_begin(&s, w);
-    step_place_all(&s);
+    for (int i = 0; i < 2; i++) {
+        body_place(&w->bodies[i], &s.next->bodies[i]);
+    }
     first_hit_read_tracks(track, &s);
     if (first_hit_cross(motion, track, 0)) {
         return true;

@@ -114,7 +114,6 @@ static void time_frame(struct fall *fall, struct carom_world *world, const carom
         body_predict(b, state, CAROM_ONE_Q30, gravity);
     }
     boyse_pair_init(&fall->pair, &fall->bodies[0], &fall->bodies[1]);
-    world->interfere.enough = UINT32_MAX;
     CHECK_EQ(interfere_visit(&world->interfere, fall->bodies, pairs, 1, &fall->base), CAROM_OK);
 }
 

@@ -32,6 +32,14 @@ static void begin(void)
 
 static int find(uint32_t count)
 {
+    for (uint32_t i = 0; i < count; i++) {
+        bodies[i].region.at = states[i].position;
+        bodies[i].region.q = states[i].rotation;
+        bodies[i].active = broad_active(&bodies[i], &states[i]);
+        if (bodies[i].mesh) {
+            broad_set_box(&bodies[i]);
+        }
+    }
     return broad_pairs(pairs, &pool, bodies, states, count);
 }
 

@@ -32,8 +32,6 @@ struct candidate {
 /* Order of candidates, hits and contacts: by pair, kind, i, j. Negative when a comes first. */
 int candidate_compare(const struct candidate *a, const struct candidate *b);
 
-#define INTERFERE_TOO_MANY 1
-
 /* Told of every candidate, some at a time. */
 struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
@@ -118,7 +116,6 @@ struct interfere {
     struct pool *face_pool;
     struct zlist lists;
     uint32_t gathers, candidate_count; /* for the statistics */
-    uint32_t enough;                   /* a gather that has more candidates stops */
 
     bool whole; /* the pool holds every candidate of the pair at hand */
     bool stale; /* the bodies are not those that regions and pairs were set for */
@@ -143,8 +140,7 @@ struct interfere {
 /*
  * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew
  * for a span of both regions; in chunks when the pool has not room for all of them.
- * Returns CAROM_OK; INTERFERE_TOO_MANY for more than w->enough; CAROM_ERR_RANGE for a pair too large
- * and fast for q22.
+ * Returns CAROM_OK, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
                          const struct interfere_span *span, struct candidate_visitor *visitor);

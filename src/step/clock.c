@@ -5,7 +5,7 @@
 /* A path ends where so little is left of it. */
 #define END_Q30 2
 /* A slice ends when the centre has gone so many radii: what is swept for it stays bounded. */
-#define WAY_RADII 16
+#define WAY_RADII 8
 
 void step_mark(struct carom_world *w, enum carom_stage stage)
 {

@@ -104,6 +104,14 @@ bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32
 void step_open_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
 void step_close_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
 
+/* The first hit of a pair on the paths at hand, which a window made: v->found, v->hit but for touch. */
+int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v);
+/*
+ * Put a hit off that takes no time, when nothing could be solved there yet: to the time when something
+ * can. Whether that is later.
+ */
+bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit);
+
 /* Find the next hit of a pair; of all pairs of bodies that are members. */
 int step_search(struct step *s, uint32_t number);
 int step_search_members(struct step *s);

@@ -105,6 +105,15 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
     return valid ? low : high;
 }
 
+bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
+{
+    int32_t t_q30 = hit->t_q30 < NO_TIME_Q30 ? later(pair, &hit->candidate, hit->root_q30) : 0;
+    bool late = t_q30 > hit->t_q30;
+
+    hit->t_q30 = late ? t_q30 : hit->t_q30;
+    return late;
+}
+
 /* The earliest hit; equal times go to the first in the order of candidates. */
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
@@ -118,20 +127,20 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
         if (!boyse_first(v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
             continue;
         }
-        hit.touch.valid = false; /* it is not put off */
-        if (hit.t_q30 < NO_TIME_Q30) {
-            int32_t t_q30 = later(v->pair, &c[i], hit.root_q30);
-
-            hit.touch.valid = t_q30 > hit.t_q30;
-            hit.t_q30 = t_q30 > hit.t_q30 ? t_q30 : hit.t_q30;
-        }
         hit.candidate = c[i];
+        hit.touch.valid = step_put_off(v->pair, &hit);
         if (!v->found || hit.t_q30 < best->t_q30 ||
             (hit.t_q30 == best->t_q30 && candidate_compare(&c[i], &best->candidate) < 0)) {
             *best = hit;
             v->found = true;
         }
     }
+}
+
+int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
+{
+    v->pair = step_set_pair(s->w, number);
+    return step_visit(s, number, v, visit_first);
 }
 
 int step_search(struct step *s, uint32_t number)
@@ -146,8 +155,7 @@ int step_search(struct step *s, uint32_t number)
         return CAROM_OK;
     }
     step_open_window(s, number, from_q30, to_q30);
-    v.pair = step_set_pair(s->w, number);
-    result = step_visit(s, number, &v, visit_first);
+    result = step_first_hit(s, number, &v);
     m = &s->w->meetings[number];
     if (result == CAROM_OK && v.found) {
         m->hit_q30 = from_q30 + (int32_t)(((int64_t)(to_q30 - from_q30) * v.hit.t_q30) >> 30);

@@ -83,7 +83,6 @@ static int visit(struct lift *l,
     l->base.visit = f;
     l->pair_number = -1;
     l->found = false;
-    w->interfere.enough = UINT32_MAX;
     return interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
                            &l->base);
 }
