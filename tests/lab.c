@@ -501,7 +501,7 @@ int lab_step(struct lab *lab, struct lab_tally *tally)
     lab_expect(carom_stats(lab->world, &stats), "stats");
     tally->frames++;
     tally->capped += (status & CAROM_SUBSTEP_CAP) != 0;
-    tally->substeps[stats.substeps]++;
+    tally->substeps[stats.substeps < 64 ? stats.substeps : 64]++;
     tally->crossed += lab_crossings(lab).pairs != 0;
     tally->touching += stats.contacts != 0;
     tally->sliding += slides(lab);

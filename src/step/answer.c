@@ -107,17 +107,6 @@ static int adopt_woken(struct step *s)
     return result;
 }
 
-static uint32_t find_pair(const struct carom_world *w, const struct pair *p)
-{
-    uint32_t n = 0;
-
-    while (w->pairs[n].a != p->a || w->pairs[n].b != p->b) {
-        n++;
-        CAROM_ASSERT(n < w->pools[CAROM_POOL_pairs].used);
-    }
-    return n;
-}
-
 /* The island of a hit with its contacts, that of the hit among them. What sleeps there wakes. */
 static int gather_island(struct step *s, const struct pair *p, struct boyse_hit *hit)
 {
@@ -151,7 +140,7 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
         if (result < 0) {
             return result;
         }
-        hit->candidate.pair = (uint16_t)find_pair(w, p);
+        hit->candidate.pair = (uint16_t)step_find_pair(w, p);
     }
 }
 
@@ -256,6 +245,7 @@ int step_answer(struct step *s, uint32_t number)
     m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
     m->answered_q30 = s->now_q30;
     w->stats.hits++;
+    w->stats.substeps++;
     result = gather_island(s, &p, &hit);
     if (result == CAROM_OK) {
         result = solve_island(s);

@@ -38,14 +38,33 @@ static bool may_cut(const struct step *s, uint32_t i)
     return true;
 }
 
-/* Set the path of a body again to end at a time; false when it leaves its region. */
-static bool set_end(struct step *s, uint32_t i, int32_t to_q30)
+/* Set the path of a body again to end at a time. */
+static int set_end(struct step *s, uint32_t i, int32_t to_q30)
 {
     struct body *b = &s->w->bodies[i];
+    int32_t slice_q30 = to_q30 - b->from_q30;
 
     b->to_q30 = to_q30;
-    body_predict(b, &s->next->bodies[i], to_q30 - b->from_q30, &b->acceleration);
-    return body_region_holds(b, to_q30 - b->from_q30);
+    body_predict(b, &s->next->bodies[i], slice_q30, &b->acceleration);
+    return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
+}
+
+/* Set the paths of those bodies of a pair that are to be cut, and search for all that these meet. */
+static int set_ends(struct step *s, const struct pair *p, const bool cut[2],
+                    const int32_t to_q30[2])
+{
+    const uint32_t both[2] = {p->a, p->b};
+    int result = CAROM_OK;
+
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        s->w->bodies[i].member = (cut[0] && i == p->a) || (cut[1] && i == p->b);
+    }
+    for (int k = 0; k < 2 && result == CAROM_OK; k++) {
+        if (cut[k]) {
+            result = set_end(s, both[k], to_q30[k]);
+        }
+    }
+    return result == CAROM_OK ? step_search_members(s) : result;
 }
 
 /* Whether any pair of the members hits before the last event. */
@@ -102,65 +121,53 @@ static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32
     step_close_window(s, number, from_q30, to_q30);
 }
 
-static void set_members(struct step *s, const struct pair *p, const bool cut[2])
+/* The hit that a pair had. */
+static void restore_hit(struct pair_work *m, const struct pair_work *was)
 {
-    for (uint32_t i = 0; i < s->w->body_count; i++) {
-        s->w->bodies[i].member = (cut[0] && i == p->a) || (cut[1] && i == p->b);
-    }
+    m->hit_q30 = was->hit_q30;
+    m->root_q30 = was->root_q30;
+    m->kind = was->kind;
+    m->i = was->i;
+    m->j = was->j;
+    m->late = was->late;
 }
 
 int step_cut(struct step *s, uint32_t number, bool *done)
 {
     const struct pair p = s->w->pairs[number];
     const struct pair_work was = s->w->meetings[number];
-    const uint32_t both[2] = {p.a, p.b};
+    struct body *a = &s->w->bodies[p.a], *b = &s->w->bodies[p.b];
     const bool cut[2] = {turns_on(s, p.a, was.hit_q30), turns_on(s, p.b, was.hit_q30)};
-    int32_t old_q30[2], from_q30, to_q30;
-    bool good = true;
+    const int32_t ends_q30[2] = {was.hit_q30, was.hit_q30}, old_q30[2] = {a->to_q30, b->to_q30};
+    int32_t from_q30, to_q30;
     int result;
 
     *done = false;
     if ((!cut[0] && !cut[1]) || (cut[0] && !may_cut(s, p.a)) || (cut[1] && !may_cut(s, p.b))) {
         return CAROM_OK;
     }
-    set_members(s, &p, cut);
-    for (int k = 0; k < 2; k++) {
-        struct body *b = &s->w->bodies[both[k]];
-
-        old_q30[k] = b->to_q30;
-        if (cut[k]) {
-            b->cuts++;
-            good &= set_end(s, both[k], was.hit_q30);
-        }
-    }
     s->w->stats.refinements++;
-    result = good ? step_search_members(s) : CAROM_OK;
+    result = set_ends(s, &p, cut, ends_q30);
     if (result < 0) {
         return result;
     }
-    *done = good && !hits_in_the_past(s);
-    if (*done) {
-        struct pair_work *m = &s->w->meetings[number];
-
-        if (m->hit_q30 == PAIRS_NEVER && step_window(s, number, &from_q30, &to_q30)) {
-            m->kind = was.kind;
-            m->i = was.i;
-            m->j = was.j;
-            meet_at_end(s, number, from_q30, to_q30);
-        }
-        return CAROM_OK;
+    *done = !hits_in_the_past(s);
+    if (!*done) {
+        result = set_ends(s, &p, cut, old_q30); /* those that were asked */
     }
-    for (int k = 0; k < 2; k++) { /* back to the paths that were asked */
-        if (cut[k]) {
-            (void)set_end(s, both[k], old_q30[k]);
-            s->w->bodies[both[k]].cuts = CUTS_MAX;
-        }
+    a->cuts = cut[0] ? (uint8_t)(*done ? a->cuts + 1 : CUTS_MAX) : a->cuts;
+    b->cuts = cut[1] ? (uint8_t)(*done ? b->cuts + 1 : CUTS_MAX) : b->cuts;
+    number = step_find_pair(s->w, &p);
+    if (number == UINT32_MAX) {
+        return result;
     }
-    result = step_search_members(s);
-    s->w->meetings[number] = (struct pair_work){
-        .first = s->w->meetings[number].first, .count = s->w->meetings[number].count,
-        .kept = s->w->meetings[number].kept, .hit_q30 = was.hit_q30, .root_q30 = was.root_q30,
-        .late = was.late, .kind = was.kind, .i = was.i, .j = was.j, .repeats = was.repeats,
-        .answered_q30 = was.answered_q30};
+    if (!*done) {
+        restore_hit(&s->w->meetings[number], &was);
+    } else if (s->w->meetings[number].hit_q30 == PAIRS_NEVER &&
+               step_window(s, number, &from_q30, &to_q30)) {
+        restore_hit(&s->w->meetings[number], &was);
+        s->w->meetings[number].hit_q30 = PAIRS_NEVER;
+        meet_at_end(s, number, from_q30, to_q30);
+    }
     return result;
 }

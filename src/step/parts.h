@@ -74,6 +74,9 @@ int step_begin_regions(struct step *s);
 /* Set the region of a body, whose path is at hand and takes slice_q30, and its pairs. */
 int step_set_region(struct step *s, uint32_t i, int32_t slice_q30);
 
+/* The number of a pair, or UINT32_MAX when its bodies are not near each other. */
+uint32_t step_find_pair(const struct carom_world *w, const struct pair *p);
+
 /* Give a body that was woken a region where it is. */
 int step_adopt(struct step *s, uint32_t i);
 

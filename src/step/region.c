@@ -58,6 +58,13 @@ static void renumber(struct carom_world *w, uint32_t place, int by)
     }
 }
 
+uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
+{
+    uint32_t place = place_of(w, p->a, p->b);
+
+    return is_at(w, place, p->a, p->b) ? place : UINT32_MAX;
+}
+
 static int insert_pair(struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
 {
     struct pool *pool = &w->pools[CAROM_POOL_pairs];

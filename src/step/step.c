@@ -86,6 +86,7 @@ void step_begin(struct step *s, struct carom_world *w)
     w->rest.sweeps = w->rest.impacts = w->rest.energy_rules = 0;
     w->interfere.gathers = w->interfere.candidate_count = 0;
     memset(&w->stats, 0, sizeof w->stats);
+    w->stats.substeps = 1;
     w->event_count = 0;
     pool_clear(&w->pools[CAROM_POOL_contacts]);
 }
@@ -114,6 +115,7 @@ static int end_slice(struct step *s, uint32_t i)
     for (uint32_t k = 0; k < s->w->body_count; k++) {
         s->w->bodies[k].member = k == i;
     }
+    s->w->stats.substeps++;
     s->now_q30 = s->w->bodies[i].to_q30;
     step_leave_path(s, i, s->now_q30);
     result = step_set_path(s, i);
@@ -131,7 +133,6 @@ static int run(struct step *s)
     while (result == CAROM_OK && (event = step_next(s, &number)) != STEP_END) {
         bool cut = false;
 
-        s->w->stats.substeps++;
         if (event == STEP_SLICE) {
             result = end_slice(s, number);
             continue;
