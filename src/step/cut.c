@@ -9,6 +9,8 @@
 #define CUTS_MAX 8
 /* and not for so little of its end. */
 #define END_Q30 2
+/* Nor is so short a one: its turn is below the last place of a rotation. */
+#define SLICE_MIN_Q30 (1 << 10)
 
 /* Whether a body's path turns and goes on behind a hit. */
 static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
@@ -17,7 +19,7 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 
     return step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
            b->cuts < CUTS_MAX && b->to_q30 - t_q30 > END_Q30 &&
-           t_q30 - b->from_q30 >= STEP_SLICE_MIN_Q30;
+           t_q30 - b->from_q30 >= SLICE_MIN_Q30;
 }
 
 /* Whether nobody near the body was asked in between, with a path that has gone since. */
