@@ -369,6 +369,7 @@ void body_place_origin(struct body *b, const struct body_state *s)
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
         path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
     }
+    PHASE_BEGIN(path->phase, BODY_ORIGIN);
 }
 
 void body_place(struct body *b, const struct body_state *s)
@@ -380,6 +381,7 @@ void body_place(struct body *b, const struct body_state *s)
         path->v.c[k] = path->g.c[k] = 0;
         path->u.c[k] = 0;
     }
+    PHASE_BEGIN(path->phase, BODY_PATH);
     path->u2_q30 = 0;
     path->turns = false;
     path->q = s->rotation;
@@ -442,7 +444,7 @@ void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r
 
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
 {
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     carom_v3_q32 way;
 
     for (int k = 0; k < 3; k++) {
@@ -458,7 +460,7 @@ carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
 
 carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
 {
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     carom_quat_q30 q = path->q;
     int32_t u[3];
 
@@ -489,7 +491,7 @@ void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int
 
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
 {
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     int64_t way_q40 = fix_length_bound(path->v.c) + fix_length_bound(path->g.c);
     int64_t u_q30 = path->turns ? fix_sqrt_above((uint64_t)(path->u2_q30 + 1) << 30) : 0;
 

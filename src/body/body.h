@@ -15,6 +15,7 @@
 #define CAROM_SRC_BODY_H
 
 #include "../mesh/mesh.h"
+#include "../num/phase.h"
 
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
@@ -35,8 +36,11 @@ struct body_state {
     uint8_t woken; /* since the last step */
 };
 
+/* What the shared memory of a path holds: BODY_ORIGIN is a path's origin and nothing else of it. */
+enum body_path_phase { BODY_NO_PATH, BODY_PATH, BODY_SOLVE, BODY_ORIGIN };
+
 struct body_path {
-    union {
+    union { /* by PHASE_TAG phase; body_path, body_solve */
         struct {
             int64_t origin_q22[3];
             carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
@@ -58,6 +62,7 @@ struct body_path {
         } x; /* q32, what the origin leaves of the position */
     } start;
     bool turns;
+    PHASE_TAG(phase)
 };
 
 /*
@@ -80,25 +85,38 @@ struct body_region {
     int64_t turned_off_q30; /* angle between the body and the path, at most */
 };
 
+/* What other shared memory of a body holds. */
+enum body_box_phase { BODY_NO_BOX, BODY_BOX, BODY_SAVED };
+enum body_work_phase { BODY_WORK, BODY_LIFT };
+
+/*
+ * A body, 528 bytes where a pointer has 32 bits. Each field stands under the stage that writes it.
+ */
 struct body {
+    /* world, 7 bytes; of all that a body has, only what world sets and `standing` outlive a step */
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
-    bool standing; /* still, and the path, the region and the box are those of where it is */
+    bool standing;    /* still, and the path, the region and the box are those of where it is */
+    int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
-    /* of a step; the rest of that is below */
-    bool active;      /* was to move when its region was set */
-    bool boxed;       /* its box is around its mesh's; else around its sphere */
-    bool in_contact;  /* took the frame's acceleration at once; moves straight */
-    bool touched;     /* had a contact in this step */
-    bool grounded;    /* and one with a body that stands still */
-    bool entering;    /* in_contact is new */
-    bool rewound;     /* is back where the frame found it */
-    bool woke;        /* in the static check at hand */
-    bool solving;     /* has a contact in the solve at hand */
-    int8_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
+    /* of a step, 9 bytes and the tags */
+    bool active;     /* gather: was to move when its region was set */
+    bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
+    bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
+    bool entering;   /* rest: in_contact is new */
+    bool solving;    /* rest: has a contact in the solve at hand */
+    bool touched;    /* energy: had a contact in this step */
+    bool grounded;   /* energy: and one with a body that stands still */
+    bool rewound;    /* energy: is back where the frame found it */
+    bool woke;       /* wake: in the static check at hand */
+    PHASE_TAG(box_phase)
+    PHASE_TAG(work_phase)
+
+    /* islands, by whoever asks for them: 6 bytes */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-    uint16_t contacts;               /* where the island's contacts are listed */
+    uint16_t contacts;               /* solve: where the island's contacts are listed */
 
+    /* world: what follows from mesh, mass and force, 104 bytes */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     int32_t restitution_q30;
@@ -109,21 +127,75 @@ struct body {
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
-    /* scratch of a step */
+    /* predict, and solve while there is no path: 152 bytes */
     struct body_path path;
+
+    /* gather, 160 bytes */
     struct body_region region;
     int32_t reach_q22; /* how far any point may go in the region, and the margin */
     int32_t turn_q30;  /* and how far the body may turn, radians */
-    union {
-        int32_t box_q18[2][3];       /* in world axes around it, grown by the reach: by broad */
-        carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
+
+    union {                          /* by PHASE_TAG box_phase; 24 bytes */
+        int32_t box_q18[2][3];       /* broad: in world axes around it, grown by the reach */
+        carom_v3_q40 saved_momentum; /* solve: before it, for the energy rule */
     };
-    carom_v3_q40 velocity, spin; /* before a solve */
-    union {
-        struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
-        int64_t lift_q32;      /* between steps: what they lift an island by, at its lowest body */
+
+    /* solve: before it, 48 bytes */
+    carom_v3_q40 velocity, spin;
+
+    union {                    /* by PHASE_TAG work_phase; 16 bytes */
+        struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
+        int64_t
+            lift_q32; /* moving, between steps: what they lift an island by, at its lowest body */
     };
 };
+
+/* The path of a body that has one: for all but `start` and `turns`, which stay. */
+static inline const struct body_path *body_path(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_PATH);
+    return &b->path;
+}
+
+/* The origin of its path, which it has after a solve, too. */
+static inline const int64_t *body_origin_q22(const struct body *b)
+{
+    CAROM_ASSERT(b->path.phase == BODY_PATH || b->path.phase == BODY_ORIGIN);
+    return b->path.origin_q22;
+}
+
+/* What a solve works out of a body. */
+static inline struct body_path *body_solve(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_SOLVE);
+    return (struct body_path *)&b->path;
+}
+
+/* The box, set by broad; the momentum before a solve, set by it. */
+static inline int32_t (*body_box_q18(struct body *b))[3]
+{
+    PHASE_ASSERT(b->box_phase, BODY_BOX);
+    return b->box_q18;
+}
+
+static inline const carom_v3_q40 *body_saved_momentum(const struct body *b)
+{
+    PHASE_ASSERT(b->box_phase, BODY_SAVED);
+    return &b->saved_momentum;
+}
+
+/* What surfaces did on a body in a step; by what they lift an island between steps. */
+static inline struct fix_wide *body_work2(const struct body *b)
+{
+    PHASE_ASSERT(b->work_phase, BODY_WORK);
+    return (struct fix_wide *)&b->work2;
+}
+
+static inline int64_t *body_lift_q32(const struct body *b)
+{
+    PHASE_ASSERT(b->work_phase, BODY_LIFT);
+    return (int64_t *)&b->lift_q32;
+}
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
 void body_set_mass(struct body *b, struct fix_scaled mass);

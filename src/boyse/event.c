@@ -29,8 +29,8 @@ static int32_t factor_q30(const struct boyse_pair *pair, int32_t t_q30, int32_t 
 {
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
-    scale_q30 += carom_mul_q30(scale_q30, growth_q30(&pair->a->path, t2_q30));
-    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(&pair->b->path, t2_q30));
+    scale_q30 += carom_mul_q30(scale_q30, growth_q30(body_path(pair->a), t2_q30));
+    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(body_path(pair->b), t2_q30));
 }
 
 static int32_t limited(int64_t v)
@@ -156,7 +156,7 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
  */
 static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
 {
-    int32_t squares_q30 = o->pair->a->path.u2_q30 + o->pair->b->path.u2_q30;
+    int32_t squares_q30 = body_path(o->pair->a)->u2_q30 + body_path(o->pair->b)->u2_q30;
     int32_t change_q30 = carom_mul_q30(2 * squares_q30, dt_q30);
 
     if (o->edges) {

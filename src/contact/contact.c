@@ -45,6 +45,7 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
     }
     c->work = NULL;
     c->idle = c->resting = c->impact = false;
+    PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
 }
@@ -72,7 +73,7 @@ carom_v3_q32 contact_point(const struct contact *c)
     carom_v3_q32 point;
 
     for (int k = 0; k < 3; k++) {
-        point.c[k] = carom_shl(a->path.origin_q22[k], 10) + a->path.start.x.c[k] +
+        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start.x.c[k] +
                      digits_fewer(c->side[0].arm_q30[k], contact_arm_bits(a) - 32);
     }
     return point;

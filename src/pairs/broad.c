@@ -73,18 +73,18 @@ static bool boxes_overlap(struct body *bodies, const struct body_state *states, 
 {
     const uint32_t both[2] = {a, b};
 
-    if (!overlap(bodies[a].box_q18, bodies[b].box_q18)) {
+    if (!overlap(body_box_q18(&bodies[a]), body_box_q18(&bodies[b]))) {
         return false;
     }
     for (int i = 0; i < 2; i++) {
         struct body *body = &bodies[both[i]];
 
         if (!body->boxed) {
-            bounds(body, &states[both[i]], body->reach_q22, body->box_q18);
+            bounds(body, &states[both[i]], body->reach_q22, body_box_q18(body));
             body->boxed = true;
         }
     }
-    return overlap(bodies[a].box_q18, bodies[b].box_q18);
+    return overlap(body_box_q18(&bodies[a]), body_box_q18(&bodies[b]));
 }
 
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
@@ -96,6 +96,7 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
 
         /* the box of what stands still is worked out once */
         if (b->mesh && !b->standing) {
+            PHASE_BEGIN(b->box_phase, BODY_BOX);
             b->boxed = !broad_active(b, &states[i]);
             if (b->boxed) {
                 bounds(b, &states[i], b->reach_q22, b->box_q18);

@@ -17,8 +17,10 @@
 struct boyse_pair *step_set_pair(const struct carom_world *w, const struct candidate *c)
 {
     const struct pair *p = &w->pairs[c->pair];
-    struct boyse_pair *pair = &w->scratch->gather.pair;
+    struct boyse_pair *pair;
 
+    world_begin_gather(w);
+    pair = world_pair(w);
     boyse_pair_begin(pair, &w->bodies[p->a], &w->bodies[p->b]);
     boyse_pair_for(pair, c);
     return pair;
@@ -45,6 +47,7 @@ int step_visit(struct step *s, struct step_visitor *v,
     v->pair_number = -1;
     v->found = false;
     v->error = CAROM_OK;
+    world_begin_gather(w);
     result = interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
                              &v->base);
     return v->error ? v->error : result;

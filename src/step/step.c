@@ -44,6 +44,7 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
             *to = *from;
         }
         w->bodies[i].in_contact = false;
+        PHASE_BEGIN(w->bodies[i].work_phase, BODY_WORK);
         w->bodies[i].work2 = (struct fix_wide){0, 0};
     }
 }
