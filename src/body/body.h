@@ -204,6 +204,9 @@ void body_set_mass(struct body *b, struct fix_scaled mass);
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                carom_v3_q40 *w);
+/* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
+void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+                  int64_t out[3]);
 /* The momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);

@@ -60,6 +60,18 @@ int64_t fix_sqrt_above(uint64_t v)
            1;
 }
 
+int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s)
+{
+    if (s > bits) {
+        /* what low has below 2^bits cannot carry past the half */
+        return s - bits > 62 ? 0 : carom_round(high + (low >> bits), s - bits);
+    }
+    if (s < 1) {
+        return carom_shl(carom_shl(high, bits) + low, -s);
+    }
+    return carom_shl(high, bits - s) + carom_round(low, s);
+}
+
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)
 {
     struct fix_wide sum;

@@ -107,6 +107,9 @@ inline int64_t fix_shift(int64_t v, int s)
     return s < 0 ? v >> -s : carom_shl(v, s);
 }
 
+/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s);
+
 /* |x| + |y| + |z|; each below 2^62 */
 inline uint64_t fix_sum(const int64_t v[3])
 {
@@ -159,6 +162,16 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
 /* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
+
+/* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
+static inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+{
+    const int32_t x = v[0], y = v[1], z = v[2];
+
+    out[0] = (int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z;
+    out[1] = (int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z;
+    out[2] = (int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z;
+}
 
 /* Where entry (i, k) of a symmetric matrix is among xx yy zz xy yz zx. */
 extern const uint8_t fix_sym3_at[3][3];
