@@ -222,8 +222,7 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)
 {
-    return fix_mul(drift->c[0], n->c[0], 30) + fix_mul(drift->c[1], n->c[1], 30) +
-           fix_mul(drift->c[2], n->c[2], 30);
+    return fix_dot_q30(drift->c, n->c);
 }
 
 /*

@@ -101,14 +101,36 @@ inline int64_t fix_mul_q30(int64_t a, int32_t b)
 }
 #endif
 
+/* The part of a vector along a direction: each product is rounded. */
+int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
+
 /* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
 inline int64_t fix_shift(int64_t v, int s)
 {
     return s < 0 ? v >> -s : carom_shl(v, s);
 }
 
+/* v 2^s, to nearest when s is negative, whatever s; the result must fit. */
+int64_t fix_round_shift(int64_t v, int s);
+
 /* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
 int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s);
+
+/* |v|, v > INT32_MIN; the smaller and the larger of two. */
+static inline int32_t fix_abs32(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+static inline int32_t fix_smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int32_t fix_larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
 
 /* |x| + |y| + |z|; each below 2^62 */
 inline uint64_t fix_sum(const int64_t v[3])

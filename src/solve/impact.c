@@ -8,9 +8,9 @@ static void finish(const struct impact_problem *p, const struct impact_answer *x
     int power = p->mass_power + x->unit - 2 * p->arm_shift;
 
     for (int k = 0; k < 3; k++) {
-        out->impulse.c[k] = impact_shift(x->p_q40[k], power);
+        out->impulse.c[k] = fix_round_shift(x->p_q40[k], power);
     }
-    out->normal_q40 = impact_dot(out->impulse.c, &p->frame.n);
+    out->normal_q40 = fix_dot_q30(out->impulse.c, p->frame.n.c);
     if (out->normal_q40 < 0) {
         out->normal_q40 = 0; /* less than the rounding of N */
     }
@@ -30,13 +30,14 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
             return -1;
         }
         for (int k = 0; k < 3; k++) {
-            after[k] = impact_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
+            after[k] = fix_round_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
         }
         if (!impact_set_frame(&p->frame, after)) {
             return 0; /* nothing for friction to act along */
         }
     }
-    if (impact_slide(p, p->in->friction_q16, out) == 0 && impact_dot(out->p_q40, &p->frame.n) > 0) {
+    if (impact_slide(p, p->in->friction_q16, out) == 0 &&
+        fix_dot_q30(out->p_q40, p->frame.n.c) > 0) {
         return 0;
     }
     if (impact_slide(p, 0, out)) {

@@ -43,7 +43,7 @@ static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *
 static void speeds(const struct impact_problem *p, const struct impact_answer *x, int64_t v[3])
 {
     for (int k = 0; k < 3; k++) {
-        v[k] = impact_shift(p->in->velocity.c[k], -x->unit);
+        v[k] = fix_round_shift(p->in->velocity.c[k], -x->unit);
     }
 }
 
@@ -93,6 +93,6 @@ void impact_energy_rule(const struct impact_problem *p, const struct impact_answ
                      impact_speed_q70(p->in, &p->frame.n)),
         fix_wide_mul(1, 1));
     loss.e += 30 + x->unit + down;
-    abc[2] = loss.m < 0 ? fix_mul_scaled(impact_dot(x->p_q40, &p->frame.n), loss) : 0;
+    abc[2] = loss.m < 0 ? fix_mul_scaled(fix_dot_q30(x->p_q40, p->frame.n.c), loss) : 0;
     impact_add_scaled(x, &d, largest_feasible(abc));
 }

@@ -67,9 +67,7 @@ static void prepare_side(const struct contact_side *side, struct contact_lever *
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             int64_t t = turn[i][k];
-            int32_t entry = (int32_t)(down > 62  ? 0
-                                      : down > 0 ? carom_round(t, down)
-                                                 : carom_shl(t, -down));
+            int32_t entry = (int32_t)fix_round_shift(t, -down);
 
             lever->turn[i][k] = whole ? entry : carom_mul_q30(entry, lever->share_q30);
         }
@@ -177,7 +175,7 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
 
         for (int i = 0; i < 6; i++) {
             contact_inverse(c)[i] =
-                (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+                (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
     multiply(n, k, c->normal.c);
@@ -187,7 +185,7 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     for (int i = 0; i < 3; i++) {
         int64_t drag = n[i] - carom_mul_q30(product, c->normal.c[i]);
 
-        c->work->drag_q28[i] = rest_clamp(impact_shift(drag * c->work->step[0], shift - 32));
+        c->work->drag_q28[i] = rest_clamp(fix_round_shift(drag * c->work->step[0], shift - 32));
     }
     half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
     multiply(n, adjoint, c->normal.c);

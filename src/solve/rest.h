@@ -86,8 +86,7 @@ const carom_v3_q40 *rest_moment(const struct contact *c);
 /* Part of a velocity or an impulse along a direction. */
 static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
 {
-    return fix_mul(v->c[0], n->c[0], 30) + fix_mul(v->c[1], n->c[1], 30) +
-           fix_mul(v->c[2], n->c[2], 30);
+    return fix_dot_q30(v->c, n->c);
 }
 
 /* e and mu of a pair of bodies: the smaller of the two. */

@@ -63,7 +63,7 @@ static int64_t turning_q30(const struct body *b, int32_t share_q30)
         }
         largest = sum > largest ? sum : largest;
     }
-    return impact_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
+    return fix_round_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -91,7 +91,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         mass_q30 +=
             turning_q30(side->body, c->work->lever[s].share_q30) >> (2 * finer(c, side->body));
         for (int k = 0; k < 3; k++) {
-            int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
+            int64_t w = fix_round_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
             spin[k] += s == 0 ? w : -w;
         }
@@ -125,7 +125,7 @@ static void twist(struct contact *c, const int32_t moment[3])
         }
         for (int k = 0; k < 3; k++) {
             body_solve(side->body)->dw[k] +=
-                impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+                fix_round_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }

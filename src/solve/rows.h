@@ -57,12 +57,6 @@ struct impact_answer {
     int64_t dv_q40[3]; /* of 2^unit; below 2^61 */
 };
 
-/* v 2^s to nearest. */
-int64_t impact_shift(int64_t v, int s);
-
-/* v.d for a unit vector d. */
-int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);
-
 /* V.d, exact. */
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d);
 

@@ -47,12 +47,12 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
-    int32_t error = (int32_t)impact_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
+    int32_t error = (int32_t)fix_round_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
 
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = impact_shift(contact_velocity(c)->c[k] - along, -sw->unit);
+        slip[k] = fix_round_shift(contact_velocity(c)->c[k] - along, -sw->unit);
     }
     rest_cut(slip, SLIP_MAX);
     PHASE_BEGIN(c->phase, CONTACT_GAIN);
@@ -61,7 +61,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
         c->work->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->work->band = rest_clamp(impact_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
+    c->work->band = rest_clamp(fix_round_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
     c->work->normal_impulse = 0;
 }
 

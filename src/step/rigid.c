@@ -32,7 +32,7 @@ static void arm_q30(const struct step *s, const struct step_rigid *rigid, uint32
     for (int k = 0; k < 3; k++) {
         int64_t way_q32 = s->next->bodies[i].position.c[k] - rigid->centre.c[k];
 
-        out[k] = (int32_t)impact_shift(way_q32, 30 - rigid->length_bits);
+        out[k] = (int32_t)fix_round_shift(way_q32, 30 - rigid->length_bits);
     }
 }
 
@@ -41,7 +41,7 @@ static int32_t share_q30(const struct step *s, const struct step_rigid *rigid, u
 {
     const struct fix_scaled *mass = &s->w->bodies[i].mass;
 
-    return (int32_t)impact_shift(mass->m, rigid->mass_e - mass->e);
+    return (int32_t)fix_round_shift(mass->m, rigid->mass_e - mass->e);
 }
 
 /* The centre is within the extent of the others as seen from the first: one bit more will do. */
@@ -133,7 +133,7 @@ static void add_inertia(const struct step *s, const struct step_rigid *rigid, ui
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n <= m; n++) {
             int at = fix_sym3_at[m][n];
-            int64_t part = impact_shift(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
+            int64_t part = fix_round_shift(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
                            carom_mul_q30(arm[m], arm[n]);
 
             part += m == n ? square_q30 : 0;
@@ -168,7 +168,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
-            w->a[m][n] = (int32_t)impact_shift(inertia_q30[fix_sym3_at[m][n]], -down);
+            w->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
         }
         w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
     }
@@ -179,7 +179,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     /* q72 over q30, in units of mass and of length squared */
     up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
     for (int k = 0; k < 3; k++) {
-        rigid->spin.c[k] = impact_shift(w->x_q40[k], up);
+        rigid->spin.c[k] = fix_round_shift(w->x_q40[k], up);
     }
     return true;
 }
