@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boyse_curve - P(t) in 32 bits: its value and slope, its roots in order of time, and divisions that
+ * roots - P(t) in 32 bits: its value and slope, its roots in order of time, and divisions that
  * need no more than 32 bits.
  */
 #ifndef CAROM_SRC_BOYSE_CURVE_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_build - what the files that build a mesh share. Not for other stages.
+ * build - what the files that build a mesh share. Not for other stages.
  *
  * The block is filled from its start with what stays. The work table of the moment lies at its end,
  * where the z-lists' entries, carved last, will be.

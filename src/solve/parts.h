@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rest_parts - what the files of the stage rest share: velocities and masses of contacts, sweeps,
+ * parts - what the files that solve several contacts share: velocities and masses of contacts, sweeps,
  * and the energy rule.
  */
 #ifndef CAROM_SRC_REST_PARTS_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * impact_rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
+ * rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
  *
  *   velocities  by V* = 2^(unit - c), masses by m*, the power of two below the lighter one
  *   dw          by V* / 2^g of each body, 4^g being about its inertia / mass: then J = I / (m 4^g)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * world_step_parts - what the files of a step share. world_step.c is the pipeline; the others are
+ * parts - what the files of a step share. step.c is the pipeline; the others are
  * its stations: gather (regions, candidates), move (predict, first hit, advance), contacts (static
  * check, solve), energy (of contact over the frame), finish (events, statistics).
  */
