@@ -299,22 +299,12 @@ int64_t fix_length_bound(const int64_t v[3])
     return most + (x + y + z - most + 1) / 2;
 }
 
-static inline int64_t dot_q30(const int64_t v[3], const int32_t d_q30[3])
-{
-    return fix_mul_q30(v[0], d_q30[0]) + fix_mul_q30(v[1], d_q30[1]) + fix_mul_q30(v[2], d_q30[2]);
-}
-
-int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3])
-{
-    return dot_q30(v, d_q30);
-}
-
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
 {
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = dot_q30(v, m->c[k]);
+        r[k] = fix_dot_q30(v, m->c[k]);
     }
     out[0] = r[0];
     out[1] = r[1];

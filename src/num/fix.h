@@ -74,6 +74,7 @@ int64_t fix_sqrt_above(uint64_t v);
 #if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
 int64_t fix_mul(int64_t a, int32_t b, int s);
 int64_t fix_mul_q30(int64_t a, int32_t b);
+int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
 #else
 inline int64_t fix_mul(int64_t a, int32_t b, int s)
 {
@@ -99,10 +100,13 @@ inline int64_t fix_mul_q30(int64_t a, int32_t b)
 {
     return fix_mul(a, b, 30);
 }
-#endif
 
 /* The part of a vector along a direction: each product is rounded. */
-int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
+inline int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3])
+{
+    return fix_mul_q30(v[0], d_q30[0]) + fix_mul_q30(v[1], d_q30[1]) + fix_mul_q30(v[2], d_q30[2]);
+}
+#endif
 
 /* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
 inline int64_t fix_shift(int64_t v, int s)

@@ -24,8 +24,8 @@ struct impact_answer impact_subtract(const struct impact_answer *a, const struct
 
 bool impact_in_cone(const struct impact_problem *p, const struct impact_answer *x)
 {
-    int64_t limit = fix_mul(fix_dot_q30(x->p_q40, p->frame.n.c), (int32_t)p->in->friction_q16, 16);
-    int64_t pu = fix_dot_q30(x->p_q40, p->frame.u.c), pv = fix_dot_q30(x->p_q40, p->frame.v.c);
+    int64_t limit = fix_mul(impact_dot(x->p_q40, &p->frame.n), (int32_t)p->in->friction_q16, 16);
+    int64_t pu = impact_dot(x->p_q40, &p->frame.u), pv = impact_dot(x->p_q40, &p->frame.v);
     struct fix_wide excess = fix_wide_neg(fix_wide_mul(limit, limit));
 
     excess = fix_wide_add(excess, fix_wide_mul(pu, pu));
@@ -37,8 +37,7 @@ void impact_cone_limit(const struct impact_problem *p, const struct impact_answe
                        struct impact_answer *out)
 {
     struct impact_answer d = impact_subtract(stick, out);
-    int64_t tangential[3] = {fix_dot_q30(d.p_q40, p->frame.u.c), fix_dot_q30(d.p_q40, p->frame.v.c),
-                             0};
+    int64_t tangential[3] = {impact_dot(d.p_q40, &p->frame.u), impact_dot(d.p_q40, &p->frame.v), 0};
     int32_t mu_q16 = (int32_t)p->in->friction_q16;
     int64_t length = fix_length(tangential), reach, growth;
     struct fix_wide excess = fix_wide_add(fix_wide_dot(tangential, tangential),
@@ -49,8 +48,8 @@ void impact_cone_limit(const struct impact_problem *p, const struct impact_answe
         length += fix_mul_scaled(1, fix_wide_ratio(excess, fix_wide_mul(length, 2)));
     }
     /* Where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N). */
-    reach = fix_mul(fix_dot_q30(out->p_q40, p->frame.n.c), mu_q16, 16);
-    growth = length - fix_mul(fix_dot_q30(d.p_q40, p->frame.n.c), mu_q16, 16);
+    reach = fix_mul(impact_dot(out->p_q40, &p->frame.n), mu_q16, 16);
+    growth = length - fix_mul(impact_dot(d.p_q40, &p->frame.n), mu_q16, 16);
     if (reach > 0 && growth > 0) {
         impact_add_scaled(out, &d, fix_wide_ratio(fix_wide_mul(reach, 1), fix_wide_mul(growth, 1)));
     }

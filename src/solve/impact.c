@@ -10,7 +10,7 @@ static void finish(const struct impact_problem *p, const struct impact_answer *x
     for (int k = 0; k < 3; k++) {
         out->impulse.c[k] = fix_round_shift(x->p_q40[k], power);
     }
-    out->normal_q40 = fix_dot_q30(out->impulse.c, p->frame.n.c);
+    out->normal_q40 = impact_dot(out->impulse.c, &p->frame.n);
     if (out->normal_q40 < 0) {
         out->normal_q40 = 0; /* less than the rounding of N */
     }
@@ -36,8 +36,7 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
             return 0; /* nothing for friction to act along */
         }
     }
-    if (impact_slide(p, p->in->friction_q16, out) == 0 &&
-        fix_dot_q30(out->p_q40, p->frame.n.c) > 0) {
+    if (impact_slide(p, p->in->friction_q16, out) == 0 && impact_dot(out->p_q40, &p->frame.n) > 0) {
         return 0;
     }
     if (impact_slide(p, 0, out)) {

@@ -93,6 +93,6 @@ void impact_energy_rule(const struct impact_problem *p, const struct impact_answ
                      impact_speed_q70(p->in, &p->frame.n)),
         fix_wide_mul(1, 1));
     loss.e += 30 + x->unit + down;
-    abc[2] = loss.m < 0 ? fix_mul_scaled(fix_dot_q30(x->p_q40, p->frame.n.c), loss) : 0;
+    abc[2] = loss.m < 0 ? fix_mul_scaled(impact_dot(x->p_q40, &p->frame.n), loss) : 0;
     impact_add_scaled(x, &d, largest_feasible(abc));
 }

@@ -4,6 +4,11 @@
 #define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
 #define SPEED_BITS   60 /* bits of V in q40 of the solver's unit, at most */
 
+int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
+{
+    return fix_dot_q30(v, d->c);
+}
+
 static int bits3(const int64_t v[3])
 {
     return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
@@ -334,19 +339,19 @@ static int refine(const struct impact_problem *p, const struct goal *goal)
         body_residual(p, b, residual_q40 + 6 * b);
     }
     velocity_change(p, change);
-    last[0] = goal->change_q40[0] - fix_dot_q30(change, f->n.c);
+    last[0] = goal->change_q40[0] - impact_dot(change, &f->n);
     if (goal->sticks) {
         /* V' along N: V'.u is not 0 but the target times u.N. */
         int64_t after = fix_round_shift(p->in->target_q40, 70 - goal->bits);
 
-        last[1] = goal->change_q40[1] - fix_dot_q30(change, f->u.c) + fix_mul(after, f->un_q52, 52);
-        last[2] = goal->change_q40[2] - fix_dot_q30(change, f->v.c) + fix_mul(after, f->vn_q52, 52);
+        last[1] = goal->change_q40[1] - impact_dot(change, &f->u) + fix_mul(after, f->un_q52, 52);
+        last[2] = goal->change_q40[2] - impact_dot(change, &f->v) + fix_mul(after, f->vn_q52, 52);
     } else {
-        int64_t normal = fix_dot_q30(impulse, f->n.c);
-        int64_t excess = fix_dot_q30(impulse, f->v.c) - fix_mul(normal, f->vn_q52, 52) +
+        int64_t normal = impact_dot(impulse, &f->n);
+        int64_t excess = impact_dot(impulse, &f->v) - fix_mul(normal, f->vn_q52, 52) +
                          fix_mul(normal, (int32_t)goal->friction_q16, 16);
 
-        last[1] = fix_mul(normal, f->un_q52, 52) - fix_dot_q30(impulse, f->u.c);
+        last[1] = fix_mul(normal, f->un_q52, 52) - impact_dot(impulse, &f->u);
         last[2] = -fix_round_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
     }
     return gauss_add(p->w, p->n, residual_q40);

@@ -57,6 +57,9 @@ struct impact_answer {
     int64_t dv_q40[3]; /* of 2^unit; below 2^61 */
 };
 
+/* v.d for a unit vector d. */
+int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);
+
 /* V.d, exact. */
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d);
 
