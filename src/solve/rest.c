@@ -247,7 +247,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         rest_prepare_body(&r->bodies[i]);
     }
     for (uint32_t i = 0; i < r->count; i++) {
@@ -271,7 +271,7 @@ static struct fix_wide lift2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
     }
     return sum;
@@ -308,7 +308,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 /* Whoever asks for the contacts after the step is told where they are by this. */
 static void place_origins(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         body_place_origin(&r->bodies[i], &r->states[i]);
     }
 }

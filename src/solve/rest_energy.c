@@ -6,7 +6,7 @@ static struct fix_wide kinetic2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, body_kinetic2(b, &r->states[i], &b->path.start.r));
@@ -16,7 +16,7 @@ static struct fix_wide kinetic2(const struct rest *r)
 
 void rest_save_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         PHASE_BEGIN(r->bodies[i].box_phase, BODY_SAVED);
         r->bodies[i].saved_momentum = r->states[i].momentum;
         body_solve(&r->bodies[i])->saved_angular = r->states[i].angular;
@@ -25,7 +25,7 @@ void rest_save_momenta(struct rest *r)
 
 static void restore_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         r->states[i].momentum = *body_saved_momentum(&r->bodies[i]);
         r->states[i].angular = body_solve(&r->bodies[i])->saved_angular;
     }
@@ -79,7 +79,7 @@ static struct fix_wide before2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, fix_wide_dot(body_saved_momentum(b)->c, b->velocity.c));
@@ -93,7 +93,7 @@ static bool may_rise(const struct rest *r, struct fix_wide allowed)
 {
     struct fix_wide sum = fix_wide_neg(allowed);
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         sum = fix_wide_add(sum, body_kinetic2_most(&r->bodies[i], &r->states[i]));
     }
     for (uint32_t i = 0; i < r->count; i++) {

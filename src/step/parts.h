@@ -110,7 +110,7 @@ int step_note_touching(struct step *s, const struct pair *p);
  */
 void step_limit_energy(struct step *s, bool cut_short);
 
-/* The active bodies of an island, in order; REST_ISLAND_END after the last. */
+/* The active bodies of an island, in order; ISLAND_END after the last. */
 uint32_t step_island_first(const struct step *s, uint32_t island);
 uint32_t step_island_next(const struct step *s, uint32_t i);
 

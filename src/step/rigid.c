@@ -14,7 +14,7 @@ uint32_t step_island_next(const struct step *s, uint32_t i)
 {
     do {
         i = s->w->bodies[i].next_in_island;
-    } while (i != REST_ISLAND_END && !broad_active(&s->w->bodies[i], &s->next->bodies[i]));
+    } while (i != ISLAND_END && !broad_active(&s->w->bodies[i], &s->next->bodies[i]));
     return i;
 }
 
@@ -50,7 +50,7 @@ static void choose_units(const struct step *s, struct step_rigid *rigid)
     uint64_t length_q32 = 0;
 
     rigid->mass_e = INT32_MAX;
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         const struct body *b = &s->w->bodies[i];
 
         if (b->mass.e < rigid->mass_e) {
@@ -74,7 +74,7 @@ static void find_centre(const struct step *s, struct step_rigid *rigid)
     int64_t mass_q30 = 0, moment_q30[3] = {0, 0, 0};
     struct fix_wide total;
 
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         int32_t arm[3], share = share_q30(s, rigid, i);
 
         arm_q30(s, rigid, i, arm);
@@ -152,7 +152,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     uint64_t all = 0;
     int down, up, bits = 0;
 
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         step_add_angular(s, &rigid->centre, i, angular_q72);
         add_inertia(s, rigid, i, inertia_q30);
     }
@@ -188,7 +188,7 @@ bool step_rigid_motion(const struct step *s, uint32_t island, struct step_rigid 
 {
     memset(rigid, 0, sizeof *rigid);
     rigid->first = step_island_first(s, island);
-    if (rigid->first == REST_ISLAND_END || step_island_next(s, rigid->first) == REST_ISLAND_END) {
+    if (rigid->first == ISLAND_END || step_island_next(s, rigid->first) == ISLAND_END) {
         return false;
     }
     rigid->centre = s->next->bodies[rigid->first].position;

@@ -54,11 +54,7 @@ static void find_islands(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
 
-    rest_islands_begin(w->bodies, w->body_count);
-    for (uint32_t i = 0; i < now->touching_count; i++) {
-        rest_islands_join(w->bodies, &now->touching[i]);
-    }
-    rest_islands_end(w->bodies, w->body_count);
+    island_find(w->bodies, w->body_count, now->touching, now->touching_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         PHASE_BEGIN(w->bodies[i].work_phase, BODY_LIFT);
         w->bodies[i].lift_q32 = 0;
