@@ -8,6 +8,9 @@
  *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u)
  * normalised
  *
+ * A part of a path is a path again: with its own t in [0, 1] the quaternion is (1 + c t, u t), whose
+ * norm is N(t) = (1 + c t)^2 + |u|^2 t^2. c is 0 of a path that body_predict makes.
+ *
  * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
  * relative to the body's origin: its position at the start of the slice rounded to q22.
  */
@@ -63,7 +66,14 @@ struct body_path {
     } start;
     bool turns;
     PHASE_TAG(phase)
+    int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
 };
+
+/* c^2 + |u|^2, the last coefficient of N(t) */
+static inline int32_t body_norm2_q30(const struct body_path *path)
+{
+    return path->c_q30 == 0 ? path->u2_q30 : path->u2_q30 + carom_mul_q30(path->c_q30, path->c_q30);
+}
 
 /*
  * What candidates were gathered for: the motion along a path, and all motions that stay near it.
@@ -90,7 +100,7 @@ enum body_box_phase { BODY_NO_BOX, BODY_BOX, BODY_SAVED };
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
 /*
- * A body, 528 bytes where a pointer has 32 bits. Each field stands under the stage that writes it.
+ * A body, 536 bytes where a pointer has 32 bits. Each field stands under the stage that writes it.
  */
 struct body {
     /* world, 7 bytes; of all that a body has, only what world sets and `standing` outlive a step */
@@ -127,7 +137,7 @@ struct body {
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
-    /* predict, and solve while there is no path: 152 bytes */
+    /* predict, and solve while there is no path: 160 bytes */
     struct body_path path;
 
     /* gather, 160 bytes */
@@ -243,6 +253,11 @@ void body_place(struct body *b, const struct body_state *s);
  */
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
+/*
+ * Make the path at hand, which body_predict set, its part from `from` to `to` in [0, 1]; s is the
+ * pose at its start. body_predict sets the whole again.
+ */
+void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30);
 /*
  * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
  * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.

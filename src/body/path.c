@@ -136,7 +136,7 @@ void body_place(struct body *b, const struct body_state *s)
         path->u.c[k] = 0;
     }
     PHASE_BEGIN(path->phase, BODY_PATH);
-    path->u2_q30 = 0;
+    path->u2_q30 = path->c_q30 = 0;
     path->turns = false;
     path->q = s->rotation;
     body_matrix(&path->start.r, &s->rotation);
@@ -165,6 +165,42 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
         cayley(b, l, tau_q30, &path->u);
         path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
         path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    }
+}
+
+/*
+ * (1, (p + w t) u) is (1, p u) times (1 + p w s^2 t / d, w t u / d), d being 1 + p^2 s^2: all turn
+ * about one axis.
+ */
+void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30)
+{
+    struct body_path *path = &b->path;
+    struct body_state start = *s;
+    carom_v3_q32 way = body_way_at(b, from_q30);
+    int32_t part_q30 = to_q30 - from_q30, cut_q30;
+
+    start.rotation = body_rotation_at(b, from_q30);
+    for (int k = 0; k < 3; k++) {
+        int64_t v = path->v.c[k] + 2 * fix_mul_q30(path->g.c[k], from_q30);
+
+        start.position.c[k] += way.c[k];
+        path->v.c[k] = fix_mul_q30(v, part_q30);
+        path->g.c[k] = fix_mul_q30(fix_mul_q30(path->g.c[k], part_q30), part_q30);
+    }
+    body_place_origin(b, &start);
+    path->q = start.rotation;
+    body_matrix(&path->start.r, &path->q);
+    if (path->turns) {
+        int32_t u2_q30 = path->u2_q30;
+
+        /* w / d, d < 1.1 */
+        cut_q30 = carom_mul_q30(u2_q30, carom_mul_q30(from_q30, from_q30));
+        cut_q30 = (int32_t)(((int64_t)part_q30 << 30) / (CAROM_ONE_Q30 + cut_q30));
+        for (int k = 0; k < 3; k++) {
+            path->u.c[k] = carom_mul_q30(path->u.c[k], cut_q30);
+        }
+        path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+        path->c_q30 = carom_mul_q30(u2_q30, carom_mul_q30(from_q30, cut_q30));
     }
 }
 

@@ -18,19 +18,21 @@ static int32_t open_at(const struct opening *o, int32_t t_q30)
     return o->sign < 0 ? -p : p;
 }
 
-/* 1 + s_a^2 t^2 less 1; the products of both are left out where only one turns. */
-static int32_t growth_q30(const struct body_path *path, int32_t t2_q30)
+/* N(t) of a path less 1; the products of both are left out where only one turns. */
+static int32_t growth_q30(const struct body_path *path, int32_t t_q30, int32_t t2_q30)
 {
-    return path->turns ? carom_mul_q30(path->u2_q30, t2_q30) : 0;
+    return path->turns
+               ? carom_mul_q30(body_norm2_q30(path), t2_q30) + 2 * carom_mul_q30(path->c_q30, t_q30)
+               : 0;
 }
 
-/* scale (1 + s_a^2 t^2) (1 + s_b^2 t^2), q30: below 1.3 */
+/* scale N_a(t) N_b(t), q30: below 1.7 */
 static int32_t factor_q30(const struct boyse_pair *pair, int32_t t_q30, int32_t scale_q30)
 {
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
-    scale_q30 += carom_mul_q30(scale_q30, growth_q30(body_path(pair->a), t2_q30));
-    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(body_path(pair->b), t2_q30));
+    scale_q30 += carom_mul_q30(scale_q30, growth_q30(body_path(pair->a), t_q30, t2_q30));
+    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(body_path(pair->b), t_q30, t2_q30));
 }
 
 static int32_t limited(int64_t v)
@@ -151,12 +153,13 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
 
 /*
  * Whether what is wanted in P a time dt before the root is so much other than there that the event
- * gap is off by half the slack. The factor of P changes by up to 2 (s_a^2 + s_b^2) dt of itself, |w| by
- * up to 2 (s_a + s_b) dt; of edges both are less by their sine.
+ * gap is off by half the slack. The factor of P changes by up to 2 (c + c^2 + s^2) dt of itself, c and
+ * s of both bodies, |w| by up to 2 (s_a + s_b) dt; of edges both are less by their sine.
  */
 static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
 {
-    int32_t squares_q30 = body_path(o->pair->a)->u2_q30 + body_path(o->pair->b)->u2_q30;
+    const struct body_path *a = body_path(o->pair->a), *b = body_path(o->pair->b);
+    int32_t squares_q30 = body_norm2_q30(a) + body_norm2_q30(b) + a->c_q30 + b->c_q30;
     int32_t change_q30 = carom_mul_q30(2 * squares_q30, dt_q30);
 
     if (o->edges) {

@@ -16,10 +16,15 @@ static int32_t clamp(int64_t v)
 
 /*
  * Bounds of the path. A point at r goes by at most 2 s |r|, and is at most
- * (2 s^2 + 2 s^3) |r| t^2 < 3 s^2 |r| t^2 from r + 2t u x r, as s < 0.31 (body.h). Seen from `to`,
- * which turns as well while the point goes D from a place within X of its centre, there are
- * 2 s (X + D) of way and 2 s D + 3 s^2 (X + D) of bend on top.
+ * (2 s^2 + 2 s^3 + 2 c s) |r| t^2 < 3 (s^2 + c s) |r| t^2 from r + 2t u x r, as s < 0.31 (body.h).
+ * Seen from `to`, which turns as well while the point goes D from a place within X of its centre,
+ * there are 2 s (X + D) of way and 2 s D + 3 (s^2 + c s) (X + D) of bend on top.
  */
+static int32_t bend_q30(const struct body_path *path, int64_t s_q30)
+{
+    return path->u2_q30 + 1 + carom_mul_q30(path->c_q30, (int32_t)s_q30);
+}
+
 static void set_bounds(struct boyse_view *view)
 {
     const struct body *from = view->from, *to = view->to;
@@ -29,7 +34,7 @@ static void set_bounds(struct boyse_view *view)
         int64_t s_q30 = fix_sqrt((uint64_t)(body_path(from)->u2_q30 + 1) << 30) + 1;
 
         way += fix_mul_q30(2 * s_q30, from->radius_q22) + 1;
-        bend += fix_mul(3 * (int64_t)from->radius_q22, body_path(from)->u2_q30 + 1, 30) + 1;
+        bend += fix_mul(3 * (int64_t)from->radius_q22, bend_q30(body_path(from), s_q30), 30) + 1;
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
@@ -39,10 +44,10 @@ static void set_bounds(struct boyse_view *view)
         reach = fix_length(centre) + from->radius_q22 + way;
         view->seen.way_q22 = clamp(way + fix_mul_q30(2 * reach, (int32_t)s_q30) + 1);
         view->seen.bend_q22 = clamp(bend + fix_mul_q30(2 * way, (int32_t)s_q30) +
-                                    fix_mul(3 * reach, body_path(to)->u2_q30 + 1, 30) + 2);
+                                    fix_mul(3 * reach, bend_q30(body_path(to), s_q30), 30) + 2);
         view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->radius_q22) + 1);
-        view->fixed.bend_q22 =
-            clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, body_path(to)->u2_q30 + 1, 30) + 1);
+        view->fixed.bend_q22 = clamp(
+            bend + fix_mul(3 * (int64_t)to->radius_q22, bend_q30(body_path(to), s_q30), 30) + 1);
     }
 }
 

@@ -74,8 +74,9 @@ static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
 }
 
 /*
- * A vector that turns with a body, times 1 + s^2 t^2: c[0] + c[1] t + c[2] t^2. The formula is that
- * of Cayley: r + 2t u x r + t^2 (2 u (u.r) - s^2 r).
+ * A vector that turns with a body, times its norm N(t) = (1 + c t)^2 + s^2 t^2 (body.h):
+ * c[0] + c[1] t + c[2] t^2. Cayley's formula gives
+ * r + 2t (c r + u x r) + t^2 (2 u (u.r) + 2 c u x r + (c^2 - s^2) r).
  */
 struct quadratic {
     int32_t c[3][3];
@@ -97,6 +98,12 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     for (int k = 0; k < 3; k++) {
         q->c[2][k] =
             (int32_t)carom_round((int64_t)u->c[k] * along - (int64_t)path->u2_q30 * r[k], 30);
+    }
+    for (int k = 0; path->c_q30 != 0 && k < 3; k++) {
+        int32_t part = carom_mul_q30(r[k], path->c_q30);
+
+        q->c[2][k] += carom_mul_q30(q->c[1][k] + part, path->c_q30);
+        q->c[1][k] += 2 * part;
     }
 }
 
@@ -120,12 +127,25 @@ static void set_product(int64_t sum[5], const struct quadratic *x, const struct 
     sum[4] = carom_dot(x->c[2], y->c[2]);
 }
 
-/* v s^2, as fix_mul has it, which is called too often here: |v| < 2^52. */
-static inline int64_t times_u2(int64_t v, const struct body_path *path)
+/* v x, as fix_mul has it, which is called too often here: |v| < 2^52. */
+static inline int64_t times_q30(int64_t v, int32_t x_q30)
 {
-    int64_t high = (v >> 32) * path->u2_q30, low = (int64_t)(uint32_t)v * path->u2_q30;
+    int64_t high = (v >> 32) * x_q30, low = (int64_t)(uint32_t)v * x_q30;
 
     return high * 4 + carom_round(low, 30);
+}
+
+/* A polynomial of a degree times a path's norm: two more coefficients. */
+static void times_norm(int64_t *a, int degree, const struct body_path *path)
+{
+    int32_t once_q30 = 2 * path->c_q30, twice_q30 = body_norm2_q30(path);
+
+    a[degree + 1] = a[degree + 2] = 0;
+    /* from the top: what is lower is still without the factor */
+    for (int k = degree + 2; k >= 1; k--) {
+        a[k] += k >= 2 ? times_q30(a[k - 2], twice_q30) : 0;
+        a[k] += once_q30 != 0 ? times_q30(a[k - 1], once_q30) : 0;
+    }
 }
 
 /*
@@ -172,23 +192,23 @@ static int moving_vertex(const struct boyse_view *view, const struct boyse_place
 {
     const struct body_path *path = body_path(view->from);
     int32_t arm[3], once[3], twice[3];
-    int64_t v = carom_round(carom_dot(start->n, view->v.c), 14);
-    int64_t g = carom_round(carom_dot(start->n, view->g.c), 14);
 
-    a[1] = v;
-    a[2] = g;
+    a[1] = carom_round(carom_dot(start->n, view->v.c), 14);
+    a[2] = carom_round(carom_dot(start->n, view->g.c), 14);
     if (!path->turns) {
         return 2;
     }
-    /* r(t) (1 + s^2 t^2) = r + 2t u x r + t^2 (s^2 r + 2 u x (u x r)) */
+    times_norm(a, 2, path);
+    /* (r(t) - r) N = 2t u x r + t^2 (2 u x (u x r) + 2 c u x r) */
     arm_of(arm, view, start);
     refine(arm, arm, view->fine);
     carom_cross(once, view->u.c, arm, 29);
     carom_cross(twice, view->u.c, once, 30);
+    for (int k = 0; path->c_q30 != 0 && k < 3; k++) {
+        twice[k] += carom_mul_q30(once[k], path->c_q30);
+    }
     a[1] += dot_q40(start->n, once, view->fine);
-    a[2] += dot_q40(start->n, twice, view->fine) + times_u2(a[0], path);
-    a[3] = times_u2(v, path);
-    a[4] = times_u2(g, path);
+    a[2] += dot_q40(start->n, twice, view->fine);
     return 4;
 }
 
@@ -201,7 +221,7 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
 {
     const struct body_path *from = body_path(view->from), *to = body_path(view->to);
     struct quadratic n, centre, arm;
-    int64_t along[5], sum[5], plane = carom_shl(offset_q22, 18);
+    int64_t sum[5], plane = carom_shl(offset_q22, 18), gap = a[0];
     int32_t r[3], at[3];
 
     for (int k = 0; k < 3; k++) {
@@ -211,23 +231,18 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
         return never(a);
     }
     turning(&n, start->n, to, &to->u);
-    set_product(along, &n, &centre);
+    set_product(sum, &n, &centre);
     for (int k = 1; k < 5; k++) {
-        along[k] = sum_q40(along[k], view->fine);
+        a[k] = sum_q40(sum[k], view->fine);
     }
-    along[2] -= times_u2(plane, to);
-    for (int k = 1; k < 5; k++) {
-        a[k] = along[k];
-    }
+    a[1] -= to->c_q30 != 0 ? times_q30(plane, 2 * to->c_q30) : 0;
+    a[2] -= times_q30(plane, body_norm2_q30(to));
     if (!from->turns) {
         return 4; /* a[0] is the exact one */
     }
-    along[0] = sum_q40(carom_dot(n.c[0], centre.c[0]), view->fine) - plane;
-    for (int k = 0; k < 3; k++) {
-        a[k + 2] += times_u2(along[k], from);
-    }
-    a[5] = times_u2(along[3], from);
-    a[6] = times_u2(along[4], from);
+    a[0] = sum_q40(carom_dot(n.c[0], centre.c[0]), view->fine) - plane;
+    times_norm(a, 4, from);
+    a[0] = gap;
     arm_of(r, view, start);
     refine(r, r, view->fine);
     turning(&arm, r, from, &view->u);

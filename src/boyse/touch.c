@@ -17,8 +17,8 @@ static int32_t inverse_q59(uint32_t d)
 }
 
 /*
- * Cayley's turn at one time, 1 + k t [u] + k t^2 (u u^T - s^2), k = 2 / (1 + s^2 t^2); not set when
- * the body does not turn.
+ * Cayley's turn at one time, 1 + k t (1 + c t) [u] + k t^2 (u u^T - s^2), k = 2 / N(t), N(t) being
+ * (1 + c t)^2 + s^2 t^2 (body.h); not set when the body does not turn.
  */
 struct turn {
     bool turns;
@@ -28,16 +28,18 @@ struct turn {
 static void turn_at(struct turn *turn, const struct body_path *path, const carom_v3_q30 *u,
                     int32_t t_q30, int32_t t2_q30)
 {
-    int32_t k_q29, once[3], twice[3], xx, yy, zz, xy, yz, zx;
+    int32_t k_q29, once[3], twice[3], xx, yy, zz, xy, yz, zx, norm_q30, w_q30;
 
     turn->turns = path->turns;
     if (!path->turns) {
         return;
     }
-    /* s t < 0.31: the divisor is 1 to 1.1 */
-    k_q29 =
-        inverse_q59(((uint32_t)CAROM_ONE_Q30 + (uint32_t)carom_mul_q30(path->u2_q30, t2_q30)) >> 1);
+    /* s t < 0.31 and c <= s^2: N is 1 to 1.3 */
+    w_q30 = carom_mul_q30(path->c_q30, t_q30);
+    norm_q30 = carom_mul_q30(body_norm2_q30(path), t2_q30) + 2 * w_q30;
+    k_q29 = inverse_q59(((uint32_t)CAROM_ONE_Q30 + (uint32_t)norm_q30) >> 1);
     t_q30 = carom_mul_q30(k_q29, t_q30);
+    t_q30 += carom_mul_q30(t_q30, w_q30);
     t2_q30 = carom_mul_q30(k_q29, t2_q30);
     for (int i = 0; i < 3; i++) {
         once[i] = (int32_t)carom_round((int64_t)t_q30 * u->c[i], 29);
