@@ -291,7 +291,11 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     rest.first = 0;
     CHECK(rest_take_island(&rest));
     contacts[0].work = works; /* as it was prepared: the elimination has other room here */
-    rest_relative_velocity(contacts, &contacts[0].velocity_q40); /* the impulse is in its place */
+    PHASE_BEGIN(contacts[0].phase, CONTACT_VELOCITY); /* the impulse is in its place */
+    rest_relative_velocity(contacts, contact_velocity(contacts));
+    for (int i = 0; i < 3; i++) {
+        PHASE_BEGIN(bodies[i].path.phase, BODY_SOLVE);
+    }
     rest_solve_sweeps(&rest, &sweep, false);
     impulse(swept);
     for (int k = 0; k < 3; k++) {

@@ -183,13 +183,13 @@ static void test_island_numbers(void)
             many[i].moving = test_random_range(&r, 0, 9) > 0;
             colour[i] = i;
         }
-        rest_islands_begin(many, MANY);
+        island_begin(many, MANY);
         for (int i = 0; i < count; i++) {
             joined[i].a = (uint16_t)test_random_range(&r, 1, MANY - 1);
             joined[i].b = (uint16_t)test_random_range(&r, 0, joined[i].a - 1);
-            rest_islands_join(many, &joined[i]);
+            island_join(many, &joined[i]);
         }
-        rest_islands_end(many, MANY);
+        island_end(many, MANY);
         while (again) {
             again = false;
             for (int i = 0; i < count; i++) {
@@ -208,7 +208,7 @@ static void test_island_numbers(void)
             while (next < MANY && colour[next] != colour[i]) {
                 next++;
             }
-            CHECK_EQ(many[i].next_in_island, next < MANY ? next : (int)REST_ISLAND_END);
+            CHECK_EQ(many[i].next_in_island, next < MANY ? next : (int)ISLAND_END);
         }
     }
 }

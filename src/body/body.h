@@ -18,6 +18,7 @@
 #define CAROM_SRC_BODY_H
 
 #include "../mesh/mesh.h"
+#include "../num/phase.h"
 
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
@@ -38,8 +39,11 @@ struct body_state {
     uint8_t woken; /* since the last step */
 };
 
+/* What the shared memory of a path holds: BODY_ORIGIN is a path's origin and nothing else of it. */
+enum body_path_phase { BODY_NO_PATH, BODY_PATH, BODY_SOLVE, BODY_ORIGIN };
+
 struct body_path {
-    union {
+    union { /* by PHASE_TAG phase; body_path, body_solve */
         struct {
             int64_t origin_q22[3];
             carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
@@ -61,14 +65,14 @@ struct body_path {
         } x; /* q32, what the origin leaves of the position */
     } start;
     bool turns;
+    PHASE_TAG(phase)
     int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
 };
 
 /* c^2 + |u|^2, the last coefficient of N(t) */
 static inline int32_t body_norm2_q30(const struct body_path *path)
 {
-    return path->c_q30 == 0 ? path->u2_q30
-                            : path->u2_q30 + carom_mul_q30(path->c_q30, path->c_q30);
+    return path->c_q30 == 0 ? path->u2_q30 : path->u2_q30 + carom_mul_q30(path->c_q30, path->c_q30);
 }
 
 /*
@@ -93,33 +97,42 @@ struct body_region {
 
 /* A part of a region's time: where the motion starts and ends, and bounds of what lies between. */
 struct body_sweep {
-    carom_v3_q32 at;                /* the centre at the start */
-    carom_v3_q40 way;               /* and from there to the end */
-    carom_m3_q30 start, end;        /* axes */
-    int32_t length_q22, bend_q22;   /* of the centre's way, rounded up */
-    int32_t u_q30, whole_u_q30;     /* |u| of the part and of the region, rounded up */
+    carom_v3_q32 at;              /* the centre at the start */
+    carom_v3_q40 way;             /* and from there to the end */
+    carom_m3_q30 start, end;      /* axes */
+    int32_t length_q22, bend_q22; /* of the centre's way, rounded up */
+    int32_t u_q30, whole_u_q30;   /* |u| of the part and of the region, rounded up */
 };
 
+/* What other shared memory of a body holds. */
+enum body_work_phase { BODY_WORK, BODY_LIFT };
+
+/* A body. Each field stands under the stage that writes it. */
 struct body {
+    /* world, 7 bytes; of all that a body has, only what world sets and `standing` outlive a step */
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
-    bool standing; /* still, and the path, the region and the box are those of where it is */
+    bool standing;    /* still, and the path, the region and the box are those of where it is */
+    int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
-    /* of a step; the rest of that is below */
-    bool active;      /* was to move when its region was set */
-    bool alone;       /* had no pairs then */
-    bool boxed;       /* its box is around its mesh's; else around its sphere */
-    bool in_contact;  /* took the frame's acceleration at once; moves straight */
-    bool touched;     /* had a contact in this step */
-    bool grounded;    /* and one with a body that stands still */
-    bool entering;    /* in_contact is new */
-    bool rewound;     /* is back where the frame found it */
-    bool woke;        /* in the static check at hand */
-    bool solving;     /* has a contact in the solve at hand */
-    int8_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
+    /* of a step, 10 bytes and the tag */
+    bool active;     /* region: was to move when its region was set */
+    bool alone;      /* region: had no pairs then */
+    bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
+    bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
+    bool entering;   /* rest: in_contact is new */
+    bool solving;    /* rest: has a contact in the solve at hand */
+    bool touched;    /* energy: had a contact in this step */
+    bool grounded;   /* energy: and one with a body that stands still */
+    bool rewound;    /* energy: is back where the frame found it */
+    bool woke;       /* wake: in the static check at hand */
+    PHASE_TAG(work_phase)
+
+    /* islands, by whoever asks for them: 6 bytes */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-    uint16_t contacts;               /* where the island's contacts are listed */
+    uint16_t contacts;               /* solve: where the island's contacts are listed */
 
+    /* world: what follows from mesh, mass and force, 104 bytes */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     int32_t restitution_q30;
@@ -130,28 +143,69 @@ struct body {
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
-    /* its clock: the part of the frame that the path at hand takes */
+    /* clock, 16 bytes: the part of the frame that the path at hand takes */
     int32_t from_q30, to_q30;
-    uint16_t events;     /* hits that it took part in, in this frame */
-    uint8_t cuts;        /* how often the path at hand was set again for an earlier end */
-    uint8_t shorter;     /* the next path is shorter by so many factors of 4 */
-    bool member, placed; /* of the hit at hand; its path is that of a place where it only is looked at */
-    bool stands;         /* for what is left of the frame */
-    bool strained;       /* left a path that turns before its end */
+    uint16_t events; /* answer: hits that it took part in, in this frame */
+    uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
+    uint8_t shorter; /* answer: the next path is shorter by so many factors of 4 */
+    bool member;     /* answer: of the island of the hit at hand */
+    bool placed;     /* clock: its path is that of a place where it is looked at */
+    bool stands;     /* answer: for what is left of the frame */
+    bool strained;   /* clock: left a path that turns before its end */
 
-    /* scratch of a step */
+    /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
+
+    /* gather, 160 bytes */
     struct body_region region;
     int32_t reach_q22; /* how far any point may go in the region, and the margin */
     int32_t turn_q30;  /* and how far the body may turn, radians */
-    int32_t box_q18[2][3];       /* in world axes around the region, grown by the reach: by broad */
-    carom_v3_q40 saved_momentum; /* before a solve, for the energy rule */
-    carom_v3_q40 velocity, spin; /* before a solve */
-    union {
-        struct fix_wide work2; /* twice what surfaces did on it in this step, q80 */
-        int64_t lift_q32;      /* between steps: what they lift an island by, at its lowest body */
+    int32_t box_q18[2][3]; /* broad: in world axes around the region, grown by the reach */
+
+    /* solve: before it, 72 bytes */
+    carom_v3_q40 saved_momentum; /* for the energy rule */
+    carom_v3_q40 velocity, spin;
+
+    union {                    /* by PHASE_TAG work_phase; 16 bytes */
+        struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
+        int64_t
+            lift_q32; /* moving, between steps: what they lift an island by, at its lowest body */
     };
 };
+
+/* The path of a body that has one: for all but `start` and `turns`, which stay. */
+static inline const struct body_path *body_path(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_PATH);
+    return &b->path;
+}
+
+/* The origin of its path, which it has after a solve, too. */
+static inline const int64_t *body_origin_q22(const struct body *b)
+{
+    CAROM_ASSERT(b->path.phase == BODY_PATH || b->path.phase == BODY_ORIGIN);
+    return b->path.origin_q22;
+}
+
+/* What a solve works out of a body. */
+static inline struct body_path *body_solve(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_SOLVE);
+    return (struct body_path *)&b->path;
+}
+
+/* What surfaces did on a body in a step; by what they lift an island between steps. */
+static inline struct fix_wide *body_work2(const struct body *b)
+{
+    PHASE_ASSERT(b->work_phase, BODY_WORK);
+    return (struct fix_wide *)&b->work2;
+}
+
+static inline int64_t *body_lift_q32(const struct body *b)
+{
+    PHASE_ASSERT(b->work_phase, BODY_LIFT);
+    return (int64_t *)&b->lift_q32;
+}
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
 void body_set_mass(struct body *b, struct fix_scaled mass);
@@ -160,6 +214,9 @@ void body_set_mass(struct body *b, struct fix_scaled mass);
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                carom_v3_q40 *w);
+/* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
+void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
+                  int64_t out[3]);
 /* The momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);

@@ -19,7 +19,7 @@ static void set_turn(struct body *b, int32_t longer_q16)
         return;
     }
     for (int k = 0; k < 3; k++) {
-        region->u.c[k] = (int32_t)longer(b->path.u.c[k], longer_q16);
+        region->u.c[k] = (int32_t)longer(body_path(b)->u.c[k], longer_q16);
         u2_q60 += (int64_t)region->u.c[k] * region->u.c[k];
     }
     carom_rotate(region->turn.c, &b->path.start.r, region->u.c);
@@ -33,7 +33,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
                        int64_t time_q30, int32_t room_q22)
 {
     struct body_region *region = &b->region;
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     int64_t turn_q30;
     /* 8 frames over the shortest slice, 2^-11 of a frame: below 2^31 */
     int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
@@ -141,7 +141,7 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
 static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
 {
     const struct body_region *region = &b->region;
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     int64_t d[3], cubes_q30;
     int32_t turn[3], part_q30;
 
@@ -167,7 +167,7 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
 bool body_region_holds(const struct body *b, int32_t time_q30)
 {
     const struct body_region *region = &b->region;
-    const struct body_path *path = &b->path;
+    const struct body_path *path = body_path(b);
     int64_t start[3], end[3], bend[3], off, at_end;
     int64_t until_q30 = region->elapsed_q30 + time_q30;
     int32_t part_q30;

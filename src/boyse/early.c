@@ -169,7 +169,7 @@ struct lines {
 static bool edges_stay_beside(const struct boyse_view *view, const struct lines *l,
                               const struct vec *axis)
 {
-    const struct body_path *path_b = &view->to->path;
+    const struct body_path *path_b = body_path(view->to);
     int32_t length_a = l->edge_a->length_q22, length_b = l->edge_b->length_q22;
     int32_t slope_a = dot(axis->c, l->e_q28.c, 28), slope_b = dot(axis->c, l->f, 30);
     uint32_t size = size_of(axis);
@@ -223,7 +223,7 @@ static bool edges_may_meet(const struct boyse_pair *pair, const struct candidate
                        least(turning_rate(&w, &view->u, &p, e_q28.c, 28, edge_a->length_q22));
 
         if (view->to->path.turns) {
-            rate -= most(turning_rate(&w, &view->to->path.u, &q, f, 30, edge_b->length_q22));
+            rate -= most(turning_rate(&w, &body_path(view->to)->u, &q, f, 30, edge_b->length_q22));
         }
         if (stays_above(gap, rate, scaled(size, view->fixed.bend_q22) + BEND_SLACK_Q20, near)) {
             return false;

@@ -21,9 +21,9 @@ static int32_t open_at(const struct opening *o, int32_t t_q30)
 /* N(t) of a path less 1; the products of both are left out where only one turns. */
 static int32_t growth_q30(const struct body_path *path, int32_t t_q30, int32_t t2_q30)
 {
-    return path->turns ? carom_mul_q30(body_norm2_q30(path), t2_q30) +
-                             2 * carom_mul_q30(path->c_q30, t_q30)
-                       : 0;
+    return path->turns
+               ? carom_mul_q30(body_norm2_q30(path), t2_q30) + 2 * carom_mul_q30(path->c_q30, t_q30)
+               : 0;
 }
 
 /* scale N_a(t) N_b(t), q30: below 1.7 */
@@ -31,8 +31,8 @@ static int32_t factor_q30(const struct boyse_pair *pair, int32_t t_q30, int32_t 
 {
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
-    scale_q30 += carom_mul_q30(scale_q30, growth_q30(&pair->a->path, t_q30, t2_q30));
-    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(&pair->b->path, t_q30, t2_q30));
+    scale_q30 += carom_mul_q30(scale_q30, growth_q30(body_path(pair->a), t_q30, t2_q30));
+    return scale_q30 + carom_mul_q30(scale_q30, growth_q30(body_path(pair->b), t_q30, t2_q30));
 }
 
 static int32_t limited(int64_t v)
@@ -158,7 +158,7 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
  */
 static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
 {
-    const struct body_path *a = &o->pair->a->path, *b = &o->pair->b->path;
+    const struct body_path *a = body_path(o->pair->a), *b = body_path(o->pair->b);
     int32_t squares_q30 = body_norm2_q30(a) + body_norm2_q30(b) + a->c_q30 + b->c_q30;
     int32_t change_q30 = carom_mul_q30(2 * squares_q30, dt_q30);
 

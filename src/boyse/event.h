@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* boyse_event - the time to stop at before features meet. */
+/* event - the time to stop at before features meet. */
 #ifndef CAROM_SRC_BOYSE_EVENT_H
 #define CAROM_SRC_BOYSE_EVENT_H
 

@@ -31,23 +31,23 @@ static void set_bounds(struct boyse_view *view)
     int64_t bend = length_q22(view->g.c), way = length_q22(view->v.c) + bend, reach;
 
     if (from->path.turns) {
-        int64_t s_q30 = fix_sqrt((uint64_t)(from->path.u2_q30 + 1) << 30) + 1;
+        int64_t s_q30 = fix_sqrt((uint64_t)(body_path(from)->u2_q30 + 1) << 30) + 1;
 
         way += fix_mul_q30(2 * s_q30, from->radius_q22) + 1;
-        bend += fix_mul(3 * (int64_t)from->radius_q22, bend_q30(&from->path, s_q30), 30) + 1;
+        bend += fix_mul(3 * (int64_t)from->radius_q22, bend_q30(body_path(from), s_q30), 30) + 1;
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
         const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
-        int64_t s_q30 = fix_sqrt((uint64_t)(to->path.u2_q30 + 1) << 30) + 1;
+        int64_t s_q30 = fix_sqrt((uint64_t)(body_path(to)->u2_q30 + 1) << 30) + 1;
 
         reach = fix_length(centre) + from->radius_q22 + way;
         view->seen.way_q22 = clamp(way + fix_mul_q30(2 * reach, (int32_t)s_q30) + 1);
         view->seen.bend_q22 = clamp(bend + fix_mul_q30(2 * way, (int32_t)s_q30) +
-                                    fix_mul(3 * reach, bend_q30(&to->path, s_q30), 30) + 2);
+                                    fix_mul(3 * reach, bend_q30(body_path(to), s_q30), 30) + 2);
         view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->radius_q22) + 1);
-        view->fixed.bend_q22 =
-            clamp(bend + fix_mul(3 * (int64_t)to->radius_q22, bend_q30(&to->path, s_q30), 30) + 1);
+        view->fixed.bend_q22 = clamp(
+            bend + fix_mul(3 * (int64_t)to->radius_q22, bend_q30(body_path(to), s_q30), 30) + 1);
     }
 }
 
@@ -68,7 +68,7 @@ static void set_fine(struct boyse_view *view)
 /* v in the axes of a body; often, gravity above all, there is nothing to turn, or the body is not turned. */
 static void into_axes(int64_t v[3], const struct body *b)
 {
-    const int32_t *q = b->path.q.c;
+    const int32_t *q = body_path(b)->q.c;
 
     if ((v[0] | v[1] | v[2]) != 0 && (q[1] | q[2] | q[3]) != 0) {
         fix_rotate_back(v, &b->path.start.r, v);
@@ -84,10 +84,11 @@ static void set_view(struct boyse_view *view, struct body *from, struct body *to
     view->from = from;
     view->to = to;
     for (int k = 0; k < 3; k++) {
-        centre_q32[k] = carom_shl(from->path.origin_q22[k] - to->path.origin_q22[k], 10) +
-                        from->path.start.x.c[k] - to->path.start.x.c[k];
-        v[k] = from->path.v.c[k] - to->path.v.c[k];
-        g[k] = from->path.g.c[k] - to->path.g.c[k];
+        centre_q32[k] =
+            carom_shl(body_path(from)->origin_q22[k] - body_path(to)->origin_q22[k], 10) +
+            from->path.start.x.c[k] - to->path.start.x.c[k];
+        v[k] = body_path(from)->v.c[k] - body_path(to)->v.c[k];
+        g[k] = body_path(from)->g.c[k] - body_path(to)->g.c[k];
         view->u.c[k] = 0;
     }
     into_axes(centre_q32, to);
@@ -99,11 +100,11 @@ static void set_view(struct boyse_view *view, struct body *from, struct body *to
         view->g.c[k] = (int32_t)carom_round(g[k], 16);
     }
     if (from->path.turns) {
-        carom_rotate(view->u.c, &view->r, from->path.u.c);
+        carom_rotate(view->u.c, &view->r, body_path(from)->u.c);
         carom_cross(turning, view->u.c, view->centre.c, 29);
     }
     for (int k = 0; k < 3; k++) {
-        view->u_relative.c[k] = view->u.c[k] - to->path.u.c[k];
+        view->u_relative.c[k] = view->u.c[k] - body_path(to)->u.c[k];
         view->field.c[k] = (int32_t)carom_round(v[k], 18) - turning[k];
     }
     set_bounds(view);
@@ -131,10 +132,10 @@ void boyse_pair_begin(struct boyse_pair *pair, struct body *a, struct body *b)
     pair->b = b;
     pair->skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
     for (int k = 0; k < 3; k++) {
-        pair->offset_q22[k] = (int32_t)(b->path.origin_q22[k] - a->path.origin_q22[k]);
+        pair->offset_q22[k] = (int32_t)(body_path(b)->origin_q22[k] - body_path(a)->origin_q22[k]);
     }
-    pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)a->path.u2_q30 << 30) +
-                                   fix_sqrt((uint64_t)b->path.u2_q30 << 30));
+    pair->turn_q30 = 2 * (int32_t)(fix_sqrt((uint64_t)body_path(a)->u2_q30 << 30) +
+                                   fix_sqrt((uint64_t)body_path(b)->u2_q30 << 30));
     set_axes(pair);
     set_view(&pair->view[0], a, b);
     pair->view[1].to = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boyse_place - where the features of a candidate are: shared by the exact test, the early test and
+ * place - where the features of a candidate are: shared by the exact test, the early test and
  * the polynomial.
  */
 #ifndef CAROM_SRC_BOYSE_PLACE_H

@@ -190,7 +190,7 @@ static void arm_of(int32_t arm_q22[3], const struct boyse_view *view,
 static int moving_vertex(const struct boyse_view *view, const struct boyse_places *start,
                          int64_t *a)
 {
-    const struct body_path *path = &view->from->path;
+    const struct body_path *path = body_path(view->from);
     int32_t arm[3], once[3], twice[3];
 
     a[1] = carom_round(carom_dot(start->n, view->v.c), 14);
@@ -219,7 +219,7 @@ static int moving_vertex(const struct boyse_view *view, const struct boyse_place
 static int turning_face(const struct boyse_view *view, const struct boyse_places *start,
                         int32_t offset_q22, int64_t *a)
 {
-    const struct body_path *from = &view->from->path, *to = &view->to->path;
+    const struct body_path *from = body_path(view->from), *to = body_path(view->to);
     struct quadratic n, centre, arm;
     int64_t sum[5], plane = carom_shl(offset_q22, 18), gap = a[0];
     int32_t r[3], at[3];
@@ -304,10 +304,10 @@ static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
     if (of_a) {
         arm_of(moment, view, start);
         carom_cross(moment, moment, start->e, 30 - view->fine);
-        turning(k, moment, &pair->a->path, &view->u);
+        turning(k, moment, body_path(pair->a), &view->u);
     } else {
         carom_cross(moment, start->start_b.c, start->f, 30 - view->fine);
-        turning(k, moment, &pair->b->path, &pair->b->path.u);
+        turning(k, moment, body_path(pair->b), &body_path(pair->b)->u);
     }
 }
 
@@ -318,8 +318,8 @@ static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pa
     struct quadratic e, f, k;
     int32_t way[5][3];
 
-    turning(&e, start->e, &pair->a->path, &pair->view[0].u);
-    turning(&f, start->f, &pair->b->path, &pair->b->path.u);
+    turning(&e, start->e, body_path(pair->a), &pair->view[0].u);
+    turning(&f, start->f, body_path(pair->b), &body_path(pair->b)->u);
     cross_product(way, &f, centre);
     for (int i = 0; i <= BOYSE_DEGREE; i++) {
         sum[i] = 0;
@@ -343,7 +343,7 @@ static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pai
                      const struct boyse_places *start, const struct quadratic *centre)
 {
     bool of_a = !pair->b->path.turns;
-    const struct body_path *path = of_a ? &pair->a->path : &pair->b->path;
+    const struct body_path *path = of_a ? body_path(pair->a) : body_path(pair->b);
     const int32_t *y = of_a ? start->f : start->e;
     struct quadratic x, way, k;
 

@@ -25,11 +25,6 @@ uint32_t curve_quotient_q30(uint32_t n, uint32_t d)
     return shift > -32 ? quotient >> -shift : 0;
 }
 
-static int32_t size_of(int32_t v)
-{
-    return v < 0 ? -v : v;
-}
-
 bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
 {
     uint64_t first = (uint64_t)carom_abs(a[0]), reach = 0, sum;
@@ -56,7 +51,7 @@ bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
     }
     q->bend8 = 1;
     for (int k = 2; k <= degree; k++) {
-        q->bend8 += k * (k - 1) / 2 * ((size_of(q->a[k]) >> 3) + 1);
+        q->bend8 += k * (k - 1) / 2 * ((fix_abs32(q->a[k]) >> 3) + 1);
     }
     return true;
 }
@@ -109,7 +104,7 @@ static void advance(struct walk *w, uint32_t step_q30)
  */
 void walk_begin(struct walk *w, const struct curve *q)
 {
-    int32_t size = size_of(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
+    int32_t size = fix_abs32(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
 
     w->t_q30 = w->side = w->rounds = 0;
     w->stride = STRIDE_Q30;
@@ -120,7 +115,7 @@ void walk_begin(struct walk *w, const struct curve *q)
             c = -c - 1;
         }
         for (int k = 3; k <= q->degree; k++) {
-            c -= (size_of(q->a[k]) >> 3) + 1;
+            c -= (fix_abs32(q->a[k]) >> 3) + 1;
         }
         advance(w, safe_step_q30(size - CURVE_NOISE / 2, d, c));
     }
@@ -129,7 +124,7 @@ void walk_begin(struct walk *w, const struct curve *q)
 /* 16: what slope8 is too low by at most. */
 static uint32_t walk_step_q30(const struct walk *w, const struct curve *q)
 {
-    return safe_step_q30(size_of(w->p), w->p < 0 ? -w->slope8 - 16 : w->slope8, -q->bend8);
+    return safe_step_q30(fix_abs32(w->p), w->p < 0 ? -w->slope8 - 16 : w->slope8, -q->bend8);
 }
 
 /*
@@ -138,7 +133,7 @@ static uint32_t walk_step_q30(const struct walk *w, const struct curve *q)
  */
 static uint32_t last_step_q30(const struct walk *w, const struct curve *q)
 {
-    int32_t size = size_of(w->p), fall8 = w->p < 0 ? w->slope8 : -w->slope8;
+    int32_t size = fix_abs32(w->p), fall8 = w->p < 0 ? w->slope8 : -w->slope8;
     uint32_t step;
 
     if (fall8 <= 0 || size >> 3 > fall8 >> 8) {
@@ -157,7 +152,7 @@ bool walk_next(struct walk *w, const struct curve *q)
         bool crossed;
 
         curve_slope(q, w->t_q30, &w->p, &w->slope8);
-        side = size_of(w->p) <= CURVE_NOISE ? 0 : w->p > 0 ? 1 : -1;
+        side = fix_abs32(w->p) <= CURVE_NOISE ? 0 : w->p > 0 ? 1 : -1;
         /* rounding may carry t across a root: a change of sign is one as well */
         crossed = side != 0 && side == -w->side;
         if (side != 0) {
@@ -189,7 +184,7 @@ bool walk_next(struct walk *w, const struct curve *q)
  */
 void walk_over(struct walk *w, const struct curve *q)
 {
-    int64_t steep = size_of(w->slope8);
+    int64_t steep = fix_abs32(w->slope8);
     uint32_t step;
 
     w->side = 0;

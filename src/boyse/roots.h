@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * boyse_curve - P(t) in 32 bits: its value and slope, its roots in order of time, and divisions that
+ * roots - P(t) in 32 bits: its value and slope, its roots in order of time, and divisions that
  * need no more than 32 bits.
  */
 #ifndef CAROM_SRC_BOYSE_CURVE_H
@@ -39,7 +39,7 @@ static inline int32_t curve_at(const struct curve *q, int32_t t_q30)
 /* A number of q40 in the units of a curve. */
 static inline int64_t curve_units(const struct curve *q, int64_t v_q40)
 {
-    return q->shift > 0 ? v_q40 >> q->shift : carom_shl(v_q40, -q->shift);
+    return fix_shift(v_q40, -q->shift);
 }
 
 /*

@@ -83,8 +83,8 @@ static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_
     int32_t t2_q30 = carom_mul_q30(t_q30, t_q30);
 
     m->view = view;
-    turn_at(&m->from, &view->from->path, &view->u, t_q30, t2_q30);
-    turn_at(&m->to, &view->to->path, &view->to->path.u, t_q30, t2_q30);
+    turn_at(&m->from, body_path(view->from), &view->u, t_q30, t2_q30);
+    turn_at(&m->to, body_path(view->to), &body_path(view->to)->u, t_q30, t2_q30);
     return t2_q30;
 }
 

@@ -45,13 +45,9 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
     }
     c->work = NULL;
     c->idle = c->resting = c->impact = false;
+    PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
-}
-
-static int64_t digits_fewer(int64_t v, int digits)
-{
-    return digits > 0 ? carom_round(v, digits) : carom_shl(v, -digits);
 }
 
 static void set_arms(struct contact *c, const carom_v3_q40 arm[2])
@@ -61,7 +57,7 @@ static void set_arms(struct contact *c, const carom_v3_q40 arm[2])
 
         for (int k = 0; side->body && k < 3; k++) {
             side->arm_q30[k] =
-                (int32_t)digits_fewer(arm[s].c[k], 40 - contact_arm_bits(side->body));
+                (int32_t)fix_round_shift(arm[s].c[k], contact_arm_bits(side->body) - 40);
         }
     }
 }
@@ -72,8 +68,8 @@ carom_v3_q32 contact_point(const struct contact *c)
     carom_v3_q32 point;
 
     for (int k = 0; k < 3; k++) {
-        point.c[k] = carom_shl(a->path.origin_q22[k], 10) + a->path.start.x.c[k] +
-                     digits_fewer(c->side[0].arm_q30[k], contact_arm_bits(a) - 32);
+        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start.x.c[k] +
+                     fix_round_shift(c->side[0].arm_q30[k], 32 - contact_arm_bits(a));
     }
     return point;
 }

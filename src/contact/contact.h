@@ -22,13 +22,19 @@ struct contact_lever {
     int32_t turn_bits;
 };
 
-/* Rolling friction of a pair, at its first contact in an island; rest_roll.c. */
+/* What the shared memory of a contact, of its work and of a pair's rolling holds. */
+enum contact_phase { CONTACT_IMPULSE, CONTACT_VELOCITY, CONTACT_GAIN };
+enum contact_work_phase { CONTACT_INVERSE, CONTACT_WANTED };
+enum contact_roll_phase { CONTACT_ROLLING, CONTACT_MOMENT };
+
+/* Rolling friction of a pair, at its first contact in an island; by solve/roll.c. */
 struct contact_roll {
-    int32_t unit_bits; /* of length: the shorter of the two bodies' */
-    int32_t arm_q30;   /* the patch over which contacts press, in that unit */
-    int32_t mass_q24;  /* change of spin by a unit moment, at most */
-    int32_t step_q30;  /* its inverse */
-    union {
+    int8_t unit_bits; /* of length: the shorter of the two bodies' */
+    PHASE_TAG(phase)
+    int32_t arm_q30;  /* the patch over which contacts press, in that unit */
+    int32_t mass_q24; /* change of spin by a unit moment, at most */
+    int32_t step_q30; /* its inverse */
+    union {           /* by PHASE_TAG phase; contact_rolling, contact_moment */
         struct {
             int32_t spin[3]; /* relative, before the solve, in solver units */
             int32_t gain[3], way[3];
@@ -48,14 +54,15 @@ struct contact_work {
     bool rolls;                /* and it takes part in the sweeps at hand */
     bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
     int8_t fine_bits;
+    PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
     int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
     int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
-    int32_t step[2]; /* of a sweep when it slides, so too: along N, and one scalar across */
-    union {
-        int32_t inverse[6];      /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
+    int32_t step[2];        /* of a sweep when it slides, so too: along N, and one scalar across */
+    union {                 /* by PHASE_TAG phase; contact_inverse, contact_wanted */
+        int32_t inverse[6]; /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
         carom_v3_q40 wanted_q40; /* while the energy rule looks for less: without friction */
     };
 
@@ -82,10 +89,11 @@ struct contact {
     bool idle;    /* nothing asks for its island to be solved now */
     bool resting; /* solved without any impact in its island */
     bool impact;
+    PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
     int64_t speed_q40; /* V.N before */
-    union {
+    union {            /* by PHASE_TAG phase; contact_velocity, contact_gain, contact_impulse */
         struct {
             /* change of the impulse in two sweeps, and the way it is going */
             int32_t gain[3], way[3];
@@ -94,6 +102,53 @@ struct contact {
         carom_v3_q40 impulse_q40;  /* the result, when they are over: P on a, -P on b */
     };
 };
+
+/* The velocity before, of a contact at which sweeps have not begun. */
+static inline carom_v3_q40 *contact_velocity(const struct contact *c)
+{
+    PHASE_ASSERT(c->phase, CONTACT_VELOCITY);
+    return (carom_v3_q40 *)&c->velocity_q40;
+}
+
+/* A contact in the sweeps: for `gain` and `way`. */
+static inline struct contact *contact_gain(struct contact *c)
+{
+    PHASE_ASSERT(c->phase, CONTACT_GAIN);
+    return c;
+}
+
+/* The impulse, of a contact that was solved or not taken up. */
+static inline carom_v3_q40 *contact_impulse(const struct contact *c)
+{
+    PHASE_ASSERT(c->phase, CONTACT_IMPULSE);
+    return (carom_v3_q40 *)&c->impulse_q40;
+}
+
+/* K^-1, until the energy rule takes its room for the impulse that was wanted. */
+static inline int32_t *contact_inverse(const struct contact *c)
+{
+    PHASE_ASSERT(c->work->phase, CONTACT_INVERSE);
+    return c->work->inverse;
+}
+
+static inline carom_v3_q40 *contact_wanted(const struct contact *c)
+{
+    PHASE_ASSERT(c->work->phase, CONTACT_WANTED);
+    return &c->work->wanted_q40;
+}
+
+/* Rolling in the sweeps; and the moment when they are over. */
+static inline struct contact_roll *contact_rolling(const struct contact *c)
+{
+    PHASE_ASSERT(c->work->roll->phase, CONTACT_ROLLING);
+    return c->work->roll;
+}
+
+static inline carom_v3_q40 *contact_moment(const struct contact *c)
+{
+    PHASE_ASSERT(c->work->roll->phase, CONTACT_MOMENT);
+    return &c->work->roll->moment_q40;
+}
 
 /* The contacts of a world at the present poses, sorted by key, with their pool. */
 struct contact_list {
@@ -167,8 +222,7 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)
 {
-    return fix_mul(drift->c[0], n->c[0], 30) + fix_mul(drift->c[1], n->c[1], 30) +
-           fix_mul(drift->c[2], n->c[2], 30);
+    return fix_dot_q30(drift->c, n->c);
 }
 
 /*

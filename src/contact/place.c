@@ -38,12 +38,6 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
     return d;
 }
 
-static int64_t part_along(const carom_v3_q40 *v, const int32_t d_q30[3])
-{
-    return fix_mul(v->c[0], d_q30[0], 30) + fix_mul(v->c[1], d_q30[1], 30) +
-           fix_mul(v->c[2], d_q30[2], 30);
-}
-
 /*
  * How far along a's edge e it comes nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
  * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits.
@@ -103,7 +97,7 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
         gap.c[k] = on[0].c[k] + apart.c[k] - on[1].c[k];
     }
     arm[known] =
-        along(on[known], (known == 0 ? -1 : 1) * part_along(&gap, normal->c) / 2, normal->c);
+        along(on[known], (known == 0 ? -1 : 1) * fix_dot_q30(gap.c, normal->c) / 2, normal->c);
     for (int k = 0; k < 3; k++) {
         arm[1 - known].c[k] = arm[known].c[k] + (known == 0 ? apart.c[k] : -apart.c[k]);
     }

@@ -54,7 +54,7 @@ struct draw_rect {
     int32_t x0, y0, x1, y1;
 };
 
-/* ---- draw_view.c: from the world to the picture */
+/* ---- view.c: from the world to the picture */
 
 #define DRAW_SIDES 5
 
@@ -172,7 +172,7 @@ struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct 
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* ---- draw_divide.c: quotients for processors that cannot divide */
+/* ---- divide.c: quotients for processors that cannot divide */
 
 /* n / d by a table of inverses and products; n < 2^31, 0 < d < 2^16. */
 uint32_t draw_quotient(uint32_t n, uint32_t d);
@@ -190,7 +190,7 @@ static inline int32_t draw_divide(int32_t n, int32_t d)
 #endif
 }
 
-/* ---- draw_cover.c: what a body surely hides */
+/* ---- cover.c: what a body surely hides */
 
 /* Find the view's cover. */
 void draw_cover_init(struct draw_view *view, const struct carom_world *world);
@@ -208,13 +208,13 @@ static inline bool draw_covers(const struct draw_cover *cover, const struct draw
            vertex->w_q26 < cover->w_q26;
 }
 
-/* ---- draw_flat.c: the faces that show, part by part */
+/* ---- flat.c: the faces that show, part by part */
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
 int draw_flat(const struct carom_world *world, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect);
 
-/* ---- draw_rows.c: their pixels, row by row */
+/* ---- scanline.c: their pixels, row by row */
 
 /* A triangle on the picture. It begins with its top corner and runs counter-clockwise. */
 struct draw_face {
@@ -239,7 +239,7 @@ struct draw_list {
 bool draw_rows(const struct draw_view *view, const struct draw_list *list,
                const struct carom_picture *picture, bool must);
 
-/* ---- draw_depth.c: where faces cover each other */
+/* ---- depth.c: where faces cover each other */
 
 /* A face in the row at hand. */
 struct draw_span {
@@ -301,7 +301,7 @@ void draw_advance(struct draw_sweep *s, int32_t to);
 /* Take in a span of which the first pixel is not before x. */
 void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 
-/* ---- draw_pixels.c: runs of pixels in memory */
+/* ---- pixels.c: runs of pixels in memory */
 
 /*
  * Stores of 2 and 4 bytes into memory of any type. Where the processor takes words at odd places they
@@ -342,12 +342,12 @@ void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t 
 /* The background of row y of the view's part. */
 uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
-/* ---- draw_wire.c */
+/* ---- wire.c */
 
 void draw_wire(const struct carom_world *world, struct draw_view *view,
                const struct carom_picture *picture, struct draw_rect part);
 
-/* ---- draw_palette.c */
+/* ---- palette.c */
 
 /* A palette entry as a pixel of the format, over a whole word as often as it fits. */
 uint32_t draw_colour(uint8_t format, uint32_t index);

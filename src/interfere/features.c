@@ -2,11 +2,6 @@
 /* Whether two features of faces that are near each other can touch. */
 #include "narrow.h"
 
-static inline int32_t most(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
 {
     return (struct interfere_vec){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
@@ -14,17 +9,11 @@ static struct interfere_vec difference(const struct interfere_vec *a, const stru
 
 /* ---------------------------------------------------------- vertices, faces */
 
-/* |v| in 32 bits */
-static inline int32_t magnitude(int32_t v)
-{
-    return v < 0 ? -v : v;
-}
-
 /* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
 static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
                          const struct interfere_vec *const t[3], const int32_t n[3])
 {
-    int32_t x = magnitude(n[0]), y = magnitude(n[1]), z = magnitude(n[2]);
+    int32_t x = fix_abs32(n[0]), y = fix_abs32(n[1]), z = fix_abs32(n[2]);
     int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
     int i = axis == 2 ? 0 : axis + 1, j = i == 2 ? 0 : i + 1;
 
@@ -37,7 +26,7 @@ static bool stays_beside(const struct interfere_leaf *l, const struct interfere_
             inside = -inside;
         }
         if (inside <
-            -((int64_t)magnitude(ex) * l->reach.c[j] + (int64_t)magnitude(ey) * l->reach.c[i])) {
+            -((int64_t)fix_abs32(ex) * l->reach.c[j] + (int64_t)fix_abs32(ey) * l->reach.c[i])) {
             return true;
         }
     }
@@ -81,8 +70,8 @@ struct lines {
 
 static int64_t size_of(const int32_t v[3])
 {
-    return (int64_t)((uint32_t)magnitude(v[0]) + (uint32_t)magnitude(v[1]) +
-                     (uint32_t)magnitude(v[2]));
+    return (int64_t)((uint32_t)fix_abs32(v[0]) + (uint32_t)fix_abs32(v[1]) +
+                     (uint32_t)fix_abs32(v[2]));
 }
 
 /*
@@ -149,7 +138,7 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
 
     carom_rotate(l->e, &in->leaf->to_b, l->a->direction.c);
     carom_cross(l->w, l->e, f, 30);
-    largest = most(most(magnitude(l->w[0]), magnitude(l->w[1])), magnitude(l->w[2]));
+    largest = fix_larger(fix_larger(fix_abs32(l->w[0]), fix_abs32(l->w[1])), fix_abs32(l->w[2]));
     if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
         return true; /* may be parallel somewhere on the way: leave it to the exact test */
     }

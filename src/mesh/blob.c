@@ -15,6 +15,7 @@
  *   16 + 6V       6 F    faces: uint16 vertex numbers
  *   16 + 6V + 6F  8      64-bit FNV-1a of every byte before it
  */
+#include "../num/fnv.h"
 #include "mesh.h"
 
 #define BLOB_HEADER  16
@@ -32,13 +33,12 @@ static uint64_t read_number(const uint8_t *at, int bytes)
     return v;
 }
 
-/* 64-bit FNV-1a. */
 static uint64_t hash_bytes(const uint8_t *at, size_t bytes)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = FNV_START;
 
     for (size_t i = 0; i < bytes; i++) {
-        hash = (hash ^ at[i]) * 0x100000001b3u;
+        hash = fnv_add(hash, at[i]);
     }
     return hash;
 }

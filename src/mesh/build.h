@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_build - what the files that build a mesh share. Not for other stages.
+ * build - what the files that build a mesh share. Not for other stages.
  *
  * The block is filled from its start with what stays. The work table of the moment lies at its end,
  * where the z-lists' entries, carved last, will be.
@@ -8,6 +8,7 @@
 #ifndef CAROM_SRC_MESH_BUILD_H
 #define CAROM_SRC_MESH_BUILD_H
 
+#include "../num/sort.h"
 #include "mesh.h"
 
 /* The z-lists of a mesh hold at most this many entries a face; CAROM_MESH_BYTES counts on it. */
@@ -40,9 +41,6 @@ int mesh_refresh(struct mesh_builder *b);
  * shorter, by more than what lengths are rounded up by.
  */
 int64_t mesh_longest(int64_t longest, const int64_t v[3]);
-
-/* Sort keys in rising order, in place. */
-void mesh_sort(uint64_t *keys, uint32_t n);
 
 /* Edges, their rings and what faces own. CAROM_OK or CAROM_ERR_MESH_OPEN, _EDGE, _SURFACE. */
 int mesh_build_edges(struct mesh_builder *b);

@@ -8,38 +8,6 @@
  */
 #define FLAT_Q30 10737
 
-/* Let the key at `root` sink to its place in a heap of n keys. */
-static void sink(uint64_t *keys, uint32_t root, uint32_t n)
-{
-    uint64_t key = keys[root];
-
-    while (2 * root + 1 < n) {
-        uint32_t child = 2 * root + 1;
-
-        child += child + 1 < n && keys[child + 1] > keys[child];
-        if (keys[child] <= key) {
-            break;
-        }
-        keys[root] = keys[child];
-        root = child;
-    }
-    keys[root] = key;
-}
-
-void mesh_sort(uint64_t *keys, uint32_t n)
-{
-    for (uint32_t root = n / 2; root-- > 0;) {
-        sink(keys, root, n);
-    }
-    while (n > 1) {
-        uint64_t top = keys[0];
-
-        keys[0] = keys[--n];
-        keys[n] = top;
-        sink(keys, 0, n);
-    }
-}
-
 /*
  * A face's side as a key: its two vertices, lower one first, whether it runs from the higher one,
  * and the side's own number. Sorted, the sides of one edge are neighbours.
@@ -249,7 +217,7 @@ int mesh_build_edges(struct mesh_builder *b)
     int error;
 
     make_keys(&b->mesh->raw, b->keys);
-    mesh_sort(b->keys, 3 * b->mesh->raw.face_count);
+    sort_keys(b->keys, 3 * b->mesh->raw.face_count);
     error = count_edges(b);
     if (error) {
         return error;

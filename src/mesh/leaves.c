@@ -48,7 +48,7 @@ static void sort_along(const struct carom_mesh *mesh, uint64_t *keys, uint32_t n
 
         keys[i] = (uint64_t)centre3(mesh, face, axis) << 16 | face;
     }
-    mesh_sort(keys, n);
+    sort_keys(keys, n);
 }
 
 /* The arrays that leaves are put into, and how much of them is taken. */

@@ -89,12 +89,6 @@ static void sum_faces(const struct frame *about, struct sums *out)
     }
 }
 
-/* v / 2^s to nearest, s = 0 included. */
-static int64_t round_off(int64_t v, int s)
-{
-    return s > 0 ? carom_round(v, s) : v;
-}
-
 /*
  * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the
  * first ratio leaves is divided again.
@@ -182,7 +176,8 @@ static void share_exponent(struct carom_sym3 *out, const struct fix_scaled ratio
     for (int n = 0; n < 6; n++) {
         int shift = ratio[n].e - out->e;
 
-        out->m[n] = ratio[n].m == 0 || shift > 31 ? 0 : (int32_t)round_off(ratio[n].m, shift);
+        out->m[n] =
+            ratio[n].m == 0 || shift > 31 ? 0 : (int32_t)fix_round_shift(ratio[n].m, -shift);
     }
 }
 
@@ -222,8 +217,8 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
         if (centre[k] < carom_shl(low[k], bits) || centre[k] > carom_shl(high[k], bits)) {
             return CAROM_ERR_MESH_INSIDE_OUT; /* some part of it is */
         }
-        mass.centre.c[k] = (int32_t)round_off(centre[k], bits - to_q22);
-        about.origin[k] = (int32_t)round_off(centre[k], bits - about.bits);
+        mass.centre.c[k] = (int32_t)fix_round_shift(centre[k], to_q22 - bits);
+        about.origin[k] = (int32_t)fix_round_shift(centre[k], about.bits - bits);
     }
     second_moments(&about, &det20, inertia20);
     for (int n = 0; n < 6; n++) {

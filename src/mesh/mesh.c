@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "build.h"
 
-static int32_t magnitude(int32_t v)
-{
-    return v < 0 ? -v : v;
-}
-
 bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
                     int32_t tolerance_q22)
 {
     const int32_t *n = mesh->faces[face].normal.c;
-    int32_t nx = magnitude(n[0]), ny = magnitude(n[1]), nz = magnitude(n[2]);
+    int32_t nx = fix_abs32(n[0]), ny = fix_abs32(n[1]), nz = fix_abs32(n[2]);
     int axis = nx > ny ? (nx > nz ? 0 : 2) : (ny > nz ? 1 : 2);
     int x = axis == 2 ? 0 : axis + 1, y = axis == 0 ? 2 : axis - 1;
     int32_t one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
@@ -25,7 +20,7 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
         int64_t side = (int64_t)ex * (py - from[y] * one) - (int64_t)ey * (px - from[x] * one);
 
         if ((n[axis] > 0 ? side : -side) <
-            -(int64_t)(magnitude(ex) + magnitude(ey)) * tolerance_q22) {
+            -(int64_t)(fix_abs32(ex) + fix_abs32(ey)) * tolerance_q22) {
             return false;
         }
         from = to;

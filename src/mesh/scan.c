@@ -26,16 +26,6 @@ static struct quotient divide(int64_t n, int32_t d)
     return q;
 }
 
-static int32_t smaller(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static int32_t larger(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 /*
  * The closed cells, 2^shift wide from 0 on, that the interval [low, high] touches: [*first, *end).
  * A cell touches low when its upper side, (i + 1) 2^shift, does not stay below it.
@@ -45,8 +35,8 @@ static void touched(int32_t low, int32_t high, int shift, int32_t count, int32_t
 {
     int32_t above = ((int32_t)1 << shift) - 1;
 
-    *first = larger(((low + above) >> shift) - 1, 0);
-    *end = smaller((high >> shift) + 1, count);
+    *first = fix_larger(((low + above) >> shift) - 1, 0);
+    *end = fix_smaller((high >> shift) + 1, count);
 }
 
 void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const int32_t xy[][2],
@@ -63,8 +53,8 @@ void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const 
         CAROM_ASSERT(carom_abs(xy[i][0]) < 1 << 29 && carom_abs(xy[i][1]) < 1 << 29);
         s->xy[i][0] = xy[i][0];
         s->xy[i][1] = xy[i][1];
-        low = smaller(low, xy[i][1]);
-        high = larger(high, xy[i][1]);
+        low = fix_smaller(low, xy[i][1]);
+        high = fix_larger(high, xy[i][1]);
     }
     touched(low - grow - grid->y0, high + grow - grid->y0, grid->shift, grid->ny, &s->row,
             &s->row_end);
@@ -83,8 +73,8 @@ static void add_crossing(const int32_t a[2], const int32_t b[2], int32_t y, int3
     if (a[1] < y && y < b[1]) {
         struct quotient q = divide((int64_t)(y - a[1]) * (b[0] - a[0]), b[1] - a[1]);
 
-        *low = smaller(*low, a[0] + q.floor + (q.rest > 0));
-        *high = larger(*high, a[0] + q.floor);
+        *low = fix_smaller(*low, a[0] + q.floor + (q.rest > 0));
+        *high = fix_larger(*high, a[0] + q.floor);
     }
 }
 
@@ -106,8 +96,8 @@ bool scan_cells_next(struct scan_cells *s, struct scan_run *run)
             bool up = a[1] < b[1];
 
             if (a[1] >= y0 && a[1] <= y1) {
-                low = smaller(low, a[0]);
-                high = larger(high, a[0]);
+                low = fix_smaller(low, a[0]);
+                high = fix_larger(high, a[0]);
             }
             add_crossing(up ? a : b, up ? b : a, y0, &low, &high);
             add_crossing(up ? a : b, up ? b : a, y1, &low, &high);

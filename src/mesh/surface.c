@@ -184,7 +184,7 @@ static void mean_drift(const struct carom_mesh *mesh, const uint16_t *vertex,
         for (int i = 0; i < n; i++) {
             sum += (int64_t)(s->now[vertex[i]][k] - s->before[vertex[i]][k]) * weight_q30[i];
         }
-        out->c[k] = digits > 0 ? carom_round(sum, digits) : carom_shl(sum, -digits);
+        out->c[k] = fix_round_shift(sum, -digits);
     }
 }
 

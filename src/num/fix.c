@@ -60,6 +60,26 @@ int64_t fix_sqrt_above(uint64_t v)
            1;
 }
 
+int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s)
+{
+    if (s > bits) {
+        /* what low has below 2^bits cannot carry past the half */
+        return fix_round_shift(high + (low >> bits), bits - s);
+    }
+    if (s < 1) {
+        return carom_shl(carom_shl(high, bits) + low, -s);
+    }
+    return carom_shl(high, bits - s) + carom_round(low, s);
+}
+
+int64_t fix_round_shift(int64_t v, int s)
+{
+    if (s >= 0) {
+        return carom_shl(v, s);
+    }
+    return s < -62 ? 0 : carom_round(v, -s);
+}
+
 struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)
 {
     struct fix_wide sum;
@@ -205,10 +225,7 @@ struct fix_scaled fix_scaled_inverse(struct fix_scaled s)
 int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
 {
     if (s.e > 62) {
-        int64_t p = fix_mul(v, s.m, 62);
-        int more = s.e - 62;
-
-        return more > 62 ? 0 : carom_round(p, more);
+        return fix_round_shift(fix_mul(v, s.m, 62), 62 - s.e);
     }
     if (s.e < 1) {
         return carom_shl(v * s.m, -s.e);
@@ -256,7 +273,7 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
     int64_t length;
 
     for (int k = 0; k < 3; k++) {
-        c[k] = shift > 0 ? v[k] >> shift : carom_shl(v[k], -shift);
+        c[k] = fix_shift(v[k], -shift);
         sum += (uint64_t)(c[k] * c[k]); /* |c| <= 2^31: the sum is at most 3 * 2^62 < 2^64 */
     }
     if (sum == 0) {
@@ -287,8 +304,7 @@ void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
     int64_t r[3];
 
     for (int k = 0; k < 3; k++) {
-        r[k] = fix_mul_q30(v[0], m->c[k][0]) + fix_mul_q30(v[1], m->c[k][1]) +
-               fix_mul_q30(v[2], m->c[k][2]);
+        r[k] = fix_dot_q30(v, m->c[k]);
     }
     out[0] = r[0];
     out[1] = r[1];

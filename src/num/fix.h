@@ -74,6 +74,7 @@ int64_t fix_sqrt_above(uint64_t v);
 #if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
 int64_t fix_mul(int64_t a, int32_t b, int s);
 int64_t fix_mul_q30(int64_t a, int32_t b);
+int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
 #else
 inline int64_t fix_mul(int64_t a, int32_t b, int s)
 {
@@ -99,12 +100,40 @@ inline int64_t fix_mul_q30(int64_t a, int32_t b)
 {
     return fix_mul(a, b, 30);
 }
+
+/* The part of a vector along a direction: each product is rounded. */
+inline int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3])
+{
+    return fix_mul_q30(v[0], d_q30[0]) + fix_mul_q30(v[1], d_q30[1]) + fix_mul_q30(v[2], d_q30[2]);
+}
 #endif
 
 /* v 2^s, cut off when s is negative; -62 < s, and the result must fit. */
 inline int64_t fix_shift(int64_t v, int s)
 {
     return s < 0 ? v >> -s : carom_shl(v, s);
+}
+
+/* v 2^s, to nearest when s is negative, whatever s; the result must fit. */
+int64_t fix_round_shift(int64_t v, int s);
+
+/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s);
+
+/* |v|, v > INT32_MIN; the smaller and the larger of two. */
+static inline int32_t fix_abs32(int32_t v)
+{
+    return v < 0 ? -v : v;
+}
+
+static inline int32_t fix_smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int32_t fix_larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
 }
 
 /* |x| + |y| + |z|; each below 2^62 */
@@ -159,6 +188,16 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
 /* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
+
+/* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
+static inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+{
+    const int32_t x = v[0], y = v[1], z = v[2];
+
+    out[0] = (int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z;
+    out[1] = (int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z;
+    out[2] = (int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z;
+}
 
 /* Where entry (i, k) of a symmetric matrix is among xx yy zz xy yz zx. */
 extern const uint8_t fix_sym3_at[3][3];

@@ -15,5 +15,6 @@ extern inline int fix_bits32(uint32_t v);
 extern inline int fix_bits(uint64_t v);
 extern inline int64_t fix_mul(int64_t a, int32_t b, int s);
 extern inline int64_t fix_mul_q30(int64_t a, int32_t b);
+extern inline int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
 extern inline int64_t fix_shift(int64_t v, int s);
 extern inline uint64_t fix_sum(const int64_t v[3]);

@@ -16,8 +16,8 @@ struct impact_answer impact_subtract(const struct impact_answer *a, const struct
     struct impact_answer d = *a;
 
     for (int k = 0; k < 3; k++) {
-        d.p_q40[k] -= impact_shift(b->p_q40[k], b->unit - a->unit);
-        d.dv_q40[k] -= impact_shift(b->dv_q40[k], b->unit - a->unit);
+        d.p_q40[k] -= fix_round_shift(b->p_q40[k], b->unit - a->unit);
+        d.dv_q40[k] -= fix_round_shift(b->dv_q40[k], b->unit - a->unit);
     }
     return d;
 }

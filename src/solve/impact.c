@@ -8,7 +8,7 @@ static void finish(const struct impact_problem *p, const struct impact_answer *x
     int power = p->mass_power + x->unit - 2 * p->arm_shift;
 
     for (int k = 0; k < 3; k++) {
-        out->impulse.c[k] = impact_shift(x->p_q40[k], power);
+        out->impulse.c[k] = fix_round_shift(x->p_q40[k], power);
     }
     out->normal_q40 = impact_dot(out->impulse.c, &p->frame.n);
     if (out->normal_q40 < 0) {
@@ -30,7 +30,7 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
             return -1;
         }
         for (int k = 0; k < 3; k++) {
-            after[k] = impact_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
+            after[k] = fix_round_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
         }
         if (!impact_set_frame(&p->frame, after)) {
             return 0; /* nothing for friction to act along */

@@ -43,7 +43,7 @@ static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *
 static void speeds(const struct impact_problem *p, const struct impact_answer *x, int64_t v[3])
 {
     for (int k = 0; k < 3; k++) {
-        v[k] = impact_shift(p->in->velocity.c[k], -x->unit);
+        v[k] = fix_round_shift(p->in->velocity.c[k], -x->unit);
     }
 }
 

@@ -12,6 +12,7 @@ void rest_prepare_body(struct body *b)
     const carom_m3_q30 *r = &b->path.start.r;
     int32_t half[3][3];
 
+    PHASE_BEGIN(b->path.phase, BODY_SOLVE);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             int32_t column[3];
@@ -24,11 +25,11 @@ void rest_prepare_body(struct body *b)
     }
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
-            b->path.turning.m[fix_sym3_at[i][k]] =
+            body_solve(b)->turning.m[fix_sym3_at[i][k]] =
                 (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
         }
     }
-    b->path.turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
+    body_solve(b)->turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
 }
 
 /* a x b, exact */
@@ -43,7 +44,7 @@ static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
                          int64_t k_q30[6])
 {
-    const struct carom_sym3 *turning = &side->body->path.turning;
+    const struct carom_sym3 *turning = &body_solve(side->body)->turning;
     int64_t turn[3][3], part[3];
     const bool whole = lever->share_q30 == CAROM_ONE_Q30;
     uint64_t all = 0;
@@ -66,9 +67,7 @@ static void prepare_side(const struct contact_side *side, struct contact_lever *
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             int64_t t = turn[i][k];
-            int32_t entry = (int32_t)(down > 62  ? 0
-                                      : down > 0 ? carom_round(t, down)
-                                                 : carom_shl(t, -down));
+            int32_t entry = (int32_t)fix_round_shift(t, -down);
 
             lever->turn[i][k] = whole ? entry : carom_mul_q30(entry, lever->share_q30);
         }
@@ -168,14 +167,15 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
         k[i] = (int32_t)(k_q30[i] >> shift);
     }
     det = adjugate(adjoint, k);
+    PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
     c->work->inverted = det >= 1 << 9;
     if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
         for (int i = 0; i < 6; i++) {
-            c->work->inverse[i] =
-                (int32_t)impact_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+            contact_inverse(c)[i] =
+                (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
     multiply(n, k, c->normal.c);
@@ -185,7 +185,7 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     for (int i = 0; i < 3; i++) {
         int64_t drag = n[i] - carom_mul_q30(product, c->normal.c[i]);
 
-        c->work->drag_q28[i] = rest_clamp(impact_shift(drag * c->work->step[0], shift - 32));
+        c->work->drag_q28[i] = rest_clamp(fix_round_shift(drag * c->work->step[0], shift - 32));
     }
     half = (int32_t)(((int64_t)k[0] + k[1] + k[2] - product) / 2);
     multiply(n, adjoint, c->normal.c);

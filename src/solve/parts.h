@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rest_parts - what the files of the stage rest share: velocities and masses of contacts, sweeps,
+ * parts - what the files that solve several contacts share: velocities and masses of contacts, sweeps,
  * and the energy rule.
  */
 #ifndef CAROM_SRC_REST_PARTS_H
@@ -57,7 +57,7 @@ static inline struct fix_wide rest_work2(const struct contact *c)
 {
     const int64_t *drift = c->drift.c, twice[3] = {2 * drift[0], 2 * drift[1], 2 * drift[2]};
 
-    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(c->impulse_q40.c, twice)
+    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(contact_impulse(c)->c, twice)
                                                  : (struct fix_wide){0, 0};
 }
 

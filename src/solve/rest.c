@@ -135,7 +135,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
         int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
 
         c->drift.c[k] -= rise;
-        c->velocity_q40.c[k] += rise;
+        contact_velocity(c)->c[k] += rise;
     }
     c->speed_q40 += rise_q40;
     c->work->target_q40 = least_q40;
@@ -202,7 +202,7 @@ void rest_apply(struct rest *r)
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
 
-        rest_apply_at(r, c, c->impulse_q40.c, rest_moment(c)->c);
+        rest_apply_at(r, c, contact_impulse(c)->c, rest_moment(c)->c);
     }
 }
 
@@ -229,12 +229,13 @@ static int solve_impact(struct rest *r, struct contact *c)
     impact_side(&c->side[0], &in.a);
     impact_side(&c->side[1], &in.b);
     in.normal = c->normal;
-    in.velocity = c->velocity_q40;
+    in.velocity = *contact_velocity(c);
     in.target_q40 = c->work->target_q40;
     in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
     c->work = NULL; /* the elimination takes its room */
     result = impact_solve(r->gauss, &in, &out);
     if (result == CAROM_OK) {
+        PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         c->impulse_q40 = out.impulse;
         r->energy_rules += out.energy_rule;
     }
@@ -246,7 +247,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         rest_prepare_body(&r->bodies[i]);
     }
     for (uint32_t i = 0; i < r->count; i++) {
@@ -254,8 +255,9 @@ static bool prepare(struct rest *r, int32_t tau_q30)
 
         c->work = &r->works[r->first + i];
         c->work->roll = NULL;
+        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
         rest_relative_velocity(c, &c->velocity_q40);
-        c->speed_q40 = rest_along_q40(&c->velocity_q40, &c->normal);
+        c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
@@ -269,7 +271,7 @@ static struct fix_wide lift2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
     }
     return sum;
@@ -306,7 +308,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 /* Whoever asks for the contacts after the step is told where they are by this. */
 static void place_origins(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         body_place_origin(&r->bodies[i], &r->states[i]);
     }
 }
@@ -318,7 +320,7 @@ static void book_work(struct rest *r)
         const struct contact *c = rest_contact(r, i);
         struct body *b = c->side[0].body;
 
-        b->work2 = fix_wide_add(b->work2, rest_work2(c));
+        *body_work2(b) = fix_wide_add(*body_work2(b), rest_work2(c));
     }
 }
 

@@ -13,6 +13,7 @@
 #define CAROM_SRC_REST_H
 
 #include "../contact/contact.h"
+#include "../pairs/island.h"
 #include "impact.h"
 
 #define REST_BITS        27
@@ -86,22 +87,12 @@ const carom_v3_q40 *rest_moment(const struct contact *c);
 /* Part of a velocity or an impulse along a direction. */
 static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *n)
 {
-    return fix_mul(v->c[0], n->c[0], 30) + fix_mul(v->c[1], n->c[1], 30) +
-           fix_mul(v->c[2], n->c[2], 30);
+    return fix_dot_q30(v->c, n->c);
 }
 
 /* e and mu of a pair of bodies: the smaller of the two. */
 int32_t rest_restitution(const struct body *a, const struct body *b);
 uint32_t rest_friction(const struct body *a, const struct body *b);
-
-/*
- * Islands are moving bodies that are connected by pairs: begin, join each pair, end. Then body.island
- * is the lowest number in a body's island; the others follow by next_in_island.
- */
-#define REST_ISLAND_END 0xffffu
-void rest_islands_begin(struct body *bodies, uint32_t body_count);
-void rest_islands_join(struct body *bodies, const struct pair *p);
-void rest_islands_end(struct body *bodies, uint32_t body_count);
 
 /* Count quiet frames and put whole islands, bodies that touch, to sleep. */
 void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,

@@ -6,7 +6,7 @@ static struct fix_wide kinetic2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, body_kinetic2(b, &r->states[i], &b->path.start.r));
@@ -16,17 +16,17 @@ static struct fix_wide kinetic2(const struct rest *r)
 
 void rest_save_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         r->bodies[i].saved_momentum = r->states[i].momentum;
-        r->bodies[i].path.saved_angular = r->states[i].angular;
+        body_solve(&r->bodies[i])->saved_angular = r->states[i].angular;
     }
 }
 
 static void restore_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         r->states[i].momentum = r->bodies[i].saved_momentum;
-        r->states[i].angular = r->bodies[i].path.saved_angular;
+        r->states[i].angular = body_solve(&r->bodies[i])->saved_angular;
     }
 }
 
@@ -42,16 +42,16 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
         carom_v3_q40 impulse, moment;
 
         for (int k = 0; k < 3; k++) {
-            int64_t from = c->impulse_q40.c[k];
+            int64_t from = contact_impulse(c)->c[k];
 
-            impulse.c[k] = from + fix_mul(c->work->wanted_q40.c[k] - from, k_q30, 30);
+            impulse.c[k] = from + fix_mul(contact_wanted(c)->c[k] - from, k_q30, 30);
             moment.c[k] = fix_mul(rest_moment(c)->c[k], k_q30, 30);
         }
         rest_apply_at(r, c, impulse.c, moment.c);
         if (keep) {
-            c->impulse_q40 = impulse;
+            *contact_impulse(c) = impulse;
             if (c->work->roll) {
-                c->work->roll->moment_q40 = moment;
+                *contact_moment(c) = moment;
             }
         }
     }
@@ -78,11 +78,11 @@ static struct fix_wide before2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(b->path.saved_angular.c, b->spin.c));
+        sum = fix_wide_add(sum, fix_wide_dot(body_solve(b)->saved_angular.c, b->spin.c));
     }
     return sum;
 }
@@ -92,7 +92,7 @@ static bool may_rise(const struct rest *r, struct fix_wide allowed)
 {
     struct fix_wide sum = fix_wide_neg(allowed);
 
-    for (uint32_t i = r->island; i != REST_ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         sum = fix_wide_add(sum, body_kinetic2_most(&r->bodies[i], &r->states[i]));
     }
     for (uint32_t i = 0; i < r->count; i++) {
@@ -118,7 +118,9 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->work->wanted_q40 = c->impulse_q40;
+        PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
+        c->work->wanted_q40 = *contact_impulse(c);
+        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
         rest_relative_velocity(c, &c->velocity_q40);
     }
     rest_solve_sweeps(r, &plastic, false);

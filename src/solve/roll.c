@@ -52,7 +52,7 @@ static int finer(const struct contact *c, const struct body *b)
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct body *b, int32_t share_q30)
 {
-    const struct carom_sym3 *t = &b->path.turning;
+    const struct carom_sym3 *t = &body_solve(b)->turning;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
@@ -63,7 +63,7 @@ static int64_t turning_q30(const struct body *b, int32_t share_q30)
         }
         largest = sum > largest ? sum : largest;
     }
-    return impact_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
+    return fix_round_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -79,6 +79,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         return false;
     }
     c->work->roll = roll;
+    PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
     roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
     for (int s = 0; s < 2; s++) {
@@ -90,7 +91,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         mass_q30 +=
             turning_q30(side->body, c->work->lever[s].share_q30) >> (2 * finer(c, side->body));
         for (int k = 0; k < 3; k++) {
-            int64_t w = impact_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
+            int64_t w = fix_round_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
             spin[k] += s == 0 ? w : -w;
         }
@@ -116,14 +117,15 @@ static void twist(struct contact *c, const int32_t moment[3])
         if (!side->body) {
             continue;
         }
-        t = &side->body->path.turning;
+        t = &body_solve(side->body)->turning;
         for (int k = 0; k < 3; k++) {
             int64_t m = carom_round((int64_t)moment[k] * c->work->lever[s].share_q30, 30);
 
             part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
         }
         for (int k = 0; k < 3; k++) {
-            side->body->path.dw[k] += impact_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+            body_solve(side->body)->dw[k] +=
+                fix_round_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
         }
     }
 }
@@ -131,7 +133,7 @@ static void twist(struct contact *c, const int32_t moment[3])
 int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
 {
     struct contact *c = rest_contact(r, i);
-    struct contact_roll *roll = c->work->roll;
+    struct contact_roll *roll = contact_rolling(c);
     int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
     int32_t change[3], limit, most = 0, moved;
 
@@ -142,7 +144,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dw = b->path.dw[k] >> (REST_FINER_BITS + finer(c, b));
+            int64_t dw = body_solve(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
 
             spin[k] += s == 0 ? dw : -dw;
         }
@@ -177,7 +179,7 @@ const carom_v3_q40 *rest_moment(const struct contact *c)
 {
     static const carom_v3_q40 none = {{0, 0, 0}};
 
-    return c->work && c->work->roll ? &c->work->roll->moment_q40 : &none;
+    return c->work && c->work->roll ? contact_moment(c) : &none;
 }
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
@@ -189,6 +191,7 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
         return;
     }
     unit.e -= sw->unit + roll->unit_bits - 22;
+    PHASE_BEGIN(roll->phase, CONTACT_MOMENT);
     for (int k = 0; k < 3; k++) {
         roll->moment_q40.c[k] = fix_mul_scaled(roll->moment[k], unit);
     }
@@ -202,7 +205,7 @@ static int32_t within(int64_t v)
 
 void rest_roll_accelerate(struct contact *c, int32_t part_q30)
 {
-    struct contact_roll *roll = c->work->roll;
+    struct contact_roll *roll = contact_rolling(c);
     int32_t gain[3];
 
     for (int k = 0; k < 3; k++) {

@@ -4,22 +4,14 @@
 #define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
 #define SPEED_BITS   60 /* bits of V in q40 of the solver's unit, at most */
 
-int64_t impact_shift(int64_t v, int s)
+int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
 {
-    if (s >= 0) {
-        return carom_shl(v, s);
-    }
-    return s < -62 ? 0 : carom_round(v, -s);
+    return fix_dot_q30(v, d->c);
 }
 
 static int bits3(const int64_t v[3])
 {
     return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
-}
-
-int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
-{
-    return fix_mul(v[0], d->c[0], 30) + fix_mul(v[1], d->c[1], 30) + fix_mul(v[2], d->c[2], 30);
 }
 
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
@@ -86,7 +78,7 @@ static int set_shape(struct impact_mover *m, const struct impact_side *side, int
     }
     top = fix_bits(inertia);
     for (int k = 0; k < 6; k++) {
-        m->inertia_q30[k] = (int32_t)impact_shift(side->inertia.m[k], 30 - top);
+        m->inertia_q30[k] = (int32_t)fix_round_shift(side->inertia.m[k], 30 - top);
     }
     power = top - side->inertia.e; /* I / m = inertia_q30 2^power */
     m->inertia_odd = power & 1;
@@ -112,7 +104,7 @@ static void set_masses(struct impact_problem *p, const struct impact_side *side[
     }
     p->mass_power = -top;
     for (int b = 0; b < p->movers; b++) {
-        split_q60(impact_shift(side[b]->inverse_mass.m, 30 + power[b] - top),
+        split_q60(fix_round_shift(side[b]->inverse_mass.m, 30 + power[b] - top),
                   &p->mover[b].share_q30, &p->mover[b].share_rest_q60);
     }
 }
@@ -145,7 +137,7 @@ void impact_prepare(struct impact_problem *p)
             /* |arm| < 2^(g + c - 1 + e), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
             int shift = 60 - side[b]->arm.e - g[b] - p->arm_shift;
 
-            split_q60(impact_shift(side[b]->arm.c[k], shift), &p->mover[b].arm_q30[k],
+            split_q60(fix_round_shift(side[b]->arm.c[k], shift), &p->mover[b].arm_q30[k],
                       &p->mover[b].arm_rest_q60[k]);
         }
     }
@@ -167,7 +159,7 @@ static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
 
     if (k < 3) {
         own[k] = CAROM_ONE_Q30;
-        impulse[k] = (int32_t)impact_shift(-(m->sign * m->share_q30), -p->arm_shift);
+        impulse[k] = (int32_t)fix_round_shift(-(m->sign * m->share_q30), -p->arm_shift);
     } else {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
@@ -188,7 +180,7 @@ static void velocity_row(const struct impact_problem *p, const carom_v3_q30 *d, 
 
         carom_cross(turn, m->arm_q30, d->c, 30);
         for (int k = 0; k < 3; k++) {
-            row[6 * b + k] = m->sign * (int32_t)impact_shift(d->c[k], -p->arm_shift);
+            row[6 * b + k] = m->sign * (int32_t)fix_round_shift(d->c[k], -p->arm_shift);
             row[6 * b + 3 + k] = m->sign * turn[k];
         }
     }
@@ -214,7 +206,7 @@ static void slide_row(const struct impact_problem *p, uint32_t friction_q16, boo
 
     for (int k = 0; k < 3; k++) {
         row[p->n - 3 + k] =
-            along ? (int32_t)impact_shift(direction[k], 30 - bits) : p->frame.u.c[k];
+            along ? (int32_t)fix_round_shift(direction[k], 30 - bits) : p->frame.u.c[k];
     }
 }
 
@@ -305,8 +297,8 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         for (int k = 0; k < 3; k++) {
             int i = (k + 1) % 3, j = (k + 2) % 3;
 
-            out_q40[k] += m->sign * (impact_shift(dv[k], -p->arm_shift) + times_arm(m, dw[i], j) -
-                                     times_arm(m, dw[j], i));
+            out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) +
+                                     times_arm(m, dw[i], j) - times_arm(m, dw[j], i));
         }
     }
 }
@@ -320,13 +312,13 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
 
     for (int k = 0; k < 3; k++) {
         share[k] = m->sign * times_share(m, impulse[k]);
-        out_q40[k] = impact_shift(share[k], -p->arm_shift) - dv[k];
+        out_q40[k] = fix_round_shift(share[k], -p->arm_shift) - dv[k];
     }
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
         out_q40[3 + k] =
-            impact_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
+            fix_round_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
         for (int l = 0; l < 3; l++) {
             out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[fix_sym3_at[k][l]], 30);
         }
@@ -350,7 +342,7 @@ static int refine(const struct impact_problem *p, const struct goal *goal)
     last[0] = goal->change_q40[0] - impact_dot(change, &f->n);
     if (goal->sticks) {
         /* V' along N: V'.u is not 0 but the target times u.N. */
-        int64_t after = impact_shift(p->in->target_q40, 70 - goal->bits);
+        int64_t after = fix_round_shift(p->in->target_q40, 70 - goal->bits);
 
         last[1] = goal->change_q40[1] - impact_dot(change, &f->u) + fix_mul(after, f->un_q52, 52);
         last[2] = goal->change_q40[2] - impact_dot(change, &f->v) + fix_mul(after, f->vn_q52, 52);
@@ -360,7 +352,7 @@ static int refine(const struct impact_problem *p, const struct goal *goal)
                          fix_mul(normal, (int32_t)goal->friction_q16, 16);
 
         last[1] = fix_mul(normal, f->un_q52, 52) - impact_dot(impulse, &f->u);
-        last[2] = -impact_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
+        last[2] = -fix_round_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
     }
     return gauss_add(p->w, p->n, residual_q40);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * impact_rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
+ * rows - equations (1) to (10) as rows for gauss, in units in which they stay near 1.
  *
  *   velocities  by V* = 2^(unit - c), masses by m*, the power of two below the lighter one
  *   dw          by V* / 2^g of each body, 4^g being about its inertia / mass: then J = I / (m 4^g)
@@ -56,9 +56,6 @@ struct impact_answer {
     int64_t p_q40[3];  /* of m* 2^(unit - 2c); below 2^57 */
     int64_t dv_q40[3]; /* of 2^unit; below 2^61 */
 };
-
-/* v 2^s to nearest. */
-int64_t impact_shift(int64_t v, int s);
 
 /* v.d for a unit vector d. */
 int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);

@@ -27,7 +27,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
 /* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */
 static bool island_quiet(const struct body *bodies, const struct body_state *states, uint32_t first)
 {
-    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].next_in_island) {
         if (broad_active(&bodies[i], &states[i]) && states[i].quiet < QUIET_FRAMES) {
             return false;
         }
@@ -37,7 +37,7 @@ static bool island_quiet(const struct body *bodies, const struct body_state *sta
 
 static void put_to_sleep(const struct body *bodies, struct body_state *states, uint32_t first)
 {
-    for (uint32_t i = first; i != REST_ISLAND_END; i = bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].next_in_island) {
         if (broad_active(&bodies[i], &states[i])) {
             states[i].asleep = 1;
             memset(&states[i].momentum, 0, sizeof states[i].momentum);
@@ -65,11 +65,7 @@ void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_co
     if (!any) {
         return;
     }
-    rest_islands_begin(bodies, body_count);
-    for (uint32_t i = 0; i < touching_count; i++) {
-        rest_islands_join(bodies, &touching[i]);
-    }
-    rest_islands_end(bodies, body_count);
+    island_find(bodies, body_count, touching, touching_count);
     for (uint32_t i = 0; i < body_count; i++) {
         if (bodies[i].island == i && island_quiet(bodies, states, i)) {
             put_to_sleep(bodies, states, i);

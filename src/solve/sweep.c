@@ -47,20 +47,21 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
-    int32_t error = (int32_t)impact_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
+    int32_t error = (int32_t)fix_round_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
 
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = impact_shift(c->velocity_q40.c[k] - along, -sw->unit);
+        slip[k] = fix_round_shift(contact_velocity(c)->c[k] - along, -sw->unit);
     }
     rest_cut(slip, SLIP_MAX);
+    PHASE_BEGIN(c->phase, CONTACT_GAIN);
     for (int k = 0; k < 3; k++) {
         c->work->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
         c->work->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->work->band = rest_clamp(impact_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
+    c->work->band = rest_clamp(fix_round_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
     c->work->normal_impulse = 0;
 }
 
@@ -76,8 +77,8 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
             struct body *b = c->side[s].body;
 
             if (b) {
-                b->path.dv[0] = b->path.dv[1] = b->path.dv[2] = 0;
-                b->path.dw[0] = b->path.dw[1] = b->path.dw[2] = 0;
+                body_solve(b)->dv[0] = body_solve(b)->dv[1] = body_solve(b)->dv[2] = 0;
+                body_solve(b)->dw[0] = body_solve(b)->dw[1] = body_solve(b)->dw[2] = 0;
             }
         }
     }
@@ -123,11 +124,11 @@ static void change_at(const struct contact_side *side, int64_t out[3])
     int64_t dw[3];
 
     for (int k = 0; k < 3; k++) {
-        dw[k] = b->path.dw[k] >> (REST_FINER_BITS - 2);
+        dw[k] = body_solve(b)->dw[k] >> (REST_FINER_BITS - 2);
     }
     wrapping_cross(out, dw, side->arm_q30);
     for (int k = 0; k < 3; k++) {
-        out[k] = b->path.dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+        out[k] = body_solve(b)->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
     }
 }
 
@@ -164,8 +165,8 @@ static void push_side(struct body *b, const struct contact_lever *lever, const i
     int down = lever->turn_bits - REST_FINER_BITS;
 
     for (int k = 0; k < 3; k++) {
-        b->path.dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
-        b->path.dw[k] += carom_dot(lever->turn[k], impulse) >> down;
+        body_solve(b)->dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
+        body_solve(b)->dw[k] += carom_dot(lever->turn[k], impulse) >> down;
     }
 }
 
@@ -272,7 +273,7 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     }
     for (int k = 0; k < 3; k++) {
         g->whole[k] =
-            -(int32_t)carom_round(rest_row(c->work->inverse, k, part), 30 - c->work->fine_bits);
+            -(int32_t)carom_round(rest_row(contact_inverse(c), k, part), 30 - c->work->fine_bits);
     }
     g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
     after[3] = c->work->normal_impulse + carom_shl(g->along, down);
@@ -377,7 +378,7 @@ static int32_t add(struct contact *c, const struct gain *g)
 
         c->work->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
         /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
-        c->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
+        contact_gain(c)->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
         most = size > most ? size : most;
     }
     rest_push(c, g->whole);
@@ -436,7 +437,7 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
         struct gain g;
 
         for (int k = 0; k < 3; k++) {
-            g.whole[k] = carom_mul_q30(c->way[k], part_q30);
+            g.whole[k] = carom_mul_q30(contact_gain(c)->way[k], part_q30);
             all |= c->gain[k] | g.whole[k];
             c->way[k] = way_of((int64_t)g.whole[k] + c->gain[k]);
             c->gain[k] = 0;
@@ -517,6 +518,7 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
         struct contact *c = rest_contact(r, i);
         struct fix_scaled unit = c->work->mass_unit;
 
+        PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
         for (int k = 0; k < 3; k++) {
             int64_t j = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +

@@ -117,9 +117,10 @@ void rest_store_warm(struct rest *r)
         w->normal = c->normal;
         arm = contact_arm(c);
         carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
-        w->normal_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
+        w->normal_q40 = rest_along_q40(contact_impulse(c), &c->normal);
         for (int k = 0; k < 3; k++) {
-            w->tangent_q40.c[k] = c->impulse_q40.c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);
+            w->tangent_q40.c[k] =
+                contact_impulse(c)->c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);
         }
     }
 }

@@ -74,7 +74,7 @@ static void note_hits(struct step *s)
         }
         if (-c->speed_q40 > e->speed_q40) {
             e->speed_q40 = -c->speed_q40;
-            e->impulse_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
+            e->impulse_q40 = rest_along_q40(contact_impulse(c), &c->normal);
         }
     }
 }
@@ -196,6 +196,7 @@ int step_solve(struct step *s, bool warm)
     int result;
 
     find_chords(s);
+    PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
     result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm);
     note_hits(s);
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);

@@ -38,7 +38,7 @@ static struct fix_wide climbed2(const struct body *b, const struct body_state *f
 static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
                                const struct body_state *to)
 {
-    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(b->work2));
+    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(*body_work2(b)));
 
     return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
 }
@@ -48,7 +48,7 @@ static bool may_gain(const struct step *s, uint32_t first)
 {
     struct fix_wide most = {0, 0};
 
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
@@ -65,7 +65,7 @@ static struct account audit(const struct step *s, uint32_t first)
 {
     struct account sum = {{0, 0}, {0, 0}};
 
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
@@ -88,7 +88,7 @@ static struct fix_wide rigid_kinetic2(const struct step *s, const struct step_ri
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         struct body_state state = step_rigid_state(s, rigid, i);
 
         sum = fix_wide_add(sum, kinetic2(&s->w->bodies[i], &state));
@@ -113,7 +113,7 @@ static void sum_momenta(const struct step *s, const struct step_rigid *rigid,
 {
     memset(linear_q40, 0, 3 * sizeof linear_q40[0]);
     memset(angular_q72, 0, 3 * sizeof angular_q72[0]);
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         for (int k = 0; k < 3; k++) {
             /* only differences are used: modulo 2^64 is enough */
             linear_q40[k] += (uint64_t)s->next->bodies[i].momentum.c[k];
@@ -133,7 +133,7 @@ static void scale_free(struct step *s, const struct step_rigid *rigid, int32_t f
     struct fix_wide angular[3], angular_after[3];
 
     sum_momenta(s, rigid, linear, angular);
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         struct body_state state = step_rigid_state(s, rigid, i);
 
         scale_about(&s->next->bodies[i], &state, factor_q30);
@@ -155,8 +155,7 @@ static void scale_grounded(struct step *s, uint32_t island, int32_t factor_q30)
 {
     const struct body_state none = {.momentum = {{0, 0, 0}}};
 
-    for (uint32_t i = step_island_first(s, island); i != REST_ISLAND_END;
-         i = step_island_next(s, i)) {
+    for (uint32_t i = step_island_first(s, island); i != ISLAND_END; i = step_island_next(s, i)) {
         scale_about(&s->next->bodies[i], &none, factor_q30);
     }
 }
@@ -170,7 +169,7 @@ static bool moved(const struct body_state *from, const struct body_state *to)
 /* The island goes back to where the frame found it; its momenta are what they were, or none. */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body_state *before = &world_now(s->w)->bodies[i];
         struct body_state *state = &s->next->bodies[i];
 
@@ -200,7 +199,7 @@ static uint32_t intruder(const struct step *s, uint32_t body)
             return i;
         }
     }
-    return REST_ISLAND_END;
+    return ISLAND_END;
 }
 
 /*
@@ -216,9 +215,9 @@ static void hold_still(struct step *s, uint32_t first)
     while (again) {
         again = false;
         for (uint32_t i = 0; i < s->w->body_count; i++) {
-            uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : REST_ISLAND_END;
+            uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : ISLAND_END;
 
-            if (by != REST_ISLAND_END) {
+            if (by != ISLAND_END) {
                 rewind_island(s, s->w->bodies[by].island, false);
                 again = true;
             }
@@ -273,7 +272,7 @@ static void limit_island(struct step *s, uint32_t first)
  */
 static void give_back_gravity(struct step *s, uint32_t first)
 {
-    for (uint32_t i = first; i != REST_ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body *b = &s->w->bodies[i];
 
         for (int k = 0; step_active(s, i) && b->stands && b->in_contact && k < 3; k++) {
@@ -311,7 +310,7 @@ void step_limit_energy(struct step *s)
     if (s->next->touching_count == 0) {
         return; /* nothing was in contact */
     }
-    rest_islands_begin(w->bodies, w->body_count);
+    island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].touched =
             w->bodies[i].in_contact || w->bodies[i].stands || w->bodies[i].strained;
@@ -320,10 +319,10 @@ void step_limit_energy(struct step *s)
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
 
-        rest_islands_join(w->bodies, p);
+        island_join(w->bodies, p);
         w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
     }
-    rest_islands_end(w->bodies, w->body_count);
+    island_end(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[w->bodies[i].island].touched |= w->bodies[i].touched;
         w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;

@@ -170,7 +170,7 @@ void step_limit_energy(struct step *s);
  */
 void step_calm_island(struct step *s, uint32_t island);
 
-/* The active bodies of an island, in order; REST_ISLAND_END after the last. */
+/* The active bodies of an island, in order; ISLAND_END after the last. */
 uint32_t step_island_first(const struct step *s, uint32_t island);
 uint32_t step_island_next(const struct step *s, uint32_t i);
 

@@ -14,7 +14,7 @@ uint32_t step_island_next(const struct step *s, uint32_t i)
 {
     do {
         i = s->w->bodies[i].next_in_island;
-    } while (i != REST_ISLAND_END && !broad_active(&s->w->bodies[i], &s->next->bodies[i]));
+    } while (i != ISLAND_END && !broad_active(&s->w->bodies[i], &s->next->bodies[i]));
     return i;
 }
 
@@ -32,7 +32,7 @@ static void arm_q30(const struct step *s, const struct step_rigid *rigid, uint32
     for (int k = 0; k < 3; k++) {
         int64_t way_q32 = s->next->bodies[i].position.c[k] - rigid->centre.c[k];
 
-        out[k] = (int32_t)impact_shift(way_q32, 30 - rigid->length_bits);
+        out[k] = (int32_t)fix_round_shift(way_q32, 30 - rigid->length_bits);
     }
 }
 
@@ -41,7 +41,7 @@ static int32_t share_q30(const struct step *s, const struct step_rigid *rigid, u
 {
     const struct fix_scaled *mass = &s->w->bodies[i].mass;
 
-    return (int32_t)impact_shift(mass->m, rigid->mass_e - mass->e);
+    return (int32_t)fix_round_shift(mass->m, rigid->mass_e - mass->e);
 }
 
 /* The centre is within the extent of the others as seen from the first: one bit more will do. */
@@ -50,7 +50,7 @@ static void choose_units(const struct step *s, struct step_rigid *rigid)
     uint64_t length_q32 = 0;
 
     rigid->mass_e = INT32_MAX;
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         const struct body *b = &s->w->bodies[i];
 
         if (b->mass.e < rigid->mass_e) {
@@ -74,7 +74,7 @@ static void find_centre(const struct step *s, struct step_rigid *rigid)
     int64_t mass_q30 = 0, moment_q30[3] = {0, 0, 0};
     struct fix_wide total;
 
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         int32_t arm[3], share = share_q30(s, rigid, i);
 
         arm_q30(s, rigid, i, arm);
@@ -133,7 +133,7 @@ static void add_inertia(const struct step *s, const struct step_rigid *rigid, ui
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n <= m; n++) {
             int at = fix_sym3_at[m][n];
-            int64_t part = impact_shift(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
+            int64_t part = fix_round_shift(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
                            carom_mul_q30(arm[m], arm[n]);
 
             part += m == n ? square_q30 : 0;
@@ -152,7 +152,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     uint64_t all = 0;
     int down, up, bits = 0;
 
-    for (uint32_t i = rigid->first; i != REST_ISLAND_END; i = step_island_next(s, i)) {
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
         step_add_angular(s, &rigid->centre, i, angular_q72);
         add_inertia(s, rigid, i, inertia_q30);
     }
@@ -168,7 +168,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
-            w->a[m][n] = (int32_t)impact_shift(inertia_q30[fix_sym3_at[m][n]], -down);
+            w->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
         }
         w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
     }
@@ -179,7 +179,7 @@ static bool find_spin(const struct step *s, struct step_rigid *rigid)
     /* q72 over q30, in units of mass and of length squared */
     up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
     for (int k = 0; k < 3; k++) {
-        rigid->spin.c[k] = impact_shift(w->x_q40[k], up);
+        rigid->spin.c[k] = fix_round_shift(w->x_q40[k], up);
     }
     return true;
 }
@@ -188,7 +188,7 @@ bool step_rigid_motion(const struct step *s, uint32_t island, struct step_rigid 
 {
     memset(rigid, 0, sizeof *rigid);
     rigid->first = step_island_first(s, island);
-    if (rigid->first == REST_ISLAND_END || step_island_next(s, rigid->first) == REST_ISLAND_END) {
+    if (rigid->first == ISLAND_END || step_island_next(s, rigid->first) == ISLAND_END) {
         return false;
     }
     rigid->centre = s->next->bodies[rigid->first].position;

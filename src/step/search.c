@@ -12,8 +12,10 @@
 struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number)
 {
     const struct pair *p = &w->pairs[number];
-    struct boyse_pair *pair = &w->scratch->gather.pair;
+    struct boyse_pair *pair;
 
+    world_begin_gather(w);
+    pair = world_pair(w);
     boyse_pair_begin(pair, &w->bodies[p->a], &w->bodies[p->b]);
     return pair;
 }

@@ -40,6 +40,7 @@ static void begin_clock(struct body *b)
     b->in_contact = b->stands = b->strained = b->placed = b->member = false;
     b->from_q30 = b->to_q30 = 0;
     b->events = b->cuts = b->shorter = 0;
+    PHASE_BEGIN(b->work_phase, BODY_WORK);
     b->work2 = (struct fix_wide){0, 0};
 }
 

@@ -54,12 +54,9 @@ static void find_islands(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
 
-    rest_islands_begin(w->bodies, w->body_count);
-    for (uint32_t i = 0; i < now->touching_count; i++) {
-        rest_islands_join(w->bodies, &now->touching[i]);
-    }
-    rest_islands_end(w->bodies, w->body_count);
+    island_find(w->bodies, w->body_count, now->touching, now->touching_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
+        PHASE_BEGIN(w->bodies[i].work_phase, BODY_LIFT);
         w->bodies[i].lift_q32 = 0;
     }
 }
@@ -83,6 +80,7 @@ static int visit(struct lift *l,
     l->base.visit = f;
     l->pair_number = -1;
     l->found = false;
+    world_begin_gather(w);
     return interfere_visit(&w->interfere, w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used,
                            &l->base);
 }
@@ -90,7 +88,7 @@ static int visit(struct lift *l,
 static bool hits(struct lift *l, const struct candidate *c, struct boyse_hit *hit)
 {
     const struct pair *p = &l->w->pairs[c->pair];
-    struct boyse_pair *pair = &l->w->scratch->gather.pair;
+    struct boyse_pair *pair = world_pair(l->w);
     uint32_t roots = 0;
 
     if (l->pair_number != c->pair) {
@@ -121,7 +119,9 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
         if (hits(l, &c[i], &hit)) {
             int64_t lift_q32 = fix_mul(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30, 30);
 
-            island->lift_q32 = lift_q32 > island->lift_q32 ? lift_q32 : island->lift_q32;
+            if (lift_q32 > *body_lift_q32(island)) {
+                *body_lift_q32(island) = lift_q32;
+            }
         }
     }
 }
@@ -171,7 +171,7 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
 
 static int64_t lift_of(const struct carom_world *w, uint32_t i)
 {
-    return w->bodies[w->bodies[i].island].lift_q32;
+    return *body_lift_q32(&w->bodies[w->bodies[i].island]);
 }
 
 /* Pairs of bodies that are lifted differently and are near each other on the way. */
@@ -226,8 +226,8 @@ static int spread(struct lift *l)
             return CAROM_ERR_BLOCKED;
         }
         most = lift_of(w, p->a) > lift_of(w, p->b) ? lift_of(w, p->a) : lift_of(w, p->b);
-        w->bodies[w->bodies[p->a].island].lift_q32 = most;
-        w->bodies[w->bodies[p->b].island].lift_q32 = most;
+        *body_lift_q32(&w->bodies[w->bodies[p->a].island]) = most;
+        *body_lift_q32(&w->bodies[w->bodies[p->b].island]) = most;
     }
     return CAROM_ERR_BLOCKED;
 }

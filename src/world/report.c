@@ -88,7 +88,7 @@ int carom_contacts(const struct carom_world *w, struct carom_contact *out, int m
         out[i].normal = c->normal;
         out[i].gap_q22 = c->gap_q22;
         out[i].point = contact_point(c);
-        out[i].impulse_q40 = rest_along_q40(&c->impulse_q40, &c->normal);
+        out[i].impulse_q40 = rest_along_q40(contact_impulse(c), &c->normal);
     }
     return n;
 }

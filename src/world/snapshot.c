@@ -13,11 +13,10 @@
  *       the last step, int16 x, y, z each; the caller has put the surface there before it is loaded
  *   u64 FNV-1a of all bytes before
  */
+#include "../num/fnv.h"
 #include "world.h"
 
-#define MAGIC     0x32534d43u /* "CMS2" */
-#define FNV_START 0xcbf29ce484222325u
-#define FNV_PRIME 0x100000001b3u
+#define MAGIC 0x32534d43u /* "CMS2" */
 
 /* Bytes going out or coming in; `bytes` may be NULL when only their number or hash is wanted. */
 struct stream {
@@ -47,7 +46,7 @@ static uint64_t word(struct stream *s, uint64_t v, int bytes)
             s->out[s->at] = b;
         }
         read |= (uint64_t)b << (8 * i);
-        s->fnv = (s->fnv ^ b) * FNV_PRIME;
+        s->fnv = fnv_add(s->fnv, b);
         s->at++;
     }
     return read;
@@ -145,8 +144,7 @@ static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fn
     for (uint32_t i = 0; i < 3 * count; i++) {
         uint16_t c = (uint16_t)v[i / 3][i % 3];
 
-        fnv = (fnv ^ (c & 0xff)) * FNV_PRIME;
-        fnv = (fnv ^ c >> 8) * FNV_PRIME;
+        fnv = fnv_add(fnv_add(fnv, (uint8_t)c), (uint8_t)(c >> 8));
     }
     return fnv;
 }

@@ -8,11 +8,7 @@ static void find_islands(struct carom_world *w)
     const struct world_state *now = world_now(w);
 
     w->idle = false;
-    rest_islands_begin(w->bodies, w->body_count);
-    for (uint32_t i = 0; i < now->touching_count; i++) {
-        rest_islands_join(w->bodies, &now->touching[i]);
-    }
-    rest_islands_end(w->bodies, w->body_count);
+    island_find(w->bodies, w->body_count, now->touching, now->touching_count);
 }
 
 static bool sleeps(const struct body *b, const struct body_state *s)
@@ -26,8 +22,7 @@ static void wake_island(struct carom_world *w, struct body_state *states, uint32
     if (!sleeps(&w->bodies[body], &states[body])) {
         return;
     }
-    for (uint32_t i = w->bodies[body].island; i != REST_ISLAND_END;
-         i = w->bodies[i].next_in_island) {
+    for (uint32_t i = w->bodies[body].island; i != ISLAND_END; i = w->bodies[i].next_in_island) {
         if (states[i].asleep) {
             states[i].asleep = states[i].quiet = 0;
             states[i].woken = 1;

@@ -23,45 +23,62 @@ struct world_state {
  * What stages work in while they run: who looks for candidates and who solves, never at the same time.
  * Contacts to solve take as much as the capacities say: the room is the larger of both.
  */
-union world_scratch {
+union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
     struct {
         struct interfere_leaf leaf;
         struct boyse_pair pair; /* of the candidates at hand */
     } gather;
     struct gauss gauss;
 };
+enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
+/* 496 bytes where a pointer has 32 bits. */
 struct carom_world {
+    /* world: what the caller gave, and the arrays in the block; 84 bytes */
     struct carom_config config; /* gravity: the present one */
     uint32_t body_count;        /* places in use, free ones in between included */
+    struct body *bodies;
+    union world_scratch *scratch;
+    struct carom_event *events; /* finish */
+
+    /* all stages: how much of each capacity is used; 96 bytes */
     struct pool pools[CAROM_POOL_COUNT];
 
-    /* set by add and remove */
-    struct body *bodies;
-
-    /* dynamic state */
+    /* commit: the dynamic state, 48 bytes */
     struct world_state states[2];
     uint32_t now; /* which of the two is current */
     bool idle;    /* the last step found nothing awake, and nothing has changed since */
+    PHASE_TAG(scratch_phase)
 
-    /* set by broad, in order; and what belongs to each */
+    /* broad: in order; and what belongs to each */
     struct pair *pairs;
     struct pair_work *meetings;
 
-    union world_scratch *scratch;
-
-    /* set by interfere */
+    /* interfere, 104 bytes */
     struct interfere interfere;
 
-    /* set by contact and rest */
+    /* contact and solve, 68 bytes */
     struct rest rest;
 
-    /* set by commit */
-    struct carom_event *events;
+    /* commit: what happened in the step, and its cost; 96 bytes */
     uint32_t event_count;
     struct carom_stats stats;
     uint32_t start_tick, mark_tick; /* of the step, and of its last stage mark */
 };
+
+/* Whoever looks for candidates has the scratch from here on. */
+static inline void world_begin_gather(const struct carom_world *w)
+{
+    (void)w;
+    PHASE_BEGIN(((struct carom_world *)w)->scratch_phase, WORLD_GATHER);
+}
+
+/* The pair of the candidates at hand. */
+static inline struct boyse_pair *world_pair(const struct carom_world *w)
+{
+    PHASE_ASSERT(w->scratch_phase, WORLD_GATHER);
+    return &w->scratch->gather.pair;
+}
 
 static inline struct world_state *world_now(const struct carom_world *w)
 {

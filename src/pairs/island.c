@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* Islands: moving bodies that are connected by touching. */
+#include "island.h"
+
+void island_begin(struct body *bodies, uint32_t body_count)
+{
+    for (uint32_t i = 0; i < body_count; i++) {
+        bodies[i].island = (uint16_t)i;
+    }
+}
+
+/* The lowest body that is known to be connected with this one; halves the way for the next. */
+static uint16_t lowest(struct body *bodies, uint16_t i)
+{
+    while (bodies[i].island != i) {
+        bodies[i].island = bodies[bodies[i].island].island;
+        i = bodies[i].island;
+    }
+    return i;
+}
+
+void island_join(struct body *bodies, const struct pair *p)
+{
+    if (bodies[p->a].moving && bodies[p->b].moving) {
+        uint16_t a = lowest(bodies, p->a), b = lowest(bodies, p->b);
+
+        bodies[a > b ? a : b].island = a < b ? a : b;
+    }
+}
+
+void island_end(struct body *bodies, uint32_t body_count)
+{
+    /* a body is connected through lower ones, which know their island by then */
+    for (uint32_t i = 0; i < body_count; i++) {
+        bodies[i].island = bodies[bodies[i].island].island;
+        bodies[i].next_in_island = ISLAND_END;
+    }
+    for (uint32_t i = body_count; i-- > 0;) {
+        struct body *first = &bodies[bodies[i].island];
+
+        if (first != &bodies[i]) {
+            bodies[i].next_in_island = first->next_in_island;
+            first->next_in_island = (uint16_t)i;
+        }
+    }
+}
+
+void island_find(struct body *bodies, uint32_t body_count, const struct pair *pairs,
+                 uint32_t pair_count)
+{
+    island_begin(bodies, body_count);
+    for (uint32_t i = 0; i < pair_count; i++) {
+        island_join(bodies, &pairs[i]);
+    }
+    island_end(bodies, body_count);
+}
