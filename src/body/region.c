@@ -78,16 +78,13 @@ void body_region_axes(const struct body_region *region, carom_m3_q30 *start, car
     }
 }
 
-/*
- * A part of a region's time, which is at most 8 frames and so below 2^33: three bits are cut off to
- * divide in 64 bits.
- */
+/* A part of a region's time, which is at most 8 frames: what is divided is at most 2^63. */
 static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
 {
     if (elapsed_q30 == region->time_q30) {
         return CAROM_ONE_Q30;
     }
-    return (int32_t)(((elapsed_q30 >> 3) << 30) / (region->time_q30 >> 3));
+    return (int32_t)(((uint64_t)elapsed_q30 << 30) / (uint64_t)region->time_q30);
 }
 
 /* How far the centre is off the region's path at a time, x_q32 being where it is. */

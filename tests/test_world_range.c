@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* Whole steps at the ends of what a world takes. Their worth is in a build with sanitizers. */
+#include <string.h>
+
+#include "shapes.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define STRIDE 1
+#else
+#define STRIDE 40 /* of the spins on either side of a whole number of slices */
+#endif
+
+#define CAPS 2, 1, 32, 64, 0, 256
+#define ONE  ((int64_t)1 << 40)
+
+static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
+static struct shape box, ground;
+
+/* A box a few skins above a plane, near enough for the shortest region. */
+static struct carom_world *make(void)
+{
+    const struct carom_config config = {.caps = {CAPS}};
+    struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+    struct carom_world *w = NULL;
+
+    shape_box(&box, 12, 4096, 4096, 4096);
+    shape_plane(&ground, 12, 1, 16384);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
+    CHECK_EQ(carom_body_add(w, &def), 0);
+    def.mesh = &box.mesh;
+    def.stationary = false;
+    def.position.c[2] = CAROM_RATIO(501, 1000, 32);
+    CHECK_EQ(carom_body_add(w, &def), 1);
+    return w;
+}
+
+/*
+ * What slices of half a radian leave of a frame may be a few units of its time: regions are that
+ * short, and parts of them are asked for. The box turns about an axis of its own and stays clear.
+ */
+static void test_slice_ends(void)
+{
+    struct carom_world *w = make();
+    struct carom_body_state start;
+    struct carom_stats stats;
+
+    CHECK_EQ(carom_body_get(w, 1, &start), CAROM_OK);
+    for (int half = 1; half <= 3; half++) {
+        for (int64_t off = -1000; off <= 1000; off += STRIDE) {
+            struct carom_body_state s = start;
+            uint32_t slices = 0;
+
+            s.spin.c[2] = half * ONE / 2 + off;
+            CHECK_EQ(carom_body_set(w, 1, &s), CAROM_OK);
+            for (int frame = 0; frame < 3; frame++) {
+                CHECK_EQ(carom_world_step(w), CAROM_OK);
+                CHECK_EQ(carom_stats(w, &stats), CAROM_OK);
+                slices += stats.substeps;
+            }
+            CHECK(slices >= 3 * (uint32_t)half && slices <= 3 * (uint32_t)half + 3);
+            CHECK_EQ(carom_body_get(w, 1, &s), CAROM_OK);
+            CHECK_EQ(s.position.c[2], start.position.c[2]);
+            CHECK_NEAR(s.spin.c[2], half * ONE / 2 + off, 16);
+        }
+    }
+}
+
+const struct test tests_world_range[] = {
+    {"world_range/slice_ends", test_slice_ends},
+    {0},
+};
