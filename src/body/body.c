@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "body.h"
 
-/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+/*
+ * (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. Either part alone may not fit where the
+ * sum does, so they are added modulo 2^64.
+ */
 static int64_t shift_parts(int64_t high, int64_t low, int bits, int s)
 {
     if (s > bits) {
@@ -9,9 +12,9 @@ static int64_t shift_parts(int64_t high, int64_t low, int bits, int s)
         return s - bits > 62 ? 0 : carom_round(high + (low >> bits), s - bits);
     }
     if (s < 1) {
-        return carom_shl(carom_shl(high, bits) + low, -s);
+        return (int64_t)(((uint64_t)carom_shl(high, bits) + (uint64_t)low) << -s);
     }
-    return carom_shl(high, bits - s) + carom_round(low, s);
+    return (int64_t)((uint64_t)carom_shl(high, bits - s) + (uint64_t)carom_round(low, s));
 }
 
 /* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
@@ -42,7 +45,7 @@ static void add_parts(int64_t out[3], const int32_t m[6], const int32_t high[3],
     sym3_dot(sum, m, high);
     sym3_dot(small, m, low);
     for (int k = 0; k < 3; k++) {
-        out[k] += shift_parts(sum[k], small[k], 31, s);
+        out[k] = (int64_t)((uint64_t)out[k] + (uint64_t)shift_parts(sum[k], small[k], 31, s));
     }
 }
 
@@ -125,11 +128,16 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
                carom_v3_q40 *w)
 {
     *w = (carom_v3_q40){{0, 0, 0}};
-    if (b->moving) {
-        angular_in_body(b, s, r, w->c);
-        inverse_mul(b, w->c, w->c);
-        fix_rotate(w->c, r, w->c);
+    if (!b->moving) {
+        return;
     }
+    if (!body_spin_fits(b, s, r)) {
+        body_spin_most(s, w);
+        return;
+    }
+    angular_in_body(b, s, r, w->c);
+    inverse_mul(b, w->c, w->c);
+    fix_rotate(w->c, r, w->c);
 }
 
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,

@@ -373,12 +373,15 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     int64_t momentum_limit_q40 =
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
     carom_v3_q40 v, still = {{0, 0, 0}};
+    carom_m3_q30 r;
 
     if (!position_in_range(&s->position) || !world_each_within(s->momentum.c, momentum_limit_q40) ||
         !world_each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
         return false;
     }
-    /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
+    /* a thin body may spin faster about its axis than any that is made */
+    body_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
-    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
+    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40 &&
+           (!b->moving || body_spin_fits(b, s, &r));
 }
