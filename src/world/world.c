@@ -367,12 +367,15 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     return CAROM_OK;
 }
 
+/* Of twice the energy of a turn, at most: 2^12 bodies have less than the 2^47 that sums hold. */
+#define ENERGY_BITS 34
+
 bool world_in_range(const struct body *b, const struct body_state *s)
 {
     const int64_t angular_limit_q40 = (int64_t)1 << 62;
     int64_t momentum_limit_q40 =
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
-    carom_v3_q40 v, still = {{0, 0, 0}};
+    carom_v3_q40 v, w, still = {{0, 0, 0}};
     carom_m3_q30 r;
 
     if (!position_in_range(&s->position) || !world_each_within(s->momentum.c, momentum_limit_q40) ||
@@ -382,6 +385,10 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     /* a thin body may spin faster about its axis than any that is made */
     body_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
-    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40 &&
-           (!b->moving || body_spin_fits(b, s, &r));
+    if (!points_in_range(b, &v, &still) || fix_length(s->angular.c) >= angular_limit_q40 ||
+        (b->moving && !body_spin_fits(b, s, &r))) {
+        return false;
+    }
+    body_spin(b, s, &r, &w);
+    return fix_wide_bits(fix_wide_dot(s->angular.c, w.c)) <= 80 + ENERGY_BITS;
 }
