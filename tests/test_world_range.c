@@ -12,9 +12,11 @@
 #endif
 
 #define CAPS 2, 1, 32, 64, 0, 256
+#define FEW  2, 1, 6, 64, 0, 256
 #define ONE  ((int64_t)1 << 40)
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
+static _Alignas(8) uint8_t few_block[CAROM_WORLD_BYTES(FEW)];
 static struct shape box, ground;
 
 /* A box a few skins above a plane, near enough for the shortest region. */
@@ -66,7 +68,42 @@ static void test_slice_ends(void)
     }
 }
 
+/*
+ * A box whose corners come down on vertices of the ground: each touches the six faces around. Room for
+ * the places alone is enough, and makes no difference.
+ */
+static void test_merged_contacts(void)
+{
+    const struct carom_config config[2] = {
+        {.caps = {CAPS}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}},
+        {.caps = {FEW}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}}};
+    struct carom_world *w[2] = {NULL, NULL};
+    struct carom_stats stats;
+
+    shape_box(&box, 12, 4096, 4096, 2048);
+    shape_plane(&ground, 12, 8, 2048);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config[0], &w[0]), CAROM_OK);
+    CHECK_EQ(carom_world_init(few_block, sizeof few_block, &config[1], &w[1]), CAROM_OK);
+    for (int i = 0; i < 2; i++) {
+        struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+
+        CHECK_EQ(carom_body_add(w[i], &def), 0);
+        def.mesh = &box.mesh;
+        def.stationary = false;
+        def.position.c[2] = CAROM_RATIO(27, 100, 32);
+        CHECK_EQ(carom_body_add(w[i], &def), 1);
+    }
+    for (int frame = 0; frame < 30; frame++) {
+        CHECK_EQ(carom_world_step(w[0]), CAROM_OK);
+        CHECK_EQ(carom_world_step(w[1]), CAROM_OK);
+        CHECK(carom_world_hash(w[0]) == carom_world_hash(w[1]));
+    }
+    CHECK_EQ(carom_stats(w[1], &stats), CAROM_OK);
+    CHECK_EQ(stats.contacts, 4);
+}
+
 const struct test tests_world_range[] = {
+    {"world_range/merged_contacts", test_merged_contacts},
     {"world_range/slice_ends", test_slice_ends},
     {0},
 };
