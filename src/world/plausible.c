@@ -2,9 +2,12 @@
 /* Whether a state that was read could be what a step has left. SPEC.md, section 8, derives the bounds. */
 #include "world.h"
 
-/* A normalised rotation's squared length is 1 within 2^-28, a turned normal's within 2^-26. */
+/*
+ * A normalised rotation's squared length is 1 within 2^-28. A normal of edges is divided by a length of
+ * 0.002 at least, which is right to some units.
+ */
 #define ROTATION_BITS 27
-#define NORMAL_BITS   24
+#define NORMAL_BITS   16
 /* Of a kept impulse over the lighter body's mass, units a frame: 2^10 V*, and V* is at most 2^8. */
 #define IMPULSE_BITS 18
 /* Impulses were rounded to their unit, and their direction to 2^-30. */
@@ -18,7 +21,9 @@ static bool is_unit(const int32_t *v, int n, int bits)
     int64_t square_q60 = 0;
 
     for (int k = 0; k < n; k++) {
-        if (v[k] > CAROM_ONE_Q30 + 32 || v[k] < -CAROM_ONE_Q30 - 32) {
+        int32_t most = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> bits);
+
+        if (v[k] > most || v[k] < -most) {
             return false;
         }
         square_q60 += (int64_t)v[k] * v[k];

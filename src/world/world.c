@@ -367,8 +367,8 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     return CAROM_OK;
 }
 
-/* Of twice the energy of a turn, at most: 2^12 bodies have less than the 2^47 that sums hold. */
-#define ENERGY_BITS 34
+/* Of the mean square of the speeds that points turn with, at most: they are below 2^10. */
+#define SQUARE_BITS 20
 
 bool world_in_range(const struct body *b, const struct body_state *s)
 {
@@ -376,6 +376,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     int64_t momentum_limit_q40 =
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
     carom_v3_q40 v, w, still = {{0, 0, 0}};
+    int64_t by_mass[3] = {0, 0, 0};
     carom_m3_q30 r;
 
     if (!position_in_range(&s->position) || !world_each_within(s->momentum.c, momentum_limit_q40) ||
@@ -390,5 +391,8 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         return false;
     }
     body_spin(b, s, &r, &w);
-    return fix_wide_bits(fix_wide_dot(s->angular.c, w.c)) <= 80 + ENERGY_BITS;
+    for (int k = 0; b->moving && k < 3; k++) {
+        by_mass[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    }
+    return fix_wide_bits(fix_wide_dot(by_mass, w.c)) <= 80 + SQUARE_BITS;
 }
