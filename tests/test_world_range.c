@@ -102,7 +102,35 @@ static void test_merged_contacts(void)
     CHECK_EQ(stats.contacts, 4);
 }
 
+/*
+ * What would be the spin of a needle is worked out only where it fits: about its axis an angular
+ * momentum that a box hardly notices is a million radians a frame.
+ */
+static void test_thin_spin(void)
+{
+    carom_v3_q40 w;
+    carom_m3_q30 r;
+    struct body b;
+    struct body_state s;
+
+    shape_box(&box, 12, 8, 8, 16000);
+    shape_body(&box, true, &b, &s);
+    body_set_mass(&b, fix_scale(ONE, 40));
+    body_matrix(&r, &s.rotation);
+    for (int bits = 0; bits < 61; bits++) {
+        const int64_t most = (int64_t)1 << (40 + BODY_SPIN_BITS);
+
+        s.angular.c[2] = (int64_t)1 << bits;
+        body_spin(&b, &s, &r, &w);
+        /* J = (64 + 64) / 12 quanta^2, so w = L 3 2^19 */
+        CHECK_EQ(body_spin_fits(&b, &s, &r), bits + 20 < 40 + BODY_SPIN_BITS);
+        CHECK(w.c[2] > 0 && w.c[2] <= most);
+        CHECK(w.c[2] == most || (w.c[2] >> 20 >= s.angular.c[2] && w.c[2] >> 21 <= s.angular.c[2]));
+    }
+}
+
 const struct test tests_world_range[] = {
+    {"world_range/thin_spin", test_thin_spin},
     {"world_range/merged_contacts", test_merged_contacts},
     {"world_range/slice_ends", test_slice_ends},
     {0},
