@@ -216,7 +216,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  *
  *   bodies      moving and stationary
  *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
- *   contacts    points within the margin, before neighbouring ones are merged
+ *   contacts    places within the margin, neighbouring ones merged
  *   faces       interfering faces of one frame
  *   entries     of z-lists made within a step, for surfaces that move under the bodies over them;
  *               working; none when all meshes are rigid: these bring theirs
@@ -330,7 +330,8 @@ struct carom_body_state {
     carom_v3_q40 velocity; /* derived from the momenta that are the state */
     carom_v3_q40 spin;
     bool asleep;
-    bool out; /* left the world's range: frozen in its last pose, touched by nothing */
+    bool out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
+                 faster than 64 units or 2^15 radians a frame */
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
@@ -514,8 +515,8 @@ int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes
 /*
  * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
  * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
- * CAROM_ERR_FORMAT for bytes that are not whole or belong to other bodies or surfaces elsewhere; the
- * world is then as it was.
+ * CAROM_ERR_FORMAT for bytes that are not whole, hold a value that no step could have left, or belong
+ * to other bodies or surfaces elsewhere; the world is then as it was.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

@@ -19,7 +19,7 @@ static void add_parts(int64_t out[3], const int32_t m[6], const int32_t high[3],
     fix_sym3_dot(sum, m, high);
     fix_sym3_dot(small, m, low);
     for (int k = 0; k < 3; k++) {
-        out[k] += fix_round_parts(sum[k], small[k], 31, s);
+        out[k] = (int64_t)((uint64_t)out[k] + (uint64_t)fix_round_parts(sum[k], small[k], 31, s));
     }
 }
 
@@ -101,11 +101,16 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
                carom_v3_q40 *w)
 {
     *w = (carom_v3_q40){{0, 0, 0}};
-    if (b->moving) {
-        body_angular(b, s, r, w->c);
-        inverse_mul(b, w->c, w->c);
-        fix_rotate(w->c, r, w->c);
+    if (!b->moving) {
+        return;
     }
+    if (!body_spin_fits(b, s, r)) {
+        body_spin_most(s, w);
+        return;
+    }
+    body_angular(b, s, r, w->c);
+    inverse_mul(b, w->c, w->c);
+    fix_rotate(w->c, r, w->c);
 }
 
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,

@@ -22,6 +22,7 @@
 
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
+#define BODY_SPIN_BITS      15         /* a body that turns by 2^15 radians a frame is frozen */
 #define BODY_RADIUS_MAX_Q22 (32 << 22) /* of a moving body */
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
 #define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
@@ -210,13 +211,23 @@ static inline int64_t *body_lift_q32(const struct body *b)
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
 void body_set_mass(struct body *b, struct fix_scaled mass);
 
-/* v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. */
+/*
+ * v = p / m, w = R J^-1 R^T L / m with r the rotation matrix; a spin that does not fit is the largest
+ * there is, along L: what has it is frozen before it moves on.
+ */
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                carom_v3_q40 *w);
 /* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
 void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                   int64_t out[3]);
+/*
+ * Whether L / m is below 2^20 and each component of the spin, in the axes of the mesh, below
+ * 2^BODY_SPIN_BITS: about the axis of a thin body a small angular momentum is a spin that no format holds.
+ */
+bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r);
+/* The largest spin, along L. */
+void body_spin_most(const struct body_state *s, carom_v3_q40 *w);
 /* The momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);

@@ -58,16 +58,13 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }
 
-/*
- * A part of a region's time, which is at most 8 frames and so below 2^33: three bits are cut off to
- * divide in 64 bits.
- */
+/* A part of a region's time, which is at most 8 frames: what is divided is at most 2^63. */
 static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
 {
     if (elapsed_q30 == region->time_q30) {
         return CAROM_ONE_Q30;
     }
-    return (int32_t)(((elapsed_q30 >> 3) << 30) / (region->time_q30 >> 3));
+    return (int32_t)(((uint64_t)elapsed_q30 << 30) / (uint64_t)region->time_q30);
 }
 
 /* Rotations along the region's turn. */

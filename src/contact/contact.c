@@ -28,19 +28,15 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
 }
 
 /*
- * Insert a contact; NULL when the pool is full. What the solver does not set for each that it takes
- * up is cleared.
+ * Make room at a place, in a list that is not full. What the solver does not set for each that it
+ * takes up is cleared.
  */
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
     struct contact *c = &list->contacts[place];
-    int32_t end = pool_take(list->pool);
 
-    if (end < 0) {
-        return NULL;
-    }
     /* one by one: a memmove that overlaps upwards may go byte by byte */
-    for (struct contact *to = &list->contacts[end]; to > c; to--) {
+    for (struct contact *to = &list->contacts[list->pool->used++]; to > c; to--) {
         *to = to[-1];
     }
     c->work = NULL;
@@ -78,13 +74,22 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
                     const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,
                     const carom_v3_q40 arm[2])
 {
-    bool same;
+    bool same, full = list->pool->used == list->pool->size;
     uint32_t place = find_place(list, key, &same);
-    struct contact *c = same ? NULL : insert(list, place);
+    struct contact *c;
 
-    if (!c) {
-        return same;
+    if (same) {
+        return true;
     }
+    if (full) {
+        contact_merge(list); /* most of a full list are the same place again */
+        if (list->pool->used == list->pool->size) {
+            list->pool->refused++;
+            return false;
+        }
+        place = find_place(list, key, &same);
+    }
+    c = insert(list, place);
     c->key = *key;
     c->gap_q22 = gap_q22;
     c->skin_q22 = pair->skin_q22;
@@ -232,6 +237,9 @@ void contact_merge(struct contact_list *list)
         }
     }
     list->pool->used = kept;
+    if (kept > list->pool->peak) {
+        list->pool->peak = kept;
+    }
 }
 
 void contact_drop_pair(struct contact_list *list, uint16_t pair)

@@ -188,8 +188,8 @@ static inline carom_v3_q22 contact_arm(const struct contact *c)
 carom_v3_q32 contact_point(const struct contact *c);
 
 /*
- * Take in a contact of a pair at a place. One of that key stays as it was. Returns false when the
- * list is full.
+ * Take in a contact of a pair at a place. One of that key stays as it was. A full list is merged
+ * first; returns false when that leaves no room.
  */
 bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
                     const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,

@@ -67,9 +67,9 @@ int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s)
         return fix_round_shift(high + (low >> bits), bits - s);
     }
     if (s < 1) {
-        return carom_shl(carom_shl(high, bits) + low, -s);
+        return (int64_t)(((uint64_t)carom_shl(high, bits) + (uint64_t)low) << -s);
     }
-    return carom_shl(high, bits - s) + carom_round(low, s);
+    return (int64_t)((uint64_t)carom_shl(high, bits - s) + (uint64_t)carom_round(low, s));
 }
 
 int64_t fix_round_shift(int64_t v, int s)

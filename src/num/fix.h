@@ -117,7 +117,10 @@ inline int64_t fix_shift(int64_t v, int s)
 /* v 2^s, to nearest when s is negative, whatever s; the result must fit. */
 int64_t fix_round_shift(int64_t v, int s);
 
-/* (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. */
+/*
+ * (high 2^bits + low) / 2^s to nearest; |high|, |low| < 2^63. Either part alone may not fit where the
+ * sum does, so they are added modulo 2^64.
+ */
 int64_t fix_round_parts(int64_t high, int64_t low, int bits, int s);
 
 /* |v|, v > INT32_MIN; the smaller and the larger of two. */

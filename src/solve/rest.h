@@ -21,6 +21,8 @@
 #define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
 #define REST_SWEEPS_MANY 70 /* and at many */
 
+#define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
+
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {
     uint16_t a, b;

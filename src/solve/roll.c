@@ -81,7 +81,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     c->work->roll = roll;
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
-    roll->arm_q30 = (int32_t)carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits);
+    roll->arm_q30 = rest_clamp(carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits));
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
 

@@ -2,8 +2,6 @@
 /* Sleep: what has been quiet for a while stops being computed, island by island. */
 #include "rest.h"
 
-#define QUIET_FRAMES 20
-
 static bool is_quiet(const struct body *b, const struct body_state *s)
 {
     /*
@@ -28,7 +26,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
 static bool island_quiet(const struct body *bodies, const struct body_state *states, uint32_t first)
 {
     for (uint32_t i = first; i != ISLAND_END; i = bodies[i].next_in_island) {
-        if (broad_active(&bodies[i], &states[i]) && states[i].quiet < QUIET_FRAMES) {
+        if (broad_active(&bodies[i], &states[i]) && states[i].quiet < REST_QUIET_FRAMES) {
             return false;
         }
     }
@@ -57,10 +55,10 @@ void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_co
         }
         if (!is_quiet(&bodies[i], &states[i])) {
             states[i].quiet = 0;
-        } else if (states[i].quiet < QUIET_FRAMES) {
+        } else if (states[i].quiet < REST_QUIET_FRAMES) {
             states[i].quiet++;
         }
-        any = any || states[i].quiet == QUIET_FRAMES;
+        any = any || states[i].quiet == REST_QUIET_FRAMES;
     }
     if (!any) {
         return;

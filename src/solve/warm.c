@@ -77,6 +77,20 @@ static void push_all(struct contact *c)
     }
 }
 
+/*
+ * A kept impulse in units, cut to 2^40: the unit may be far smaller than a frame ago, and what is kept
+ * is handed on in pushes of 2^31.
+ */
+static int64_t units(int64_t v_q40, struct fix_scaled inverse)
+{
+    const int64_t most = (int64_t)1 << 40;
+
+    if (fix_bits((uint64_t)carom_abs(v_q40)) + 30 - inverse.e > 40) {
+        return v_q40 < 0 ? -most : most;
+    }
+    return fix_mul_scaled(v_q40, inverse);
+}
+
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
@@ -90,10 +104,10 @@ void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
         }
         inverse.e += sw->unit;
         along = rest_along_q40(&w->tangent_q40, &c->normal);
-        c->work->normal_impulse = fix_mul_scaled(w->normal_q40, inverse);
+        c->work->normal_impulse = units(w->normal_q40, inverse);
         for (int k = 0; k < 3; k++) {
             c->work->tangent_impulse[k] =
-                fix_mul_scaled(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
+                units(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
         }
         push_all(c);
         w->normal_q40 = 0; /* used */

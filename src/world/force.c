@@ -67,33 +67,6 @@ static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q4
     return true;
 }
 
-/*
- * Whether J^-1 L / m can be worked out in 64 bits: about the axis of a thin body a moderate angular
- * momentum is a spin that no format holds.
- */
-static bool spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
-{
-    int64_t l[3];
-
-    for (int k = 0; k < 3; k++) {
-        l[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
-    }
-    fix_rotate_back(l, r, l);
-    for (int i = 0; i < 3; i++) {
-        struct fix_wide sum = {0, 0};
-
-        for (int k = 0; k < 3; k++) {
-            int64_t entry = b->mesh->inverse.m[fix_sym3_at[i][k]];
-
-            fix_wide_add_product(&sum, carom_abs(entry), carom_abs(l[k]));
-        }
-        if (fix_wide_bits(sum) - b->mesh->inverse.e > 61) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Whether a moving body's momenta are those of a motion that could be given. */
 static bool momenta_in_range(const struct body *b, const struct body_state *s)
 {
@@ -104,7 +77,7 @@ static bool momenta_in_range(const struct body *b, const struct body_state *s)
     carom_m3_q30 r;
 
     body_matrix(&r, &s->rotation);
-    if (!world_in_range(b, s) || fix_length(s->angular.c) > most_q40 || !spin_fits(b, s, &r)) {
+    if (!world_in_range(b, s) || fix_length(s->angular.c) > most_q40) {
         return false;
     }
     body_velocity(b, s, &v);

@@ -74,19 +74,33 @@ bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const ca
            points_in_range(b, v, w);
 }
 
+/* Of the mean square of the speeds that points turn with, at most: they are below 2^10. */
+#define SQUARE_BITS 20
+
 bool world_in_range(const struct body *b, const struct body_state *s)
 {
     const int64_t angular_limit_q40 = (int64_t)1 << 62;
     int64_t momentum_limit_q40 =
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
-    carom_v3_q40 v, still = {{0, 0, 0}};
+    carom_v3_q40 v, w, still = {{0, 0, 0}};
+    int64_t by_mass[3] = {0, 0, 0};
+    carom_m3_q30 r;
 
     if (!world_position_in_range(&s->position) ||
         !world_each_within(s->momentum.c, momentum_limit_q40) ||
         !world_each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
         return false;
     }
-    /* a thin body may spin fast about its axis: its angular momentum tells more than its spin */
+    /* a thin body may spin faster about its axis than any that is made */
+    body_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
-    return points_in_range(b, &v, &still) && fix_length(s->angular.c) < angular_limit_q40;
+    if (!points_in_range(b, &v, &still) || fix_length(s->angular.c) >= angular_limit_q40 ||
+        (b->moving && !body_spin_fits(b, s, &r))) {
+        return false;
+    }
+    body_spin(b, s, &r, &w);
+    for (int k = 0; b->moving && k < 3; k++) {
+        by_mass[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    }
+    return fix_wide_bits(fix_wide_dot(by_mass, w.c)) <= 80 + SQUARE_BITS;
 }

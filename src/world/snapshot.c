@@ -94,12 +94,6 @@ static void vector32(struct stream *s, int32_t *v, int n)
     }
 }
 
-/* The force that a body is to have: it waits in the velocity, which is a step's, until all is read. */
-static carom_v3_q40 *force_read(const struct carom_world *w, uint32_t body)
-{
-    return &w->bodies[body].velocity;
-}
-
 static void stream_body(struct stream *s, const struct carom_world *w, uint32_t i,
                         struct body_state *state)
 {
@@ -110,7 +104,7 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
         vector64(s, state->position.c);
         vector64(s, state->momentum.c);
         vector64(s, state->angular.c);
-        vector64(s, s->loading ? force_read(w, i)->c : b->force.c);
+        vector64(s, s->loading ? world_force_read(w, i)->c : b->force.c);
         vector32(s, state->rotation.c, 4);
         number8(s, &state->asleep);
         number8(s, &state->out);
@@ -236,60 +230,6 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     return size;
 }
 
-static bool body_plausible(const struct body *b, const struct body_state *s,
-                           const carom_v3_q40 *gravity, const carom_v3_q40 *force)
-{
-    carom_v3_q40 acceleration;
-    int64_t square_q60 = 0;
-
-    for (int k = 0; k < 4; k++) {
-        if (carom_abs(s->rotation.c[k]) > CAROM_ONE_Q30 + 4) {
-            return false;
-        }
-        square_q60 += (int64_t)s->rotation.c[k] * s->rotation.c[k];
-    }
-    return s->asleep <= b->moving && s->out <= b->moving && s->woken <= b->moving &&
-           (b->moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
-           carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << 40 && world_in_range(b, s) &&
-           world_acceleration(b, gravity, force, &acceleration);
-}
-
-/* As broad.h names a pair. */
-static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
-{
-    return a < w->body_count && b < w->body_count && w->bodies[a].moving && w->bodies[b].mesh &&
-           (a > b || !w->bodies[b].moving);
-}
-
-/* A snapshot may be whole and still hold what no step could have left. */
-static bool plausible(const struct carom_world *w, const carom_v3_q40 *gravity,
-                      const struct world_state *state)
-{
-    if (!world_gravity_in_range(gravity)) {
-        return false;
-    }
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].mesh &&
-            !body_plausible(&w->bodies[i], &state->bodies[i], gravity, force_read(w, i))) {
-            return false;
-        }
-    }
-    for (uint32_t i = 0; i < state->warm_count; i++) {
-        if (!pair_plausible(w, state->warm[i].a, state->warm[i].b)) {
-            return false;
-        }
-    }
-    for (uint32_t i = 0; i < state->touching_count; i++) {
-        const struct pair *p = &state->touching[i], *last = i > 0 ? p - 1 : NULL;
-
-        if (!pair_plausible(w, p->a, p->b) ||
-            (last && (last->a > p->a || (last->a == p->a && last->b >= p->b)))) {
-            return false;
-        }
-    }
-    return true;
-}
-
 int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
 {
     struct world_state *next;
@@ -307,7 +247,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     s.loading = true;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
     stream_state(&s, w, next);
-    good = !s.failed && s.at == bytes && plausible(w, &s.gravity, next);
+    good = !s.failed && s.at == bytes && world_plausible(w, next, &s.gravity);
     if (good) {
         w->now = 1 - w->now;
         w->config.gravity = s.gravity;
@@ -315,7 +255,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     /* a step relies on what stands still being the same in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (good && w->bodies[i].mesh) {
-            w->bodies[i].force = *force_read(w, i);
+            w->bodies[i].force = *world_force_read(w, i);
         }
         world_put(w, i, &world_now(w)->bodies[i]);
     }

@@ -90,6 +90,11 @@ bool world_in_range(const struct body *b, const struct body_state *s);
 
 /* Whether each coordinate is within BODY_WORLD_LIMIT. */
 bool world_position_in_range(const carom_v3_q32 *p);
+/* The force that a body is to have: it waits in the velocity, which is a step's, until all is read. */
+carom_v3_q40 *world_force_read(const struct carom_world *w, uint32_t body);
+/* Whether a state that was read, with those forces and this gravity, could be what a step has left. */
+bool world_plausible(const struct carom_world *w, const struct world_state *s,
+                     const carom_v3_q40 *gravity);
 
 /* Whether there is a body of this number. */
 bool world_has_body(const struct carom_world *world, int body);

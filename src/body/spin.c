@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* Which spins fit. */
+#include "body.h"
+
+/* Bits of |L| / m in units, at most: 2^10 times what the fastest body has that a caller can make. */
+#define ANGULAR_BITS 20
+
+/*
+ * The sum of |L| over the mass, an upper bound, has no more than ANGULAR_BITS. 1 / m is below 2^30
+ * 2^-e, and so |L| / m is below 2^(bits + 30 - e).
+ */
+static bool angular_fits(const struct body *b, const struct body_state *s)
+{
+    return fix_bits(fix_sum(s->angular.c)) + 30 - b->inverse_mass.e <= 40 + ANGULAR_BITS;
+}
+
+/*
+ * J^-1 L / m in 128 bits, by the 30 bits of the inverse: what they leave out is less than 2^-28 of the
+ * largest entry, and so of the largest spin that such an L can have.
+ */
+static bool spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
+{
+    int64_t l[3];
+
+    for (int k = 0; k < 3; k++) {
+        l[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    }
+    fix_rotate_back(l, r, l);
+    for (int i = 0; i < 3; i++) {
+        struct fix_wide sum = {0, 0};
+
+        for (int k = 0; k < 3; k++) {
+            fix_wide_add_product(&sum, b->mesh->inverse.m[fix_sym3_at[i][k]], l[k]);
+        }
+        if (fix_wide_bits(sum) - b->mesh->inverse.e > 40 + BODY_SPIN_BITS) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
+{
+    /* a calm body turns by less than half a radian, and most are not much faster */
+    return fix_sum(s->angular.c) >> (BODY_SPIN_BITS + 1) < b->calm_angular_q40 ||
+           (angular_fits(b, s) && spin_fits(b, s, r));
+}
+
+void body_spin_most(const struct body_state *s, carom_v3_q40 *w)
+{
+    carom_v3_q30 along = {{0, 0, 0}};
+
+    fix_normalise(&along, s->angular.c);
+    for (int k = 0; k < 3; k++) {
+        w->c[k] = carom_shl(along.c[k], 10 + BODY_SPIN_BITS);
+    }
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/* Whether a state that was read could be what a step has left. SPEC.md, section 8, derives the bounds. */
+#include "world.h"
+
+/*
+ * A normalised rotation's squared length is 1 within 2^-28. A normal of edges is divided by a length of
+ * 0.002 at least, which is right to some units.
+ */
+#define ROTATION_BITS 27
+#define NORMAL_BITS   16
+/* Of a kept impulse over the lighter body's mass, units a frame: 2^10 V*, and V* is at most 2^8. */
+#define IMPULSE_BITS 18
+/* Impulses were rounded to their unit, and their direction to 2^-30. */
+#define IMPULSE_NOISE_Q40 ((int64_t)1 << 24)
+/* What lies on a surface that moves may be this far above it, q22. */
+#define SURFACE_GAP_Q22 ((int32_t)32 << 22)
+
+/* Whether the squared length of n numbers in q30 is 1 within 2^-bits. */
+static bool is_unit(const int32_t *v, int n, int bits)
+{
+    int64_t square_q60 = 0;
+
+    for (int k = 0; k < n; k++) {
+        int32_t most = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> bits);
+
+        if (v[k] > most || v[k] < -most) {
+            return false;
+        }
+        square_q60 += (int64_t)v[k] * v[k];
+    }
+    return carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << (60 - bits);
+}
+
+/* What sleeps has no momenta, and is neither out nor woken since the last step. */
+static bool flags_plausible(const struct body *b, const struct body_state *s)
+{
+    if (!b->moving) {
+        return (s->asleep | s->out | s->quiet | s->woken) == 0;
+    }
+    return s->asleep <= 1 && s->out <= 1 && s->woken <= 1 && s->quiet <= REST_QUIET_FRAMES &&
+           s->asleep + s->out + s->woken <= 1 &&
+           (!s->asleep || (fix_sum(s->momentum.c) | fix_sum(s->angular.c)) == 0);
+}
+
+static bool body_plausible(const struct body *b, const struct body_state *s,
+                           const carom_v3_q40 *gravity, const carom_v3_q40 *force)
+{
+    carom_v3_q40 acceleration;
+
+    return is_unit(s->rotation.c, 4, ROTATION_BITS) && world_in_range(b, s) &&
+           flags_plausible(b, s) && (b->moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
+           world_acceleration(b, gravity, force, &acceleration);
+}
+
+/* As broad.h names a pair. */
+static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
+{
+    return a < w->body_count && b < w->body_count && w->bodies[a].moving && w->bodies[b].mesh &&
+           (a > b || !w->bodies[b].moving);
+}
+
+/* -1, 0 or 1 as the pair a, b comes before c, d or after it. */
+static int order(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
+{
+    return a != c ? (a < c ? -1 : 1) : b != d ? (b < d ? -1 : 1) : 0;
+}
+
+/*
+ * An impulse presses, along the normal; friction is within the widest cone there is across it; and it
+ * is not more than a solve can give, see SPEC.md.
+ */
+static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
+{
+    const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
+    int64_t most_q40 = fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), a->mass), across_q40;
+
+    if (b->moving) {
+        int64_t other_q40 = fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), b->mass);
+
+        most_q40 = other_q40 < most_q40 ? other_q40 : most_q40;
+    }
+    most_q40 = most_q40 < (int64_t)1 << 60 ? most_q40 : (int64_t)1 << 60;
+    if (warm->normal_q40 > most_q40 || warm->normal_q40 < -IMPULSE_NOISE_Q40) {
+        return false;
+    }
+    across_q40 = warm->normal_q40 / (1 << 16) * rest_friction(a, b);
+    across_q40 += across_q40 / 64 + most_q40 / (1 << 20) + IMPULSE_NOISE_Q40;
+    return world_each_within(warm->tangent_q40.c, across_q40);
+}
+
+/* The arm ends at a's surface, but for what gap there may be. */
+static bool arm_plausible(const struct carom_world *w, const struct rest_warm *warm)
+{
+    const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
+    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    int32_t most_q22 =
+        a->radius_q22 + BODY_MARGIN_SKINS * skin_q22 + (b->mesh->surface ? SURFACE_GAP_Q22 : 0);
+    const int64_t arm[3] = {warm->arm.c[0], warm->arm.c[1], warm->arm.c[2]};
+
+    return world_each_within(arm, most_q22);
+}
+
+/* Whether one of the pair's kept impulses before this one is at the same place with the same normal. */
+static bool repeats(const struct rest_warm *first, const struct rest_warm *warm)
+{
+    for (const struct rest_warm *w = warm; w-- > first && w->a == warm->a && w->b == warm->b;) {
+        if (memcmp(&w->arm, &warm->arm, sizeof w->arm) == 0 &&
+            memcmp(&w->normal, &warm->normal, sizeof w->normal) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool awake(const struct carom_world *w, const struct world_state *s, uint16_t i)
+{
+    return broad_active(&w->bodies[i], &s->bodies[i]);
+}
+
+/* Kept impulses are those of pairs that touch, in their order, of which one body at least is awake. */
+static bool warm_plausible(const struct carom_world *w, const struct world_state *s)
+{
+    const struct pair *t = s->touching, *end = t + s->touching_count;
+
+    for (const struct rest_warm *i = s->warm; i < s->warm + s->warm_count; i++) {
+        while (t < end && order(t->a, t->b, i->a, i->b) < 0) {
+            t++;
+        }
+        if (t == end || order(t->a, t->b, i->a, i->b) != 0 || !arm_plausible(w, i) ||
+            !is_unit(i->normal.c, 3, NORMAL_BITS) || !impulse_plausible(w, i) ||
+            !(awake(w, s, i->a) || awake(w, s, i->b)) || repeats(s->warm, i)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool touching_plausible(const struct carom_world *w, const struct world_state *s)
+{
+    for (uint32_t i = 0; i < s->touching_count; i++) {
+        const struct pair *p = &s->touching[i];
+
+        if (!pair_plausible(w, p->a, p->b) || (i > 0 && order(p[-1].a, p[-1].b, p->a, p->b) >= 0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+carom_v3_q40 *world_force_read(const struct carom_world *w, uint32_t body)
+{
+    return &w->bodies[body].velocity;
+}
+
+bool world_plausible(const struct carom_world *w, const struct world_state *s,
+                     const carom_v3_q40 *gravity)
+{
+    if (!world_gravity_in_range(gravity)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].mesh &&
+            !body_plausible(&w->bodies[i], &s->bodies[i], gravity, world_force_read(w, i))) {
+            return false;
+        }
+    }
+    return touching_plausible(w, s) && warm_plausible(w, s);
+}

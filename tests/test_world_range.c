@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/* Whole steps at the ends of what a world takes. Their worth is in a build with sanitizers. */
+#include <string.h>
+
+#include "shapes.h"
+#include "test.h"
+
+#ifdef TEST_LONG
+#define STRIDE 1
+#else
+#define STRIDE 40 /* of the spins on either side of a whole number of slices */
+#endif
+
+#define CAPS 2, 1, 32, 64, 0, 256
+#define FEW  2, 1, 6, 64, 0, 256
+#define ONE  ((int64_t)1 << 40)
+
+static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
+static _Alignas(8) uint8_t few_block[CAROM_WORLD_BYTES(FEW)];
+static struct shape box, ground;
+
+/* A box a few skins above a plane, near enough for the shortest region. */
+static struct carom_world *make(void)
+{
+    const struct carom_config config = {.caps = {CAPS}};
+    struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+    struct carom_world *w = NULL;
+
+    shape_box(&box, 12, 4096, 4096, 4096);
+    shape_plane(&ground, 12, 1, 16384);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
+    CHECK_EQ(carom_body_add(w, &def), 0);
+    def.mesh = &box.mesh;
+    def.stationary = false;
+    def.position.c[2] = CAROM_RATIO(501, 1000, 32);
+    CHECK_EQ(carom_body_add(w, &def), 1);
+    return w;
+}
+
+/*
+ * What slices of half a radian leave of a frame may be a few units of its time: regions are that
+ * short, and parts of them are asked for. The box turns about an axis of its own and stays clear.
+ */
+static void test_slice_ends(void)
+{
+    struct carom_world *w = make();
+    struct carom_body_state start;
+    struct carom_stats stats;
+
+    CHECK_EQ(carom_body_get(w, 1, &start), CAROM_OK);
+    for (int half = 1; half <= 3; half++) {
+        for (int64_t off = -1000; off <= 1000; off += STRIDE) {
+            struct carom_body_state s = start;
+            uint32_t slices = 0;
+
+            s.spin.c[2] = half * ONE / 2 + off;
+            CHECK_EQ(carom_body_set(w, 1, &s), CAROM_OK);
+            for (int frame = 0; frame < 3; frame++) {
+                CHECK_EQ(carom_world_step(w), CAROM_OK);
+                CHECK_EQ(carom_stats(w, &stats), CAROM_OK);
+                slices += stats.substeps;
+            }
+            CHECK(slices >= 3 * (uint32_t)half && slices <= 3 * (uint32_t)half + 3);
+            CHECK_EQ(carom_body_get(w, 1, &s), CAROM_OK);
+            CHECK_EQ(s.position.c[2], start.position.c[2]);
+            CHECK_NEAR(s.spin.c[2], half * ONE / 2 + off, 16);
+        }
+    }
+}
+
+/*
+ * A box whose corners come down on vertices of the ground: each touches the six faces around. Room for
+ * the places alone is enough, and makes no difference.
+ */
+static void test_merged_contacts(void)
+{
+    const struct carom_config config[2] = {
+        {.caps = {CAPS}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}},
+        {.caps = {FEW}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}}};
+    struct carom_world *w[2] = {NULL, NULL};
+    struct carom_stats stats;
+
+    shape_box(&box, 12, 4096, 4096, 2048);
+    shape_plane(&ground, 12, 8, 2048);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config[0], &w[0]), CAROM_OK);
+    CHECK_EQ(carom_world_init(few_block, sizeof few_block, &config[1], &w[1]), CAROM_OK);
+    for (int i = 0; i < 2; i++) {
+        struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
+
+        CHECK_EQ(carom_body_add(w[i], &def), 0);
+        def.mesh = &box.mesh;
+        def.stationary = false;
+        def.position.c[2] = CAROM_RATIO(27, 100, 32);
+        CHECK_EQ(carom_body_add(w[i], &def), 1);
+    }
+    for (int frame = 0; frame < 30; frame++) {
+        CHECK_EQ(carom_world_step(w[0]), CAROM_OK);
+        CHECK_EQ(carom_world_step(w[1]), CAROM_OK);
+        CHECK(carom_world_hash(w[0]) == carom_world_hash(w[1]));
+    }
+    CHECK_EQ(carom_stats(w[1], &stats), CAROM_OK);
+    CHECK_EQ(stats.contacts, 4);
+}
+
+/*
+ * What would be the spin of a needle is worked out only where it fits: about its axis an angular
+ * momentum that a box hardly notices is a million radians a frame.
+ */
+static void test_thin_spin(void)
+{
+    carom_v3_q40 w;
+    carom_m3_q30 r;
+    struct body b;
+    struct body_state s;
+
+    shape_box(&box, 12, 8, 8, 16000);
+    shape_body(&box, true, &b, &s);
+    body_set_mass(&b, fix_scale(ONE, 40));
+    body_matrix(&r, &s.rotation);
+    for (int bits = 0; bits < 61; bits++) {
+        const int64_t most = (int64_t)1 << (40 + BODY_SPIN_BITS);
+
+        s.angular.c[2] = (int64_t)1 << bits;
+        body_spin(&b, &s, &r, &w);
+        /* J = (64 + 64) / 12 quanta^2, so w = L 3 2^19 */
+        CHECK_EQ(body_spin_fits(&b, &s, &r), bits + 20 < 40 + BODY_SPIN_BITS);
+        CHECK(w.c[2] > 0 && w.c[2] <= most);
+        CHECK(w.c[2] == most || (w.c[2] >> 20 >= s.angular.c[2] && w.c[2] >> 21 <= s.angular.c[2]));
+    }
+}
+
+const struct test tests_world_range[] = {
+    {"world_range/thin_spin", test_thin_spin},
+    {"world_range/merged_contacts", test_merged_contacts},
+    {"world_range/slice_ends", test_slice_ends},
+    {0},
+};
