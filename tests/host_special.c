@@ -2,8 +2,8 @@
 /*
  * Special positions: pairs of convex bodies whose features meet over each other to within nothing to
  * 1/1000 of a unit (special.h), watched for some frames around the meeting. No faces may cross. An
- * overlap is looked for in double precision after every frame, and within frames without a hit, of
- * which the motion is known; and nobody may be on the other side of the other one.
+ * overlap is looked for in double precision after every frame, and within frames up to the first hit,
+ * of which the motion is known; of the others the straight way must not lead deep through.
  *
  *   host_special               every so many-th case
  *   host_special long          100,000 cases
@@ -22,6 +22,9 @@
 #define FRAMES 8
 /* Well above the rounding of doubles, far below a unit of the last place of a place. */
 #define TOLERANCE 1e-10
+
+/* On the straight way between two frames, of the smaller one's size. */
+#define THROUGH 0.1
 
 struct tally {
     long cases, begun, hits, errors, crossed, through, frozen, capped, first;
@@ -69,26 +72,6 @@ static double apart_between(const struct run *r, double part)
     return crossing_apart(&hull[0], &hull[1]);
 }
 
-/* Whether the upper body is all below the lower one, seen along the direction it came from. */
-static bool is_below(const struct run *r)
-{
-    double high = -HUGE_VAL, low = HUGE_VAL;
-
-    for (int i = 0; i < 2; i++) {
-        struct crossing_hull hull;
-
-        special_place(&hull, &r->s, i, &r->now[i].position, &r->now[i].rotation);
-        for (uint32_t v = 0; v < hull.corners; v++) {
-            double z = hull.p[v][0] * r->s.up[0] + hull.p[v][1] * r->s.up[1] +
-                       hull.p[v][2] * r->s.up[2];
-
-            high = i == 1 ? fmax(high, z) : high;
-            low = i == 0 ? fmin(low, z) : low;
-        }
-    }
-    return high < low;
-}
-
 /* Whether a body that moves has not come anywhere. */
 static bool stands(const struct run *r)
 {
@@ -98,13 +81,14 @@ static bool stands(const struct run *r)
         for (int k = 0; k < 3; k++) {
             moves |= carom_abs(r->now[i].velocity.c[k]) > (int64_t)1 << 20;
         }
-        same &= memcmp(&r->now[i].position, &r->before[i].position, sizeof r->now[i].position) == 0 &&
-                memcmp(&r->now[i].rotation, &r->before[i].rotation, sizeof r->now[i].rotation) == 0;
+        same &=
+            memcmp(&r->now[i].position, &r->before[i].position, sizeof r->now[i].position) == 0 &&
+            memcmp(&r->now[i].rotation, &r->before[i].rotation, sizeof r->now[i].rotation) == 0;
     }
     return moves && same;
 }
 
-/* Samples of a frame in which nothing touched anything. */
+/* Samples of a frame, for nothing to go through a thin part between two. */
 static int samples_of(const struct run *r)
 {
     double way = 0, thin = fmin(r->s.size[0], r->s.size[1]) * 0.02;
@@ -131,13 +115,17 @@ static void look(struct run *r, int status)
         r->before[i] = r->now[i];
         r->now[i] = lab_state(r->world, number_of(r, i));
     }
-    samples = r->hit ? 1 : samples_of(r);
+    samples = samples_of(r);
     for (int i = 1; i <= samples; i++) {
-        double apart = apart_between(r, (double)i / samples);
+        double deep = -apart_between(r, (double)i / samples);
 
-        r->deepest = fmax(r->deepest, -apart);
+        /* what hits does not go straight, but the straight way is no way through */
+        if (!r->hit || i == samples) {
+            r->deepest = fmax(r->deepest, deep);
+        } else {
+            r->through |= deep > THROUGH * fmin(r->s.size[0], r->s.size[1]);
+        }
     }
-    r->through |= is_below(r);
     r->frozen |= stands(r);
     r->capped |= (status & CAROM_SUBSTEP_CAP) != 0;
 }
@@ -169,13 +157,16 @@ static void introduce(const struct run *r)
 {
     const struct special *s = &r->s;
 
-    printf("# case %ld %s: sizes %.3g %.3g, slopes %.0f %.0f on %.0f %.0f, offset %.2g, yaw %.3g, "
-           "speed %.3g (%.3g skins), slant %.3g, spin %.2g, time %.2f, %s %s, e %.1f, weight %.2g\n",
-           s->number, special_names[s->class], s->size[0], s->size[1], s->slope[0][0] * 57.3,
-           s->slope[0][1] * 57.3, s->slope[1][0] * 57.3, s->slope[1][1] * 57.3, s->offset, s->yaw,
-           s->speed, s->speed / s->skin, s->slant, s->spin, s->time,
-           s->def[0].stationary ? "upper" : s->def[1].stationary ? "lower" : "both",
-           s->upper_first ? "as b" : "as a", lab_double(s->def[0].restitution_q30, 30), s->weight);
+    printf(
+        "# case %ld %s: sizes %.3g %.3g, slopes %.0f %.0f on %.0f %.0f, offset %.2g, yaw %.3g, "
+        "speed %.3g (%.3g skins), slant %.3g, spin %.2g, time %.2f, %s %s, e %.1f, weight %.2g\n",
+        s->number, special_names[s->class], s->size[0], s->size[1], s->slope[0][0] * 57.3,
+        s->slope[0][1] * 57.3, s->slope[1][0] * 57.3, s->slope[1][1] * 57.3, s->offset, s->yaw,
+        s->speed, s->speed / s->skin, s->slant, s->spin, s->time,
+        s->def[0].stationary   ? "upper"
+        : s->def[1].stationary ? "lower"
+                               : "both",
+        s->upper_first ? "as b" : "as a", lab_double(s->def[0].restitution_q30, 30), s->weight);
 }
 
 static void run(struct tally *t, long number, bool told)
@@ -227,8 +218,9 @@ static void run(struct tally *t, long number, bool told)
         }
         if (!told) {
             introduce(&r);
-            printf("#   %s, %.3g skins deep%s\n", status < 0 ? carom_result_text(status) : "crosses",
-                   skins, r.through ? ", through" : "");
+            printf("#   %s, %.3g skins deep%s\n",
+                   status < 0 ? carom_result_text(status) : "crosses", skins,
+                   r.through ? ", through" : "");
         }
     }
 }
@@ -255,11 +247,12 @@ int main(int argc, char **argv)
             continue;
         }
         snprintf(name, sizeof name, "special/%s", special_names[i]);
-        lab_report(t->errors == 0 && t->crossed == 0 && t->through == 0 && t->hits > 0, name,
-                   "%ld cases, %ld begin apart, %ld meet, %ld errors, %ld cross, %.3g skins deep, %ld "
-                   "go through, %ld stand still, %ld cut short",
-                   t->cases, t->begun, t->hits, t->errors, t->crossed, t->deepest, t->through,
-                   t->frozen, t->capped);
+        lab_report(
+            t->errors == 0 && t->crossed == 0 && t->through == 0 && t->hits > 0, name,
+            "%ld cases, %ld begin apart, %ld meet, %ld errors, %ld cross, %.3g skins deep, %ld "
+            "go through, %ld stand still, %ld cut short",
+            t->cases, t->begun, t->hits, t->errors, t->crossed, t->deepest, t->through, t->frozen,
+            t->capped);
     }
     return lab_finish();
 }

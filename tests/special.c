@@ -6,9 +6,9 @@
 #include "real.h"
 #include "special.h"
 
-const char *const special_names[SPECIAL_CLASSES] = {
-    "peak_peak",   "peak_ridge", "peak_face",    "peak_border", "ridge_across",
-    "ridge_along", "ridge_end",  "ridge_border", "face_face"};
+const char *const special_names[SPECIAL_CLASSES] = {"peak_peak",   "peak_ridge",   "peak_face",
+                                                    "peak_border", "ridge_across", "ridge_along",
+                                                    "ridge_end",   "ridge_border", "face_face"};
 
 /* -------------------------------------------------------------------- shapes */
 
@@ -185,7 +185,9 @@ static double random_yaw(uint64_t *random)
     const double most = 0.2 * REAL_PI / 180;
     double kind = lab_random(random, 0, 1), yaw = lab_random(random, -most, most);
 
-    return kind < 0.25 ? 0 : kind < 0.6 ? yaw : (yaw < 0 ? -1 : 1) * random_scale(random, 1e-9, most);
+    return kind < 0.25  ? 0
+           : kind < 0.6 ? yaw
+                        : (yaw < 0 ? -1 : 1) * random_scale(random, 1e-9, most);
 }
 
 /* Where along the feature of a body the meeting is to be. */
@@ -200,7 +202,8 @@ static void choose_top(struct special *c, int which, enum feature feature, uint6
     for (int k = 0; k < 3; k++) {
         end[k] = fabs(real(s->vertices[0][k], s->raw.quantum_bits));
     }
-    s->top[0] = end[0] * (c->class == SPECIAL_RIDGE_END ? which == 0 ? 1 : 1 : lab_random(random, -0.95, 0.95));
+    s->top[0] = end[0] * (c->class == SPECIAL_RIDGE_END ? which == 0 ? 1 : 1
+                                                        : lab_random(random, -0.95, 0.95));
     s->top[1] = 0;
     if (feature == TOP && c->class == SPECIAL_PEAK_FACE) {
         /* on the diagonal, or anywhere */
@@ -217,13 +220,21 @@ static void choose_top(struct special *c, int which, enum feature feature, uint6
 static void choose_shapes(struct special *c, uint64_t *random)
 {
     static const enum feature features[SPECIAL_CLASSES][2] = {
-        {PEAK, PEAK},   {RIDGE, PEAK},  {TOP, PEAK},   {TOP, PEAK}, {RIDGE, RIDGE},
+        {PEAK, PEAK},   {RIDGE, PEAK},  {TOP, PEAK},  {TOP, PEAK}, {RIDGE, RIDGE},
         {RIDGE, RIDGE}, {RIDGE, RIDGE}, {TOP, RIDGE}, {TOP, TOP}};
     int swap = lab_random(random, 0, 1) < 0.3;
     double length[2];
 
     for (int i = 0; i < 2; i++) {
         length[i] = c->size[i] * lab_random(random, 0.3, 2);
+    }
+    /* and sometimes very long ground */
+    if (c->size[1] < 1 && lab_random(random, 0, 1) < 0.1) {
+        length[0] = lab_random(random, 30, 100);
+    }
+    /* and sometimes very long ground */
+    if (c->size[1] < 1 && lab_random(random, 0, 1) < 0.1) {
+        length[0] = lab_random(random, 30, 100);
     }
     /* equal tops, whose edges all lie over each other */
     if (c->class == SPECIAL_FACE_FACE && c->size[0] == c->size[1]) {
@@ -262,7 +273,9 @@ static void choose_motion(struct special *c, struct motion *m, uint64_t *random)
     double angle = lab_random(random, 0, 2 * REAL_PI), way[3], share, moves;
 
     c->speed = least * random_scale(random, 1e-6, 1);
-    c->slant = kind < 0.4 ? 0 : kind < 0.8 ? lab_random(random, 0, 1.5) : random_scale(random, 2, 100);
+    c->slant = kind < 0.4   ? 0
+               : kind < 0.8 ? lab_random(random, 0, 1.5)
+                            : random_scale(random, 2, 100);
     c->slant = fmin(c->slant, 15 / c->speed);
     c->time = lab_random(random, 0.2, 2.8);
     way[0] = c->speed * c->slant * cos(angle);
@@ -270,6 +283,12 @@ static void choose_motion(struct special *c, struct motion *m, uint64_t *random)
     way[2] = -c->speed;
     moves = lab_random(random, 0, 1);
     share = moves < 0.4 ? 1 : moves < 0.6 ? 0 : lab_random(random, 0, 1);
+    /* what moves has a radius of up to 32 units */
+    for (int i = 0; i < 2; i++) {
+        if (c->shape[i].mesh.radius_q22 > 31 << 22) {
+            share = i == 0 ? 1 : 0;
+        }
+    }
     c->def[0].stationary = share == 1;
     c->def[1].stationary = share == 0;
     c->spin = lab_random(random, 0, 1) < 0.5 ? 0 : random_scale(random, 1e-4, 0.4);

@@ -16,12 +16,12 @@ enum special_class {
     SPECIAL_PEAK_PEAK,
     SPECIAL_PEAK_RIDGE,
     SPECIAL_PEAK_FACE,
-    SPECIAL_PEAK_BORDER,    /* over an edge or a corner of a flat top */
-    SPECIAL_RIDGE_ACROSS,   /* a ridge over another at any angle */
-    SPECIAL_RIDGE_ALONG,    /* parallel, but for a yaw of up to 0.2 degrees */
-    SPECIAL_RIDGE_END,      /* the same, and only the ends meet */
-    SPECIAL_RIDGE_BORDER,   /* a ridge along an edge of a flat top */
-    SPECIAL_FACE_FACE,      /* flat tops, their edges over each other */
+    SPECIAL_PEAK_BORDER,  /* over an edge or a corner of a flat top */
+    SPECIAL_RIDGE_ACROSS, /* a ridge over another at any angle */
+    SPECIAL_RIDGE_ALONG,  /* parallel, but for a yaw of up to 0.2 degrees */
+    SPECIAL_RIDGE_END,    /* the same, and only the ends meet */
+    SPECIAL_RIDGE_BORDER, /* a ridge along an edge of a flat top */
+    SPECIAL_FACE_FACE,    /* flat tops, their edges over each other */
     SPECIAL_CLASSES
 };
 extern const char *const special_names[SPECIAL_CLASSES];
