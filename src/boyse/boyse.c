@@ -82,6 +82,7 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
 
         largest = part > largest ? part : largest;
     }
+    largest >>= boyse_steady(pair) ? 0 : start->up;
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
     return level < most ? level : most;
 }
@@ -125,9 +126,14 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         shift_q40 = lower(a[0], touching, level_q40(pair, c, &start));
     }
     a[0] -= shift_q40;
-    if (!curve_init(&curve, a, degree)) {
-        return false;
+    if (curve_init(&curve, a, degree)) {
+        ++*roots;
+        if (first_hit(pair, c, &start, &curve, shift_q40, hit)) {
+            return true;
+        }
     }
-    ++*roots;
-    return first_hit(pair, c, &start, &curve, shift_q40, hit);
+    /* over a convex edge or vertex a point is over no face until it is there */
+    a[0] += shift_q40;
+    return touching == 0 && shift_q40 != 0 && curve_init(&curve, a, degree) &&
+           first_hit(pair, c, &start, &curve, 0, hit);
 }
