@@ -232,12 +232,8 @@ static void choose_shapes(struct special *c, uint64_t *random)
     if (c->size[1] < 1 && lab_random(random, 0, 1) < 0.1) {
         length[0] = lab_random(random, 30, 100);
     }
-    /* and sometimes very long ground */
-    if (c->size[1] < 1 && lab_random(random, 0, 1) < 0.1) {
-        length[0] = lab_random(random, 30, 100);
-    }
     /* equal tops, whose edges all lie over each other */
-    if (c->class == SPECIAL_FACE_FACE && c->size[0] == c->size[1]) {
+    if (c->class == SPECIAL_FACE_FACE && c->size[0] == c->size[1] && length[0] < 20) {
         length[1] = length[0];
     }
     for (int i = 0; i < 2; i++) {
