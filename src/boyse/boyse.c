@@ -27,6 +27,16 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
                                                                                         : 0;
 }
 
+/*
+ * The gap of edges that are nearly parallel in bodies that turn is P's rounding over their sine: what
+ * the exact test says of it must not be far off the root.
+ */
+static bool is_there(const struct boyse_pair *pair, const struct boyse_places *start,
+                     const struct boyse_touch *touch)
+{
+    return start->up == 0 || carom_abs(touch->gap_q22) <= pair->skin_q22 / 2;
+}
+
 /* Go through the roots until one is a hit. `shift`: what P is less than its true value, q40. */
 static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
                       const struct boyse_places *start, const struct curve *curve,
@@ -46,7 +56,7 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
-        if (touch.valid && touch.sign * walk.slope8 < 0) {
+        if (touch.valid && touch.sign * walk.slope8 < 0 && is_there(pair, start, &touch)) {
             struct opening o;
 
             o.pair = pair;

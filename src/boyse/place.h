@@ -14,12 +14,8 @@
 #define BOYSE_NEAR_Q22 12
 /* Below this sine, 0.002, w and d are kept to more digits. */
 #define BOYSE_FINE_Q30 (1 << 21)
-/*
- * Sines below which edges count as parallel. Where bodies turn P is wrong by its rounding over the
- * sine: 2^-14. Where none does it is that of directions: 2^-25.
- */
-#define BOYSE_PARALLEL_TURNING_Q30 (1 << 16)
-#define BOYSE_PARALLEL_Q30         (1 << 5)
+/* Sine of the angle below which edges count as parallel, 2^-25: that of directions' rounding. */
+#define BOYSE_PARALLEL_Q30 (1 << 5)
 
 /* How `to` sees `from` in the role of a candidate: of a face the vertex, of b's edge a's. */
 static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,

@@ -327,7 +327,7 @@ static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
 
     touch->valid = false;
     touch->sign = 1;
-    if (sine_q30 >> p->up >= (turns ? BOYSE_PARALLEL_TURNING_Q30 : BOYSE_PARALLEL_Q30)) {
+    if (sine_q30 >> p->up >= BOYSE_PARALLEL_Q30) {
         set_normal(n->on_b, p, sine);
         if (meet_on_edges(p, n->on_b, sine_q30)) {
             int sign;
