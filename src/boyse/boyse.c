@@ -7,6 +7,8 @@
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
 #define ROOT_LEVEL_Q22 3
+/* How often the level of edges that come to be parallel is made a quarter. */
+#define LEVELS 6
 
 /*
  * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
@@ -28,23 +30,27 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
 }
 
 /*
- * The gap of edges that are nearly parallel in bodies that turn is P's rounding over their sine: what
- * the exact test says of it must not be far off the root.
+ * Of edges that are nearly parallel at a root, P may be small because |w| is, and its rounding is a gap
+ * of that over |w|: the exact test must have the gap near the root as well.
  */
-static bool is_there(const struct boyse_pair *pair, const struct boyse_places *start,
+static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_touch *touch)
 {
-    return start->up == 0 || carom_abs(touch->gap_q22) <= pair->skin_q22 / 2;
+    return c->kind != CANDIDATE_EDGE_EDGE || carom_abs(touch->gap_q22) <= pair->skin_q22 / 2;
 }
 
-/* Go through the roots until one is a hit. `shift`: what P is less than its true value, q40. */
+/*
+ * Go through the roots until one is a hit. `shift`: what P is less than its true value, q40; `far` is
+ * set when one would be but for its gap.
+ */
 static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
                       const struct boyse_places *start, const struct curve *curve,
-                      int64_t shift_q40, struct boyse_hit *hit)
+                      int64_t shift_q40, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
     int32_t last_root = 0;
 
+    *far = false;
     walk_begin(&walk, curve);
     while (walk_next(&walk, curve)) {
         struct boyse_touch touch;
@@ -56,7 +62,9 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
-        if (touch.valid && touch.sign * walk.slope8 < 0 && is_there(pair, start, &touch)) {
+        touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
+        *far = *far || (touch.valid && !is_there(pair, c, &touch));
+        if (touch.valid && is_there(pair, c, &touch)) {
             struct opening o;
 
             o.pair = pair;
@@ -76,12 +84,13 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
 /*
  * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
- * event gap, however small the angle between edges is.
+ * event gap, however small the angle between edges is. Edges that come to be parallel when they meet
+ * change the sign of the gap and that of w: P only comes near to 0, and that must be seen.
  */
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
-                         const struct boyse_places *start)
+                         const struct boyse_places *start, int64_t gap_q40)
 {
-    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most, half = carom_abs(gap_q40) / 2;
     int32_t largest = 0;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
@@ -94,7 +103,9 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
     }
     largest >>= boyse_steady(pair) ? 0 : start->up;
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
-    return level < most ? level : most;
+    level = level < most ? level : most;
+    return level > half && !boyse_steady(pair) && largest < pair->turn_q30 + BOYSE_FINE_Q30 ? half
+                                                                                            : level;
 }
 
 /*
@@ -133,17 +144,25 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         return true;
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
-        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start));
+        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start, a[0]));
     }
-    a[0] -= shift_q40;
-    if (curve_init(&curve, a, degree)) {
-        ++*roots;
-        if (first_hit(pair, c, &start, &curve, shift_q40, hit)) {
+    /*
+     * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is
+     * asked again of the surface itself; of a level between when |w| made it small.
+     */
+    for (int tries = 0;; tries++) {
+        bool far = false, found;
+
+        a[0] -= shift_q40;
+        found = curve_init(&curve, a, degree);
+        *roots += found && tries == 0;
+        if (found && first_hit(pair, c, &start, &curve, shift_q40, hit, &far)) {
             return true;
         }
+        if (shift_q40 == 0 || touching != 0) {
+            return false;
+        }
+        a[0] += shift_q40;
+        shift_q40 = far && tries < LEVELS ? shift_q40 / 4 : 0;
     }
-    /* over a convex edge or vertex a point is over no face until it is there */
-    a[0] += shift_q40;
-    return touching == 0 && shift_q40 != 0 && curve_init(&curve, a, degree) &&
-           first_hit(pair, c, &start, &curve, 0, hit);
 }
