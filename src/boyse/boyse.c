@@ -124,6 +124,45 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level)
     return gap_q40 > 0 ? shift : -shift;
 }
 
+/* The last time of those that halving finds at which the features are farther apart than `gap`. */
+static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
+                          const struct boyse_places *start, int32_t gap_q22, int32_t until_q30)
+{
+    int32_t low = 0, high = until_q30;
+
+    while (high - low > 1 + (until_q30 >> 12)) {
+        int32_t middle = low + (high - low) / 2;
+        struct boyse_touch touch;
+
+        boyse_test(pair, c, start, middle, &touch);
+        *(touch.valid && touch.gap_q22 <= gap_q22 ? &high : &low) = middle;
+    }
+    return low;
+}
+
+/*
+ * The same of edges that are nearly parallel in bodies that turn, by the exact test alone: whether
+ * they have met when the path ends. P's rounding, over their sine, is more than slow bodies go.
+ */
+static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_places *start, struct boyse_hit *hit)
+{
+    struct boyse_touch from, to;
+    int32_t event_q22 = pair->skin_q22 / 2;
+
+    boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
+    if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
+        return false;
+    }
+    boyse_test(pair, c, start, 0, &from);
+    if (from.valid && (from.gap_q22 <= to.gap_q22 || from.gap_q22 <= -event_q22)) {
+        return false;
+    }
+    hit->root_q30 = last_apart(pair, c, start, ROOT_LEVEL_Q22, CAROM_ONE_Q30);
+    hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30 + 1);
+    return true;
+}
+
 bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
                  uint32_t *roots)
 {
@@ -136,6 +175,11 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         return false;
     }
     boyse_place_start(pair, c, &start);
+    if (c->kind == CANDIDATE_EDGE_EDGE && start.up > 0 && !boyse_steady(pair) &&
+        have_met(pair, c, &start, hit)) {
+        ++*roots;
+        return true;
+    }
     degree = boyse_polynomial(pair, c, &start, a);
     touching = touches_at_start(pair, c, &start, a[0]);
     if (touching * a[1] < 0) {
