@@ -7,6 +7,8 @@
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
 #define ROOT_LEVEL_Q22 3
+/* Digits that w is short of, of edges that P is too coarse for when bodies turn: a sine of 1/64. */
+#define NEARLY_PARALLEL 6
 /* How often the level of edges that come to be parallel is made a quarter. */
 #define LEVELS 6
 
@@ -84,8 +86,9 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
 /*
  * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
- * event gap, however small the angle between edges is. Edges that come to be parallel when they meet
- * change the sign of the gap and that of w: P only comes near to 0, and that must be seen.
+ * event gap, however small the angle between edges is, nor more than half of what edges start with.
+ * Edges that are parallel just when they meet change the sign of the gap and that of w there: P only
+ * comes near to 0, and that must be seen.
  */
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start, int64_t gap_q40)
@@ -175,7 +178,7 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         return false;
     }
     boyse_place_start(pair, c, &start);
-    if (c->kind == CANDIDATE_EDGE_EDGE && start.up > 0 && !boyse_steady(pair) &&
+    if (c->kind == CANDIDATE_EDGE_EDGE && start.up >= NEARLY_PARALLEL && !boyse_steady(pair) &&
         have_met(pair, c, &start, hit)) {
         ++*roots;
         return true;

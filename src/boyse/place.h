@@ -12,8 +12,8 @@
 #define BOYSE_POINT_NOISE_Q22 4
 /* Gaps that the early test looks at: rounding, and the nearer surface of boyse_first. */
 #define BOYSE_NEAR_Q22 12
-/* Below this sine, 0.002, w and d are kept to more digits. */
-#define BOYSE_FINE_Q30 (1 << 21)
+/* Below this sine, 1/16, w and d are kept to more digits. */
+#define BOYSE_FINE_Q30 (1 << 26)
 /* Sine of the angle below which edges count as parallel, 2^-25: that of directions' rounding. */
 #define BOYSE_PARALLEL_Q30 (1 << 5)
 
