@@ -86,14 +86,12 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
 /*
  * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
- * event gap, however small the angle between edges is, nor more than half of what edges start with.
- * Edges that are parallel just when they meet change the sign of the gap and that of w there: P only
- * comes near to 0, and that must be seen.
+ * event gap, however small the angle between edges is.
  */
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
-                         const struct boyse_places *start, int64_t gap_q40)
+                         const struct boyse_places *start)
 {
-    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most, half = carom_abs(gap_q40) / 2;
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
     int32_t largest = 0;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
@@ -106,24 +104,24 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
     }
     largest >>= boyse_steady(pair) ? 0 : start->up;
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
-    level = level < most ? level : most;
-    return level > half && !boyse_steady(pair) && largest < pair->turn_q30 + BOYSE_FINE_Q30 ? half
-                                                                                            : level;
+    return level < most ? level : most;
 }
 
 /*
  * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then commit
  * an overlap: look for the root of a surface a little nearer. What touches already must not get
  * deeper. Returns what P is lowered by.
+ * Of edges it is at most half of what they start with. Those that are parallel just when they meet
+ * change the sign of the gap and that of w there: P only comes near to 0, and that must be seen.
  */
-static int64_t lower(int64_t gap_q40, int touching, int64_t level)
+static int64_t lower(int64_t gap_q40, int touching, int64_t level, bool edges)
 {
     int64_t size = carom_abs(gap_q40), shift;
 
     if (touching != 0) {
         return gap_q40 - touching * level;
     }
-    shift = size > 2 * level ? level : size > level ? size - level : 0;
+    shift = size > 2 * level ? level : edges ? size / 2 : size > level ? size - level : 0;
     return gap_q40 > 0 ? shift : -shift;
 }
 
@@ -191,7 +189,8 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         return true;
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
-        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start, a[0]));
+        shift_q40 =
+            lower(a[0], touching, level_q40(pair, c, &start), c->kind == CANDIDATE_EDGE_EDGE);
     }
     /*
      * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is
