@@ -241,16 +241,37 @@ static bool within(int64_t aside_q22, int64_t end_q22)
     return aside_q22 >= -BOYSE_POINT_NOISE_Q22 && aside_q22 <= end_q22 + BOYSE_POINT_NOISE_Q22;
 }
 
+/*
+ * Where on b's line the place of nearest approach is, or of it the end of a's edge that it is beyond:
+ * edges that are nearly parallel may follow each other on nearly one line and have no place in common.
+ */
+static int64_t place_on_b_q22(const struct boyse_places *p, int64_t aside_q22, int64_t length_q22,
+                              int32_t sine_q30)
+{
+    int32_t cosine_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
+    int64_t s_q22 = 0;
+
+    if (aside_q22 >= length_q22) {
+        s_q22 = p->edge_a->length_q22;
+    } else if (aside_q22 > 0) {
+        /* less than the edge's length times the sine before it is shifted: below 2^61 */
+        s_q22 = (aside_q22 << (30 + p->up)) / sine_q30;
+    }
+    return p->on_b_q22 + ((s_q22 * cosine_q30) >> 30);
+}
+
 /* Whether the places of nearest approach along the two lines are on the edges. */
 static bool meet_on_edges(const struct boyse_places *p, const int32_t n_q30[3], int32_t sine_q30)
 {
-    int shift = 30 + p->up;
-    int64_t length_a = (int64_t)p->edge_a->length_q22 * sine_q30 >> shift;
-    int64_t length_b = (int64_t)p->edge_b->length_q22 * sine_q30 >> shift;
-    int64_t on_b = (int64_t)p->on_b_q22 * sine_q30 >> shift;
+    int64_t length_a = (int64_t)p->edge_a->length_q22 * sine_q30 >> (30 + p->up);
+    int64_t length_b = (int64_t)p->edge_b->length_q22 * sine_q30 >> 30;
+    int32_t on_a = aside_q22(p->d, p->f, n_q30);
 
-    return within(aside_q22(p->d, p->f, n_q30), length_a) &&
-           within(on_b + aside_q22(p->d, p->e, n_q30), length_b);
+    if (!within(on_a, length_a)) {
+        return false;
+    }
+    return p->up > 0 ? within(place_on_b_q22(p, on_a, length_a, sine_q30), p->edge_b->length_q22)
+                     : within(aside_q22(p->d, p->e, n_q30), length_b);
 }
 
 /*
