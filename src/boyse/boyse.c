@@ -7,8 +7,11 @@
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
 #define ROOT_LEVEL_Q22 3
-/* Digits that w is short of, of edges that P is too coarse for when bodies turn: a sine of 1/64. */
+/* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
+#define PARALLEL_Q30    (1 << 24)
 #define NEARLY_PARALLEL 6
+/* The first step back from a root to the event. */
+#define BACK_Q30 (1 << 12)
 /* How often the level of edges that come to be parallel is made a quarter. */
 #define LEVELS 6
 
@@ -29,6 +32,39 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
     boyse_test(pair, c, start, 0, &touch);
     return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
                                                                                         : 0;
+}
+
+/* How far apart edges are at a time, or their lines: those turn their normal round on the way. */
+static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c,
+                        const struct boyse_places *start, int32_t t_q30)
+{
+    struct boyse_touch touch;
+
+    boyse_test(pair, c, start, t_q30, &touch);
+    return touch.valid ? touch.gap_q22 : carom_abs(touch.gap_q22);
+}
+
+/*
+ * The last time before `root` at which features are farther apart than `gap`, to a 4096th of how long
+ * before that is, by the exact test alone: back in growing steps, then by halving.
+ */
+static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
+                          const struct boyse_places *start, int32_t gap_q22, int32_t root_q30)
+{
+    int32_t far = root_q30, near = root_q30, back = BACK_Q30, slack;
+
+    do {
+        near = far;
+        far = root_q30 > back ? root_q30 - back : 0;
+        back = back < CAROM_ONE_Q30 / 2 ? 2 * back : CAROM_ONE_Q30;
+    } while (far > 0 && apart_at(pair, c, start, far) <= gap_q22);
+    slack = 1 + ((root_q30 - far) >> 12);
+    while (near - far > slack) {
+        int32_t middle = far + (near - far) / 2;
+
+        *(apart_at(pair, c, start, middle) > gap_q22 ? &far : &near) = middle;
+    }
+    return far;
 }
 
 /*
@@ -75,6 +111,10 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
             o.sign = touch.sign;
             o.shift = curve_units(curve, touch.sign * shift_q40);
             hit->root_q30 = walk.t_q30;
+            if (c->kind == CANDIDATE_EDGE_EDGE && scale_q30 < PARALLEL_Q30 && !boyse_steady(pair)) {
+                hit->t_q30 = last_apart(pair, c, start, pair->skin_q22 / 2, walk.t_q30);
+                return true;
+            }
             hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;
         }
@@ -125,25 +165,9 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level, bool edges)
     return gap_q40 > 0 ? shift : -shift;
 }
 
-/* The last time of those that halving finds at which the features are farther apart than `gap`. */
-static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
-                          const struct boyse_places *start, int32_t gap_q22, int32_t until_q30)
-{
-    int32_t low = 0, high = until_q30;
-
-    while (high - low > 1 + (until_q30 >> 12)) {
-        int32_t middle = low + (high - low) / 2;
-        struct boyse_touch touch;
-
-        boyse_test(pair, c, start, middle, &touch);
-        *(touch.valid && touch.gap_q22 <= gap_q22 ? &high : &low) = middle;
-    }
-    return low;
-}
-
 /*
- * The same of edges that are nearly parallel in bodies that turn, by the exact test alone: whether
- * they have met when the path ends. P's rounding, over their sine, is more than slow bodies go.
+ * Edges that are nearly parallel in bodies that turn, by the exact test alone: whether they have met
+ * when the path ends. P's rounding, over their sine, is more than slow bodies go.
  */
 static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, struct boyse_hit *hit)
@@ -160,7 +184,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
         return false;
     }
     hit->root_q30 = last_apart(pair, c, start, ROOT_LEVEL_Q22, CAROM_ONE_Q30);
-    hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30 + 1);
+    hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
     return true;
 }
 
