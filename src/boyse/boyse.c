@@ -173,7 +173,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, struct boyse_hit *hit)
 {
     struct boyse_touch from, to;
-    int32_t event_q22 = pair->skin_q22 / 2;
+    int32_t event_q22 = pair->skin_q22 / 2, root = CAROM_ONE_Q30; /* there they have met */
 
     boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
     if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
@@ -183,7 +183,11 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     if (from.valid && (from.gap_q22 <= to.gap_q22 || from.gap_q22 <= -event_q22)) {
         return false;
     }
-    hit->root_q30 = last_apart(pair, c, start, ROOT_LEVEL_Q22, CAROM_ONE_Q30);
+    for (int32_t step = CAROM_ONE_Q30 / 2; step >= CAROM_ONE_Q30 >> 12; step /= 2) {
+        boyse_test(pair, c, start, root - step, &to);
+        root -= to.valid && to.gap_q22 <= ROOT_LEVEL_Q22 ? step : 0;
+    }
+    hit->root_q30 = root;
     hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
     return true;
 }
