@@ -192,25 +192,14 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     return true;
 }
 
-bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
-                 uint32_t *roots)
+static bool first_by_roots(const struct boyse_pair *pair, const struct candidate *c,
+                           const struct boyse_places *start, struct boyse_hit *hit, uint32_t *roots)
 {
-    struct boyse_places start;
     struct curve curve;
     int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
-    int degree, touching;
+    int degree = boyse_polynomial(pair, c, start, a);
+    int touching = touches_at_start(pair, c, start, a[0]);
 
-    if (!boyse_may_meet(pair, c)) {
-        return false;
-    }
-    boyse_place_start(pair, c, &start);
-    if (c->kind == CANDIDATE_EDGE_EDGE && start.up >= NEARLY_PARALLEL && !boyse_steady(pair) &&
-        have_met(pair, c, &start, hit)) {
-        ++*roots;
-        return true;
-    }
-    degree = boyse_polynomial(pair, c, &start, a);
-    touching = touches_at_start(pair, c, &start, a[0]);
     if (touching * a[1] < 0) {
         ++*roots;
         hit->t_q30 = hit->root_q30 = 0;
@@ -218,7 +207,7 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
         shift_q40 =
-            lower(a[0], touching, level_q40(pair, c, &start), c->kind == CANDIDATE_EDGE_EDGE);
+            lower(a[0], touching, level_q40(pair, c, start), c->kind == CANDIDATE_EDGE_EDGE);
     }
     /*
      * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is
@@ -230,7 +219,7 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         a[0] -= shift_q40;
         found = curve_init(&curve, a, degree);
         *roots += found && tries == 0;
-        if (found && first_hit(pair, c, &start, &curve, shift_q40, hit, &far)) {
+        if (found && first_hit(pair, c, start, &curve, shift_q40, hit, &far)) {
             return true;
         }
         if (shift_q40 == 0 || touching != 0) {
@@ -239,4 +228,25 @@ bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struc
         a[0] += shift_q40;
         shift_q40 = far && tries < LEVELS ? shift_q40 / 4 : 0;
     }
+}
+
+bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+                 uint32_t *roots)
+{
+    struct boyse_places start;
+    struct boyse_hit met;
+    bool found;
+
+    if (!boyse_may_meet(pair, c)) {
+        return false;
+    }
+    boyse_place_start(pair, c, &start);
+    found = first_by_roots(pair, c, &start, hit, roots);
+    if (c->kind == CANDIDATE_EDGE_EDGE && start.up >= NEARLY_PARALLEL && !boyse_steady(pair) &&
+        have_met(pair, c, &start, &met) && (!found || met.t_q30 < hit->t_q30)) {
+        hit->t_q30 = met.t_q30;
+        hit->root_q30 = met.root_q30;
+        return true;
+    }
+    return found;
 }
