@@ -257,3 +257,100 @@ void crossing_compare(struct crossing_body *a, struct crossing_body *b,
     tally->crossing += crossing;
     tally->found += count;
 }
+
+/* --------------------------------------------------------------- convex bodies */
+
+static void apart(double out[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[k] - b[k];
+    }
+}
+
+void crossing_place_hull(struct crossing_hull *hull, const struct carom_mesh *mesh,
+                         const double position[3], const double rotation[4])
+{
+    double q[4], m[3][3];
+
+    memcpy(q, rotation, sizeof q);
+    real_matrix(m, q);
+    hull->corners = mesh->raw.vertex_count;
+    hull->faces = mesh->raw.face_count;
+    hull->edges = 0;
+    for (uint32_t v = 0; v < hull->corners; v++) {
+        double local[3];
+
+        for (int k = 0; k < 3; k++) {
+            local[k] = real(mesh->raw.vertices[v][k], mesh->raw.quantum_bits) -
+                       real(mesh->mass.centre.c[k], 22);
+        }
+        real_rotate(hull->p[v], m, local);
+        for (int k = 0; k < 3; k++) {
+            hull->p[v][k] += position[k];
+        }
+    }
+    for (uint32_t f = 0; f < hull->faces; f++) {
+        const uint16_t *corner = mesh->raw.faces[f];
+        double u[3], v[3];
+
+        apart(u, hull->p[corner[1]], hull->p[corner[0]]);
+        apart(v, hull->p[corner[2]], hull->p[corner[0]]);
+        real_cross(hull->normal[f], u, v);
+        for (int k = 0; k < 3; k++) {
+            int from = corner[k], to = corner[(k + 1) % 3];
+
+            if (from < to) {
+                apart(hull->edge[hull->edges++], hull->p[to], hull->p[from]);
+            }
+        }
+    }
+}
+
+/* How far apart along a direction, either way round; of one without length nothing is known. */
+static double apart_along(const struct crossing_hull *a, const struct crossing_hull *b,
+                          const double n[3], double least_length)
+{
+    double low[2], high[2], length = real_length(n), one, other;
+
+    if (length <= least_length) {
+        return -1e30;
+    }
+    for (int i = 0; i < 2; i++) {
+        const struct crossing_hull *h = i == 0 ? a : b;
+
+        low[i] = high[i] = real_dot(n, h->p[0]);
+        for (uint32_t v = 1; v < h->corners; v++) {
+            double at = real_dot(n, h->p[v]);
+
+            low[i] = at < low[i] ? at : low[i];
+            high[i] = at > high[i] ? at : high[i];
+        }
+    }
+    one = low[0] - high[1];
+    other = low[1] - high[0];
+    return (one > other ? one : other) / length;
+}
+
+double crossing_apart(const struct crossing_hull *a, const struct crossing_hull *b)
+{
+    double most = -1e30, found;
+
+    for (uint32_t i = 0; i < a->faces; i++) {
+        found = apart_along(a, b, a->normal[i], 0);
+        most = found > most ? found : most;
+    }
+    for (uint32_t i = 0; i < b->faces; i++) {
+        found = apart_along(a, b, b->normal[i], 0);
+        most = found > most ? found : most;
+    }
+    for (uint32_t i = 0; i < a->edges; i++) {
+        for (uint32_t j = 0; j < b->edges; j++) {
+            double n[3], size = real_length(a->edge[i]) * real_length(b->edge[j]);
+
+            real_cross(n, a->edge[i], b->edge[j]);
+            found = apart_along(a, b, n, 1e-10 * size);
+            most = found > most ? found : most;
+        }
+    }
+    return most;
+}

@@ -52,6 +52,23 @@ struct crossing_tally {
 void crossing_compare(struct crossing_body *a, struct crossing_body *b,
                       const struct carom_face_pair *found, uint32_t count, uint8_t *bits,
                       struct crossing_tally *tally);
+/* A convex body in doubles: its corners, and the directions that can part it from another. */
+#define CROSSING_CORNERS 16
+#define CROSSING_SIDES   64
+struct crossing_hull {
+    double p[CROSSING_CORNERS][3], normal[CROSSING_SIDES][3], edge[CROSSING_SIDES][3];
+    uint32_t corners, faces, edges;
+};
+
+/* Carry a convex mesh of few corners into the world; w, x, y, z of any length. */
+void crossing_place_hull(struct crossing_hull *hull, const struct carom_mesh *mesh,
+                         const double position[3], const double rotation[4]);
+/*
+ * How far two convex bodies can be told apart: a gap that some direction shows, or, below 0, the least
+ * way that parts them, which is how deep they overlap.
+ */
+double crossing_apart(const struct crossing_hull *a, const struct crossing_hull *b);
+
 #define CROSSING_BITS(faces_a, faces_b) ((size_t)(faces_a) * (size_t)(faces_b) / 8 + 1)
 
 #endif

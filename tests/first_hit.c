@@ -156,13 +156,17 @@ static bool were_open(const struct first_hit_motion *motion, const struct first_
 /*
  * Whether the bodies stop at the event gap, or at less where they were never farther apart, and the
  * features would then meet. The kernel stops within a few units of the last place of the gap, and
- * follows a polynomial of 29 bits, which is the gap times the sine, to a surface 3 units nearer.
+ * follows a polynomial of 29 bits, which is the gap times the sine, to a surface 3 units nearer: of
+ * edges by their sine, but no more than half of the event gap at the start, so that some that pass by
+ * each other that near are held; where they are nearly parallel it stops within a half of the event gap
+ * of it. A vertex is over a face up to 4 units beyond each of its sides seen along an axis, 3 units
+ * above it, which is farther beyond a sharp corner.
  */
 static void judge_hit(const struct first_hit_motion *motion, const struct first_hit_track track[2],
                       const struct boyse_hit *hit, struct first_hit_verdict *verdict)
 {
     double speed = first_hit_speed(track), slack = 8 * UNIT + speed * ldexp(1, -29), n[3];
-    double size = speed + track[0].radius + track[1].radius;
+    double size = speed + track[0].radius + track[1].radius, allowed;
     struct first_hit_features stop, root;
 
     for (int k = 0; k < 3; k++) {
@@ -174,8 +178,14 @@ static void judge_hit(const struct first_hit_motion *motion, const struct first_
     verdict->meet = root.gap < 0 ? distance_between(motion, track, hit, n)
                                  : distance_after(motion, track, hit, n);
     verdict->aside = stop.distance > 1.05 * verdict->event_gap + slack;
-    verdict->early = stop.gap > verdict->event_gap + slack ||
-                     verdict->meet > 8 * UNIT + size * ldexp(1, -25) / root.sine;
+    allowed = 8 * UNIT + size * ldexp(1, -25) / root.sine;
+    if (hit->candidate.kind == CANDIDATE_EDGE_EDGE) {
+        allowed += fmin(3 * UNIT / root.sine, verdict->event_gap);
+        slack += fmin(root.sine, stop.sine) < 1. / 64 ? verdict->event_gap / 2 : 0;
+    } else {
+        allowed += 9 * UNIT / root.sharp;
+    }
+    verdict->early = stop.gap > verdict->event_gap + slack || verdict->meet > allowed;
     verdict->late = stop.gap < verdict->event_gap - slack &&
                     were_open(motion, track, hit, n, verdict->event_gap + slack);
 }

@@ -39,6 +39,9 @@ enum {
 extern struct first_hit_mesh first_hit_meshes[FIRST_HIT_SIZES][FIRST_HIT_MESHES];
 /* Build them all; ends the program when one does not build. */
 void first_hit_make_meshes(void);
+/* All but `mesh`, which is built; the rest zero before. */
+void first_hit_make_mesh(struct first_hit_mesh *m, const char *name, double thin);
+void first_hit_free_mesh(struct first_hit_mesh *m);
 
 /* Where two bodies begin and how they move; body 1 is always a mover. */
 struct first_hit_motion {

@@ -157,6 +157,28 @@ static void list_owned(struct first_hit_mesh *m)
     }
 }
 
+void first_hit_make_mesh(struct first_hit_mesh *m, const char *name, double thin)
+{
+    const struct carom_mesh_raw *raw = &m->mesh.raw;
+
+    m->name = name;
+    m->thin = thin;
+    m->radius = lab_double(m->mesh.radius_q22, 22);
+    m->doubles = oracle_mesh_make(raw->vertices, raw->vertex_count, raw->faces, raw->face_count,
+                                  raw->quantum_bits);
+    for (int k = 0; k < 3; k++) {
+        m->centre[k] = lab_double(m->mesh.mass.centre.c[k], 22);
+    }
+    list_owned(m);
+}
+
+void first_hit_free_mesh(struct first_hit_mesh *m)
+{
+    oracle_mesh_free(&m->doubles);
+    free(m->vertices);
+    free(m->edges);
+}
+
 static void make(struct first_hit_mesh *m, const char *name, double thin,
                  const struct carom_mesh_raw *raw)
 {
@@ -167,15 +189,7 @@ static void make(struct first_hit_mesh *m, const char *name, double thin,
         printf("Bail out! %s: %s\n", name, carom_result_text(result));
         exit(1);
     }
-    m->name = name;
-    m->thin = thin;
-    m->radius = lab_double(m->mesh.radius_q22, 22);
-    m->doubles = oracle_mesh_make(raw->vertices, raw->vertex_count, raw->faces, raw->face_count,
-                                  raw->quantum_bits);
-    for (int k = 0; k < 3; k++) {
-        m->centre[k] = lab_double(m->mesh.mass.centre.c[k], 22);
-    }
-    list_owned(m);
+    first_hit_make_mesh(m, name, thin);
 }
 
 /* In all sizes: with other quanta, as far as those go. */

@@ -165,7 +165,7 @@ static double segment_distance(const double p[3], const double q[3], const doubl
 static struct first_hit_features edges(double p[2][3], double q[2][3], const double n[3])
 {
     double e[3], f[3], w[3], d[3];
-    struct first_hit_features out;
+    struct first_hit_features out = {.sharp = 1};
 
     between(e, p[0], p[1]);
     between(f, q[0], q[1]);
@@ -179,7 +179,7 @@ static struct first_hit_features edges(double p[2][3], double q[2][3], const dou
 
 static struct first_hit_features vertex_and_face(const double p[3], double corner[3][3])
 {
-    struct first_hit_features out = {0, HUGE_VAL, 1};
+    struct first_hit_features out = {0, HUGE_VAL, 1, 1};
     double side[2][3], n[3], d[3];
     bool inside = true;
 
@@ -189,7 +189,11 @@ static struct first_hit_features vertex_and_face(const double p[3], double corne
     real_cross(n, side[0], side[1]);
     out.gap = real_dot(n, d) / real_length(n);
     for (int k = 0; k < 3; k++) {
-        double in[3];
+        double in[3], next[3], last[3];
+
+        between(next, corner[k], corner[(k + 1) % 3]);
+        between(last, corner[k], corner[(k + 2) % 3]);
+        out.sharp = fmin(out.sharp, real_length(n) / real_length(next) / real_length(last));
 
         between(side[0], corner[k], corner[(k + 1) % 3]);
         between(d, corner[k], p);

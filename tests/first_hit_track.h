@@ -43,6 +43,7 @@ struct first_hit_features {
     double gap;      /* signed, of the plane or the lines, along N */
     double distance; /* of the closed features */
     double sine;     /* of the edges' angle; 1 for a face */
+    double sharp;    /* sine of the face's least angle; 1 for edges */
 };
 
 /* N, from body 0 into body 1, only tells which side of the lines is which. */

@@ -6,6 +6,7 @@
  *   host_first_hit.elf            a fiftieth of the motions; prints TAP
  *   host_first_hit.elf all        all of them in two processes; prints the rows of out/oracle.csv
  *   host_first_hit.elf ROW N      one motion of one row (numbers from 0), told in full
+ *   host_first_hit.elf special FROM COUNT   special positions alone
  *
  * A row of the table stands for the motions of a pair of meshes:
  *
@@ -32,11 +33,15 @@
 
 #include "first_hit.h"
 #include "lab.h"
+#include "special.h"
 
 #define MOTIONS      160 /* of a pair of meshes */
 #define HEAD_MOTIONS 25
 #define SHARE        50 /* of which make test does one */
 #define PROCESSES    2
+/* Of special positions, a fourth of which are met in the first frame. */
+#define SPECIAL_CASES  100000
+#define SPECIAL_STRIDE 50
 
 /* ---------------------------------------------------------------------- rows */
 
@@ -90,6 +95,23 @@ static void tell(int row, int n, const struct first_hit_verdict *v)
             v->crossing, v->left);
 }
 
+static void count(struct row *row, const struct first_hit_verdict *v)
+{
+    row->motions++;
+    row->hits += v->hit;
+    row->aside += v->aside;
+    row->different += v->different;
+    row->missed += v->missed;
+    row->early += v->early;
+    row->late += v->late;
+    row->crossed += v->crossed;
+}
+
+static bool is_bad(const struct first_hit_verdict *v)
+{
+    return v->different || v->missed || v->early || v->late || v->crossed;
+}
+
 static void run(struct row *row, int number, int n)
 {
     struct first_hit_motion motion;
@@ -97,15 +119,8 @@ static void run(struct row *row, int number, int n)
 
     first_hit_make_motion(&motion, row->mesh_a, row->mesh_b, row->movers, n);
     first_hit_judge(&motion, &verdict);
-    row->motions++;
-    row->hits += verdict.hit;
-    row->aside += verdict.aside;
-    row->different += verdict.different;
-    row->missed += verdict.missed;
-    row->early += verdict.early;
-    row->late += verdict.late;
-    row->crossed += verdict.crossed;
-    if (verdict.different || verdict.missed || verdict.early || verdict.late || verdict.crossed) {
+    count(row, &verdict);
+    if (is_bad(&verdict)) {
         tell(number, n, &verdict);
     }
 }
@@ -118,6 +133,48 @@ static void run_share(struct table *t, int first, int every)
 
         for (int n = (first + r) % step; n < motions; n += step) {
             run(&t->rows[r], r, n);
+        }
+    }
+}
+
+/*
+ * Special positions (special.h) that are met within the first frame, from one on and every so many-th:
+ * there it shows whether candidates that only count in such a place are gathered and asked.
+ */
+static void run_special(struct row *row, long first, long every, long until, bool told)
+{
+    for (long number = first; number < until; number += every) {
+        static struct special s;
+        struct first_hit_mesh mesh[2];
+        struct first_hit_motion motion;
+        struct first_hit_verdict verdict;
+        int lower;
+
+        special_make(&s, number);
+        if (s.time > 0.95) {
+            continue;
+        }
+        lower = s.def[0].stationary || (!s.def[1].stationary && !s.upper_first) ? 0 : 1;
+        memset(&motion, 0, sizeof motion);
+        memset(mesh, 0, sizeof mesh);
+        for (int i = 0; i < 2; i++) {
+            int shape = lower == 0 ? i : 1 - i;
+
+            mesh[i].mesh = s.shape[shape].mesh;
+            first_hit_make_mesh(&mesh[i], "special", 0.05 * s.size[shape]);
+            motion.mesh[i] = &mesh[i];
+            motion.def[i] = s.def[shape];
+        }
+        motion.gravity = s.gravity;
+        if (!first_hit_overlap(&motion)) {
+            first_hit_judge(&motion, &verdict);
+            count(row, &verdict);
+            if (told || is_bad(&verdict)) {
+                tell(-1, (int)number, &verdict);
+            }
+        }
+        for (int i = 0; i < 2; i++) {
+            first_hit_free_mesh(&mesh[i]);
         }
     }
 }
@@ -178,33 +235,44 @@ static int run_all(struct table *table)
     return failed;
 }
 
+static void report_row(const struct row *sum, const char *name)
+{
+    lab_report(!fails(sum), name,
+               "%ld motions, %ld hits, %ld aside, %ld different, %ld missed, %ld early, %ld late, "
+               "%ld crossed",
+               sum->motions, sum->hits, sum->aside, sum->different, sum->missed, sum->early,
+               sum->late, sum->crossed);
+}
+
 /* The rows of so many movers as one line of TAP. */
 static void report(const struct table *table, const char *name, int movers)
 {
     struct row sum = {0};
 
     for (int r = 0; r < table->count; r++) {
-        const struct row *row = &table->rows[r];
-
-        if (row->movers == movers) {
-            add_up(&sum, row);
+        if (table->rows[r].movers == movers) {
+            add_up(&sum, &table->rows[r]);
         }
     }
-    lab_report(!fails(&sum), name,
-               "%ld motions, %ld hits, %ld aside, %ld different, %ld missed, %ld early, %ld late, "
-               "%ld crossed",
-               sum.motions, sum.hits, sum.aside, sum.different, sum.missed, sum.early, sum.late,
-               sum.crossed);
+    report_row(&sum, name);
 }
 
 int main(int argc, char **argv)
 {
     static struct table table;
+    struct row special = {.movers = 2};
 
     first_hit_make_meshes();
     make_rows(&table);
     if (argc == 2 && strcmp(argv[1], "all") == 0) {
         return run_all(&table);
+    }
+    if (argc == 4) {
+        struct row row = {.movers = 2};
+
+        run_special(&row, atol(argv[2]), 1, atol(argv[2]) + atol(argv[3]), atol(argv[3]) == 1);
+        report_row(&row, "first_hit/special");
+        return lab_finish();
     }
     if (argc == 3) {
         int row = atoi(argv[1]), n = atoi(argv[2]);
@@ -220,5 +288,7 @@ int main(int argc, char **argv)
     run_share(&table, 0, SHARE);
     report(&table, "first_hit/one_mover", 1);
     report(&table, "first_hit/two_movers", 2);
+    run_special(&special, 0, SPECIAL_STRIDE, SPECIAL_CASES, false);
+    report_row(&special, "first_hit/special");
     return lab_finish();
 }

@@ -7,6 +7,13 @@
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
 #define ROOT_LEVEL_Q22 3
+/* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
+#define PARALLEL_Q30    (1 << 24)
+#define NEARLY_PARALLEL 6
+/* The first step back from a root to the event. */
+#define BACK_Q30 (1 << 12)
+/* How often the level of edges that come to be parallel is made a quarter. */
+#define LEVELS 6
 
 /*
  * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
@@ -27,14 +34,61 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
                                                                                         : 0;
 }
 
-/* Go through the roots until one is a hit. `shift`: what P is less than its true value, q40. */
+/* How far apart edges are at a time, or their lines: those turn their normal round on the way. */
+static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c,
+                        const struct boyse_places *start, int32_t t_q30)
+{
+    struct boyse_touch touch;
+
+    boyse_test(pair, c, start, t_q30, &touch);
+    return touch.valid ? touch.gap_q22 : carom_abs(touch.gap_q22);
+}
+
+/*
+ * The last time before `root` at which features are farther apart than `gap`, to a 4096th of how long
+ * before that is, by the exact test alone: back in growing steps, then by halving.
+ */
+static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
+                          const struct boyse_places *start, int32_t gap_q22, int32_t root_q30)
+{
+    int32_t far = root_q30, near = root_q30, back = BACK_Q30, slack;
+
+    do {
+        near = far;
+        far = root_q30 > back ? root_q30 - back : 0;
+        back = back < CAROM_ONE_Q30 / 2 ? 2 * back : CAROM_ONE_Q30;
+    } while (far > 0 && apart_at(pair, c, start, far) <= gap_q22);
+    slack = 1 + ((root_q30 - far) >> 12);
+    while (near - far > slack) {
+        int32_t middle = far + (near - far) / 2;
+
+        *(apart_at(pair, c, start, middle) > gap_q22 ? &far : &near) = middle;
+    }
+    return far;
+}
+
+/*
+ * Of edges that are nearly parallel at a root, P may be small because |w| is, and its rounding is a gap
+ * of that over |w|: the exact test must have the gap near the root as well.
+ */
+static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_touch *touch)
+{
+    return c->kind != CANDIDATE_EDGE_EDGE || carom_abs(touch->gap_q22) <= pair->skin_q22 / 2;
+}
+
+/*
+ * Go through the roots until one is a hit. `shift`: what P is less than its true value, q40; `far` is
+ * set when one would be but for its gap.
+ */
 static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
                       const struct boyse_places *start, const struct curve *curve,
-                      int64_t shift_q40, struct boyse_hit *hit)
+                      int64_t shift_q40, struct boyse_hit *hit, bool *far)
 {
     struct walk walk;
     int32_t last_root = 0;
 
+    *far = false;
     walk_begin(&walk, curve);
     while (walk_next(&walk, curve)) {
         struct boyse_touch touch;
@@ -46,7 +100,9 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
-        if (touch.valid && touch.sign * walk.slope8 < 0) {
+        touch.valid = touch.valid && touch.sign * walk.slope8 < 0;
+        *far = *far || (touch.valid && !is_there(pair, c, &touch));
+        if (touch.valid && is_there(pair, c, &touch)) {
             struct opening o;
 
             o.pair = pair;
@@ -55,6 +111,10 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
             o.sign = touch.sign;
             o.shift = curve_units(curve, touch.sign * shift_q40);
             hit->root_q30 = walk.t_q30;
+            if (c->kind == CANDIDATE_EDGE_EDGE && scale_q30 < PARALLEL_Q30 && !boyse_steady(pair)) {
+                hit->t_q30 = last_apart(pair, c, start, pair->skin_q22 / 2, walk.t_q30);
+                return true;
+            }
             hit->t_q30 = boyse_event_q30(&o, last_root, &walk, scale_q30);
             return true;
         }
@@ -82,6 +142,7 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
 
         largest = part > largest ? part : largest;
     }
+    largest >>= boyse_steady(pair) ? 0 : start->up;
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
     return level < most ? level : most;
 }
@@ -90,44 +151,102 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
  * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then commit
  * an overlap: look for the root of a surface a little nearer. What touches already must not get
  * deeper. Returns what P is lowered by.
+ * Of edges it is at most half of what they start with. Those that are parallel just when they meet
+ * change the sign of the gap and that of w there: P only comes near to 0, and that must be seen.
  */
-static int64_t lower(int64_t gap_q40, int touching, int64_t level)
+static int64_t lower(int64_t gap_q40, int touching, int64_t level, bool edges)
 {
     int64_t size = carom_abs(gap_q40), shift;
 
     if (touching != 0) {
         return gap_q40 - touching * level;
     }
-    shift = size > 2 * level ? level : size > level ? size - level : 0;
+    shift = size > 2 * level ? level : edges ? size / 2 : size > level ? size - level : 0;
     return gap_q40 > 0 ? shift : -shift;
 }
 
-bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
-                 uint32_t *roots)
+/*
+ * Edges that are nearly parallel in bodies that turn, by the exact test alone: whether they have met
+ * when the path ends. P's rounding, over their sine, is more than slow bodies go.
+ */
+static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
+                     const struct boyse_places *start, struct boyse_hit *hit)
 {
-    struct boyse_places start;
-    struct curve curve;
-    int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
-    int degree, touching;
+    struct boyse_touch from, to;
+    int32_t event_q22 = pair->skin_q22 / 2, root = CAROM_ONE_Q30; /* there they have met */
 
-    if (!boyse_may_meet(pair, c)) {
+    boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
+    if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
         return false;
     }
-    boyse_place_start(pair, c, &start);
-    degree = boyse_polynomial(pair, c, &start, a);
-    touching = touches_at_start(pair, c, &start, a[0]);
+    boyse_test(pair, c, start, 0, &from);
+    if (from.valid && (from.gap_q22 <= to.gap_q22 || from.gap_q22 <= -event_q22)) {
+        return false;
+    }
+    for (int32_t step = CAROM_ONE_Q30 / 2; step >= CAROM_ONE_Q30 >> 12; step /= 2) {
+        boyse_test(pair, c, start, root - step, &to);
+        root -= to.valid && to.gap_q22 <= ROOT_LEVEL_Q22 ? step : 0;
+    }
+    hit->root_q30 = root;
+    hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
+    return true;
+}
+
+static bool first_by_roots(const struct boyse_pair *pair, const struct candidate *c,
+                           const struct boyse_places *start, struct boyse_hit *hit, uint32_t *roots)
+{
+    struct curve curve;
+    int64_t a[BOYSE_DEGREE + 1], shift_q40 = 0;
+    int degree = boyse_polynomial(pair, c, start, a);
+    int touching = touches_at_start(pair, c, start, a[0]);
+
     if (touching * a[1] < 0) {
         ++*roots;
         hit->t_q30 = hit->root_q30 = 0;
         return true;
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
-        shift_q40 = lower(a[0], touching, level_q40(pair, c, &start));
+        shift_q40 =
+            lower(a[0], touching, level_q40(pair, c, start), c->kind == CANDIDATE_EDGE_EDGE);
     }
-    a[0] -= shift_q40;
-    if (!curve_init(&curve, a, degree)) {
+    /*
+     * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is
+     * asked again of the surface itself; of a level between when |w| made it small.
+     */
+    for (int tries = 0;; tries++) {
+        bool far = false, found;
+
+        a[0] -= shift_q40;
+        found = curve_init(&curve, a, degree);
+        *roots += found && tries == 0;
+        if (found && first_hit(pair, c, start, &curve, shift_q40, hit, &far)) {
+            return true;
+        }
+        if (shift_q40 == 0 || touching != 0) {
+            return false;
+        }
+        a[0] += shift_q40;
+        shift_q40 = far && tries < LEVELS ? shift_q40 / 4 : 0;
+    }
+}
+
+bool boyse_first(const struct boyse_pair *pair, const struct candidate *c, struct boyse_hit *hit,
+                 uint32_t *roots)
+{
+    struct boyse_places start;
+    struct boyse_hit met;
+    bool found;
+
+    if (!boyse_may_meet(pair, c)) {
         return false;
     }
-    ++*roots;
-    return first_hit(pair, c, &start, &curve, shift_q40, hit);
+    boyse_place_start(pair, c, &start);
+    found = first_by_roots(pair, c, &start, hit, roots);
+    if (c->kind == CANDIDATE_EDGE_EDGE && start.up >= NEARLY_PARALLEL && !boyse_steady(pair) &&
+        have_met(pair, c, &start, &met) && (!found || met.t_q30 < hit->t_q30)) {
+        hit->t_q30 = met.t_q30;
+        hit->root_q30 = met.root_q30;
+        return true;
+    }
+    return found;
 }

@@ -12,8 +12,10 @@
 #define BOYSE_POINT_NOISE_Q22 4
 /* Gaps that the early test looks at: rounding, and the nearer surface of boyse_first. */
 #define BOYSE_NEAR_Q22 12
-/* Sine of the angle below which edges count as parallel: 0.002. */
-#define BOYSE_PARALLEL_Q30 2147484
+/* Below this sine, 1/16, w and d are kept to more digits. */
+#define BOYSE_FINE_Q30 (1 << 26)
+/* Sine of the angle below which edges count as parallel, 2^-25: that of directions' rounding. */
+#define BOYSE_PARALLEL_Q30 (1 << 5)
 
 /* How `to` sees `from` in the role of a candidate: of a face the vertex, of b's edge a's. */
 static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
@@ -34,16 +36,18 @@ struct boyse_places {
     carom_v3_q22 start_b; /* where b's edge starts */
     int32_t e[3];         /* directions of the edges */
     const int32_t *f;
-    int32_t w[3], d[3]; /* e x f, and from b's start to a's */
+    int32_t w[3], d[3]; /* e x f times 2^up, and from a point of b's line to a's start */
+    int32_t up,
+        on_b_q22; /* 0 but for edges that are nearly parallel; where on b's edge that point is */
 };
 
 /* Everything of two edges but `vertex` and e, which are given. */
-static inline void boyse_complete_edges(struct boyse_places *p)
+void boyse_complete_edges(struct boyse_places *p);
+
+/* Whether neither body turns, so that w stays as it is at the start. */
+static inline bool boyse_steady(const struct boyse_pair *pair)
 {
-    carom_cross(p->w, p->e, p->f, 30);
-    for (int k = 0; k < 3; k++) {
-        p->d[k] = p->vertex.c[k] - p->start_b.c[k];
-    }
+    return !pair->a->path.turns && !pair->b->path.turns;
 }
 
 /* n.vertex - offset, kept whole: q52. */
@@ -63,16 +67,19 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
  */
 bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
 
-/* The coefficients of P up to the degree, q40, |a_k| < 2^52; returns the degree: 2, 4 or 6. */
+/*
+ * The coefficients of P up to the degree, q40, |a_k| < 2^52; returns the degree: 2, 4 or 6. Of edges in
+ * bodies that do not turn it is 2^up times as much as |w| times the gap.
+ */
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
 
-/* |w| of two edges at a time: what the gap is multiplied by in P. */
+/* |w| of two edges at a time, as the gap is multiplied by it in P. */
 int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30);
 
 /*
  * The exact test without the places in the world: fills in touch->gap_q22, valid and sign. Returns
- * |w| of two edges at that time, 1 for a vertex and a face.
+ * |w| of two edges at that time, as it is in P, 1 for a vertex and a face.
  */
 int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
                    const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch);

@@ -2,6 +2,43 @@
 /* Features at the start of a path, and the coefficients of P(t). */
 #include "place.h"
 
+static int32_t largest_part(const int32_t v[3])
+{
+    int32_t largest = 0;
+
+    for (int k = 0; k < 3; k++) {
+        int32_t part = v[k] < 0 ? -v[k] : v[k];
+
+        largest = part > largest ? part : largest;
+    }
+    return largest;
+}
+
+/*
+ * Of edges that are nearly parallel w is small, and what is rounded off it turns N: its products are
+ * exact, so it is taken with as many more digits. What is left turns N by little, and does no harm as
+ * far as d is short: from the point of b's line that is next to a's start, not from b's start.
+ */
+void boyse_complete_edges(struct boyse_places *p)
+{
+    int32_t largest;
+
+    carom_cross(p->w, p->e, p->f, 30);
+    for (int k = 0; k < 3; k++) {
+        p->d[k] = p->vertex.c[k] - p->start_b.c[k];
+    }
+    p->up = p->on_b_q22 = 0;
+    largest = largest_part(p->w);
+    if (largest < BOYSE_FINE_Q30) {
+        p->up = 29 - fix_bits32((uint32_t)largest); /* below 2^29 */
+        carom_cross(p->w, p->e, p->f, 30 - p->up);
+        p->on_b_q22 = (int32_t)carom_round(carom_dot(p->d, p->f), 30);
+        for (int k = 0; k < 3; k++) {
+            p->d[k] -= carom_mul_q30(p->on_b_q22, p->f[k]);
+        }
+    }
+}
+
 void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
                        struct boyse_places *p)
 {
@@ -381,6 +418,14 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
     int32_t at[3];
     int degree = BOYSE_DEGREE;
 
+    if (boyse_steady(pair) && start->up > 0) {
+        const struct boyse_view *view = &pair->view[0];
+
+        a[0] = carom_round(carom_dot(start->w, start->d), 12);
+        a[1] = carom_round(carom_dot(start->w, view->v.c), 14);
+        a[2] = carom_round(carom_dot(start->w, view->g.c), 14);
+        return 2;
+    }
     place_centres(at, pair, start);
     if (!centre_way(&centre, &pair->view[0], at)) {
         return never(a);
@@ -390,7 +435,7 @@ static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_pla
     } else {
         degree = one_turns(sum, pair, start, &centre);
     }
-    a[0] = carom_round(carom_dot(start->w, start->d), 12);
+    a[0] = carom_round(carom_dot(start->w, start->d), 12 + start->up);
     for (int i = 1; i <= degree; i++) {
         a[i] = sum_q40(sum[i], pair->view[0].fine);
     }

@@ -178,15 +178,15 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
 
 /* ------------------------------------------------------------------ two edges */
 
-/* 1 / |w| of edges as m 2^-(29 - up), for an angle of no less than the one that counts. */
+/* 1 / |w| of edges as m 2^-(29 - up), |w| with the digits that it is kept to. */
 struct inverse {
     int32_t m; /* 2^29 .. 2^30 */
-    int up;    /* 0 .. 8 */
+    int up;    /* 0 .. 9 */
 };
 
 static struct inverse inverse_of(int32_t sine_q30)
 {
-    uint32_t d = sine_q30 > BOYSE_PARALLEL_Q30 ? (uint32_t)sine_q30 : BOYSE_PARALLEL_Q30;
+    uint32_t d = sine_q30 > BOYSE_FINE_Q30 ? (uint32_t)sine_q30 : BOYSE_FINE_Q30;
     int up = 30 - fix_bits32(d);
 
     /* a sine of 1, and a little more by rounding */
@@ -213,51 +213,67 @@ static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
     return (int32_t)gap;
 }
 
-/* a b, rounded down; |a| < 2^61 */
-static int64_t times_q30(int64_t a, int32_t b_q30)
-{
-    int64_t a4 = carom_shl(a, 2), low = (int64_t)(uint32_t)a4 * b_q30;
-
-    return (a4 >> 32) * b_q30 + (low >> 32);
-}
-
-/* a - b c of lengths of up to 2^41 and a cosine, over the square of the sine, q22: the difference is
- * no more than the sine times such a length. */
-static int64_t along(int64_t a_q32, int32_t b_q30, int64_t c_q32, struct inverse sine)
-{
-    return over_sine(over_sine(a_q32 - times_q30(c_q32, b_q30), sine), sine) >> 10;
-}
-
-/*
- * Whether the places of nearest approach along the two lines are on the edges. With b = e.f and
- * D = 1 - b^2 = |w|^2: s = (b d.f - d.e) / D and q = (d.f - b d.e) / D.
- */
-static bool meet_on_edges(const struct boyse_places *p, struct inverse sine)
-{
-    int32_t b_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
-    int64_t de_q32 = carom_round(carom_dot(p->d, p->e), 20);
-    int64_t df_q32 = carom_round(carom_dot(p->d, p->f), 20);
-    int64_t s_q22 = -along(de_q32, b_q30, df_q32, sine);
-    int64_t q_q22 = along(df_q32, b_q30, de_q32, sine);
-
-    return s_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           s_q22 <= p->edge_a->length_q22 + BOYSE_POINT_NOISE_Q22 &&
-           q_q22 >= -BOYSE_POINT_NOISE_Q22 &&
-           q_q22 <= p->edge_b->length_q22 + BOYSE_POINT_NOISE_Q22;
-}
-
 /* The unit normal w / |w| of two edges, in the mesh axes of both. */
 struct edge_normal {
     int32_t on_a[3], on_b[3];
 };
 
-static void set_normal(struct edge_normal *n, const struct moment *m, const struct boyse_places *p,
-                       struct inverse sine)
+static void set_normal(int32_t n_q30[3], const struct boyse_places *p, struct inverse sine)
 {
     for (int k = 0; k < 3; k++) {
-        n->on_b[k] = (int32_t)carom_round((int64_t)p->w[k] * sine.m, 29 - sine.up);
+        n_q30[k] = (int32_t)carom_round((int64_t)p->w[k] * sine.m, 29 - sine.up);
     }
-    direction_back(m, n->on_b, n->on_a);
+}
+
+/*
+ * With N = w / |w|, -(d x f).N is how far along a's edge, by |w|, the line of b's comes nearest: how far
+ * aside of it a's start is. Rounding is in that, so it is in that that ends are kept, as a vertex is
+ * over a face.
+ */
+static int32_t aside_q22(const int32_t d[3], const int32_t along_q30[3], const int32_t n_q30[3])
+{
+    int32_t across[3];
+
+    carom_cross(across, d, along_q30, 30);
+    return -(int32_t)carom_round(carom_dot(across, n_q30), 30);
+}
+
+static bool within(int64_t aside_q22, int64_t end_q22)
+{
+    return aside_q22 >= -BOYSE_POINT_NOISE_Q22 && aside_q22 <= end_q22 + BOYSE_POINT_NOISE_Q22;
+}
+
+/*
+ * Where on b's line the place of nearest approach is, or of it the end of a's edge that it is beyond:
+ * edges that are nearly parallel may follow each other on nearly one line and have no place in common.
+ */
+static int64_t place_on_b_q22(const struct boyse_places *p, int64_t aside_q22, int64_t length_q22,
+                              int32_t sine_q30)
+{
+    int32_t cosine_q30 = (int32_t)carom_round(carom_dot(p->e, p->f), 30);
+    int64_t s_q22 = 0;
+
+    if (aside_q22 >= length_q22) {
+        s_q22 = p->edge_a->length_q22;
+    } else if (aside_q22 > 0) {
+        /* less than the edge's length times the sine before it is shifted: below 2^61 */
+        s_q22 = (aside_q22 << (30 + p->up)) / sine_q30;
+    }
+    return p->on_b_q22 + ((s_q22 * cosine_q30) >> 30);
+}
+
+/* Whether the places of nearest approach along the two lines are on the edges. */
+static bool meet_on_edges(const struct boyse_places *p, const int32_t n_q30[3], int32_t sine_q30)
+{
+    int64_t length_a = (int64_t)p->edge_a->length_q22 * sine_q30 >> (30 + p->up);
+    int64_t length_b = (int64_t)p->edge_b->length_q22 * sine_q30 >> 30;
+    int32_t on_a = aside_q22(p->d, p->f, n_q30);
+
+    if (!within(on_a, length_a)) {
+        return false;
+    }
+    return p->up > 0 ? within(place_on_b_q22(p, on_a, length_a, sine_q30), p->edge_b->length_q22)
+                     : within(aside_q22(p->d, p->e, n_q30), length_b);
 }
 
 /*
@@ -323,28 +339,30 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
     return 0;
 }
 
-/* Returns |w|; `n` is set when the touch is valid. */
+/* Returns |w| as it is in P; `n` is set when the touch is valid. */
 static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
                           struct boyse_touch *touch, struct edge_normal *n)
 {
     int32_t sine_q30 = (int32_t)fix_sqrt((uint64_t)carom_dot(p->w, p->w));
-
     const struct inverse sine = inverse_of(sine_q30);
     const int64_t wd_q52 = carom_dot(p->w, p->d);
+    bool turns = m->from.turns || m->to.turns;
 
     touch->valid = false;
     touch->sign = 1;
-    if (sine_q30 >= BOYSE_PARALLEL_Q30 && meet_on_edges(p, sine)) {
-        int sign;
+    if (sine_q30 >> p->up >= BOYSE_PARALLEL_Q30) {
+        set_normal(n->on_b, p, sine);
+        if (meet_on_edges(p, n->on_b, sine_q30)) {
+            int sign;
 
-        set_normal(n, m, p, sine);
-        sign = sign_of(m, p, n);
-
-        touch->valid = sign != 0;
-        touch->sign = (int8_t)(sign < 0 ? -1 : 1);
+            direction_back(m, n->on_b, n->on_a);
+            sign = sign_of(m, p, n);
+            touch->valid = sign != 0;
+            touch->sign = (int8_t)(sign < 0 ? -1 : 1);
+        }
     }
     touch->gap_q22 = edge_gap(wd_q52, sine, touch->sign);
-    return sine_q30;
+    return turns ? sine_q30 >> p->up : sine_q30;
 }
 
 /* -------------------------------------------------------------- the exact test */
@@ -354,6 +372,9 @@ int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *st
     struct moment m;
     int32_t e[3], w[3];
 
+    if (boyse_steady(pair)) {
+        return (int32_t)fix_sqrt((uint64_t)carom_dot(start->w, start->w));
+    }
     set_turns(&m, &pair->view[0], t_q30);
     direction_to(&m, start->e, e);
     carom_cross(w, e, start->f, 30);

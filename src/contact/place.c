@@ -5,6 +5,11 @@
  */
 #include "contact.h"
 
+/* Sine of the angle below which edges are nearly parallel: 1/64. */
+#define PARALLEL_Q30 (1 << 24)
+/* Below this one, 2^-20, where they come nearest is rounding's. */
+#define ROUNDING_Q30 (1 << 10)
+
 /* A point of a body's mesh about its centre, in world axes. */
 static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
 {
@@ -38,24 +43,67 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
     return d;
 }
 
-/*
- * How far along a's edge e it comes nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
- * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits.
- */
-static int64_t nearest_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3])
+/* e x f, exact, and whether the edges are so parallel that it says little. */
+static bool cross_q60(int64_t w[3], const int32_t e[3], const int32_t f[3], int64_t sine_q30)
 {
-    int64_t w_q60[3], df_q40[3];
-    struct fix_scaled ratio;
+    bool small = true;
 
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
-        w_q60[k] = (int64_t)e[i] * f[j] - (int64_t)e[j] * f[i];
+        w[k] = (int64_t)e[i] * f[j] - (int64_t)e[j] * f[i];
+        small = small && carom_abs(w[k]) >> 30 < sine_q30;
+    }
+    return small;
+}
+
+/*
+ * How far along a's edge e it comes nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
+ * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits. Of edges that
+ * are parallel but for rounding it is the middle of a's.
+ */
+static int64_t nearest_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3],
+                           int32_t length_q22)
+{
+    int64_t w_q60[3], df_q40[3];
+    struct fix_scaled ratio;
+
+    if (cross_q60(w_q60, e, f, ROUNDING_Q30)) {
+        return (int64_t)length_q22 << 17;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
         df_q40[k] = fix_mul(d->c[i], f[j], 30) - fix_mul(d->c[j], f[i], 30);
     }
     ratio = fix_wide_ratio(fix_wide_dot(df_q40, w_q60), fix_wide_dot(w_q60, w_q60));
     ratio.e -= 60; /* q100 over q120, to q40 */
     return -fix_mul_scaled(1, ratio);
+}
+
+static int64_t limited(int64_t s, int64_t one, int64_t other)
+{
+    int64_t low = one < other ? one : other, high = one < other ? other : one;
+
+    return s < low ? low : s > high ? high : s;
+}
+
+/*
+ * Edges that are nearly parallel come nearest to each other far off the one or the other until they
+ * lie over each other: what is on both is nearer to where they will meet, and in range.
+ */
+static int64_t on_both_q40(int64_t s_q40, const carom_v3_q40 *d, const int32_t e[3],
+                           const int32_t f[3], int32_t length_a_q22, int32_t length_b_q22)
+{
+    int64_t w_q60[3], from_q40 = -fix_dot_q30(d->c, e);
+
+    if (cross_q60(w_q60, e, f, PARALLEL_Q30)) {
+        int64_t along_b_q40 = (carom_dot(e, f) >> 30) * length_b_q22 >> 12;
+
+        s_q40 = limited(s_q40, from_q40, from_q40 + along_b_q40);
+        s_q40 = limited(s_q40, 0, (int64_t)length_a_q22 << 18);
+    }
+    return s_q40;
 }
 
 /* The point of a's edge; b's start is relative to b's centre. */
@@ -74,7 +122,10 @@ static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candi
     for (int k = 0; k < 3; k++) {
         d.c[k] += start_a.c[k] - start_b->c[k];
     }
-    return along(start_a, nearest_q40(&d, e, f), e);
+    return along(start_a,
+                 on_both_q40(nearest_q40(&d, e, f, edge_a->length_q22), &d, e, f,
+                             edge_a->length_q22, edge_b->length_q22),
+                 e);
 }
 
 void contact_place(const struct boyse_pair *pair, const struct candidate *c,
