@@ -173,8 +173,8 @@ static void test_random(void)
         double energy;
 
         shape_plane(&hand.ground, 9, 2, 4096);
-        shape_box(&hand.solid, 12, 4096, (int)test_random_range(&r, 40, 4096),
-                  (int)test_random_range(&r, 40, 4096));
+        shape_box(&hand.solid, 12, 4096, (int)test_random_range(&r, 200, 4096),
+                  (int)test_random_range(&r, 200, 4096));
         hand_begin(3, 0);
         for (uint32_t i = 1; i <= count; i++) {
             double x[3], v[3], w[3];
