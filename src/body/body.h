@@ -95,6 +95,7 @@ struct body {
     bool rewound;     /* is back where the frame found it */
     bool woke;        /* in the static check at hand */
     bool solving;     /* has a contact in the solve at hand */
+    bool unsettled;   /* its island's last solve left places that approach */
     int8_t unit_bits; /* the solver's unit of length for it: 2^unit_bits of q22, over the radius */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
     uint16_t contacts;               /* where the island's contacts are listed */

@@ -475,7 +475,8 @@ static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
-static void sweeps(struct rest *r, const struct rest_sweep *sw)
+/* Returns whether they ran out before the residual was reached. */
+static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
@@ -499,7 +500,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
             }
         }
         if (moved <= sw->residual) {
-            return;
+            return false;
         }
         if (coupled && round & 1 && round < rounds - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
@@ -508,6 +509,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         }
     }
     into_cones(r);
+    return true;
 }
 
 /* Impulses in solver units to momentum, one rounding a component. */
@@ -540,6 +542,6 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
     }
-    sweeps(r, sw);
+    sw->ran_out = sweeps(r, sw);
     finish(r, sw);
 }
