@@ -108,6 +108,12 @@ void rest_apply(struct rest *r);
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
 
+/*
+ * Give contact i of a face on a face the normal of one before it that differs by a hair, or its
+ * opposite. Takes velocity_q40 of the contact.
+ */
+void rest_share_normal(struct rest *r, uint32_t i);
+
 /* Set the momenta of the island's bodies aside before a solve. */
 void rest_save_momenta(struct rest *r);
 

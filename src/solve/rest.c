@@ -255,6 +255,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
         c->work = &r->works[r->first + i];
         c->work->roll = NULL;
         rest_relative_velocity(c, &c->velocity_q40);
+        rest_share_normal(r, i);
         c->speed_q40 = rest_along_q40(&c->velocity_q40, &c->normal);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);

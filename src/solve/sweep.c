@@ -17,6 +17,12 @@
  */
 #define FEW 8
 
+/*
+ * Resting contacts that are slower than this part of the residual are left alone. With all of it they
+ * would never get below it, and sweeps would run on.
+ */
+#define DEAD_DIVISOR 8
+
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
     return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
@@ -491,7 +497,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
         for (uint32_t i = 0; i < n; i++) {
             /* forwards and backwards in turn, so that no end of a stack is favoured */
             uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual : 0);
+            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, at)->work->rolls) {
