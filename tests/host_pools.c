@@ -167,7 +167,7 @@ static void test_outputs(void)
     }
     caps = large;
     /* a world that is short of faces asks for those of a frame, which are fewer */
-    for (uint32_t size = faces / 2; size > 0; size /= 4) {
+    for (uint32_t size = faces / 4; size > 0; size /= 4) {
         caps.faces = size;
         test_output(&caps, CAROM_POOL_faces, size, CAROM_ERR_FACES_FULL);
     }

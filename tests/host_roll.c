@@ -2,7 +2,7 @@
 /*
  * Sliding and rolling: a box that slides stops where friction's work has taken its energy; a body
  * of 5120 faces that is nearly a ball rolls down a ramp without slip up to a slope of 3.5 mu and
- * slides on steeper ones. The box on a ramp, and the one that slides over many triangles, are in
+ * slides on steeper ones; one of 20480 faces, 3 % flatter, comes to rest on a face. The box on a ramp, and the one that slides over many triangles, are in
  * host_motion.c.
  */
 #include <math.h>
@@ -85,12 +85,14 @@ static void stop(double mu, double speed, bool sleeps, const char *name)
 /* ---------------------------------------------------------------------- ball */
 
 #define CUTS          4
+#define FINER_CUTS    5 /* of the body that is to right itself */
 #define BALL_FACES    (20 << (2 * CUTS))
+#define FINER_FACES   (20 << (2 * FINER_CUTS))
 #define BALL_VERTICES (BALL_FACES / 2 + 2)
 #define QUANTA        16384 /* of its radius */
 
-static int16_t ball_vertices[BALL_VERTICES][3];
-static uint16_t ball_faces[BALL_FACES][3];
+static int16_t ball_vertices[FINER_FACES / 2 + 2][3];
+static uint16_t ball_faces[FINER_FACES][3];
 static struct carom_mesh_raw ball = {
     (const int16_t (*)[3])ball_vertices, (const uint16_t (*)[3])ball_faces, 0, 0, 12, CAROM_SOLID};
 #define RADIUS 4.0
@@ -256,7 +258,7 @@ static struct mean roll(double slope, double mu)
 }
 
 /*
- * Rolling friction is a moment of r / 64 times the pressure (src/solve/roll.c). A solid ball's moment
+ * Rolling friction is a moment of r / 64 times the pressure at speed (src/solve/roll.c). A solid ball's moment
  * of inertia is 2/5 m r^2: on a slope it rolls at 5/7 (tan - 1/64) g cos as long as friction can
  * turn it. Else it slides at (tan - mu) g cos, its lowest point at (tan - 7/2 mu + 5/2 / 64) g cos.
  */
@@ -300,6 +302,94 @@ static void test_above(double mu)
                1 - 2.5 / 64 / (3.5 * mu));
 }
 
+/* -------------------------------------------------------------------- stand */
+
+#define FLATNESS 0.97
+#define TOUCHING 64
+
+/* From the centre of mass to a vertex of the body, as it is turned. */
+static void seen_from_centre(const struct lab *lab, const carom_quat_q30 *turn, size_t vertex,
+                             double out[3])
+{
+    double local[3];
+
+    for (int k = 0; k < 3; k++) {
+        local[k] = lab->body.vertices[vertex][k] - lab->centre[k];
+    }
+    lab_rotate(out, turn, local);
+}
+
+/*
+ * How far the foot of the centre of mass is out of the hull of the vertices that are within 0.7 skin
+ * of the lowest: what rolling friction alone holds. The farthest of them in each of 720 directions.
+ */
+static double overhang(const struct lab *lab)
+{
+    const carom_quat_q30 turn = lab_state(lab->world, SCENE_BODY).rotation;
+    double low = HUGE_VAL, out = -HUGE_VAL, at[3], foot[TOUCHING][2];
+    int feet = 0;
+
+    for (size_t v = 0; v < lab->body.vertex_count; v++) {
+        seen_from_centre(lab, &turn, v, at);
+        low = fmin(low, at[2]);
+    }
+    for (size_t v = 0; v < lab->body.vertex_count; v++) {
+        seen_from_centre(lab, &turn, v, at);
+        if (at[2] < low + 0.7 * lab->skin && feet < TOUCHING) {
+            foot[feet][0] = at[0];
+            foot[feet++][1] = at[1];
+        }
+    }
+    for (int i = 0; i < 720; i++) {
+        double x = cos(i * REAL_PI / 360), y = sin(i * REAL_PI / 360), most = -HUGE_VAL;
+
+        for (int n = 0; n < feet; n++) {
+            most = fmax(most, foot[n][0] * x + foot[n][1] * y);
+        }
+        out = fmax(out, -most);
+    }
+    return out;
+}
+
+/*
+ * A ball of 20480 faces, 3 % flatter along one axis, laid down leaning: its foot is out of the middle
+ * by up to 0.03 of its radius, faces are half as wide. Wherever it comes to rest it stands on a face:
+ * rolling friction holds 1/1024 of its radius, and 1/64 what rolls up.
+ */
+static void test_stands(void)
+{
+    static const double lean[] = {13, 20, 45, 60, 75};
+    const double up[3] = {0, 0, 1};
+    const carom_quat_q30 level = lab_turn(0, 0, 1, 0);
+    double worst = 0;
+    long bad = 0, last = 0;
+    struct lab *lab;
+
+    cut();
+    for (uint32_t v = 0; v < ball.vertex_count; v++) {
+        ball_vertices[v][2] = (int16_t)lrint(FLATNESS * ball_vertices[v][2]);
+    }
+    lab = lab_load(&lab_sheet, &ball);
+    lab_surface(lab, 0.4, 0.5);
+    for (size_t i = 0; i < 3 * sizeof lean / sizeof *lean; i++) {
+        struct lab_tally tally = {0};
+        long frame = 0;
+
+        lab->scene.body.rotation = lab_turn(1, 0.3 * (double)i, 0, lean[i / 3] * REAL_PI / 180);
+        lay(lab, &level, up);
+        for (; frame < 2400 && !lab_asleep(lab); frame++) {
+            lab_step(lab, frame % 50 == 0 ? &tally : NULL);
+        }
+        last = frame > last ? frame : last;
+        worst = fmax(worst, overhang(lab) / RADIUS);
+        bad += tally.crossed + tally.capped;
+    }
+    lab_free(lab);
+    lab_report(worst < 1.0 / 512 && last < 2400 && bad == 0, "roll/stands_on_a_face",
+               "the foot is out by %.5f radii, asleep after %ld frames, %ld bad ones", worst, last,
+               bad);
+}
+
 int main(void)
 {
     stop(0.3, 12, false, "roll/box_stops");
@@ -311,5 +401,6 @@ int main(void)
         test_below(i ? 0.4 : 0.25);
         test_above(i ? 0.4 : 0.25);
     }
+    test_stands();
     return lab_finish();
 }

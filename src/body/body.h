@@ -116,13 +116,14 @@ struct body {
     bool standing;    /* still, and the path, the region and the box are those of where it is */
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
-    /* of a step, 10 bytes and the tag */
+    /* of a step, 11 bytes and the tag */
     bool active;     /* region: was to move when its region was set */
     bool alone;      /* region: had no pairs then */
     bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
     bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
     bool entering;   /* rest: in_contact is new */
     bool solving;    /* rest: has a contact in the solve at hand */
+    bool unsettled;  /* rest: its island's last solve left places that approach */
     bool touched;    /* energy: had a contact in this step */
     bool grounded;   /* energy: and one with a body that stands still */
     bool rewound;    /* energy: is back where the frame found it */

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "contact.h"
 
-/* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
-#define SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
-
 /* The place in key order for a candidate; sets *same when it is there already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {
@@ -129,6 +126,7 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
     if (!touch.valid || touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
         return true;
     }
+    contact_flatten(pair, c, &touch.normal);
     contact_place(pair, c, &touch.normal, arm);
     if (most > 0 && touch.gap_q22 - drifted_q22(pair, c, &touch.normal, &arm[1]) > margin_q22) {
         return true;
@@ -152,10 +150,13 @@ static int64_t distance_q22(const struct contact *c, const carom_v3_q22 *place)
     return sum;
 }
 
-/* A vertex on faces that are nearly coplanar: wherever the path would have had it, it is here. */
-static bool same_vertex(const struct candidate *p, const struct candidate *q)
+/*
+ * A vertex on faces that are nearly coplanar: wherever the path would have had it, it is here. Edges
+ * have the normal of the faces that they border here, along which they may not approach.
+ */
+static bool same_feature(const struct candidate *p, const struct candidate *q)
 {
-    return p->kind == q->kind && p->kind != CANDIDATE_EDGE_EDGE && p->i == q->i;
+    return p->kind == q->kind && p->i == q->i && (p->kind != CANDIDATE_EDGE_EDGE || p->j == q->j);
 }
 
 static void take_out(struct contact_list *list, uint32_t place)
@@ -187,10 +188,10 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
     }
     while (i < list->pool->used) {
         const struct contact *c = &list->contacts[i];
-        bool same =
-            c->key.pair == hit->candidate.pair && cosine_q30(&c->normal, normal) > SAME_NORMAL_Q30;
+        bool same = c->key.pair == hit->candidate.pair &&
+                    cosine_q30(&c->normal, normal) > CONTACT_SAME_NORMAL_Q30;
 
-        if (same && same_vertex(&c->key, &hit->candidate)) {
+        if (same && same_feature(&c->key, &hit->candidate)) {
             gap_q22 = c->gap_q22 < gap_q22 ? c->gap_q22 : gap_q22;
             take_out(list, i);
             taken = true;
@@ -221,7 +222,7 @@ void contact_merge(struct contact_list *list)
             struct contact *k = &list->contacts[j];
 
             if (distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
-                cosine_q30(&k->normal, &c->normal) > SAME_NORMAL_Q30) {
+                cosine_q30(&k->normal, &c->normal) > CONTACT_SAME_NORMAL_Q30) {
                 break;
             }
         }

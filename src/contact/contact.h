@@ -166,6 +166,16 @@ struct contact_list {
 void contact_place(const struct boyse_pair *pair, const struct candidate *c,
                    const carom_v3_q30 *normal, carom_v3_q40 arm[2]);
 
+/* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
+#define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
+
+/*
+ * The normal of two edges that border faces which lie on each other, in the placed poses: that of
+ * b's face, if it is nearly the same. Others stay as they are.
+ */
+void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
+                     carom_v3_q30 *normal);
+
 /* Fractional bits of arm_q30 taken as a length. */
 static inline int contact_arm_bits(const struct body *b)
 {

@@ -23,7 +23,8 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
-    bool rolls; /* resting contact, with rolling friction: no contact is an impact */
+    bool rolls;   /* resting contact, with rolling friction: no contact is an impact */
+    bool ran_out; /* out: they ended before the residual was reached */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */
@@ -104,8 +105,14 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t impuls
                    const int64_t moment_q40[3]);
 void rest_apply(struct rest *r);
 
-/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) before the solve. */
+/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
+
+/*
+ * Give contact i of a face on a face the normal of one before it that differs by a hair, or its
+ * opposite. Takes velocity_q40 of the contact.
+ */
+void rest_share_normal(struct rest *r, uint32_t i);
 
 /* Set the momenta of the island's bodies aside before a solve. */
 void rest_save_momenta(struct rest *r);
@@ -115,6 +122,13 @@ void rest_save_momenta(struct rest *r);
  * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as far as needed.
  */
 void rest_energy_rule(struct rest *r, struct fix_wide lift);
+
+/*
+ * After sweeps that ran out: take out without friction what places still approach by, where they do.
+ */
+void rest_part(struct rest *r);
+/* Whether a contact approaches by more than it was asked to and a small part of its skin a frame. */
+bool rest_approaches(struct rest *r);
 
 /* Keep the impulses of all resting contacts for the next frame. */
 void rest_store_warm(struct rest *r);

@@ -257,6 +257,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
         c->work->roll = NULL;
         PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
         rest_relative_velocity(c, &c->velocity_q40);
+        rest_share_normal(r, i);
         c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
         rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
@@ -277,10 +278,17 @@ static struct fix_wide lift2(const struct rest *r)
     return sum;
 }
 
+static void note_unsettled(struct rest *r, bool unsettled)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        r->bodies[i].unsettled = unsettled;
+    }
+}
+
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    struct rest_sweep sw = {0, false, false, REST_RESIDUAL_REST, true};
+    struct rest_sweep sw = {.residual = REST_RESIDUAL_REST, .rolls = true};
     bool impacts = prepare(r, tau_q30);
 
     if (impacts && r->count == 1) {
@@ -301,7 +309,11 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     rest_save_momenta(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
+    if (impacts && sw.ran_out && rest_approaches(r)) {
+        rest_part(r);
+    }
     rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
+    note_unsettled(r, sw.ran_out && rest_approaches(r));
     return CAROM_OK;
 }
 

@@ -103,7 +103,8 @@ static bool may_rise(const struct rest *r, struct fix_wide allowed)
 
 void rest_energy_rule(struct rest *r, struct fix_wide lift)
 {
-    struct rest_sweep plastic = {0, true, true, REST_RESIDUAL_IMPACT, false};
+    struct rest_sweep plastic = {
+        .plastic = true, .frictionless = true, .residual = REST_RESIDUAL_IMPACT};
     int32_t low = 0, high = CAROM_ONE_Q30;
     struct fix_wide before;
 

@@ -14,6 +14,14 @@
  * it is carried by the half of the patch that it rolls into, whose middle is half as far out.
  */
 #define ROLL_SKINS 32
+/*
+ * A body that is to right itself rolls down from rest, where a whole arm would hold it. So the arm is
+ * this small for what begins to roll down, and grows with its speed. What rolls up has a whole one:
+ * what rocks in a hollow comes to rest by that.
+ */
+#define ROLL_SKINS_DOWN 2
+/* Rolling down the arm is whole at the speed that gravity gives in so many frames. */
+#define ROLL_FRAMES 2
 
 /* Whether contact n is of the pair of contact i. */
 static bool same_pair(const struct rest *r, uint32_t i, uint32_t n)
@@ -41,6 +49,67 @@ static bool may_roll(const struct rest *r, uint32_t i)
         pressed += rest_contact(r, n)->work->normal_impulse > 0;
     }
     return all <= 2 || (pressed > 0 && pressed <= 2);
+}
+
+/* Whether a body that turns about the contact rises: its centre goes by arm x w. */
+static bool rises(const struct contact_side *side)
+{
+    const struct body *b = side->body;
+    int64_t way_q40[3];
+
+    for (int k = 0; b && k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+
+        way_q40[k] = fix_mul(b->spin.c[n], side->arm_q30[m], bits) -
+                     fix_mul(b->spin.c[m], side->arm_q30[n], bits);
+    }
+    return b && fix_wide_sign(fix_wide_dot(way_q40, b->acceleration.c)) < 0;
+}
+
+/* Whether the pair of contact i rolls up on all that pressed in the last frame. */
+static bool rolls_up(const struct rest *r, uint32_t i)
+{
+    bool up = false;
+
+    for (uint32_t n = i; same_pair(r, i, n); n++) {
+        const struct contact *c = rest_contact(r, n);
+
+        if (c->work->normal_impulse > 0) {
+            up = rises(&c->side[0]) || rises(&c->side[1]);
+            if (!up) {
+                return false;
+            }
+        }
+    }
+    return up;
+}
+
+/* The arm of the pair of contact i. */
+static int64_t arm_q22(const struct rest *r, uint32_t i)
+{
+    const struct contact *c = rest_contact(r, i);
+    int64_t spin_q40[3] = {0, 0, 0}, speed_q40, whole_q40 = 1, grown;
+
+    if (rolls_up(r, i)) {
+        return ROLL_SKINS * (int64_t)c->skin_q22;
+    }
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
+
+        for (int k = 0; b && k < 3; k++) {
+            spin_q40[k] += s == 0 ? b->spin.c[k] : -b->spin.c[k];
+        }
+        if (b && ROLL_FRAMES * b->acceleration_q40 > whole_q40) {
+            whole_q40 = ROLL_FRAMES * b->acceleration_q40;
+        }
+    }
+    /* a radius has 2048 skins */
+    speed_q40 = fix_mul(fix_length(spin_q40), c->skin_q22, 22 - 11);
+    speed_q40 = speed_q40 < whole_q40 ? speed_q40 : whole_q40;
+    /* gravity and force give at most 2 units a frame: below 2^43, and a skin is below 2^20 */
+    grown =
+        c->skin_q22 * (ROLL_SKINS - ROLL_SKINS_DOWN) * (speed_q40 >> 6) / ((whole_q40 >> 6) + 1);
+    return ROLL_SKINS_DOWN * (int64_t)c->skin_q22 + grown;
 }
 
 /* How many bits shorter the unit of length is than the body's. */
@@ -81,7 +150,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     c->work->roll = roll;
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
-    roll->arm_q30 = rest_clamp(carom_shl(ROLL_SKINS * (int64_t)c->skin_q22, 30 - roll->unit_bits));
+    roll->arm_q30 = rest_clamp(carom_shl(arm_q22(r, i), 30 - roll->unit_bits));
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
 

@@ -17,6 +17,12 @@
  */
 #define FEW 8
 
+/*
+ * Resting contacts that are slower than this part of the residual are left alone. With all of it they
+ * would never get below it, and sweeps would run on.
+ */
+#define DEAD_DIVISOR 8
+
 static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
     return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
@@ -476,7 +482,8 @@ static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
-static void sweeps(struct rest *r, const struct rest_sweep *sw)
+/* Returns whether they ran out before the residual was reached. */
+static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
     /* a contact by itself is solved in a visit or a few */
@@ -491,7 +498,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         for (uint32_t i = 0; i < n; i++) {
             /* forwards and backwards in turn, so that no end of a stack is favoured */
             uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual : 0);
+            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, at)->work->rolls) {
@@ -500,7 +507,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
             }
         }
         if (moved <= sw->residual) {
-            return;
+            return false;
         }
         if (coupled && round & 1 && round < rounds - 1) {
             moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
@@ -509,6 +516,7 @@ static void sweeps(struct rest *r, const struct rest_sweep *sw)
         }
     }
     into_cones(r);
+    return true;
 }
 
 /* Impulses in solver units to momentum, one rounding a component. */
@@ -542,6 +550,6 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
     }
-    sweeps(r, sw);
+    sw->ran_out = sweeps(r, sw);
     finish(r, sw);
 }

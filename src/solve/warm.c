@@ -2,6 +2,13 @@
 /* Impulses kept from frame to frame, and where the next solve starts from. */
 #include "parts.h"
 
+/*
+ * Parts of a radius: a contact that moved by less than the first stayed where it was, by more than
+ * the second it is another.
+ */
+#define STAYED_DIVISOR 1024
+#define MOVED_DIVISOR  20
+
 /* Where the impulses of a pair begin: they are in the order of pairs. */
 static uint32_t first_warm(const struct rest *r, const struct pair *p)
 {
@@ -20,12 +27,15 @@ static uint32_t first_warm(const struct rest *r, const struct pair *p)
     return low;
 }
 
-/* The last frame's contact that this one continues: same bodies, nearest place, similar normal. */
-static struct rest_warm *find_warm(struct rest *r, const struct contact *c)
+/*
+ * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
+ * within a part of a's radius.
+ */
+static struct rest_warm *find_warm(struct rest *r, const struct contact *c, int32_t divisor)
 {
     const struct pair *p = &r->pairs[c->key.pair];
     const struct body *a = rest_body(r, c, 0);
-    int32_t nearest = a->radius_q22 / 20;
+    int32_t nearest = a->radius_q22 / divisor;
     struct rest_warm *best = NULL;
     carom_v3_q22 arm = contact_arm(c);
 
@@ -91,26 +101,36 @@ static int64_t units(int64_t v_q40, struct fix_scaled inverse)
     return fix_mul_scaled(v_q40, inverse);
 }
 
+static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, int32_t divisor)
+{
+    struct rest_warm *w = find_warm(r, c, divisor);
+    struct fix_scaled inverse = fix_scaled_inverse(c->work->mass_unit);
+    int64_t along;
+
+    if (!w) {
+        return;
+    }
+    inverse.e += sw->unit;
+    along = rest_along_q40(&w->tangent_q40, &c->normal);
+    c->work->normal_impulse = units(w->normal_q40, inverse);
+    for (int k = 0; k < 3; k++) {
+        c->work->tangent_impulse[k] =
+            units(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
+    }
+    push_all(c);
+    w->normal_q40 = 0; /* used */
+}
+
+/* What stayed where it was first: on small faces others are near it. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-        struct rest_warm *w = find_warm(r, c);
-        struct fix_scaled inverse = fix_scaled_inverse(c->work->mass_unit);
-        int64_t along;
-
-        if (!w) {
-            continue;
+        load(r, rest_contact(r, i), sw, STAYED_DIVISOR);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (rest_contact(r, i)->work->normal_impulse == 0) {
+            load(r, rest_contact(r, i), sw, MOVED_DIVISOR);
         }
-        inverse.e += sw->unit;
-        along = rest_along_q40(&w->tangent_q40, &c->normal);
-        c->work->normal_impulse = units(w->normal_q40, inverse);
-        for (int k = 0; k < 3; k++) {
-            c->work->tangent_impulse[k] =
-                units(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
-        }
-        push_all(c);
-        w->normal_q40 = 0; /* used */
     }
 }
 

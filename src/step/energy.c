@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The energy of contact over a frame, island by island. */
+#include "../solve/rigid.h"
 #include "parts.h"
 
 /* Rounding may have added this part of the kinetic energy: an excess below 2^-24 of it is none. */
@@ -84,80 +85,16 @@ static struct account audit(const struct step *s, uint32_t first)
 }
 
 /* Twice the kinetic energy of an island in its motion as one rigid body. */
-static struct fix_wide rigid_kinetic2(const struct step *s, const struct step_rigid *rigid)
+static struct fix_wide rigid_kinetic2(const struct step *s, const struct rest_rigid *rigid)
 {
     struct fix_wide sum = {0, 0};
 
-    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
-        struct body_state state = step_rigid_state(s, rigid, i);
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(&s->w->rest, i)) {
+        struct body_state state = rest_rigid_state(&s->w->rest, rigid, i);
 
         sum = fix_wide_add(sum, kinetic2(&s->w->bodies[i], &state));
     }
     return sum;
-}
-
-/* from + factor (to - from) in both momenta */
-static void scale_about(struct body_state *to, const struct body_state *from, int32_t factor_q30)
-{
-    for (int k = 0; k < 3; k++) {
-        int64_t p = from->momentum.c[k], l = from->angular.c[k];
-
-        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
-        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
-    }
-}
-
-/* All of an island's momentum and angular momentum about its centre. */
-static void sum_momenta(const struct step *s, const struct step_rigid *rigid,
-                        uint64_t linear_q40[3], struct fix_wide angular_q72[3])
-{
-    memset(linear_q40, 0, 3 * sizeof linear_q40[0]);
-    memset(angular_q72, 0, 3 * sizeof angular_q72[0]);
-    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
-        for (int k = 0; k < 3; k++) {
-            /* only differences are used: modulo 2^64 is enough */
-            linear_q40[k] += (uint64_t)s->next->bodies[i].momentum.c[k];
-        }
-        step_add_angular(s, &rigid->centre, i, angular_q72);
-    }
-}
-
-/*
- * Scale what an island moves by beside its rigid motion; nothing outside acts on it, so its momenta
- * stay. What rounding takes of them a heavy body gets.
- */
-static void scale_free(struct step *s, const struct step_rigid *rigid, int32_t factor_q30)
-{
-    struct body_state *heavy = &s->next->bodies[rigid->heavy];
-    uint64_t linear[3], linear_after[3];
-    struct fix_wide angular[3], angular_after[3];
-
-    sum_momenta(s, rigid, linear, angular);
-    for (uint32_t i = rigid->first; i != ISLAND_END; i = step_island_next(s, i)) {
-        struct body_state state = step_rigid_state(s, rigid, i);
-
-        scale_about(&s->next->bodies[i], &state, factor_q30);
-    }
-    sum_momenta(s, rigid, linear_after, angular_after);
-    for (int k = 0; k < 3; k++) {
-        heavy->momentum.c[k] += (int64_t)(linear[k] - linear_after[k]);
-    }
-    sum_momenta(s, rigid, linear_after, angular_after);
-    for (int k = 0; k < 3; k++) {
-        struct fix_wide taken_q72 = fix_wide_add(angular[k], fix_wide_neg(angular_after[k]));
-
-        heavy->angular.c[k] += carom_round(fix_wide_shift(taken_q72, 31), 1);
-    }
-}
-
-/* One that touches what stands still has no motion to keep. */
-static void scale_grounded(struct step *s, uint32_t island, int32_t factor_q30)
-{
-    const struct body_state none = {.momentum = {{0, 0, 0}}};
-
-    for (uint32_t i = step_island_first(s, island); i != ISLAND_END; i = step_island_next(s, i)) {
-        scale_about(&s->next->bodies[i], &none, factor_q30);
-    }
 }
 
 static bool moved(const struct body_state *from, const struct body_state *to)
@@ -243,7 +180,7 @@ static void limit_island(struct step *s, uint32_t first)
     struct account sum = audit(s, first);
     struct fix_wide slack = {sum.kinetic.hi >> SLACK_BITS,
                              (uint64_t)fix_wide_shift(sum.kinetic, SLACK_BITS)};
-    struct step_rigid rigid;
+    struct rest_rigid rigid;
 
     if (fix_wide_sign(fix_wide_add(sum.excess, fix_wide_neg(slack))) <= 0) {
         return;
@@ -254,12 +191,12 @@ static void limit_island(struct step *s, uint32_t first)
         if (factor == 0) {
             hold_still(s, first); /* it climbed by more than it has to give */
         } else {
-            scale_grounded(s, first, factor);
+            rest_scale_grounded(&s->w->rest, first, factor);
         }
-    } else if (step_rigid_motion(s, first, &rigid)) {
+    } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
         struct fix_wide beside = fix_wide_add(sum.kinetic, fix_wide_neg(rigid_kinetic2(s, &rigid)));
 
-        scale_free(s, &rigid, factor_q30(beside, sum.excess));
+        rest_scale_free(&s->w->rest, &rigid, factor_q30(beside, sum.excess));
     }
 }
 
@@ -287,7 +224,6 @@ void step_calm_island(struct step *s, uint32_t body)
 {
     uint32_t first = s->w->bodies[body].island;
     bool grounded = false;
-    struct step_rigid rigid;
 
     for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
         const struct contact *c = &s->w->rest.list.contacts[i];
@@ -295,11 +231,7 @@ void step_calm_island(struct step *s, uint32_t body)
 
         grounded |= s->w->bodies[p->a].island == first && !s->w->bodies[p->b].moving;
     }
-    if (grounded) {
-        scale_grounded(s, first, 0);
-    } else if (step_rigid_motion(s, first, &rigid)) {
-        scale_free(s, &rigid, 0);
-    }
+    (void)rest_unite(&s->w->rest, first, grounded);
     s->w->stats.calmed++;
 }
 

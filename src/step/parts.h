@@ -168,32 +168,7 @@ void step_limit_energy(struct step *s);
  * The last resort for an island that a solve did not part: at rest when it touches what stands still,
  * else in its motion as one rigid body.
  */
-void step_calm_island(struct step *s, uint32_t island);
-
-/* The active bodies of an island, in order; ISLAND_END after the last. */
-uint32_t step_island_first(const struct step *s, uint32_t island);
-uint32_t step_island_next(const struct step *s, uint32_t i);
-
-/* The motion of an island as one rigid body. */
-struct step_rigid {
-    uint32_t first, heavy; /* bodies: the first active one, and one of the heaviest */
-    carom_v3_q32 centre;
-    carom_v3_q40 velocity, spin;
-    int32_t mass_e, length_bits; /* the units that sums are in */
-};
-
-/*
- * The rigid motion that has the momentum and the angular momentum of the island's active bodies, to
- * 30 bits. Returns false when these are fewer than two, or all in a line so thin that it has no
- * inertia about it.
- */
-bool step_rigid_motion(const struct step *s, uint32_t island, struct step_rigid *rigid);
-/* A body with the momenta that it has in that motion. */
-struct body_state step_rigid_state(const struct step *s, const struct step_rigid *rigid,
-                                   uint32_t i);
-/* Add x x p + L of a body, x seen from a place. */
-void step_add_angular(const struct step *s, const carom_v3_q32 *about, uint32_t i,
-                      struct fix_wide sum_q72[3]);
+void step_calm_island(struct step *s, uint32_t body);
 
 /* ------------------------------------------------------------------------ finish */
 

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * What sweeps leave when they run out. With friction they need not settle, however many there are,
+ * and places that still approach would hit again at once, without end.
+ */
+#include "parts.h"
+
+/* An approach by less than this part of a skin a frame leaves the gap open for many of them. */
+#define SLOW_DIVISOR 32
+
+/* Velocities of the island's bodies: as they are by now, or as they were before the solve. */
+static void load(struct rest *r, bool before)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        struct body *b = &r->bodies[i];
+        struct body_state state = r->states[i];
+
+        if (before) {
+            state.momentum = b->saved_momentum;
+            state.angular = body_solve(b)->saved_angular;
+        }
+        body_velocity(b, &state, &b->velocity);
+        body_spin(b, &state, &b->path.start.r, &b->spin);
+    }
+}
+
+static int64_t speed_q40(const struct contact *c)
+{
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return rest_along_q40(&v, &c->normal);
+}
+
+bool rest_approaches(struct rest *r)
+{
+    bool any = false;
+
+    load(r, false);
+    for (uint32_t i = 0; i < r->count && !any; i++) {
+        const struct contact *c = rest_contact(r, i);
+        int64_t least_q40 = c->work->target_q40 < 0 ? c->work->target_q40 : 0;
+
+        any = speed_q40(c) < least_q40 - carom_shl(c->skin_q22 / SLOW_DIVISOR, 18);
+    }
+    load(r, true);
+    return any;
+}
+
+void rest_part(struct rest *r)
+{
+    struct rest_sweep sw = {
+        .plastic = true, .frictionless = true, .residual = REST_RESIDUAL_IMPACT};
+
+    load(r, false);
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
+        c->work->wanted_q40 = *contact_impulse(c);
+        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
+        rest_relative_velocity(c, &c->velocity_q40);
+        c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
+    }
+    rest_solve_sweeps(r, &sw, false);
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+        const int64_t none[3] = {0, 0, 0};
+
+        rest_apply_at(r, c, contact_impulse(c)->c, none);
+        for (int k = 0; k < 3; k++) {
+            contact_impulse(c)->c[k] += contact_wanted(c)->c[k];
+        }
+    }
+    load(r, true);
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->speed_q40 = speed_q40(c);
+    }
+}

@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The motion that an island has as one rigid body: all of its momentum and angular momentum are in
+ * it, so it stays when energy is taken out of the rest.
+ *
+ * Sums are in units of the island: masses over a power of two above the heaviest, lengths over one
+ * above the longest, in q30. A body then adds at most 2^32, and 2^16 bodies fit in 64 bits. Only
+ * 30 bits of the motion are right: whoever uses it makes up for what that leaves of the momenta.
+ */
+#include "rigid.h"
+#include "rows.h"
+
+uint32_t rest_island_next(const struct rest *r, uint32_t i)
+{
+    do {
+        i = r->bodies[i].next_in_island;
+    } while (i != ISLAND_END && !broad_active(&r->bodies[i], &r->states[i]));
+    return i;
+}
+
+uint32_t rest_island_first(const struct rest *r, uint32_t island)
+{
+    return broad_active(&r->bodies[island], &r->states[island]) ? island
+                                                                : rest_island_next(r, island);
+}
+
+/* From the island's centre to a body's, in the unit of length. */
+static void arm_q30(const struct rest *r, const struct rest_rigid *rigid, uint32_t i,
+                    int32_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int64_t way_q32 = r->states[i].position.c[k] - rigid->centre.c[k];
+
+        out[k] = (int32_t)fix_round_shift(way_q32, 30 - rigid->length_bits);
+    }
+}
+
+/* A body's mass in the unit of mass, 2^(30 - mass_e). */
+static int32_t share_q30(const struct rest *r, const struct rest_rigid *rigid, uint32_t i)
+{
+    const struct fix_scaled *mass = &r->bodies[i].mass;
+
+    return (int32_t)fix_round_shift(mass->m, rigid->mass_e - mass->e);
+}
+
+/* The centre is within the extent of the others as seen from the first: one bit more will do. */
+static void choose_units(const struct rest *r, struct rest_rigid *rigid)
+{
+    uint64_t length_q32 = 0;
+
+    rigid->mass_e = INT32_MAX;
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        const struct body *b = &r->bodies[i];
+
+        if (b->mass.e < rigid->mass_e) {
+            rigid->mass_e = b->mass.e;
+            rigid->heavy = i;
+        }
+        length_q32 |= (uint64_t)b->radius_q22 << 10;
+        for (int k = 0; k < 3; k++) {
+            int64_t way_q32 = r->states[i].position.c[k] - rigid->centre.c[k];
+
+            length_q32 |= (uint64_t)carom_abs(way_q32);
+        }
+    }
+    rigid->length_bits = fix_bits(length_q32) + 1;
+}
+
+/* The centre of mass; before, the centre is the first body's. */
+static void find_centre(const struct rest *r, struct rest_rigid *rigid)
+{
+    int64_t moment_q30[3] = {0, 0, 0};
+
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        int32_t arm[3], share = share_q30(r, rigid, i);
+
+        arm_q30(r, rigid, i, arm);
+        rigid->mass_q30 += share;
+        for (int k = 0; k < 3; k++) {
+            moment_q30[k] += carom_mul_q30(share, arm[k]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        struct fix_scaled way =
+            fix_wide_ratio(fix_wide_mul(moment_q30[k], 1), fix_wide_mul(rigid->mass_q30, 1));
+
+        way.e -= rigid->length_bits;
+        rigid->centre.c[k] += fix_mul_scaled(1, way);
+    }
+}
+
+static void add_angular(const struct rest *r, const carom_v3_q32 *about, uint32_t i,
+                        struct fix_wide sum_q72[3])
+{
+    const struct body_state *state = &r->states[i];
+    const int64_t *p = state->momentum.c;
+    int64_t x[3];
+
+    for (int k = 0; k < 3; k++) {
+        x[k] = state->position.c[k] - about->c[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+
+        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(x[m], p[n]));
+        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(-x[n], p[m]));
+        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(state->angular.c[k], (int64_t)1 << 32));
+    }
+}
+
+/* All of an island's momentum, and angular momentum about its centre. */
+struct momenta {
+    struct fix_wide linear_q40[3], angular_q72[3];
+};
+
+static struct momenta sum_momenta(const struct rest *r, const struct rest_rigid *rigid)
+{
+    struct momenta sum;
+
+    memset(&sum, 0, sizeof sum);
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        for (int k = 0; k < 3; k++) {
+            int64_t p = r->states[i].momentum.c[k];
+
+            sum.linear_q40[k] = fix_wide_add(sum.linear_q40[k], fix_wide_mul(p, 1));
+        }
+        add_angular(r, &rigid->centre, i, sum.angular_q72);
+    }
+    return sum;
+}
+
+/* What an island's momenta lack to what they were. */
+static struct momenta lost(const struct rest *r, const struct rest_rigid *rigid,
+                           const struct momenta *before)
+{
+    struct momenta now = sum_momenta(r, rigid), lost;
+
+    for (int k = 0; k < 3; k++) {
+        lost.linear_q40[k] = fix_wide_add(before->linear_q40[k], fix_wide_neg(now.linear_q40[k]));
+        lost.angular_q72[k] =
+            fix_wide_add(before->angular_q72[k], fix_wide_neg(now.angular_q72[k]));
+    }
+    return lost;
+}
+
+/* Add m (R J R^T + |r|^2 - r r^T) of a body. */
+static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, uint32_t i,
+                        int64_t sum_q30[6])
+{
+    int32_t arm[3], share = share_q30(r, rigid, i);
+    struct carom_sym3 own;
+    carom_m3_q30 axes;
+    int64_t square_q30;
+
+    arm_q30(r, rigid, i, arm);
+    square_q30 = carom_dot(arm, arm) >> 30;
+    body_matrix(&axes, &r->states[i].rotation);
+    body_world_inertia(&r->bodies[i], &axes, &own);
+    for (int m = 0; m < 3; m++) {
+        for (int n = 0; n <= m; n++) {
+            int at = fix_sym3_at[m][n];
+            int64_t part = fix_round_shift(own.m[at], 30 + 2 * (32 - rigid->length_bits) - own.e) -
+                           carom_mul_q30(arm[m], arm[n]);
+
+            part += m == n ? square_q30 : 0;
+            sum_q30[at] += fix_mul(part, share, 30);
+        }
+    }
+}
+
+/* Inertia times spin is the angular momentum about the centre. */
+static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
+                      const struct fix_wide angular_q72[3])
+{
+    struct gauss *w = r->gauss;
+    int32_t rows[3][GAUSS_MAX + 1];
+    int64_t inertia_q30[6] = {0};
+    uint64_t all = 0;
+    int down, up, bits = 0;
+
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        add_inertia(r, rigid, i, inertia_q30);
+    }
+    for (int n = 0; n < 6; n++) {
+        all |= (uint64_t)carom_abs(inertia_q30[n]);
+    }
+    for (int k = 0; k < 3; k++) {
+        int b = fix_wide_bits(angular_q72[k]);
+
+        bits = b > bits ? b : bits;
+    }
+    down = fix_bits(all) - 30;
+    bits = bits > 30 ? bits - 30 : 0;
+    for (int m = 0; m < 3; m++) {
+        for (int n = 0; n < 3; n++) {
+            w->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
+        }
+        w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
+    }
+    memcpy(rows, w->a, sizeof rows);
+    if (gauss_solve(w, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
+        return false;
+    }
+    /* q72 over q30, in units of mass and of length squared */
+    up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
+    for (int k = 0; k < 3; k++) {
+        rigid->spin.c[k] = fix_round_shift(w->x_q40[k], up);
+    }
+    return true;
+}
+
+/* The rigid motion that has these momenta. */
+static bool find_motion(const struct rest *r, struct rest_rigid *rigid, const struct momenta *of)
+{
+    for (int k = 0; k < 3; k++) {
+        struct fix_scaled v = fix_wide_ratio(of->linear_q40[k], fix_wide_mul(rigid->mass_q30, 1));
+
+        v.e -= rigid->mass_e;
+        rigid->velocity.c[k] = fix_mul_scaled(1, v);
+    }
+    return find_spin(r, rigid, of->angular_q72);
+}
+
+bool rest_rigid_motion(const struct rest *r, uint32_t island, struct rest_rigid *rigid)
+{
+    struct momenta all;
+
+    memset(rigid, 0, sizeof *rigid);
+    rigid->first = rest_island_first(r, island);
+    if (rigid->first == ISLAND_END || rest_island_next(r, rigid->first) == ISLAND_END) {
+        return false;
+    }
+    rigid->centre = r->states[rigid->first].position;
+    choose_units(r, rigid);
+    find_centre(r, rigid);
+    all = sum_momenta(r, rigid);
+    return find_motion(r, rigid, &all);
+}
+
+struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid *rigid, uint32_t i)
+{
+    struct body_state state = r->states[i];
+    carom_v3_q40 v = rigid->velocity;
+    const int64_t *w = rigid->spin.c;
+    int32_t arm[3];
+
+    arm_q30(r, rigid, i, arm);
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3, bits = 62 - rigid->length_bits;
+
+        v.c[k] += fix_mul(w[m], arm[n], bits) - fix_mul(w[n], arm[m], bits);
+    }
+    body_set_motion(&r->bodies[i], &state, &v, &rigid->spin);
+    return state;
+}
+
+/* from + factor (to - from) in both momenta */
+static void scale_about(struct body_state *to, const struct body_state *from, int32_t factor_q30)
+{
+    for (int k = 0; k < 3; k++) {
+        int64_t p = from->momentum.c[k], l = from->angular.c[k];
+
+        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
+        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
+    }
+}
+
+/* A heavy body gets what rounding took of the momenta. */
+static void make_up(struct rest *r, const struct rest_rigid *rigid, const struct momenta *before)
+{
+    struct body_state *heavy = &r->states[rigid->heavy];
+    struct momenta rest = lost(r, rigid, before);
+
+    for (int k = 0; k < 3; k++) {
+        heavy->momentum.c[k] += fix_wide_shift(rest.linear_q40[k], 0);
+    }
+    rest = lost(r, rigid, before);
+    for (int k = 0; k < 3; k++) {
+        heavy->angular.c[k] += carom_round(fix_wide_shift(rest.angular_q72[k], 31), 1);
+    }
+}
+
+void rest_scale_free(struct rest *r, const struct rest_rigid *rigid, int32_t factor_q30)
+{
+    struct momenta before = sum_momenta(r, rigid);
+
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        struct body_state state = rest_rigid_state(r, rigid, i);
+
+        scale_about(&r->states[i], &state, factor_q30);
+    }
+    make_up(r, rigid, &before);
+}
+
+void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30)
+{
+    const struct body_state none = {.momentum = {{0, 0, 0}}};
+
+    for (uint32_t i = rest_island_first(r, island); i != ISLAND_END;
+         i = rest_island_next(r, i)) {
+        scale_about(&r->states[i], &none, factor_q30);
+    }
+}
+
+/* Give every body what it has of a rigid motion, beside what it has. */
+static void add_motion(struct rest *r, const struct rest_rigid *rigid)
+{
+    for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
+        struct body_state more = rest_rigid_state(r, rigid, i);
+
+        for (int k = 0; k < 3; k++) {
+            r->states[i].momentum.c[k] += more.momentum.c[k];
+            r->states[i].angular.c[k] += more.angular.c[k];
+        }
+    }
+}
+
+/* An island in the air. */
+static void unite_free(struct rest *r, struct rest_rigid *rigid)
+{
+    struct momenta before = sum_momenta(r, rigid), rest;
+
+    rest_scale_grounded(r, rigid->first, 0);
+    add_motion(r, rigid);
+    /* the motion has 30 bits, and so has what makes up for the rest of it */
+    for (int round = 0; round < 2; round++) {
+        rest = lost(r, rigid, &before);
+        if (find_motion(r, rigid, &rest)) {
+            add_motion(r, rigid);
+        }
+    }
+    make_up(r, rigid, &before);
+}
+
+bool rest_unite(struct rest *r, uint32_t island, bool grounded)
+{
+    uint32_t first = rest_island_first(r, island);
+    struct rest_rigid rigid;
+
+    if (grounded) {
+        rest_scale_grounded(r, island, 0);
+        return true;
+    }
+    if (!rest_rigid_motion(r, island, &rigid)) {
+        return first == ISLAND_END || rest_island_next(r, first) == ISLAND_END;
+    }
+    unite_free(r, &rigid);
+    return true;
+}

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Normals that differ by a hair. Faces on each other are as parallel as the gaps at their corners
+ * are even, a few parts in 10^5. What is pressed between two such faces is pushed out between them
+ * by as large a part of the pressure: by its own weight or more when a body presses on it that is as
+ * many times as heavy. Within their skins they are parallel.
+ */
+#include "parts.h"
+
+/* No part of two such normals differs by more than 2^-11. */
+#define LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 11)
+/* V.N may change by this part of a skin a frame. */
+#define CHANGE_DIVISOR 64
+
+/* Whether the contact's pair carries by a face: it has three contacts in the island. */
+static bool on_face(const struct rest *r, uint32_t i)
+{
+    uint16_t pair = rest_contact(r, i)->key.pair;
+    uint32_t first = i;
+
+    while (first > 0 && rest_contact(r, first - 1)->key.pair == pair) {
+        first--;
+    }
+    return first + 2 < r->count && rest_contact(r, first + 2)->key.pair == pair;
+}
+
+/* Whether `sign` other is as good a normal of the contact. */
+static bool as_good(const struct contact *c, const carom_v3_q30 *other, int32_t sign)
+{
+    int64_t change_q40 = 0;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t off = (int64_t)sign * other->c[k] - c->normal.c[k];
+
+        if (off > LEAN_MAX_Q30 || off < -LEAN_MAX_Q30) {
+            return false;
+        }
+        change_q40 += fix_mul(c->velocity_q40.c[k], (int32_t)off, 30);
+    }
+    return carom_abs(change_q40) < carom_shl(c->skin_q22 / CHANGE_DIVISOR, 18);
+}
+
+void rest_share_normal(struct rest *r, uint32_t i)
+{
+    struct contact *c = rest_contact(r, i);
+
+    for (uint32_t j = 0; j < i && on_face(r, i); j++) {
+        const carom_v3_q30 *other = &rest_contact(r, j)->normal;
+
+        for (int32_t sign = 1; sign >= -1; sign -= 2) {
+            if (as_good(c, other, sign) && on_face(r, j)) {
+                for (int k = 0; k < 3; k++) {
+                    c->normal.c[k] = sign * other->c[k];
+                }
+                return;
+            }
+        }
+    }
+}
