@@ -40,11 +40,7 @@ static void begin(void)
         def.spin.c[2] = ONE / 32;
         CHECK_EQ(carom_body_add(world, &def), i);
     }
-    memset(&step, 0, sizeof step);
-    step.w = world;
-    step.next = &world->states[1 - world->now];
-    memcpy(step.next->bodies, world_now(world)->bodies, BODIES * sizeof *step.next->bodies);
-    step.next->touching_count = 0;
+    step_begin(&step, world);
     for (int i = 0; i < BODIES; i++) {
         struct body *b = &world->bodies[i];
 

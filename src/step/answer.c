@@ -192,12 +192,12 @@ static void insist(struct step *s, const struct pair *p, uint32_t repeats)
     }
 }
 
-/* Count a hit of a body; whether that was one too many. */
+/* Count a hit of a body; whether that was its last. */
 static bool spend(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    return step_active(s, i) && ++b->events > s->event_cap;
+    return step_active(s, i) && ++b->events >= s->event_cap;
 }
 
 /* The island stands still for what is left of the frame. */

@@ -55,7 +55,7 @@ int step_note_faces(struct step *s)
     struct step_visitor v;
     int result = CAROM_OK;
 
-    if (in->gathers == 0) {
+    if (in->gathers == 0 && !s->pairs_changed) {
         return CAROM_OK;
     }
     pool_clear(in->face_pool);

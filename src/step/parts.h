@@ -30,6 +30,7 @@ struct step {
     int32_t now_q30;    /* of the last event */
     uint32_t active;    /* bodies that are awake */
     bool single;        /* regions last no longer than the frame */
+    bool pairs_changed; /* interfering faces are others */
     bool cut_short;     /* some island stands still for a part of the frame */
     uint32_t event_cap; /* hits of a body */
 };

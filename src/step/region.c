@@ -102,6 +102,7 @@ static int set_pairs(struct step *s, uint32_t i)
     struct carom_world *w = s->w;
     int result = CAROM_OK;
 
+    s->pairs_changed = true;
     for (uint32_t k = 0; k < w->body_count && result == CAROM_OK; k++) {
         bool first = broad_is_pair(w->bodies, s->next->bodies, i, k);
         uint32_t a = first ? i : k, b = first ? k : i, place;
@@ -218,7 +219,7 @@ int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
     begin_region(s, i, slice_q30);
     result = set_pairs(s, i);
     if (b->alone && has_pairs(s->w, i)) {
-        b->alone = false; /* near others regions are shorter */
+        b->alone = false;
         begin_region(s, i, slice_q30);
         result = set_pairs(s, i);
     }
@@ -226,34 +227,37 @@ int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
     return result;
 }
 
-/* A body's region at the start of a frame, of the path that it is going to take if it goes on so. */
-static void foresee(struct step *s, uint32_t i)
+/* The path that a body is going to take from the start of a frame if it goes on so; its slice. */
+static int32_t foresee(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
     int32_t slice_q30 = step_slice(s, i, CAROM_ONE_Q30 - s->now_q30);
 
     body_predict(b, &s->next->bodies[i], slice_q30, b->touched ? NULL : &b->acceleration);
-    begin_region(s, i, slice_q30);
-    body_place(b, &s->next->bodies[i]);
+    return slice_q30;
 }
 
 int step_adopt(struct step *s, uint32_t i)
 {
-    s->w->bodies[i].from_q30 = s->w->bodies[i].to_q30 = s->now_q30;
-    foresee(s, i);
-    return set_pairs(s, i);
+    struct body *b = &s->w->bodies[i];
+    int result;
+
+    b->from_q30 = b->to_q30 = s->now_q30;
+    result = step_set_region(s, i, foresee(s, i));
+    body_place(b, &s->next->bodies[i]);
+    return result;
 }
 
-/* All regions and all pairs. */
-static int begin_all(struct step *s)
+/* Regions of all, and all pairs; whether a body that was alone is not any more. */
+static int set_all(struct step *s, bool *met)
 {
     struct carom_world *w = s->w;
     int result;
 
-    pool_clear(&w->pools[CAROM_POOL_candidates]);
+    *met = false;
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (step_active(s, i)) {
-            foresee(s, i);
+            begin_region(s, i, foresee(s, i));
         } else if (w->bodies[i].mesh && !w->bodies[i].standing) {
             begin_standing(s, i);
         }
@@ -261,9 +265,36 @@ static int begin_all(struct step *s)
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        struct body *a = &w->bodies[w->pairs[n].a], *b = &w->bodies[w->pairs[n].b];
+
+        *met |= a->alone || b->alone;
+        a->alone = b->alone = false;
+    }
+    return result;
+}
+
+static int begin_all(struct step *s)
+{
+    struct carom_world *w = s->w;
+    bool met;
+    int result = set_all(s, &met);
+
+    if (met) {
+        result = set_all(s, &met);
+    }
+    pool_clear(&w->pools[CAROM_POOL_candidates]);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].alone = true;
+        if (step_active(s, i)) {
+            body_place(&w->bodies[i], &s->next->bodies[i]);
+        }
+    }
+    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
+        w->bodies[w->pairs[n].a].alone = w->bodies[w->pairs[n].b].alone = false;
         w->meetings[n] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
     }
     w->interfere.stale = false;
+    s->pairs_changed = true;
     return result;
 }
 
@@ -285,8 +316,7 @@ static int begin_one(struct step *s, uint32_t i)
             return CAROM_OK;
         }
     }
-    foresee(s, i);
-    return set_pairs(s, i);
+    return step_adopt(s, i);
 }
 
 int step_begin_regions(struct step *s)

@@ -71,7 +71,7 @@ void step_begin(struct step *s, struct carom_world *w)
     s->next = next;
     s->now_q30 = 0;
     s->active = count_active(w);
-    s->cut_short = false;
+    s->cut_short = s->pairs_changed = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     copy_bodies(w, next);
     memcpy(next->warm, now->warm, now->warm_count * sizeof *next->warm);
