@@ -5,8 +5,8 @@
  */
 #include "contact.h"
 
-/* Sine of the angle below which edges are nearly parallel: 1/64. */
-#define PARALLEL_Q30 (1 << 24)
+/* Sine of the angle below which edges are nearly parallel, and near each other far off both: 1/512. */
+#define PARALLEL_Q30 (1 << 21)
 /* Below this one, 2^-20, where they come nearest is rounding's. */
 #define ROUNDING_Q30 (1 << 10)
 
