@@ -162,8 +162,8 @@ static bool judge_net(struct fixture *f)
 }
 
 const struct fixture_scene fixture_links[] = {
-    {"chain3", "holds, swings", 1000, 120, make_chain, watch_chain, judge_chain, 3, 0, 0.3},
-    {"chain5", "holds, swings", 1000, 160, make_chain, watch_chain, judge_chain, 5, 0, 0.3},
-    {"chain10", "holds, swings", 1000, 0, make_chain, watch_chain, judge_chain, 10, 0, 0.3},
-    {"net4x4", "holds, falls", 1000, 0, make_net, watch_net, judge_net, 0, 0, 0.3},
+    {"chain3", "holds and swings", 1000, 120, make_chain, watch_chain, judge_chain, 3, 0, 0.3},
+    {"chain5", "holds and swings", 1000, 160, make_chain, watch_chain, judge_chain, 5, 0, 0.3},
+    {"chain10", "holds and swings", 1000, 0, make_chain, watch_chain, judge_chain, 10, 0, 0.3},
+    {"net4x4", "holds and falls", 1000, 0, make_net, watch_net, judge_net, 0, 0, 0.3},
     {0}};

@@ -168,7 +168,10 @@ static double plane_of(const struct oracle_mesh *mesh, size_t n, const double ce
     return real_dot(normal, from);
 }
 
-/* How far the foot of the middle on face n is beyond the plane of another one; the farthest. */
+/*
+ * How far, within the plane of face n, the foot of the middle is beyond the line in which another
+ * face's plane cuts it; the farthest.
+ */
 static double beyond(const struct oracle_mesh *mesh, size_t n, const double centre[3])
 {
     double normal[3], height = plane_of(mesh, n, centre, normal), most = -HUGE_VAL;
@@ -177,7 +180,7 @@ static double beyond(const struct oracle_mesh *mesh, size_t n, const double cent
         double other[3], at = plane_of(mesh, i, centre, other), cosine = real_dot(other, normal);
 
         if (cosine < 1 - 1e-5) {
-            most = fmax(most, height * cosine - at);
+            most = fmax(most, (height * cosine - at) / sqrt(1 - cosine * cosine));
         }
     }
     return most;
@@ -233,7 +236,7 @@ static void make_gomboc(struct fixture *f)
         puts("Bail out! the solid stands on more than one face");
         exit(1);
     }
-    turn = lab_turn(f->scene->n == 0, f->scene->n == 1, 0, f->scene->value * REAL_PI / 180);
+    turn = lab_turn(f->scene->n == 1, f->scene->n == 0, 0, f->scene->value * REAL_PI / 180);
     for (size_t v = 0; v < f->meshes[mesh].solid.vertex_count; v++) {
         double at[3];
 
