@@ -91,32 +91,44 @@ static bool judge_dominoes(struct fixture *f)
 
 /* -------------------------------------------------------------------- knives */
 
-/* A blade along y, its edge down at its origin. */
-static int blade(struct fixture *f)
+/* A prism over a triangle from y = -half to half, in so many pieces: its edges have vertices. */
+static int piecewise(struct fixture *f, const double corner[3][2], double half, int pieces)
 {
-    const double corner[3][2] = {{0, 0}, {0.06, 0.4}, {-0.06, 0.4}};
+    struct fixture_shape *s = &f->shape;
 
-    fixture_shape_prism(&f->shape, corner, 3, -0.5, 0.5);
+    fixture_shape_begin(s);
+    for (int i = 0; i <= pieces; i++) {
+        for (int k = 0; k < 3; k++) {
+            fixture_shape_vertex(s, corner[k][0], (2.0 * i / pieces - 1) * half, corner[k][1]);
+        }
+    }
+    fixture_shape_face(s, 0, 1, 2);
+    fixture_shape_face(s, 3 * pieces, 3 * pieces + 2, 3 * pieces + 1);
+    for (int i = 0; i < 3 * pieces; i++) {
+        int next = i % 3 == 2 ? i - 2 : i + 1;
+
+        fixture_shape_quad(s, i, i + 3, next + 3, next);
+    }
     return fixture_mesh(f);
 }
 
-static int ridge(struct fixture *f)
-{
-    const double corner[3][2] = {{0, 0}, {-0.5, -0.5}, {0.5, -0.5}};
+static const double blade_corner[3][2] = {{0, 0}, {0.06, 0.4}, {-0.06, 0.4}};
+static const double ridge_corner[3][2] = {{0, 0}, {-0.5, -0.5}, {0.5, -0.5}};
 
-    fixture_shape_prism(&f->shape, corner, 3, -12, 12);
-    return fixture_mesh(f);
-}
-
-/* Its edge along the ridge, all but `value` radians. */
+/*
+ * Its edge along the ridge, all but `value` radians. Where edges are in pieces, it leans by 40 times as
+ * much.
+ */
 static void make_knife(struct fixture *f)
 {
     const double velocity[3] = {0, 10, 0}, none[3] = {0};
-    int mesh, knife;
+    int mesh, knife, pieces = f->scene->n;
 
-    fixture_fixed(f, ridge(f), 0, 0, 0, fixture_upright);
-    mesh = blade(f);
-    knife = fixture_body(f, mesh, 0, -6, fixture_skin(f, mesh), lab_turn(0, 0, 1, f->scene->value));
+    fixture_fixed(f, piecewise(f, ridge_corner, 12, pieces), 0, 0, 0, fixture_upright);
+    mesh = piecewise(f, blade_corner, 0.5, 1 + pieces / 8);
+    knife = fixture_body(f, mesh, 0, -6, fixture_skin(f, mesh),
+                         fixture_compose(lab_turn(0, 0, 1, f->scene->value),
+                                         lab_turn(0, 1, 0, pieces > 1 ? 40 * f->scene->value : 0)));
     fixture_throw(f, knife, velocity, none);
     f->mark[0] = knife;
 }
@@ -125,24 +137,26 @@ static void make_knife(struct fixture *f)
 static void make_skate(struct fixture *f)
 {
     const double velocity[3] = {0, 10, 0}, none[3] = {0};
-    int mesh = ridge(f), knife;
+    int mesh = piecewise(f, ridge_corner, 12, f->scene->n), knife;
 
     fixture_fixed(f, mesh, -0.3, 0, 0, fixture_upright);
     fixture_fixed(f, mesh, 0.3, 0, 0, fixture_upright);
-    mesh = blade(f);
+    mesh = piecewise(f, blade_corner, 0.5, 1);
     knife = fixture_body(f, mesh, 0, -6, fixture_skin(f, mesh), lab_turn(0, 0, 1, acos(-1) / 2));
     fixture_throw(f, knife, velocity, none);
     f->mark[0] = knife;
 }
 
-/* Nothing pushes along the ridge. */
+/* Nothing pushes along the ridge but friction: mu of its weight, less when it begins to fall. */
 static bool judge_knife(struct fixture *f)
 {
     const struct fixture_body *knife = &f->bodies[(int)f->mark[0]];
-    double way = knife->now.position[1] - knife->first.position[1];
+    double way = knife->now.position[1] - knife->first.position[1], n = (double)f->tally.frames;
+    double free = 10 * n / 60, least = free - 1.01 * f->scene->mu * FIXTURE_G * n * (n + 1) / 2;
+    double most = free - 0.8 * f->scene->mu * FIXTURE_G * n * (n - 1) / 2;
 
-    fixture_say(f, "slides %.3f", way);
-    return fabs(way - 10.0 * (double)f->tally.frames / 60) < 0.05;
+    fixture_say(f, "slides %.3f of %.3f to %.3f", way, least, most);
+    return way > least - 0.01 && way < most + 0.01;
 }
 
 /* -------------------------------------------------------------------- gomboc */
@@ -214,7 +228,10 @@ static size_t only_face(const struct fixture *f, int mesh_number, double *margin
     return found;
 }
 
-/* Turned away from where it stands by so many degrees, about its length or (n = 1) across it. */
+/*
+ * Turned away from where it stands by so many degrees, about its length or (n is odd) across it; the
+ * fine one from n = 2.
+ */
 static void make_gomboc(struct fixture *f)
 {
     double margin, low = HUGE_VAL;
@@ -223,20 +240,20 @@ static void make_gomboc(struct fixture *f)
     int mesh;
 
     fixture_plane(f);
-    fixture_shape_monostable(&f->shape);
+    fixture_shape_monostable(&f->shape, f->scene->n >= 2);
     for (uint32_t v = 0; v < f->shape.vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
-            f->shape.p[v][k] *= 0.25;
+            f->shape.p[v][k] *= 0.39; /* which uses the quanta well */
         }
     }
     mesh = fixture_mesh(f);
     face = only_face(f, mesh, &margin);
     fixture_say(f, "margin %.4f r", margin);
-    if (face == f->meshes[mesh].solid.face_count || margin < 0.003) {
-        puts("Bail out! the solid stands on more than one face");
+    if (face == f->meshes[mesh].solid.face_count || margin < 0.001) {
+        printf("Bail out! the solid stands on more than one face: %s\n", f->said);
         exit(1);
     }
-    turn = lab_turn(f->scene->n == 1, f->scene->n == 0, 0, f->scene->value * REAL_PI / 180);
+    turn = lab_turn(f->scene->n % 2, 1 - f->scene->n % 2, 0, f->scene->value * REAL_PI / 180);
     for (size_t v = 0; v < f->meshes[mesh].solid.vertex_count; v++) {
         double at[3];
 
@@ -263,10 +280,17 @@ const struct fixture_scene fixture_movers[] = {
     {"screw", DOWN, 105, 60, make_screw, watch_screw, judge_screw, 0, 0, 0},
     {"dominoes", FALL, 500, 0, make_dominoes, NULL, judge_dominoes, 20, 0, 0.5},
     {"dominoes5", FALL, 300, 200, make_dominoes, NULL, judge_dominoes, 5, 0, 0.5},
-    {"knife", ON, 60, 60, make_knife, NULL, judge_knife, 0, 0, 0},
-    {"knife-yawed", ON, 60, 0, make_knife, NULL, judge_knife, 0, 1e-3, 0},
-    {"knife-across", ON, 60, 60, make_skate, NULL, judge_knife, 0, 0, 0},
+    {"knife", ON, 60, 60, make_knife, NULL, judge_knife, 1, 0, 0},
+    {"knife-pieces", ON, 60, 60, make_knife, NULL, judge_knife, 24, 0, 0},
+    {"knife-rough", ON, 60, 60, make_knife, NULL, judge_knife, 24, 0, 0.3},
+    {"knife-yawed", ON, 60, 60, make_knife, NULL, judge_knife, 1, 1e-3, 0},
+    {"knife-leaning", ON, 60, 60, make_knife, NULL, judge_knife, 24, 1e-3, 0},
+    {"knife-across", ON, 60, 60, make_skate, NULL, judge_knife, 24, 0, 0},
+    {"knife-across-rough", ON, 60, 60, make_skate, NULL, judge_knife, 24, 0, 0.3},
     {"gomboc-over", UP, 2000, 0, make_gomboc, NULL, judge_gomboc, 0, 175, 0.8},
     {"gomboc-aside", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 0, -90, 0.8},
     {"gomboc-ahead", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 1, 80, 0.8},
+    {"gomboc-fine-over", UP, 2000, 0, make_gomboc, NULL, judge_gomboc, 2, 175, 0.8},
+    {"gomboc-fine-aside", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 2, -90, 0.8},
+    {"gomboc-fine-ahead", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 3, 80, 0.8},
     {0}};

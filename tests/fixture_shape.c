@@ -5,6 +5,8 @@
 
 #include "fixture_shape.h"
 
+#define PRISM_CORNERS 128
+
 void fixture_shape_begin(struct fixture_shape *s)
 {
     s->vertex_count = s->face_count = 0;
@@ -121,9 +123,9 @@ void fixture_shape_prism(struct fixture_shape *s, const double (*corner)[2], int
                          double high)
 {
     double area = 0;
-    int ring[64], order[64];
+    int ring[PRISM_CORNERS], order[PRISM_CORNERS];
 
-    require(n <= 64);
+    require(n <= PRISM_CORNERS);
     fixture_shape_begin(s);
     for (int i = 0; i < n; i++) {
         area += corner[i][0] * corner[(i + 1) % n][1] - corner[i][1] * corner[(i + 1) % n][0];
@@ -208,30 +210,47 @@ void fixture_shape_hole(struct fixture_shape *s, double half, double thick, doub
     }
 }
 
-void fixture_shape_monostable(struct fixture_shape *s)
+/*
+ * The half of the section to the right, from the ridge down; returns how many corners. Each side's
+ * foot, seen from the origin, lies beyond its lower corner by margin sin(its angle from above). Sides
+ * after the first are `growth` times as long as that; all take the same step when growth is 0.
+ */
+static int spiral(double (*corner)[2], int most, double step, double margin, double growth)
 {
-    enum { SIDES = 27 };
-    const double step = 0.314, margin = 0.18, slope = 2.2, length = 1.2 * slope;
     const double pi = acos(-1);
-    double corner[2 * SIDES + 1][2], at = 0, r = 1;
-    int n = 1, half;
+    double at = 0, r = 1;
+    int n = 1;
 
-    /* From the ridge down: each side's foot lies beyond its lower corner by margin sin(its angle). */
     corner[0][0] = 0;
     corner[0][1] = 1;
-    for (int i = 0; i < SIDES; i++) {
-        double normal = at + step, foot = r * cos(step), beyond = margin * sin(normal);
+    while (n < most) {
+        double normal, beyond, foot;
 
+        for (int i = 0; i < 40 && n > 1 && growth > 0; i++) {
+            step = asin((1 + growth) * margin * sin(at + step) / r);
+        }
+        normal = at + step;
+        foot = r * cos(step);
+        beyond = margin * sin(normal);
         at = normal - atan2(beyond, foot);
         r = hypot(foot, beyond);
-        if (at >= pi - 0.05) {
+        if (growth > 0 ? normal >= pi - 0.06 : at >= pi - 0.05) {
             break;
         }
         corner[n][0] = r * sin(at);
         corner[n][1] = r * cos(at);
         n++;
     }
-    half = n - 1;
+    return n;
+}
+
+void fixture_shape_monostable(struct fixture_shape *s, bool fine)
+{
+    double corner[PRISM_CORNERS][2];
+    double slope = fine ? 2.5143 : 2.2, length = (fine ? 1.1655 : 1.2) * slope;
+    int n = fine ? spiral(corner, 58, 0.27525, 0.1184, 1.0442) : spiral(corner, 28, 0.314, 0.18, 0);
+    int half = n - 1;
+
     for (int i = 0; i < half; i++) {
         corner[n + i][0] = -corner[half - i][0];
         corner[n + i][1] = corner[half - i][1];

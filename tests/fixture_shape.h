@@ -57,7 +57,8 @@ void fixture_shape_nut(struct fixture_shape *s, const struct fixture_thread *thr
  * A convex solid that stands on one face only: a long prism over a spiral that grows from below to
  * its top ridge, cut obliquely at both ends so that it is short above. After Conway and Guy (1969),
  * with more faces and so with a margin. The section's ridge is a unit above the origin.
+ * `fine` has sides that are so short that it nearly rolls, and a narrow face to stand on.
  */
-void fixture_shape_monostable(struct fixture_shape *s);
+void fixture_shape_monostable(struct fixture_shape *s, bool fine);
 
 #endif
