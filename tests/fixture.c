@@ -14,7 +14,7 @@
 /* A body stands still when it goes less than this part of the way that its velocity says. */
 #define STILL_PART 0.02
 /* What may be freed within a skin, of all bodies: far more than a frame's lift, far less than a fall. */
-#define RISE_ALLOWED 1.0
+#define RISE_ALLOWED 4.0
 
 /* bodies, pairs, contacts, faces, entries, candidates */
 #define CAPS FIXTURE_BODIES, 4000, 4096, 65535, 0, 65535

@@ -239,7 +239,7 @@ static bool judge(struct fixture *f)
 }
 
 const struct fixture_scene fixture_arches[] = {
-    {"arch25", "stands", 1000, 30, make_catenary, NULL, judge, 25, 0.6, 0.5},
-    {"arch25-round", "stands", 1000, 0, make_round, NULL, judge, 25, 1.25, 0.8},
+    {"arch25", "stands", 1000, 40, make_catenary, NULL, judge, 25, 0.6, 0.5},
+    {"arch25-round", "stands", 1000, 30, make_round, NULL, judge, 25, 1.25, 0.8},
     {"arch101", "stands", 1000, 0, make_catenary, NULL, judge, 101, 0.5, 0.5},
     {0}};

@@ -84,16 +84,17 @@ static bool judge_links(struct fixture *f, bool (*made)(int later, int earlier))
 
 /* -------------------------------------------------------------------- chains */
 
+/* Straight at first, off the vertical by so many degrees; of square section when that is negative. */
 static void make_chain(struct fixture *f)
 {
-    const double slope = acos(-1) / 3, pitch = 2 * 0.3998 - 0.03;
-    carom_quat_q30 lean = lab_turn(0, 1, 0, acos(-1) / 2 - slope);
+    double slope = fabs(f->scene->value) * REAL_PI / 180, pitch = 2 * 0.3998 - 0.03;
+    carom_quat_q30 lean = lab_turn(0, 1, 0, REAL_PI / 2 - slope);
     int mesh;
 
-    fixture_shape_torus(&f->shape, RING, 0.1, SEGMENTS, SIDES);
+    fixture_shape_torus(&f->shape, RING, 0.1, SEGMENTS, f->scene->value > 0 ? SIDES : 4);
     mesh = fixture_mesh(f);
     for (int i = 0; i <= f->scene->n; i++) {
-        carom_quat_q30 roll = lab_turn(1, 0, 0, 0.2 + (i % 2 ? acos(-1) / 2 : 0));
+        carom_quat_q30 roll = lab_turn(1, 0, 0, 0.2 + (i % 2 ? REAL_PI / 2 : 0));
         double along = i * pitch;
 
         (i == 0 ? fixture_fixed : fixture_body)(f, mesh, along * sin(slope), 0, -along * cos(slope),
@@ -161,9 +162,19 @@ static bool judge_net(struct fixture *f)
     return judge_links(f, is_woven) && f->mark[0] < -0.3;
 }
 
+#define CHAIN(name, brief, n, slope)                                                               \
+    {                                                                                              \
+        name, "holds and swings", 1000, brief, make_chain, watch_chain, judge_chain, n, slope, 0.3 \
+    }
 const struct fixture_scene fixture_links[] = {
-    {"chain3", "holds and swings", 1000, 120, make_chain, watch_chain, judge_chain, 3, 0, 0.3},
-    {"chain5", "holds and swings", 1000, 160, make_chain, watch_chain, judge_chain, 5, 0, 0.3},
-    {"chain10", "holds and swings", 1000, 0, make_chain, watch_chain, judge_chain, 10, 0, 0.3},
-    {"net4x4", "holds and falls", 1000, 0, make_net, watch_net, judge_net, 0, 0, 0.3},
+    CHAIN("chain3", 250, 3, 60),
+    CHAIN("chain5", 250, 5, 60),
+    CHAIN("chain10", 250, 10, 60),
+    CHAIN("chain3-level", 250, 3, 90),
+    CHAIN("chain5-level", 250, 5, 90),
+    CHAIN("chain10-level", 250, 10, 90),
+    CHAIN("chain3-square", 250, 3, -60),
+    CHAIN("chain5-square", 250, 5, -75),
+    CHAIN("chain10-square", 250, 10, -75),
+    {"net4x4", "holds and falls", 1000, 250, make_net, watch_net, judge_net, 0, 0, 0.3},
     {0}};

@@ -277,9 +277,9 @@ static bool judge_gomboc(struct fixture *f)
 #define ON   "slides on"
 #define UP   "rights itself"
 const struct fixture_scene fixture_movers[] = {
-    {"screw", DOWN, 105, 60, make_screw, watch_screw, judge_screw, 0, 0, 0},
-    {"dominoes", FALL, 500, 0, make_dominoes, NULL, judge_dominoes, 20, 0, 0.5},
-    {"dominoes5", FALL, 300, 200, make_dominoes, NULL, judge_dominoes, 5, 0, 0.5},
+    {"screw", DOWN, 105, 105, make_screw, watch_screw, judge_screw, 0, 0, 0},
+    {"dominoes", FALL, 500, 500, make_dominoes, NULL, judge_dominoes, 20, 0, 0.5},
+    {"dominoes5", FALL, 300, 300, make_dominoes, NULL, judge_dominoes, 5, 0, 0.5},
     {"knife", ON, 60, 60, make_knife, NULL, judge_knife, 1, 0, 0},
     {"knife-pieces", ON, 60, 60, make_knife, NULL, judge_knife, 24, 0, 0},
     {"knife-rough", ON, 60, 60, make_knife, NULL, judge_knife, 24, 0, 0.3},
@@ -287,10 +287,10 @@ const struct fixture_scene fixture_movers[] = {
     {"knife-leaning", ON, 60, 60, make_knife, NULL, judge_knife, 24, 1e-3, 0},
     {"knife-across", ON, 60, 60, make_skate, NULL, judge_knife, 24, 0, 0},
     {"knife-across-rough", ON, 60, 60, make_skate, NULL, judge_knife, 24, 0, 0.3},
-    {"gomboc-over", UP, 2000, 0, make_gomboc, NULL, judge_gomboc, 0, 175, 0.8},
-    {"gomboc-aside", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 0, -90, 0.8},
-    {"gomboc-ahead", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 1, 80, 0.8},
-    {"gomboc-fine-over", UP, 2000, 0, make_gomboc, NULL, judge_gomboc, 2, 175, 0.8},
-    {"gomboc-fine-aside", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 2, -90, 0.8},
-    {"gomboc-fine-ahead", UP, 1500, 0, make_gomboc, NULL, judge_gomboc, 3, 80, 0.8},
+    {"gomboc-over", UP, 2000, 2000, make_gomboc, NULL, judge_gomboc, 0, 175, 0.8},
+    {"gomboc-aside", UP, 1500, 1500, make_gomboc, NULL, judge_gomboc, 0, -90, 0.8},
+    {"gomboc-ahead", UP, 1500, 1500, make_gomboc, NULL, judge_gomboc, 1, 80, 0.8},
+    {"gomboc-fine-over", UP, 2000, 2000, make_gomboc, NULL, judge_gomboc, 2, 175, 0.8},
+    {"gomboc-fine-aside", UP, 1500, 1500, make_gomboc, NULL, judge_gomboc, 2, -90, 0.8},
+    {"gomboc-fine-ahead", UP, 1500, 1500, make_gomboc, NULL, judge_gomboc, 3, 80, 0.8},
     {0}};

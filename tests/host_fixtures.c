@@ -20,7 +20,7 @@
 #include "fixture.h"
 
 #define BRIEF_SECONDS 4
-#define LONG_SECONDS  400
+#define LONG_SECONDS  120
 
 static const struct fixture_scene *const groups[] = {
     fixture_stacks, fixture_links, fixture_arches, fixture_cards, fixture_movers, fixture_contacts};
