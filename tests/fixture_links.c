@@ -127,12 +127,15 @@ static bool judge_chain(struct fixture *f)
 #define ROW  0.3113
 #define LINK 1.2627
 
-/* Rows tilt one way and the other; each link holds two of the row before and two of the next. */
+/*
+ * Rows tilt one way and the other; each link holds two of the row before and two of the next. Their
+ * sections have n sides.
+ */
 static void make_net(struct fixture *f)
 {
     int mesh;
 
-    fixture_shape_torus(&f->shape, RING, 0.08, SEGMENTS, SIDES);
+    fixture_shape_torus(&f->shape, RING, 0.08, SEGMENTS, f->scene->n);
     mesh = fixture_mesh(f);
     for (int i = 0; i < ROWS * ROWS; i++) {
         int row = i / ROWS, column = i % ROWS;
@@ -176,5 +179,6 @@ const struct fixture_scene fixture_links[] = {
     CHAIN("chain3-square", 250, 3, -60),
     CHAIN("chain5-square", 250, 5, -75),
     CHAIN("chain10-square", 250, 10, -75),
-    {"net4x4", "holds and falls", 1000, 250, make_net, watch_net, judge_net, 0, 0, 0.3},
+    {"net4x4", "holds and falls", 1000, 250, make_net, watch_net, judge_net, SIDES, 0, 0.3},
+    {"net4x4-square", "holds and falls", 1000, 0, make_net, watch_net, judge_net, 4, 0, 0.3},
     {0}};

@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: MIT
 """Run every fixture in a process of its own: tools/fixtures.py PROGRAM [NAME...]
 
-Rows go to out/fixtures.csv and, when all of them ran, to the table in docs/fixtures.md. A scene that
-hangs or crashes is a row that says so. The exit status is 1 when any does not do what it should.
+Rows go to out/fixtures.csv, where those of scenes that were not asked for stay, and when it has all to
+the table in docs/fixtures.md. A scene that hangs or crashes is a row that says so. The exit status is
+1 when any that ran does not do what it should.
 """
 import csv
 import os
 import subprocess
 import sys
+
+import results
 
 SECONDS = 900
 OUT, DOCS = "out/fixtures.csv", "docs/fixtures.md"
@@ -50,25 +53,22 @@ def main():
     program, chosen = sys.argv[1], sys.argv[2:]
     names = subprocess.run([program, "list"], stdout=subprocess.PIPE, text=True,
                            check=True).stdout.split()
-    rows = []
+    rows = {row["scene"]: row for row in results.read(OUT)} if chosen else {}
     os.makedirs(os.path.dirname(OUT), exist_ok=True)
-    with open(OUT, "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        for name in chosen or names:
-            row = play(program, name)
-            rows.append(row)
-            writer.writerow(row)
-            file.flush()
-            print("%-3s %s: %s" % (row["does"], name, "; ".join(
-                "%s %s" % (title, row[column]) for title, column in
-                zip(TITLES[1:-1], COLUMNS[1:-1]) if column != "does") + "; " + row["note"]),
-                  flush=True)
-    if not chosen:
-        write_docs(rows)
-    good = sum(row["does"] == "yes" for row in rows)
-    print("%d of %d scenes do what they should" % (good, len(rows)))
-    return good < len(rows)
+    for name in chosen or names:
+        row = rows[name] = play(program, name)
+        print("%-3s %s: %s" % (row["does"], name, "; ".join(
+            "%s %s" % (title, row[column]) for title, column in
+            zip(TITLES[1:-1], COLUMNS[1:-1]) if column != "does") + "; " + row["note"]), flush=True)
+        with open(OUT, "w", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows[name] for name in names if name in rows)
+    if set(names) <= set(rows):
+        write_docs([rows[name] for name in names])
+    good = sum(rows[name]["does"] == "yes" for name in chosen or names)
+    print("%d of %d scenes do what they should" % (good, len(chosen or names)))
+    return good < len(chosen or names)
 
 
 sys.exit(main())
