@@ -13,7 +13,10 @@
 #define CROSSING_TOLERANCE 1e-9
 /* A body stands still when it goes less than this part of the way that its velocity says. */
 #define STILL_PART 0.02
-/* What may be freed within a skin, of all bodies: far more than a frame's lift, far less than a fall. */
+/*
+ * What may be freed within a skin, of all bodies: far more than a frame's lift, far less than a
+ * fall.
+ */
 #define RISE_ALLOWED 4.0
 
 /* bodies, pairs, contacts, faces, entries, candidates */
@@ -332,6 +335,7 @@ static int watch_still(struct fixture *f, bool cut)
         if (body->still > f->tally.still) {
             f->tally.still = body->still;
             f->tally.still_body = i;
+            f->tally.still_first = f->tally.frames - body->still + 1;
         }
     }
     return count;
@@ -371,7 +375,9 @@ static void frame(struct fixture *f, bool talk)
         f->error = status;
         return;
     }
-    f->tally.cut += (status & CAROM_SUBSTEP_CAP) != 0;
+    if ((status & CAROM_SUBSTEP_CAP) && f->tally.cut++ == 0) {
+        f->tally.cut_first = f->tally.frames;
+    }
     for (int i = 0; i < f->body_count; i++) {
         if (f->bodies[i].mass > 0) {
             look(f, i);
@@ -409,8 +415,11 @@ static bool sound(struct fixture *f, int frames)
         fixture_say(f, "bodies %d and %d cross from frame %d", t->crossed_pair[0],
                     t->crossed_pair[1], t->crossed_first);
     }
+    if (t->cut) {
+        fixture_say(f, "cut short from frame %ld", t->cut_first);
+    }
     if (t->still > 3) {
-        fixture_say(f, "body %d stands still", t->still_body);
+        fixture_say(f, "body %d stands still from frame %ld", t->still_body, t->still_first);
     }
     if (t->rise > RISE_ALLOWED) {
         fixture_say(f, "energy rises by %.1f m g skin", t->rise);
@@ -434,63 +443,4 @@ void fixture_run(struct fixture *f, int frames, double seconds, bool talk)
     }
     does = f->scene->judge == NULL || f->scene->judge(f);
     f->passed = sound(f, frames) && does;
-}
-
-/* -------------------------------------------------------------------- judging */
-
-void fixture_point(const struct fixture *f, int body, const double local[3], double out[3])
-{
-    const struct oracle_pose *pose = &f->bodies[body].pose;
-
-    for (int k = 0; k < 3; k++) {
-        out[k] = real_dot(pose->rotation.row[k], local) + pose->position[k];
-    }
-}
-
-double fixture_drift(const struct fixture *f, int body)
-{
-    double change[3];
-
-    for (int k = 0; k < 3; k++) {
-        change[k] = f->bodies[body].now.position[k] - f->bodies[body].first.position[k];
-    }
-    return real_length(change);
-}
-
-double fixture_farthest(const struct fixture *f)
-{
-    double farthest = 0;
-
-    for (int i = 0; i < f->body_count; i++) {
-        farthest = fmax(farthest, f->bodies[i].mass > 0 ? fixture_drift(f, i) : 0);
-    }
-    return farthest;
-}
-
-double fixture_tilt(const struct fixture *f, int body, int axis)
-{
-    const double nowhere[3] = {0};
-    struct oracle_pose first = oracle_pose_make(nowhere, f->bodies[body].first.quaternion, nowhere);
-    const struct oracle_pose *now = &f->bodies[body].pose;
-    double cosine = 0;
-
-    for (int k = 0; k < 3; k++) {
-        cosine += first.rotation.row[k][axis] * now->rotation.row[k][axis];
-    }
-    return acos(fmax(-1, fmin(1, cosine)));
-}
-
-double fixture_speed(const struct fixture *f, int body)
-{
-    return 60 * speed(&f->bodies[body].now, f->meshes[f->bodies[body].mesh].radius);
-}
-
-double fixture_fastest(const struct fixture *f)
-{
-    double fastest = 0;
-
-    for (int i = 0; i < f->body_count; i++) {
-        fastest = fmax(fastest, f->bodies[i].mass > 0 ? fixture_speed(f, i) : 0);
-    }
-    return fastest;
 }

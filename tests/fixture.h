@@ -64,11 +64,13 @@ struct fixture_body {
 struct fixture_tally {
     long frames;
     long cut;          /* frames that the engine cut short */
+    long cut_first;    /* the first of them */
     long crossed;      /* frames with faces that cross */
     int crossed_first; /* the first of them */
     int crossed_pair[2];
-    double depth; /* the deepest crossing, in skins of the smaller body */
-    long still;   /* the longest run of frames in which a body stood still that had to move */
+    double depth;     /* the deepest crossing, in skins of the smaller body */
+    long still;       /* the longest run of frames in which a body stood still that had to move */
+    long still_first; /* where that run begins */
     int still_body;
     double energy_first, rise; /* rise: above that at the start, in m g skin of all */
     double worst_ms, total_ms; /* of steps, processor time */

@@ -43,7 +43,10 @@ static int lay(struct house *h, int mesh, double length, double x, double z, dou
     return number;
 }
 
-/* Two cards under a top; `on`: what they stand on. Returns the left one's number, the other is next. */
+/*
+ * Two cards under a top; `on`: what they stand on. Returns the left one's number, the other is
+ * next.
+ */
 static int lean(struct house *h, double top, double base, int on)
 {
     const double s = sin(h->slope), c = cos(h->slope);
@@ -137,8 +140,9 @@ static int block(struct fixture *f, double x, double z, carom_quat_q30 turn, dou
 }
 
 /*
- * A block that falls on the house from a unit above its topmost edge, so far aside. Beside the edge no
- * card can hold it; upon it the house may stand or fall. It weighs as much as ten cards, or as seventy.
+ * A block that falls on the house from a unit above its topmost edge, so far aside. Beside the
+ * edge no card can hold it; upon it the house may stand or fall. It weighs as much as ten cards,
+ * or as seventy.
  */
 static void make_dropped(struct fixture *f)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Contacts that are hard for meshes, after Erleben (2018): spikes, ridges, cracks, holes, cliffs and
- * edges inside of a floor.
+ * Contacts that are hard for meshes, after Erleben (2018): spikes, ridges, cracks, holes, cliffs
+ * and edges inside of a floor.
  */
 #include <math.h>
 

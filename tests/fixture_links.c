@@ -15,8 +15,8 @@
 /* ------------------------------------------------------------------ linking */
 
 /*
- * How often the middle line of ring a goes through the disc of ring b, by sign: their linking number,
- * for b's line bounds the disc.
+ * How often the middle line of ring a goes through the disc of ring b, by sign: their linking
+ * number, for b's line bounds the disc.
  */
 static int linking(const struct fixture *f, int a, int b)
 {
@@ -53,8 +53,8 @@ static int linking(const struct fixture *f, int a, int b)
 }
 
 /*
- * How many pairs are linked; of those that were made so, how many still are, once. `made` says whether
- * a later body was linked with an earlier one.
+ * How many pairs are linked; of those that were made so, how many still are, once. `made` says
+ * whether a later body was linked with an earlier one.
  */
 static int count_links(const struct fixture *f, bool (*made)(int later, int earlier), int *expected,
                        int *kept)
@@ -84,7 +84,9 @@ static bool judge_links(struct fixture *f, bool (*made)(int later, int earlier))
 
 /* -------------------------------------------------------------------- chains */
 
-/* Straight at first, off the vertical by so many degrees; of square section when that is negative. */
+/*
+ * Straight at first, off the vertical by so many degrees; of square section when that is negative.
+ */
 static void make_chain(struct fixture *f)
 {
     double slope = fabs(f->scene->value) * REAL_PI / 180, pitch = 2 * 0.3998 - 0.03;

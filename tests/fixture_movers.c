@@ -38,8 +38,8 @@ static void watch_screw(struct fixture *f)
 }
 
 /*
- * Without losses it falls at g / (1 + (turn / pitch)^2 inertia / mass). Half of that way is asked for,
- * and that way and turn go together within the play.
+ * Without losses it falls at g / (1 + (turn / pitch)^2 inertia / mass). Half of that way is asked
+ * for, and that way and turn go together within the play.
  */
 static bool judge_screw(struct fixture *f)
 {
@@ -116,8 +116,8 @@ static const double blade_corner[3][2] = {{0, 0}, {0.06, 0.4}, {-0.06, 0.4}};
 static const double ridge_corner[3][2] = {{0, 0}, {-0.5, -0.5}, {0.5, -0.5}};
 
 /*
- * Its edge along the ridge, all but `value` radians. Where edges are in pieces, it leans by 40 times as
- * much.
+ * Its edge along the ridge, all but `value` radians. Where edges are in pieces, it leans by 40
+ * times as much.
  */
 static void make_knife(struct fixture *f)
 {
@@ -201,8 +201,8 @@ static double beyond(const struct oracle_mesh *mesh, size_t n, const double cent
 }
 
 /*
- * The one face that a convex solid stands on: where the foot of its centre of mass lies on the solid.
- * For all others the foot must be out by a margin, a part of the radius.
+ * The one face that a convex solid stands on: where the foot of its centre of mass lies on the
+ * solid. For all others the foot must be out by a margin, a part of the radius.
  */
 static size_t only_face(const struct fixture *f, int mesh_number, double *margin)
 {
@@ -229,8 +229,8 @@ static size_t only_face(const struct fixture *f, int mesh_number, double *margin
 }
 
 /*
- * Turned away from where it stands by so many degrees, about its length or (n is odd) across it; the
- * fine one from n = 2.
+ * Turned away from where it stands by so many degrees, about its length or (n is odd) across it;
+ * the fine one from n = 2.
  */
 static void make_gomboc(struct fixture *f)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * fixture_shape - generators of closed meshes in doubles, faces counter-clockwise seen from outside.
- * Each begins the shape anew. A shape that is not closed or inside out is refused when its mesh is
- * built.
+ * fixture_shape - generators of closed meshes in doubles, faces counter-clockwise seen from
+ * outside. Each begins the shape anew. A shape that is not closed or inside out is refused when
+ * its mesh is built.
  */
 #ifndef CAROM_TESTS_FIXTURE_SHAPE_H
 #define CAROM_TESTS_FIXTURE_SHAPE_H

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * fixture_statics - whether bodies in a plane can stand: whether forces within the cones of friction
- * at given contacts hold given weights, by least squares over numbers that are not negative.
+ * fixture_statics - whether bodies in a plane can stand: whether forces within the cones of
+ * friction at given contacts hold given weights, by least squares over numbers that are not
+ * negative.
  */
 #ifndef CAROM_TESTS_FIXTURE_STATICS_H
 #define CAROM_TESTS_FIXTURE_STATICS_H
@@ -21,8 +22,8 @@ struct statics {
 };
 
 /*
- * What is left of the weights and their torques after the best forces, as a part of all the weights;
- * nearly 0 when the bodies can stand.
+ * What is left of the weights and their torques after the best forces, as a part of all the
+ * weights; nearly 0 when the bodies can stand.
  */
 double statics_rest(const struct statics *s, double mu);
 
