@@ -8,7 +8,7 @@ LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
 
-# of `make bench`, before the board says which scenes it shows
+# of `make bench` and `make fixtures`, before the board says which scenes it shows
 BENCH_SCENES := $(SCENES)
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
 # those that have scenes to show
@@ -121,7 +121,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle bench matrix figures compare check size boards build need clean force
+.PHONY: help run test budget accuracy oracle fixtures bench matrix figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -173,6 +173,11 @@ oracle: ## first hits of 10,000 motions against every pair of features, to out/o
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
+
+fixtures: ## published and special scenes: do they hold, stand, turn?; to out/fixtures.csv and docs/fixtures.md; SCENES=
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_fixtures.elf
+	@tools/fixtures.py build/host/host_fixtures.elf $(BENCH_SCENES)
 
 bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

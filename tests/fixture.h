@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * fixture - scenes that others have published, or that are hard in a known way, each judged by what
+ * it must do and by an independent checker of crossings: a world of up to 160 bodies of generated
+ * meshes, watched in double precision through the public interface. Host only.
+ *
+ * A scene makes its bodies, may look at each frame, and judges the end:
+ *
+ *   struct fixture *f = fixture_new(scene);
+ *   fixture_run(f, scene->frames, seconds, false);
+ *   f->passed, f->tally, f->said
+ *   fixture_free(f);
+ *
+ * A unit is a metre, a frame 1/60 s.
+ */
+#ifndef CAROM_TESTS_FIXTURE_H
+#define CAROM_TESTS_FIXTURE_H
+
+#include "fixture_shape.h"
+#include "lab.h"
+
+#define FIXTURE_BODIES 160
+#define FIXTURE_G      (9.81 / 3600) /* units / frame^2 */
+
+struct fixture;
+
+struct fixture_scene {
+    const char *name, *should;
+    int frames;                       /* of the long form */
+    int brief;                        /* of the short form; 0: not in it */
+    void (*make)(struct fixture *f);  /* e = 0 and scene->mu are set afterwards */
+    void (*watch)(struct fixture *f); /* after each frame; may be NULL */
+    bool (*judge)(struct fixture *f); /* of what is so at the end; may be NULL; adds to f->said */
+    int n;                            /* what the scene makes of it */
+    double value;                     /* the same */
+    double mu;
+};
+
+/* Each ends with a scene without a name. */
+extern const struct fixture_scene fixture_stacks[], fixture_links[], fixture_arches[],
+    fixture_cards[], fixture_movers[], fixture_contacts[];
+
+struct fixture_mesh {
+    struct carom_mesh mesh;
+    struct oracle_mesh solid;
+    struct oracle_body weight; /* mass and inertia at density 1 */
+    double centre[3];          /* of mass, in the mesh's coordinates */
+    double radius, skin;
+    int16_t (*vertices)[3];
+    uint16_t (*faces)[3];
+    void *block;
+};
+
+struct fixture_body {
+    struct carom_body_def def;
+    int mesh;
+    double mass; /* 0: stationary */
+    struct oracle_body first, before, now;
+    struct oracle_pose pose;
+    double low[3], high[3]; /* its box, now */
+    long still;             /* frames running in which it has stood still until now */
+};
+
+struct fixture_tally {
+    long frames;
+    long cut;          /* frames that the engine cut short */
+    long cut_first;    /* the first of them */
+    long crossed;      /* frames with faces that cross */
+    int crossed_first; /* the first of them */
+    int crossed_pair[2];
+    double depth;     /* the deepest crossing, in skins of the smaller body */
+    long still;       /* the longest run of frames in which a body stood still that had to move */
+    long still_first; /* where that run begins */
+    int still_body;
+    double energy_first, rise; /* rise: above that at the start, in m g skin of all */
+    double worst_ms, total_ms; /* of steps, processor time */
+};
+
+struct fixture {
+    const struct fixture_scene *scene;
+    struct carom_config config;
+    struct carom_world *world;
+    void *block;
+    struct fixture_mesh meshes[FIXTURE_BODIES];
+    int mesh_count;
+    struct fixture_body bodies[FIXTURE_BODIES];
+    int body_count;
+    struct fixture_shape shape; /* to make meshes in */
+    double mark[8];             /* the scene's own */
+    struct fixture_tally tally;
+    int error; /* of a step; 0: none */
+    bool late; /* given up for time */
+    bool passed;
+    char said[400];
+};
+
+struct fixture *fixture_new(const struct fixture_scene *scene);
+void fixture_free(struct fixture *f);
+/* Step and judge. `talk` prints a line for each frame; 0 seconds: as long as it takes. */
+void fixture_run(struct fixture *f, int frames, double seconds, bool talk);
+/* Add to what is said of the scene. */
+void fixture_say(struct fixture *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---------------------------------------------------------------- for scenes */
+
+/* A mesh of f->shape, rounded to the finest quanta that hold it. */
+int fixture_mesh(struct fixture *f);
+/* The gap at which a body of this mesh rests on something stationary. */
+double fixture_skin(const struct fixture *f, int mesh);
+/* A body whose mesh's origin is at a point, turned about that point. Returns its number. */
+int fixture_body(struct fixture *f, int mesh, double x, double y, double z, carom_quat_q30 turn);
+int fixture_fixed(struct fixture *f, int mesh, double x, double y, double z, carom_quat_q30 turn);
+/* A plane at z = 0. */
+int fixture_plane(struct fixture *f);
+extern const carom_quat_q30 fixture_upright;
+/* The turn that one after another makes. */
+carom_quat_q30 fixture_compose(carom_quat_q30 second, carom_quat_q30 first);
+void fixture_weigh(struct fixture *f, int body, double mass);
+/* Units a second and radians a second. */
+void fixture_throw(struct fixture *f, int body, const double velocity[3], const double spin[3]);
+
+/* ----------------------------------------------------------------- for judges */
+
+/* A point of a mesh in the world, now. */
+void fixture_point(const struct fixture *f, int body, const double local[3], double out[3]);
+/* How far a body's centre is from where it was at first; the farthest of all. */
+double fixture_drift(const struct fixture *f, int body);
+double fixture_farthest(const struct fixture *f);
+/* The angle between the way an axis of a body points now and pointed at first, radians. */
+double fixture_tilt(const struct fixture *f, int body, int axis);
+/* The speed of a body's fastest point, units a second; the greatest of all. */
+double fixture_speed(const struct fixture *f, int body);
+double fixture_fastest(const struct fixture *f);
+
+#endif

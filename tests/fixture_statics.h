@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * fixture_statics - whether bodies in a plane can stand: whether forces within the cones of
+ * friction at given contacts hold given weights, by least squares over numbers that are not
+ * negative.
+ */
+#ifndef CAROM_TESTS_FIXTURE_STATICS_H
+#define CAROM_TESTS_FIXTURE_STATICS_H
+
+#define STATICS_BODIES   64
+#define STATICS_CONTACTS 160
+
+struct statics_contact {
+    int a, b;                   /* bodies; -1: the ground */
+    double point[2], normal[2]; /* x, z; from b into a, a unit */
+};
+
+struct statics {
+    int body_count, contact_count;
+    double middle[STATICS_BODIES][2], weight[STATICS_BODIES];
+    struct statics_contact contacts[STATICS_CONTACTS];
+};
+
+/*
+ * What is left of the weights and their torques after the best forces, as a part of all the
+ * weights; nearly 0 when the bodies can stand.
+ */
+double statics_rest(const struct statics *s, double mu);
+
+#endif
