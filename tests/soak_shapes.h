@@ -48,6 +48,12 @@ void soak_any_turn(struct test_random *r, double out[4]);
  * are rounded, or too thin to be turned.
  */
 int soak_solid(struct soak_shape *shape, enum soak_kind kind, double size, struct test_random *r);
+/*
+ * The points that are there, at most SOAK_POINTS, become a hull, and those inside of it go away; without
+ * faces when the first four lie in a plane. Differences of coordinates are below 2^16.
+ */
+#define SOAK_POINTS 252
+void soak_wrap(struct soak_shape *shape);
 /* The hull of `count` points on a sphere of that size. */
 int soak_hull_of(struct soak_shape *shape, int count, double size, struct test_random *r);
 /* A box of whole sides, about the origin. */
