@@ -13,6 +13,7 @@ import csv
 import os
 import subprocess
 import sys
+import threading
 import time
 
 import gate
@@ -26,22 +27,34 @@ FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum",
 LOST = "lost"  # the program ended, or did not
 
 
+def lines_of(command):
+    """The whole lines that a program prints until it ends, or takes too long for one; and its end."""
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    lines, late = [], False
+
+    def stop():
+        nonlocal late
+        late = True
+        process.kill()
+
+    while True:
+        clock = threading.Timer(SECONDS, stop)
+        clock.start()
+        line = process.stdout.readline()
+        clock.cancel()
+        if not line.endswith("\n"):
+            break
+        lines.append(line)
+    status = process.wait()
+    return lines, "more than %d s" % SECONDS if late else "status %d" % status
+
+
 def rows_of(program, first, count):
     """The rows of some worlds, in their order."""
     found = []
     while count > 0:
-        end, process = None, subprocess.Popen([program, "rows", str(first), str(count)],
-                                              stdout=subprocess.PIPE, text=True)
-        try:
-            text, _ = process.communicate(timeout=SECONDS * count)
-            end = "status %d" % process.returncode
-        except subprocess.TimeoutExpired:
-            process.kill()
-            text, _ = process.communicate()
-            end = "more than %d s" % SECONDS
-        made = list(csv.DictReader(text.splitlines(keepends=True)))
-        if made and (None in made[-1] or None in made[-1].values()):
-            made.pop()  # cut off
+        lines, end = lines_of([program, "rows", str(first), str(count)])
+        made = list(csv.DictReader(lines))
         found += made
         first, count = first + len(made), count - len(made)
         if count > 0:
