@@ -359,8 +359,8 @@ static double least_inertia(const double i[6])
 /*
  * What rounding may add to a body's energy: some units of the last place of its momenta, of its place
  * and of the velocities that we are told, once more in every few sub-steps; and its rotation, which
- * each slice of half a radian rounds to q30: an angular momentum L that stays while the body is turned
- * by an angle has w x L times that of energy more or less.
+ * each sub-step and each slice of half a radian rounds to q30: an angular momentum L that stays while
+ * the body is turned by an angle has w x L times that of energy more or less.
  */
 static double noise(const struct crowd *crowd, const struct crowd_body *body)
 {
@@ -373,7 +373,7 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
            64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * least_inertia(seen->body.inertia))) +
            0x1p-31 * m * real_length(gravity);
     return (1 + crowd->substeps / 4) * once +
-           ROTATION_ROUNDING * (2 * w + 2) * fmax(seen->sway, body->before.sway);
+           ROTATION_ROUNDING * (crowd->substeps + 2 * w + 1) * fmax(seen->sway, body->before.sway);
 }
 
 /* ------------------------------------------------------------------------ watch */

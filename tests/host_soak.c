@@ -93,10 +93,11 @@ static void print_bodies(const struct crowd *crowd)
         const struct oracle_body *b = &body->now.body;
 
         if (!body->def.stationary) {
-            printf("#   %d: x %.9f %.9f %.9f v %.4g %.4g %.4g w %.4g %.4g %.4g%s%s\n", i,
-                   b->position[0], b->position[1], b->position[2], b->velocity[0], b->velocity[1],
-                   b->velocity[2], b->spin[0], b->spin[1], b->spin[2],
-                   body->now.state.asleep ? " asleep" : "", body->now.state.out ? " out" : "");
+            printf("#   %d: x %.9f %.9f %.9f v %.4g %.4g %.4g w %.4g %.4g %.4g, energy %.12g%s%s\n",
+                   i, b->position[0], b->position[1], b->position[2], b->velocity[0],
+                   b->velocity[1], b->velocity[2], b->spin[0], b->spin[1], b->spin[2],
+                   body->now.kinetic + body->now.potential, body->now.state.asleep ? " asleep" : "",
+                   body->now.state.out ? " out" : "");
         }
     }
 }
