@@ -111,9 +111,10 @@ int crowd_start(struct crowd *crowd);
 /* What crowd_step saw of a run. Start with {0}. */
 struct crowd_tally {
     long frames, capped, hits;
-    long crossed;         /* frames with faces that cross */
-    long crossed_first;   /* the first of them, 0: none */
-    int crossed_pair[2];  /* and its bodies */
+    long crossed;        /* frames with faces that cross */
+    long crossed_first;  /* the first of them, 0: none */
+    int crossed_pair[2]; /* its bodies, and the faces */
+    uint32_t crossed_face[2];
     double crossed_depth; /* the deepest, units */
     double crossed_skins; /* and in skins of the pair */
     /*

@@ -141,12 +141,16 @@ static double skin_of(const struct crowd *crowd, int a, int b)
 }
 
 static void note_crossing(const struct crowd *crowd, struct crowd_tally *tally, int a, int b,
-                          double depth)
+                          const struct oracle_crossings *found)
 {
+    const double depth = found->depth;
+
     if (tally->crossed_first == 0) {
         tally->crossed_first = tally->frames;
         tally->crossed_pair[0] = a;
         tally->crossed_pair[1] = b;
+        tally->crossed_face[0] = found->face_a;
+        tally->crossed_face[1] = found->face_b;
     }
     tally->crossed_depth = fmax(tally->crossed_depth, depth);
     tally->crossed_skins = fmax(tally->crossed_skins, depth / skin_of(crowd, a, b));
@@ -180,7 +184,7 @@ void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
                                          CROSSING_TOLERANCE);
             }
             if (found.pairs != 0) {
-                note_crossing(crowd, tally, i, j, found.depth);
+                note_crossing(crowd, tally, i, j, &found);
                 crossed = true;
             } else if (is_inside(crowd, i, j)) {
                 note_inside(tally, i, j);

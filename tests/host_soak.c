@@ -4,7 +4,7 @@
  *
  *   host_soak                    50 worlds, a test a property
  *   host_soak rows FIRST COUNT   a row of CSV a world
- *   host_soak SEED [FROM TO]     one world frame by frame; from one frame to another with its bodies
+ *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
  */
 #include <math.h>
 #include <stdio.h>
@@ -152,8 +152,8 @@ static void print_frame(const struct soak_result *r, const struct crowd_tally *b
            r->status > 0 ? "cut short" : "whole", stats.substeps, stats.hits, stats.candidates,
            stats.contacts, took);
     if (t->crossed > before->crossed) {
-        printf(", CROSSES (deepest so far %.3g skins, first %d and %d)", t->crossed_skins,
-               t->crossed_pair[0], t->crossed_pair[1]);
+        printf(", CROSSES (deepest so far %.3g skins, faces %d:%u and %d:%u)", t->crossed_skins,
+               t->crossed_pair[0], t->crossed_face[0], t->crossed_pair[1], t->crossed_face[1]);
     }
     if (t->inside > before->inside) {
         printf(", INSIDE (first %d in %d)", t->inside_pair[0], t->inside_pair[1]);
@@ -182,6 +182,7 @@ static void show(uint64_t seed, long from, long to)
 
     soak_make(&world, seed);
     describe();
+    world.crowd->look_every = 1;
     goes_on = soak_start(&world, &r);
     if (r.tally.crossed + r.tally.inside > 0) {
         puts("NOT APART before the first frame");
