@@ -14,7 +14,11 @@
 #include "real.h"
 #include "soak.h"
 
-#define WORLDS 50
+/* What make test runs: the first ones, and some in which an engine was found to fail once. */
+#define FIRST 30
+static const uint64_t known[] = {53,  103,  173,  178,  215,  340,  425,  496,  626,  792,
+                                 893, 1455, 1513, 1719, 1754, 1791, 1973, 2123, 2257, 2391};
+#define WORLDS (FIRST + sizeof known / sizeof *known)
 /* Of all frames those that are cut short. */
 #define CUT_ALLOWED 0.01
 
@@ -209,8 +213,8 @@ static void show(uint64_t seed, long from, long to)
 struct sum {
     long worlds, frames, cut;
     long faults[SOAK_FAULTS];
-    uint64_t first[SOAK_FAULTS]; /* the seed */
-    double deepest, rise, step_seconds;
+    uint64_t first[SOAK_FAULTS];               /* the seed */
+    double deepest, rise, step_seconds, still; /* the worst */
 };
 
 static void add(struct sum *sum, const struct soak_result *r)
@@ -220,6 +224,7 @@ static void add(struct sum *sum, const struct soak_result *r)
     sum->cut += r->tally.capped;
     sum->deepest = fmax(sum->deepest, r->tally.crossed_skins);
     sum->rise = fmax(sum->rise, r->tally.rise);
+    sum->still = fmax(sum->still, r->still.longest);
     sum->step_seconds = fmax(sum->step_seconds, r->step_seconds);
     for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
         bool has = soak_has(r, fault);
@@ -248,10 +253,10 @@ static void test(void)
     struct sum sum = {0};
     double cut;
 
-    for (uint64_t seed = 1; seed <= WORLDS; seed++) {
+    for (size_t i = 0; i < WORLDS; i++) {
         struct soak_result result;
 
-        run(seed, &result);
+        run(i < FIRST ? i + 1 : known[i - FIRST], &result);
         add(&sum, &result);
         soak_free(&world);
     }
@@ -259,7 +264,8 @@ static void test(void)
     report(&sum, SOAK_CROSSES, sum.faults[SOAK_CROSSES] == 0, "soak/crossings_in_skins",
            sum.deepest);
     report(&sum, SOAK_ERROR, sum.faults[SOAK_ERROR] == 0, "soak/errors", 0);
-    report(&sum, SOAK_STANDS_STILL, sum.faults[SOAK_STANDS_STILL] == 0, "soak/stands_still", 0);
+    report(&sum, SOAK_STANDS_STILL, sum.faults[SOAK_STANDS_STILL] == 0,
+           "soak/frames_that_one_stands_still", sum.still);
     report(&sum, SOAK_CUT, cut <= CUT_ALLOWED, "soak/share_of_frames_cut_short", cut);
     report(&sum, SOAK_ENERGY, sum.faults[SOAK_ENERGY] == 0, "soak/energy_of_the_bound", sum.rise);
     report(&sum, SOAK_MOMENTUM, sum.faults[SOAK_MOMENTUM] == 0, "soak/momentum", 0);
