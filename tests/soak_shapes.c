@@ -28,7 +28,8 @@ double soak_powers(struct test_random *r, double low, double high)
         doublings++;
     }
     do {
-        value = real_power2(soak_pick(r, doublings)) * soak_uniform(r, 1, 2);
+        value = real_power2(soak_pick(r, doublings));
+        value *= soak_uniform(r, 1, 2);
     } while (value > span);
     return low * value;
 }
@@ -378,9 +379,11 @@ static void spikes(struct making *m, double size, struct test_random *r)
 
 /* --------------------------------------------------------------------- shapes */
 
+/* Each number is drawn in a statement of its own: a compiler may evaluate arguments in any order. */
 static void draw(struct making *m, enum soak_kind kind, double size, struct test_random *r)
 {
-    const double axes[3] = {size, size * soak_powers(r, 0.15, 1), size * soak_powers(r, 0.15, 1)};
+    double second = size * soak_powers(r, 0.15, 1), third = size * soak_powers(r, 0.15, 1);
+    const double axes[3] = {size, second, third};
     const double half[3] = {0.57 * axes[0], 0.57 * axes[1], 0.57 * axes[2]};
     const double base[4][2] = {
         {-half[0], -half[1]}, {half[0], -half[1]}, {half[0], half[1]}, {-half[0], half[1]}};
@@ -402,7 +405,8 @@ static void draw(struct making *m, enum soak_kind kind, double size, struct test
         spikes(m, size, r);
         break;
     case SOAK_PLATE:
-        polygon(m, 3 + soak_pick(r, 30), size, size / soak_powers(r, 10, 150));
+        third = size / soak_powers(r, 10, 150);
+        polygon(m, 3 + soak_pick(r, 30), size, third);
         break;
     case SOAK_TORUS:
         torus(m, size, r);

@@ -179,7 +179,8 @@ static void find_place(struct soak_world *w, struct plan *p, int body)
 
 static void tilt(struct carom_body_def *def, struct test_random *r)
 {
-    double q[4] = {1, soak_uniform(r, -0.2, 0.2), soak_uniform(r, -0.2, 0.2), 0}, length;
+    double x = soak_uniform(r, -0.2, 0.2), y = soak_uniform(r, -0.2, 0.2);
+    double q[4] = {1, x, y, 0}, length;
 
     length = real_sqrt(1 + q[1] * q[1] + q[2] * q[2]);
     for (int k = 0; k < 4; k++) {
@@ -300,7 +301,8 @@ static void set_motion(struct soak_world *w, struct plan *p, int body)
         speed = soak_powers(&p->r, 1e-9, FASTEST);
         break;
     case SOAK_FAST:
-        speed = soak_uniform(&p->r, 0.3, 1) * soak_uniform(&p->r, 0.3, FASTEST);
+        speed = soak_uniform(&p->r, 0.3, 1);
+        speed *= soak_uniform(&p->r, 0.3, FASTEST);
         break;
     default:
         break;
