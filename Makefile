@@ -121,7 +121,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head836,head836,field512)
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures bench matrix figures compare check size boards build need clean force
+.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -178,6 +178,14 @@ fixtures: ## published and special scenes: do they hold, stand, turn?; to out/fi
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_fixtures.elf
 	@tools/fixtures.py build/host/host_fixtures.elf $(BENCH_SCENES)
+
+N ?= 5000
+SEED ?= 1
+soak: ## random worlds, watched by an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_soak.elf
+	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
+	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs)
 
 bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)

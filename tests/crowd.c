@@ -6,12 +6,11 @@
 #include "crowd.h"
 #include "real.h"
 
-/* Well above the rounding of coordinates, far below the skin. */
-#define CROSSING_TOLERANCE 1e-9
 /* What an island's energy may rise by in a frame: see carom's DESIGN.md. */
-#define LIFT_ALLOWED   0.2
-#define IMPACT_ALLOWED 0x1p-24
-#define ULP_Q40        0x1p-40
+#define LIFT_ALLOWED      0.2
+#define IMPACT_ALLOWED    0x1p-24
+#define ULP_Q40           0x1p-40
+#define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates */
 #define CAPS CROWD_BODIES, CROWD_BODIES *(CROWD_BODIES - 1) / 2, 4096, 65535, 65535, 65535
@@ -208,6 +207,7 @@ int crowd_start(struct crowd *crowd)
     }
     lab_expect(carom_world_init(crowd->block, bytes, &crowd->config, &crowd->world), "world");
     memset(crowd->touching, 0, sizeof crowd->touching);
+    memset(crowd->beside, 0, sizeof crowd->beside);
     for (int i = 0; i < crowd->body_count; i++) {
         struct crowd_body *body = &crowd->bodies[i];
         int result = carom_body_add(crowd->world, &body->def);
@@ -247,7 +247,7 @@ static void look_at_angular(struct crowd_seen *seen)
     const double *i = seen->body.inertia, nowhere[3] = {0};
     const double tensor[3][3] = {{i[0], i[3], i[5]}, {i[3], i[1], i[4]}, {i[5], i[4], i[2]}};
     struct oracle_pose pose = oracle_pose_make(nowhere, seen->body.quaternion, nowhere);
-    double spin[3] = {0}, own[3];
+    double spin[3] = {0}, own[3], across[3];
 
     for (int k = 0; k < 3; k++) {
         for (int j = 0; j < 3; j++) {
@@ -257,6 +257,8 @@ static void look_at_angular(struct crowd_seen *seen)
     for (int k = 0; k < 3; k++) {
         own[k] = seen->body.mass * real_dot(tensor[k], spin);
     }
+    real_cross(across, spin, own);
+    seen->sway = real_length(across);
     for (int k = 0; k < 3; k++) {
         int m = (k + 1) % 3, n = (k + 2) % 3;
 
@@ -344,20 +346,34 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     }
 }
 
+/* A bound from below of the least moment of inertia over the mass: the determinant over the largest two. */
+static double least_inertia(const double i[6])
+{
+    double determinant = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
+                         i[5] * (i[3] * i[4] - i[1] * i[5]);
+    double trace = i[0] + i[1] + i[2];
+
+    return trace > 0 ? 2 * determinant / (trace * trace) : 1;
+}
+
 /*
- * What rounding may add to a body's energy: some units of the last place of its momenta, and of
- * the velocities that we are told.
+ * What rounding may add to a body's energy: some units of the last place of its momenta, of its place
+ * and of the velocities that we are told, once more in every few sub-steps; and its rotation, which
+ * each sub-step and each slice of half a radian rounds to q30: an angular momentum L that stays while
+ * the body is turned by an angle has w x L times that of energy more or less.
  */
 static double noise(const struct crowd *crowd, const struct crowd_body *body)
 {
     const struct crowd_seen *seen = &body->now;
     double v = real_length(seen->body.velocity), w = real_length(seen->body.spin), m = body->mass;
-    double r = crowd->meshes[body->mesh].radius, gravity[3], k2;
+    double r = crowd->meshes[body->mesh].radius, gravity[3], once;
 
     gravity_of(crowd, gravity);
-    k2 = fmin(seen->body.inertia[0], fmin(seen->body.inertia[1], seen->body.inertia[2])) / 2;
-    return 8 * ULP_Q40 * (v + w + m * (v + w + r * w)) +
-           64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * k2)) + 0x1p-31 * m * real_length(gravity);
+    once = 8 * ULP_Q40 * (v + w + m * (v + w + r * w)) +
+           64 * ULP_Q40 * ULP_Q40 * (m + 1 / m + 1 / (m * least_inertia(seen->body.inertia))) +
+           0x1p-31 * m * real_length(gravity);
+    return (1 + crowd->substeps / 4) * once +
+           ROTATION_ROUNDING * (crowd->substeps + 2 * w + 1) * fmax(seen->sway, body->before.sway);
 }
 
 /* ------------------------------------------------------------------------ watch */
@@ -428,58 +444,6 @@ static void watch_momentum(const struct crowd *crowd, int island, struct crowd_t
     }
 }
 
-static bool changed(const struct crowd_body *body)
-{
-    return memcmp(&body->before.state.position, &body->now.state.position,
-                  sizeof body->now.state.position) != 0 ||
-           memcmp(&body->before.state.rotation, &body->now.state.rotation,
-                  sizeof body->now.state.rotation) != 0;
-}
-
-static bool boxes_meet(const struct crowd_seen *a, const struct crowd_seen *b)
-{
-    for (int k = 0; k < 3; k++) {
-        if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void watch_crossings(const struct crowd *crowd, struct crowd_tally *tally)
-{
-    bool crossed = false;
-
-    for (int i = 0; i < crowd->body_count; i++) {
-        for (int j = 0; j < i; j++) {
-            const struct crowd_body *a = &crowd->bodies[i], *b = &crowd->bodies[j];
-            const struct crowd_mesh *of_a = &crowd->meshes[a->mesh],
-                                    *of_b = &crowd->meshes[b->mesh];
-            struct oracle_pose pose_a, pose_b;
-            struct oracle_crossings found;
-
-            /* what is out is not there for others */
-            if (a->now.state.out || b->now.state.out ||
-                !(changed(a) || changed(b) || tally->frames == 1) ||
-                !boxes_meet(&a->now, &b->now)) {
-                continue;
-            }
-            pose_a = lab_pose_of(crowd->world, i, &of_a->mesh);
-            pose_b = lab_pose_of(crowd->world, j, &of_b->mesh);
-            found =
-                oracle_crossings(&of_a->solid, &pose_a, &of_b->solid, &pose_b, CROSSING_TOLERANCE);
-            if (found.pairs != 0 && tally->crossed_first == 0) {
-                tally->crossed_first = tally->frames;
-                tally->crossed_pair[0] = i;
-                tally->crossed_pair[1] = j;
-            }
-            crossed |= found.pairs != 0;
-            tally->crossed_depth = fmax(tally->crossed_depth, found.depth);
-        }
-    }
-    tally->crossed += crossed;
-}
-
 static void count_resting(const struct crowd *crowd, struct crowd_tally *tally)
 {
     double gravity[3];
@@ -500,9 +464,18 @@ int crowd_step(struct crowd *crowd, struct crowd_tally *tally)
 {
     int status = carom_world_step(crowd->world);
 
-    if (status < 0) {
-        return status;
+    if (status >= 0) {
+        crowd_watch(crowd, status, tally);
     }
+    return status;
+}
+
+void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally)
+{
+    struct carom_stats stats;
+
+    lab_expect(carom_stats(crowd->world, &stats), "stats");
+    crowd->substeps = stats.substeps;
     tally->frames++;
     tally->capped += (status & CAROM_SUBSTEP_CAP) != 0;
     for (int i = 0; i < crowd->body_count; i++) {
@@ -522,7 +495,6 @@ int crowd_step(struct crowd *crowd, struct crowd_tally *tally)
             watch_momentum(crowd, i, tally);
         }
     }
-    watch_crossings(crowd, tally);
+    crowd_watch_crossings(crowd, tally);
     count_resting(crowd, tally);
-    return status;
 }

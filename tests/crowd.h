@@ -18,7 +18,7 @@
 
 #include "lab.h"
 
-#define CROWD_MESHES 24
+#define CROWD_MESHES 36
 #define CROWD_BODIES 40
 
 struct crowd_mesh {
@@ -35,6 +35,7 @@ struct crowd_seen {
     struct carom_body_state state;
     struct oracle_body body;
     double kinetic, potential, momentum[3], angular[3]; /* angular: about the world's origin */
+    double sway;                                        /* of w x L, L about its centre */
     double low[3], high[3];                             /* its box */
 };
 
@@ -57,6 +58,9 @@ struct crowd {
     struct crowd_body bodies[CROWD_BODIES];
     int body_count;
     bool touching[CROWD_BODIES][CROWD_BODIES]; /* pairs that began to touch and have not ended */
+    bool beside[CROWD_BODIES];                 /* who has been beside a surface */
+    double substeps;                           /* of the last frame */
+    long look_every; /* frames from one look for crossings to the next; 0: each */
 };
 
 /* An empty crowd: gravity of 9.81 units / s^2 at 60 frames, sleep on. */
@@ -107,12 +111,20 @@ int crowd_start(struct crowd *crowd);
 /* What crowd_step saw of a run. Start with {0}. */
 struct crowd_tally {
     long frames, capped, hits;
-    long crossed;         /* frames with faces that cross */
-    long crossed_first;   /* the first of them, 0: none */
-    int crossed_pair[2];  /* and its bodies */
+    long crossed;        /* frames with faces that cross */
+    long crossed_first;  /* the first of them, 0: none */
+    int crossed_pair[2]; /* its bodies, and the faces */
+    uint32_t crossed_face[2];
     double crossed_depth; /* the deepest, units */
-    long out;             /* bodies that left the range */
-    long asleep, slow; /* moving bodies that sleep, that sleep or are slower than the limit, now */
+    double crossed_skins; /* and in skins of the pair */
+    /*
+     * Bodies seen wholly inside others, frame by frame, or with a corner under a surface beside which
+     * they have never been.
+     */
+    long inside, inside_first;
+    int inside_pair[2]; /* the first of them, and in which */
+    long out;           /* bodies that left the range */
+    long asleep, slow;  /* moving bodies that sleep, that sleep or are slower than the limit, now */
     /*
      * The largest rise of an island's energy in a frame, by what is allowed: a fifth of m g skin
      * for each of its bodies that touches, 2^-24 of the kinetic energy, and rounding.
@@ -127,6 +139,11 @@ struct crowd_tally {
 
 /* One frame, watched; returns what carom_world_step did. After an error nothing is seen. */
 int crowd_step(struct crowd *crowd, struct crowd_tally *tally);
+/* The part of it that follows a step: status is what that returned, not an error. */
+void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally);
+
+/* Look for faces that cross and for bodies inside others, when it is time to. Once a frame. */
+void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally);
 
 /* The bodies as they are now, without a step; for the first frame and after carom_body_set. */
 void crowd_look(struct crowd *crowd);

@@ -292,6 +292,64 @@ static void test_sweep_on_cubes(void)
     report(wrong == 0 && crossing > 200 && crossing < 1800, "sweep_finds_every_pair");
 }
 
+/* ------------------------------------------------------------ near and inside */
+
+/* Cubes turned together: their distance is that of boxes along the axes, known by its three parts. */
+static void test_near(void)
+{
+    uint32_t state = 7;
+    size_t wrong = 0, near_count = 0;
+
+    for (int i = 0; i < 3000; i++) {
+        double turn[4], apart[3], place[3] = {0}, distance = 0, limit = 0.5 * random_unit(&state);
+        struct oracle_pose a, b;
+
+        for (int k = 0; k < 4; k++) {
+            turn[k] = random_unit(&state) - 0.5;
+        }
+        for (int k = 0; k < 3; k++) {
+            double gap;
+
+            apart[k] = 3 * random_unit(&state) - 1.5;
+            gap = fabs(apart[k]) - 1;
+            distance += gap > 0 ? gap * gap : 0;
+        }
+        a = oracle_pose_make(no_centre, turn, no_centre);
+        for (int k = 0; k < 3; k++) {
+            for (int j = 0; j < 3; j++) {
+                place[k] += a.rotation.row[k][j] * apart[j];
+            }
+        }
+        b = oracle_pose_make(place, turn, no_centre);
+        wrong += oracle_near(&cube, &a, &cube, &b, limit) != (sqrt(distance) <= limit);
+        near_count += sqrt(distance) <= limit;
+    }
+    printf("# %zu of 3000 pairs are near\n", near_count);
+    report(wrong == 0 && near_count > 500 && near_count < 2500, "near");
+}
+
+static void test_inside(void)
+{
+    uint32_t state = 9;
+    size_t wrong = 0;
+
+    for (int i = 0; i < 1000; i++) {
+        double p[3];
+        bool in = true;
+
+        for (int k = 0; k < 3; k++) {
+            p[k] = 2 * random_unit(&state) - 0.5;
+            in = in && p[k] > 0 && p[k] < 1;
+        }
+        wrong += oracle_inside(&cube, p) != in;
+        for (int k = 0; k < 3; k++) {
+            p[k] = 12 * random_unit(&state) - 6;
+        }
+        wrong += oracle_under(&plate, p) != (fabs(p[0]) < 4 && fabs(p[1]) < 4 && p[2] < 0);
+    }
+    report(wrong == 0, "inside_and_under");
+}
+
 static struct oracle_mesh doubles_of(const struct carom_mesh_raw *raw)
 {
     return oracle_mesh_make(raw->vertices, raw->vertex_count, raw->faces, raw->face_count,
@@ -349,6 +407,8 @@ int main(void)
     test_needle();
     test_piercing();
     test_sweep_on_cubes();
+    test_near();
+    test_inside();
     test_head_on_field();
     test_energy();
     printf("1..%u\n", tests.count);

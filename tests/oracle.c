@@ -343,6 +343,158 @@ struct oracle_crossings oracle_crossings(const struct oracle_mesh *a,
     return out;
 }
 
+/* ------------------------------------------------------------ distances, inside */
+
+static double clamp(double v)
+{
+    return v < 0 ? 0 : v > 1 ? 1 : v;
+}
+
+/* The square of the distance of the segments p p1 and q q1: the nearest point of one, then the other. */
+static double between_segments(const double p[3], const double p1[3], const double q[3],
+                               const double q1[3])
+{
+    double e[3], f[3], d[3], ee, ff, ef, de, df, s = 0, t, away[3];
+
+    subtract(e, p1, p);
+    subtract(f, q1, q);
+    subtract(d, p, q);
+    ee = real_dot(e, e);
+    ff = real_dot(f, f);
+    ef = real_dot(e, f);
+    de = real_dot(d, e);
+    df = real_dot(d, f);
+    if (ee * ff - ef * ef > 1e-12 * ee * ff) {
+        s = clamp((ef * df - de * ff) / (ee * ff - ef * ef));
+    }
+    t = clamp((df + s * ef) / ff);
+    s = clamp((t * ef - de) / ee);
+    t = clamp((df + s * ef) / ff);
+    for (int k = 0; k < 3; k++) {
+        away[k] = d[k] + s * e[k] - t * f[k];
+    }
+    return real_dot(away, away);
+}
+
+/* Whether a point is within a distance of a face, and over it. */
+static bool over_face(const double p[3], const struct placed *face, double distance)
+{
+    double side[3][3], normal[3], from[3];
+
+    for (int k = 0; k < 3; k++) {
+        subtract(side[k], face->corner[(k + 1) % 3], face->corner[k]);
+    }
+    real_cross(normal, side[0], side[1]);
+    for (int k = 0; k < 3; k++) {
+        double inwards[3];
+
+        real_cross(inwards, normal, side[k]);
+        subtract(from, p, face->corner[k]);
+        if (real_dot(inwards, from) < 0) {
+            return false;
+        }
+    }
+    return normalise(normal) && fabs(real_dot(normal, from)) <= distance;
+}
+
+static bool faces_near(const struct placed *a, const struct placed *b, double distance)
+{
+    for (int i = 0; i < 3; i++) {
+        if (over_face(a->corner[i], b, distance) || over_face(b->corner[i], a, distance)) {
+            return true;
+        }
+        for (int j = 0; j < 3; j++) {
+            if (between_segments(a->corner[i], a->corner[(i + 1) % 3], b->corner[j],
+                                 b->corner[(j + 1) % 3]) <= distance * distance) {
+                return true;
+            }
+        }
+    }
+    return !on_one_side(a, b) && !on_one_side(b, a) &&
+           larger(deepest_edge(a, b), deepest_edge(b, a)) > 0;
+}
+
+static void grow(double low[3], double high[3], double by)
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] -= by;
+        high[k] += by;
+    }
+}
+
+bool oracle_near(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
+                 const struct oracle_mesh *b, const struct oracle_pose *pose_b, double distance)
+{
+    struct set set_a = place_all(a, pose_a), set_b = place_all(b, pose_b);
+    bool near = false;
+
+    grow(set_a.low, set_a.high, distance);
+    grow(set_b.low, set_b.high, distance);
+    keep_in(&set_a, set_b.low, set_b.high);
+    keep_in(&set_b, set_a.low, set_a.high);
+    for (size_t i = 0; i < set_a.count && !near; i++) {
+        struct placed *one = &set_a.items[i];
+
+        grow(one->low, one->high, distance);
+        for (size_t j = 0; j < set_b.count && !near; j++) {
+            const struct placed *other = &set_b.items[j];
+
+            near = boxes_meet(one->low, one->high, other->low, other->high) &&
+                   faces_near(one, other, distance);
+        }
+    }
+    free(set_a.items);
+    free(set_b.items);
+    return near;
+}
+
+/* The solid angle of a triangle seen from the origin, halved: Van Oosterom and Strackee. */
+static double half_angle(const double a[3], const double b[3], const double c[3])
+{
+    double across[3], la = real_length(a), lb = real_length(b), lc = real_length(c);
+
+    real_cross(across, b, c);
+    return atan2(real_dot(a, across),
+                 la * lb * lc + real_dot(a, b) * lc + real_dot(b, c) * la + real_dot(c, a) * lb);
+}
+
+bool oracle_inside(const struct oracle_mesh *mesh, const double point[3])
+{
+    double sum = 0;
+
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        double corner[3][3];
+
+        for (int k = 0; k < 3; k++) {
+            subtract(corner[k], mesh->vertices[mesh->faces[f][k]], point);
+        }
+        sum += half_angle(corner[0], corner[1], corner[2]);
+    }
+    return sum > acos(-1); /* 2 pi inside, 0 outside */
+}
+
+bool oracle_under(const struct oracle_mesh *mesh, const double point[3])
+{
+    for (size_t f = 0; f < mesh->face_count; f++) {
+        double corner[3][3], share[3], sum = 0, height = 0;
+
+        for (int k = 0; k < 3; k++) {
+            subtract(corner[k], mesh->vertices[mesh->faces[f][k]], point);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double *p = corner[(k + 1) % 3], *q = corner[(k + 2) % 3];
+
+            share[k] = p[0] * q[1] - p[1] * q[0];
+            sum += share[k];
+            height += share[k] * corner[k][2];
+        }
+        if (share[0] >= 0 && share[1] >= 0 && share[2] >= 0 && sum > 0) {
+            return height > 0;
+        }
+    }
+    return false;
+}
+
 /* --------------------------------------------------------------------- energy */
 
 double oracle_energy(const struct oracle_body *body, const double gravity[3])

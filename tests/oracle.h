@@ -12,6 +12,7 @@
 #ifndef CAROM_TESTS_ORACLE_H
 #define CAROM_TESTS_ORACLE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -63,6 +64,14 @@ struct oracle_crossings oracle_crossings(const struct oracle_mesh *a,
 /* How deep the edge p q pierces the face a b c; 0 or below when it does not. */
 double oracle_piercing(const double p[3], const double q[3], const double a[3], const double b[3],
                        const double c[3]);
+
+/* Whether any points of the two are within a distance above 0 of each other. */
+bool oracle_near(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
+                 const struct oracle_mesh *b, const struct oracle_pose *pose_b, double distance);
+
+/* Whether a point, in the mesh's own axes, is inside a closed mesh; whether it is below a surface. */
+bool oracle_inside(const struct oracle_mesh *mesh, const double point[3]);
+bool oracle_under(const struct oracle_mesh *mesh, const double point[3]);
 
 /* A moving body, in units and frames. */
 struct oracle_body {

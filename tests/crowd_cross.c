@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT */
+/* Which bodies of a crowd cross, lie inside each other: by all of their faces. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "crowd.h"
+#include "real.h"
+
+/* Well above the rounding of coordinates, far below the skin. */
+#define CROSSING_TOLERANCE 1e-9
+
+static bool is_surface(const struct crowd *crowd, int body)
+{
+    return crowd->bodies[body].def.mesh->raw.kind == CAROM_SURFACE;
+}
+
+static const struct oracle_mesh *mesh_of(const struct crowd *crowd, int body)
+{
+    return &crowd->meshes[crowd->bodies[body].mesh].solid;
+}
+
+static struct oracle_pose pose_of(const struct crowd *crowd, int body)
+{
+    return lab_pose_of(crowd->world, body, crowd->bodies[body].def.mesh);
+}
+
+static bool boxes_meet(const struct crowd_seen *a, const struct crowd_seen *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool box_within(const struct crowd_seen *a, const struct crowd_seen *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->low[k] < b->low[k] || a->high[k] > b->high[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* --------------------------------------------------------------------- inside */
+
+/* A corner of a body, in the axes of another one's mesh. */
+static void corner_seen_from(double out[3], const struct crowd *crowd, int a, int b)
+{
+    struct oracle_pose pose_a = pose_of(crowd, a), pose_b = pose_of(crowd, b);
+    const double *corner = mesh_of(crowd, a)->vertices[0];
+    double at[3];
+
+    for (int k = 0; k < 3; k++) {
+        at[k] = real_dot(pose_a.rotation.row[k], corner) + pose_a.position[k] - pose_b.position[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        out[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            out[k] += pose_b.rotation.row[i][k] * at[i];
+        }
+    }
+}
+
+static void note_inside(struct crowd_tally *tally, int a, int b)
+{
+    if (tally->inside == 0) {
+        tally->inside_first = tally->frames;
+        tally->inside_pair[0] = a;
+        tally->inside_pair[1] = b;
+    }
+    tally->inside++;
+}
+
+/* A body over a surface must not be under it, unless it was beside it once. */
+static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a, int b)
+{
+    const int16_t(*box)[3] = crowd->bodies[b].def.mesh->box;
+    const int bits = crowd->bodies[b].def.mesh->raw.quantum_bits;
+    double at[3];
+
+    corner_seen_from(at, crowd, a, b);
+    for (int k = 0; k < 2; k++) {
+        crowd->beside[a] |= at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits);
+    }
+    at[2] += CROSSING_TOLERANCE;
+    if (!crowd->beside[a] && at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
+        note_inside(tally, a, b);
+    }
+}
+
+static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
+{
+    for (int b = 0; b < crowd->body_count; b++) {
+        for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
+            if (!crowd->bodies[a].def.stationary && !crowd->beside[a] &&
+                !crowd->bodies[a].now.state.out) {
+                watch_surface(crowd, tally, a, b);
+            }
+        }
+    }
+}
+
+/* Whether body a, of which no face crosses one of b, is inside of b. */
+static bool is_inside(const struct crowd *crowd, int a, int b)
+{
+    double at[3];
+
+    if (is_surface(crowd, a) || is_surface(crowd, b) ||
+        !box_within(&crowd->bodies[a].now, &crowd->bodies[b].now)) {
+        return false;
+    }
+    corner_seen_from(at, crowd, a, b);
+    return oracle_inside(mesh_of(crowd, b), at);
+}
+
+/* ------------------------------------------------------------------- crossings */
+
+static bool changed(const struct crowd_body *body)
+{
+    return memcmp(&body->before.state.position, &body->now.state.position,
+                  sizeof body->now.state.position) != 0 ||
+           memcmp(&body->before.state.rotation, &body->now.state.rotation,
+                  sizeof body->now.state.rotation) != 0;
+}
+
+/* The gap that a resting contact of the two keeps. */
+static double skin_of(const struct crowd *crowd, int a, int b)
+{
+    double skin = 0;
+
+    for (int i = 0; i < 2; i++) {
+        const struct crowd_body *body = &crowd->bodies[i == 0 ? a : b];
+
+        skin = fmax(skin, body->def.stationary ? 0 : crowd->meshes[body->mesh].skin);
+    }
+    return skin;
+}
+
+static void note_crossing(const struct crowd *crowd, struct crowd_tally *tally, int a, int b,
+                          const struct oracle_crossings *found)
+{
+    const double depth = found->depth;
+
+    if (tally->crossed_first == 0) {
+        tally->crossed_first = tally->frames;
+        tally->crossed_pair[0] = a;
+        tally->crossed_pair[1] = b;
+        tally->crossed_face[0] = found->face_a;
+        tally->crossed_face[1] = found->face_b;
+    }
+    tally->crossed_depth = fmax(tally->crossed_depth, depth);
+    tally->crossed_skins = fmax(tally->crossed_skins, depth / skin_of(crowd, a, b));
+}
+
+void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
+{
+    const bool all = crowd->look_every > 1 || tally->frames <= 1;
+    bool crossed = false;
+
+    watch_surfaces(crowd, tally);
+    if (crowd->look_every > 1 && tally->frames % crowd->look_every != 0) {
+        return;
+    }
+    for (int i = 0; i < crowd->body_count; i++) {
+        for (int j = 0; j < i; j++) {
+            const struct crowd_body *a = &crowd->bodies[i], *b = &crowd->bodies[j];
+            struct oracle_pose pose_a, pose_b;
+            struct oracle_crossings found;
+
+            /* what is out is not there for others */
+            if (a->now.state.out || b->now.state.out || !(all || changed(a) || changed(b)) ||
+                (a->def.stationary && b->def.stationary)) {
+                continue;
+            }
+            found.pairs = 0;
+            if (boxes_meet(&a->now, &b->now)) {
+                pose_a = pose_of(crowd, i);
+                pose_b = pose_of(crowd, j);
+                found = oracle_crossings(mesh_of(crowd, i), &pose_a, mesh_of(crowd, j), &pose_b,
+                                         CROSSING_TOLERANCE);
+            }
+            if (found.pairs != 0) {
+                note_crossing(crowd, tally, i, j, &found);
+                crossed = true;
+            } else if (is_inside(crowd, i, j)) {
+                note_inside(tally, i, j);
+            } else if (is_inside(crowd, j, i)) {
+                note_inside(tally, j, i);
+            }
+        }
+    }
+    tally->crossed += crossed;
+}

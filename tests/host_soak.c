@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Random worlds by number, watched by an independent checker: see soak.h. `make soak` runs many.
+ *
+ *   host_soak                    50 worlds, a test a property
+ *   host_soak rows FIRST COUNT   a row of CSV a world
+ *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "real.h"
+#include "soak.h"
+
+/* What make test runs: the first ones, and some in which an engine was found to fail once. */
+#define FIRST 30
+static const uint64_t known[] = {53,  103,  173,  178,  215,  340,  425,  496,  626,  792,
+                                 893, 1455, 1513, 1719, 1754, 1791, 1973, 2123, 2257, 2391};
+#define WORLDS (FIRST + sizeof known / sizeof *known)
+/* Of all frames those that are cut short. */
+#define CUT_ALLOWED 0.01
+
+static struct soak_world world;
+
+static unsigned faces_of(const struct crowd *crowd)
+{
+    unsigned faces = 0;
+
+    for (int i = 0; i < crowd->body_count; i++) {
+        faces += crowd->bodies[i].def.mesh->raw.face_count;
+    }
+    return faces;
+}
+
+/* ------------------------------------------------------------------------ rows */
+
+static const char columns[] =
+    "seed,bodies,faces,ground,pace,gravity,sleep,frames,crossed,inside,escaped,skins,error,error_"
+    "frame,"
+    "still,still_frame,cut,cut_longest,energy,momentum,slow,out,drawn_again,step_seconds,step_"
+    "frame,"
+    "seconds,candidates,substeps,fullest,faults";
+
+static void print_row(const struct soak_result *r)
+{
+    const struct crowd_tally *t = &r->tally;
+    const char *between = "";
+
+    printf("%llu,%d,%u,%s,%s,%.3g,%d,", (unsigned long long)world.seed, world.crowd->body_count,
+           faces_of(world.crowd), soak_ground_names[world.ground], soak_pace_names[world.pace],
+           world.gravity, world.crowd->config.sleep);
+    printf("%ld,%ld,%ld,%ld,%.3g,%s,%ld,%d,%ld,%ld,%ld,%.3g,%ld,%d,%ld,%d,%.4f,%ld,%.3f,%u,%u,%u,",
+           t->frames, t->crossed, t->inside, r->escaped_frame, t->crossed_skins,
+           r->error < 0 ? carom_result_text(r->error) : "", r->error_frame, r->still.longest,
+           r->still.frame, t->capped, r->cut_longest, t->rise, r->momentum_frame, r->unfinished,
+           t->out, world.drawn_again, r->step_seconds, r->step_frame, r->seconds, r->candidates,
+           r->substeps, r->fullest);
+    for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
+        if (soak_has(r, fault)) {
+            printf("%s%s", between, soak_fault_names[fault]);
+            between = "; ";
+        }
+    }
+    puts("");
+    fflush(stdout);
+}
+
+static void run(uint64_t seed, struct soak_result *r)
+{
+    soak_make(&world, seed);
+    if (soak_start(&world, r)) {
+        while (soak_step(&world, r)) {
+        }
+    }
+}
+
+static void print_rows(uint64_t first, uint64_t count)
+{
+    struct soak_result result;
+
+    puts(columns);
+    for (uint64_t seed = first; seed < first + count; seed++) {
+        run(seed, &result);
+        print_row(&result);
+        soak_free(&world);
+    }
+}
+
+/* ---------------------------------------------------------------- frame by frame */
+
+static void print_bodies(const struct crowd *crowd)
+{
+    for (int i = 0; i < crowd->body_count; i++) {
+        const struct crowd_body *body = &crowd->bodies[i];
+        const struct oracle_body *b = &body->now.body;
+
+        if (!body->def.stationary) {
+            printf("#   %d: x %.9f %.9f %.9f v %.4g %.4g %.4g w %.4g %.4g %.4g, energy %.12g%s%s\n",
+                   i, b->position[0], b->position[1], b->position[2], b->velocity[0],
+                   b->velocity[1], b->velocity[2], b->spin[0], b->spin[1], b->spin[2],
+                   body->now.kinetic + body->now.potential, body->now.state.asleep ? " asleep" : "",
+                   body->now.state.out ? " out" : "");
+        }
+    }
+}
+
+static void print_contacts(const struct crowd *crowd)
+{
+    static struct carom_contact contacts[4096];
+    int n = carom_contacts(crowd->world, contacts, 4096);
+
+    for (int i = 0; i < n; i++) {
+        const struct carom_contact *c = &contacts[i];
+
+        printf("#   %d on %d: gap %.4g skins of %d, impulse %.4g, normal %.6f %.6f %.6f\n", c->a,
+               c->b, real(c->gap_q22, 22) / crowd->meshes[crowd->bodies[c->a].mesh].skin, c->a,
+               real(c->impulse_q40, 40), real(c->normal.c[0], 30), real(c->normal.c[1], 30),
+               real(c->normal.c[2], 30));
+    }
+}
+
+static void describe(void)
+{
+    const struct crowd *crowd = world.crowd;
+
+    printf("# seed %llu: %d bodies, %u faces, ground %s, %s, gravity %.3g, sleep %d%s\n",
+           (unsigned long long)world.seed, crowd->body_count, faces_of(crowd),
+           soak_ground_names[world.ground], soak_pace_names[world.pace], world.gravity,
+           crowd->config.sleep, world.exact ? ", masses powers of two" : "");
+    for (int i = 0; i < crowd->body_count; i++) {
+        const struct crowd_body *body = &crowd->bodies[i];
+
+        printf("# body %d: %s of %u faces, radius %.3g, ", i,
+               world.kinds[i] < SOAK_KINDS ? soak_kind_names[world.kinds[i]] : "surface",
+               body->def.mesh->raw.face_count, crowd->meshes[body->mesh].radius);
+        if (body->def.stationary) {
+            printf("stationary");
+        } else {
+            printf("mass %.4g", real(body->def.mass_q20, 20));
+        }
+        printf(", e %.3g, mu %.3g\n", real(body->def.restitution_q30, 30),
+               real(body->def.friction_q16, 16));
+    }
+}
+
+static void print_frame(const struct soak_result *r, const struct crowd_tally *before, double took)
+{
+    const struct crowd_tally *t = &r->tally;
+    struct carom_stats stats;
+
+    lab_expect(carom_stats(world.crowd->world, &stats), "stats");
+    printf("frame %ld: %s%s, %u sub-steps, %u hits, %u candidates, %u contacts, %.4f s",
+           t->frames + (r->status < 0), r->status < 0 ? carom_result_text(r->status) : "",
+           r->status > 0 ? "cut short" : "whole", stats.substeps, stats.hits, stats.candidates,
+           stats.contacts, took);
+    if (t->crossed > before->crossed) {
+        printf(", CROSSES (deepest so far %.3g skins, faces %d:%u and %d:%u)", t->crossed_skins,
+               t->crossed_pair[0], t->crossed_face[0], t->crossed_pair[1], t->crossed_face[1]);
+    }
+    if (t->inside > before->inside) {
+        printf(", INSIDE (first %d in %d)", t->inside_pair[0], t->inside_pair[1]);
+    }
+    if (r->escaped_frame == t->frames) {
+        printf(", ESCAPED (%d)", r->escaped);
+    }
+    if (t->rise > 1 && t->rise > before->rise) {
+        printf(", ENERGY %.3g of what is allowed, body %d", t->rise, t->rise_body);
+    }
+    if (r->momentum_frame == t->frames) {
+        printf(", MOMENTUM");
+    }
+    for (int i = 0; i < world.crowd->body_count; i++) {
+        if (r->still.run[i] > 0) {
+            printf(", %d stands still (%d)", i, r->still.run[i]);
+        }
+    }
+    puts("");
+}
+
+static void show(uint64_t seed, long from, long to)
+{
+    struct soak_result r;
+    bool goes_on;
+
+    soak_make(&world, seed);
+    describe();
+    world.crowd->look_every = 1;
+    goes_on = soak_start(&world, &r);
+    if (r.tally.crossed + r.tally.inside > 0) {
+        puts("NOT APART before the first frame");
+    }
+    while (goes_on) {
+        struct crowd_tally before = r.tally;
+        double seconds = r.seconds;
+
+        goes_on = soak_step(&world, &r);
+        print_frame(&r, &before, r.seconds - seconds);
+        if (r.status >= 0 && r.tally.frames >= from && r.tally.frames <= to) {
+            print_bodies(world.crowd);
+            print_contacts(world.crowd);
+        }
+        fflush(stdout);
+    }
+    puts(columns);
+    print_row(&r);
+    soak_free(&world);
+}
+
+/* ----------------------------------------------------------------------- tests */
+
+struct sum {
+    long worlds, frames, cut;
+    long faults[SOAK_FAULTS];
+    uint64_t first[SOAK_FAULTS];               /* the seed */
+    double deepest, rise, step_seconds, still; /* the worst */
+};
+
+static void add(struct sum *sum, const struct soak_result *r)
+{
+    sum->worlds++;
+    sum->frames += r->tally.frames;
+    sum->cut += r->tally.capped;
+    sum->deepest = fmax(sum->deepest, r->tally.crossed_skins);
+    sum->rise = fmax(sum->rise, r->tally.rise);
+    sum->still = fmax(sum->still, r->still.longest);
+    sum->step_seconds = fmax(sum->step_seconds, r->step_seconds);
+    for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
+        bool has = soak_has(r, fault);
+
+        if (has && sum->faults[fault]++ == 0) {
+            sum->first[fault] = world.seed;
+        }
+    }
+}
+
+static void report(const struct sum *sum, enum soak_fault fault, bool ok, const char *name,
+                   double worst)
+{
+    char seed[64] = "";
+
+    if (!ok) {
+        snprintf(seed, sizeof seed, ", run host_soak.elf %llu",
+                 (unsigned long long)sum->first[fault]);
+    }
+    lab_report(ok, name, "%ld worlds, %ld frames, %ld worlds fail, worst %.3g%s", sum->worlds,
+               sum->frames, sum->faults[fault], worst, seed);
+}
+
+static void test(void)
+{
+    struct sum sum = {0};
+    double cut;
+
+    for (size_t i = 0; i < WORLDS; i++) {
+        struct soak_result result;
+
+        run(i < FIRST ? i + 1 : known[i - FIRST], &result);
+        add(&sum, &result);
+        soak_free(&world);
+    }
+    cut = (double)sum.cut / (double)sum.frames;
+    report(&sum, SOAK_CROSSES, sum.faults[SOAK_CROSSES] == 0, "soak/crossings_in_skins",
+           sum.deepest);
+    report(&sum, SOAK_ERROR, sum.faults[SOAK_ERROR] == 0, "soak/errors", 0);
+    report(&sum, SOAK_STANDS_STILL, sum.faults[SOAK_STANDS_STILL] == 0,
+           "soak/frames_that_one_stands_still", sum.still);
+    report(&sum, SOAK_CUT, cut <= CUT_ALLOWED, "soak/share_of_frames_cut_short", cut);
+    report(&sum, SOAK_ENERGY, sum.faults[SOAK_ENERGY] == 0, "soak/energy_of_the_bound", sum.rise);
+    report(&sum, SOAK_MOMENTUM, sum.faults[SOAK_MOMENTUM] == 0, "soak/momentum", 0);
+    report(&sum, SOAK_SLOW_STEP, sum.faults[SOAK_SLOW_STEP] == 0, "soak/step_seconds",
+           sum.step_seconds);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 4 && strcmp(argv[1], "rows") == 0) {
+        print_rows(strtoull(argv[2], NULL, 10), strtoull(argv[3], NULL, 10));
+        return 0;
+    }
+    if (argc > 1) {
+        show(strtoull(argv[1], NULL, 10), argc > 3 ? atol(argv[2]) : 1,
+             argc > 3 ? atol(argv[3]) : 0);
+        return 0;
+    }
+    test();
+    return lab_finish();
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * soak - random worlds by number, and what must hold in each of their frames, seen through the public
+ * interface. The same number is the same world on every machine.
+ */
+#ifndef CAROM_TESTS_SOAK_H
+#define CAROM_TESTS_SOAK_H
+
+#include "crowd.h"
+#include "soak_shapes.h"
+
+/* --------------------------------------------------------------------- worlds */
+
+#define SOAK_BODIES   24 /* that move, at most */
+#define SOAK_OBSTACLE 8  /* that stand still, at most */
+
+enum soak_ground { SOAK_NONE, SOAK_PLANE, SOAK_FIELD, SOAK_OBSTACLES, SOAK_ROOM, SOAK_GROUNDS };
+extern const char *const soak_ground_names[SOAK_GROUNDS];
+enum soak_pace { SOAK_AT_REST, SOAK_SLOW, SOAK_ANY_SPEED, SOAK_FAST, SOAK_PACES };
+extern const char *const soak_pace_names[SOAK_PACES];
+
+struct soak_world {
+    uint64_t seed;
+    struct crowd *crowd;
+    struct soak_shape shapes[SOAK_BODIES + SOAK_OBSTACLE];
+    enum soak_kind kinds[CROWD_BODIES]; /* of bodies */
+    enum soak_ground ground;
+    enum soak_pace pace;
+    int moving;                /* bodies that move: the last ones */
+    double gravity;            /* its size */
+    double centre[3];          /* of where bodies are put */
+    double room[4], room_half; /* how a room is turned; from its middle to its walls */
+    int halvings
+        [CROWD_BODIES]; /* of mass 1, when all masses are powers of two: see soak_momentum */
+    bool exact;         /* no gravity, no ground, all masses so */
+    int drawn_again;    /* meshes that carom_mesh_check refused, and others taken in their place */
+};
+
+/* Draw a world. Its bodies are apart: by more than two skins, and none is inside another. */
+void soak_make(struct soak_world *world, uint64_t seed);
+void soak_free(struct soak_world *world);
+
+/* ---------------------------------------------------------------------- watch */
+
+/*
+ * Whose time stands still: a body that is awake, has a speed well above what a solve leaves over, and
+ * stays in its place. `run` counts such frames in a row, by body.
+ */
+struct soak_still {
+    int run[CROWD_BODIES];
+    int longest, body; /* the longest run, and whose */
+    long frame;        /* at whose end it was that long */
+};
+#define SOAK_STILL_ALLOWED 3
+/* After each frame of the crowd; `frame` is its number. */
+void soak_watch_still(const struct crowd *crowd, struct soak_still *still, long frame);
+
+/* Seconds of this process. */
+double soak_seconds(void);
+
+/* What came of a world. */
+struct soak_result {
+    struct crowd_tally tally;
+    struct soak_still still;
+    int status; /* of the last step */
+    int error;  /* the first that a call returned, or CAROM_OK */
+    long error_frame;
+    bool unfinished;           /* it took too long, and was left */
+    long cut_run, cut_longest; /* frames in a row that were cut short */
+    long escaped_frame;        /* the first in which a body was outside of its room, 0: none */
+    int escaped;
+    int64_t momentum[3]; /* of all bodies in range, where it is watched */
+    long momentum_frame; /* the first that changed the sum of all momenta, 0: none */
+    double step_seconds; /* of the slowest step */
+    long step_frame;
+    double seconds;                /* of all steps */
+    uint32_t candidates, substeps; /* of the frames that had most */
+    uint32_t fullest;              /* percent of the pool that was most full */
+};
+
+enum soak_fault {
+    SOAK_CROSSES,
+    SOAK_ERROR,
+    SOAK_STANDS_STILL,
+    SOAK_CUT, /* more than 1 % of its frames cut short: a fault of all worlds together, not of one */
+    SOAK_ENERGY,
+    SOAK_MOMENTUM,
+    SOAK_SLOW_STEP,
+    SOAK_FAULTS
+};
+extern const char *const soak_fault_names[SOAK_FAULTS];
+#define SOAK_STEP_SECONDS 0.2
+bool soak_has(const struct soak_result *result, enum soak_fault fault);
+
+#define SOAK_FRAMES 300
+/* Start the world, and look at it before the first frame; false when that fails. */
+bool soak_start(struct soak_world *world, struct soak_result *result);
+/* One frame, watched; false when the world is over. */
+bool soak_step(struct soak_world *world, struct soak_result *result);
+
+#endif
