@@ -45,6 +45,9 @@ static void begin(void)
     step.next = &world->states[1 - world->now];
     memcpy(step.next->bodies, world_now(world)->bodies, BODIES * sizeof *step.next->bodies);
     step.next->touching_count = 0;
+    world->rest.bodies = world->bodies;
+    world->rest.states = step.next->bodies;
+    world->rest.body_count = BODIES;
     for (int i = 0; i < BODIES; i++) {
         struct body *b = &world->bodies[i];
 
