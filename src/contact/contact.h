@@ -169,6 +169,9 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
 /* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
 #define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
 
+/* Faces lie on each other when no part of their normals differs by more. */
+#define CONTACT_LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
+
 /*
  * The normal of two edges that border faces which lie on each other, in the placed poses: that of
  * b's face, if it is nearly the same. Others stay as they are.

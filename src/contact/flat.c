@@ -6,9 +6,6 @@
  */
 #include "contact.h"
 
-/* Faces are on each other when no part of their normals' sum is more than 2^-10. */
-#define LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
-
 /* World normals of the faces at an edge; returns how many. */
 static int faces_at(const struct body *b, const struct carom_edge *edge, int32_t normal[2][3])
 {
@@ -23,7 +20,7 @@ static int faces_at(const struct body *b, const struct carom_edge *edge, int32_t
 static bool opposite(const int32_t a[3], const int32_t b[3])
 {
     for (int k = 0; k < 3; k++) {
-        if (carom_abs((int64_t)a[k] + b[k]) > LEAN_MAX_Q30) {
+        if (carom_abs((int64_t)a[k] + b[k]) > CONTACT_LEAN_MAX_Q30) {
             return false;
         }
     }

@@ -7,8 +7,6 @@
  */
 #include "parts.h"
 
-/* No part of two such normals differs by more than 2^-11. */
-#define LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 11)
 /* V.N may change by this part of a skin a frame. */
 #define CHANGE_DIVISOR 64
 
@@ -32,7 +30,7 @@ static bool as_good(const struct contact *c, const carom_v3_q30 *other, int32_t 
     for (int k = 0; k < 3; k++) {
         int64_t off = (int64_t)sign * other->c[k] - c->normal.c[k];
 
-        if (off > LEAN_MAX_Q30 || off < -LEAN_MAX_Q30) {
+        if (off > CONTACT_LEAN_MAX_Q30 || off < -CONTACT_LEAN_MAX_Q30) {
             return false;
         }
         change_q40 += fix_mul(c->velocity_q40.c[k], (int32_t)off, 30);
