@@ -187,6 +187,10 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
         boyse_test(pair, c, start, root - step, &to);
         root -= to.valid && to.gap_q22 <= ROOT_LEVEL_Q22 ? step : 0;
     }
+    boyse_test(pair, c, start, root, &to);
+    if (to.gap_q22 < -event_q22) {
+        return false; /* they came to be over each other there, far behind each other */
+    }
     hit->root_q30 = root;
     hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
     return true;
