@@ -275,6 +275,8 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
     v.found = false;
     if (w->pools[CAROM_POOL_pairs].used > 0) {
         step_open_window(&s, 0, 0, window_end(&s));
+        v.from_q30 = 0;
+        v.to_q30 = window_end(&s);
         expect(step_first_hit(&s, 0, &v), "first hit");
         if (v.found) {
             boyse_pair_for(v.pair, &v.hit.candidate);

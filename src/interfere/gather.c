@@ -133,7 +133,8 @@ static void gather(struct interfere *w, const struct interfere_pairs *all, uint3
 }
 
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
-                         const struct interfere_span *span, struct candidate_visitor *visitor)
+                         const struct interfere_span *span, bool keep,
+                         struct candidate_visitor *visitor)
 {
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
@@ -144,7 +145,7 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
         gather(w, all, number, visitor);
         m->first = w->own_first;
         m->count = pool->used - w->own_first;
-        m->kept = w->whole && !w->error;
+        m->kept = keep && w->whole && !w->error;
         if (!m->kept) {
             pool->used = w->own_first;
         }

@@ -110,8 +110,8 @@ struct interfere {
     struct candidate *candidates;
     struct pool *candidate_pool;
     struct pair_work *meetings; /* of all pairs; NULL: none is kept */
-    uint32_t pair_count;      /* so many */
-    uint32_t own_first;       /* where the candidates of the pair at hand begin */
+    uint32_t pair_count;        /* so many */
+    uint32_t own_first;         /* where the candidates of the pair at hand begin */
     struct carom_face_ref *faces;
     struct pool *face_pool;
     struct zlist lists;
@@ -139,11 +139,12 @@ struct interfere {
 
 /*
  * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew
- * for a span of both regions; in chunks when the pool has not room for all of them.
+ * for a span of both regions, to be kept or not; in chunks when the pool has not room for all of them.
  * Returns CAROM_OK, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
-                         const struct interfere_span *span, struct candidate_visitor *visitor);
+                         const struct interfere_span *span, bool keep,
+                         struct candidate_visitor *visitor);
 
 /* The same of all pairs, for the whole of the regions, and none is kept. */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,

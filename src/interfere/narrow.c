@@ -140,7 +140,7 @@ static bool face_vertices(struct interfere *w, const struct target *t, uint32_t 
         if ((left >> k & 1) && !outside_face(w->leaf, &t->p[k], i) &&
             interfere_face_vertex(w, t, i, k)) {
             interfere_emit(w, CANDIDATE_FACE_VERTEX, w->b->mesh->raw.faces[t->number][k],
-                 interfere_face(w, i));
+                           interfere_face(w, i));
             any = true;
         }
     }
@@ -190,8 +190,8 @@ static bool edges_edges(struct interfere *w, const struct target *t, uint32_t i,
             if ((left >> j & 1) &&
                 !boxes_miss(w, &l->p[from], &l->p[to], &t->p[j], &t->p[j == 2 ? 0 : j + 1]) &&
                 interfere_edge_edge(w, t, i, k, j)) {
-                interfere_emit(w, CANDIDATE_EDGE_EDGE, w->a->mesh->faces[interfere_face(w, i)].edge[k],
-                     t->face->edge[j]);
+                interfere_emit(w, CANDIDATE_EDGE_EDGE,
+                               w->a->mesh->faces[interfere_face(w, i)].edge[k], t->face->edge[j]);
                 any = true;
             }
         }

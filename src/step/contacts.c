@@ -25,8 +25,10 @@ int step_check_pair(struct step *s, uint32_t number)
     }
     v.pair = step_set_pair(s->w, number);
     /* bodies that bounce for ever must not be held by their margin */
-    v.margin_q22 = v.pair->skin_q22 *
-                   (rest_restitution(v.pair->a, v.pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    v.margin_q22 =
+        v.pair->skin_q22 *
+        (rest_restitution(v.pair->a, v.pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    v.from_q30 = v.to_q30 = s->now_q30;
     return step_visit(s, number, &v, visit_contacts);
 }
 
@@ -129,9 +131,13 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
     for (int k = 0; k < 2; k++) {
         struct body *b = &s->w->bodies[both[k]];
 
-        if (step_active(s, both[k]) && !b->stands && b->to_q30 != s->now_q30 + slice_q30) {
-            body_predict(b, &s->next->bodies[both[k]], slice_q30, NULL);
+        if (step_active(s, both[k]) && b->to_q30 != s->now_q30 + slice_q30) {
             b->to_q30 = s->now_q30 + slice_q30;
+            if (b->stands) {
+                body_place(b, &s->next->bodies[both[k]]);
+            } else {
+                body_predict(b, &s->next->bodies[both[k]], slice_q30, NULL);
+            }
         }
     }
     return slice_q30;

@@ -66,6 +66,7 @@ int step_note_faces(struct step *s)
         if (!step_active(s, p->a) && !step_active(s, p->b)) {
             continue;
         }
+        v.from_q30 = v.to_q30 = CAROM_ONE_Q30;
         result = step_visit(s, n, &v, visit_faces);
         result = result == CAROM_OK ? in->error : result;
     }

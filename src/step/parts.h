@@ -87,11 +87,12 @@ int step_adopt(struct step *s, uint32_t i);
 struct step_visitor {
     struct candidate_visitor base;
     struct step *step;
-    struct boyse_pair *pair; /* set up */
-    int32_t window_q30;      /* what its paths take */
+    struct boyse_pair *pair;  /* set up */
+    int32_t from_q30, to_q30; /* the time of the frame that is looked at */
     bool found;
-    struct boyse_hit hit;
-    int32_t margin_q22; /* of contacts */
+    struct boyse_hit hit; /* its times are those of the paths at hand */
+    int32_t hit_q30;      /* and that in the frame */
+    int32_t margin_q22;   /* of contacts */
     int error;
 };
 

@@ -6,6 +6,8 @@
 #define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
 /* Gaps change by less through rounding. */
 #define NOISE_Q22 4
+/* A window has no more parts. */
+#define PARTS_MAX 64
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
 
@@ -33,21 +35,28 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
     return used;
 }
 
-/* A pair is gathered from the latest start of its bodies' paths on: before that it was asked. */
-static struct interfere_span span_of(const struct step *s, const struct pair *p)
+/* The part of both regions' time that begins at a time of the frame and takes so much of it. */
+static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
+                                     int64_t time_q30)
 {
-    struct interfere_span span = {0, 0, (int64_t)BODY_REGION_FRAMES << 30};
-    int32_t from_q30 = 0;
+    struct interfere_span span = {0, 0, time_q30};
 
-    if (step_active(s, p->a)) {
-        from_q30 = s->w->bodies[p->a].from_q30;
-    }
-    if (step_active(s, p->b) && s->w->bodies[p->b].from_q30 > from_q30) {
-        from_q30 = s->w->bodies[p->b].from_q30;
-    }
     span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
     span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
     return span;
+}
+
+/*
+ * Bodies that go far in their regions would have candidates without number: these are gathered for the
+ * time that is looked at, and not kept.
+ */
+static bool goes_far(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int64_t way_q22 = (step_active(s, p->a) ? a->region.length_q22 : 0) +
+                      (step_active(s, p->b) ? b->region.length_q22 : 0);
+
+    return way_q22 > (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
 }
 
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
@@ -55,14 +64,27 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
-    const struct interfere_span span = span_of(s, &w->pairs[number]);
+    const struct pair *p = &w->pairs[number];
+    bool keep = !goes_far(s, p);
+    int32_t from_q30 = 0;
+    struct interfere_span span;
     int result;
 
+    /* a pair is gathered from the latest start of its bodies' paths on: before that it was asked */
+    for (int k = 0; keep && k < 2; k++) {
+        uint32_t i = k == 0 ? p->a : p->b;
+
+        if (step_active(s, i) && w->bodies[i].from_q30 > from_q30) {
+            from_q30 = w->bodies[i].from_q30;
+        }
+    }
+    span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
+                : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
     v->base.visit = f;
     v->step = s;
     v->found = false;
     v->error = CAROM_OK;
-    result = interfere_visit_pair(&w->interfere, &all, number, &span, &v->base);
+    result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
     return v->error ? v->error : result;
 }
 
@@ -94,8 +116,8 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
         return 0;
     }
     gap = gap_by(pair, c, root.sign, 0, &valid);
-    if (valid && (gap <= 2 * NOISE_Q22 || gap - gap_by(pair, c, root.sign, high >> 3, &there) >
-                                              gap / 16 + NOISE_Q22)) {
+    if (valid && (gap <= 2 * NOISE_Q22 ||
+                  gap - gap_by(pair, c, root.sign, high >> 3, &there) > gap / 16 + NOISE_Q22)) {
         return 0;
     }
     for (int round = 0; round < HALVINGS && high - low > 1; round++) {
@@ -139,35 +161,104 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
     }
 }
 
+/*
+ * Whether the spheres around two bodies stay apart on the paths at hand: then nothing of theirs hits, and
+ * nothing need be gathered. Way and turn of a path are rounded up; turns do not matter to spheres.
+ */
+static bool stay_apart(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int64_t reach_q22 = (int64_t)a->radius_q22 + b->radius_q22, apart[3];
+    const struct body_path *path_a = body_path(a), *path_b = body_path(b);
+
+    for (int k = 0; k < 3; k++) {
+        int64_t way_q40 = carom_abs(path_a->v.c[k] - path_b->v.c[k]) + carom_abs(path_a->g.c[k]) +
+                          carom_abs(path_b->g.c[k]);
+
+        apart[k] = carom_abs(path_a->origin_q22[k] - path_b->origin_q22[k]) - (way_q40 >> 18) - 2;
+        if (apart[k] > reach_q22) {
+            return true;
+        }
+        apart[k] = apart[k] > 0 ? apart[k] : 0;
+    }
+    /* each is below 2^35: centres are at most 2^13 units apart, but here below the reach */
+    return apart[0] * apart[0] + apart[1] * apart[1] + apart[2] * apart[2] > reach_q22 * reach_q22;
+}
+
 int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
 {
     v->pair = step_set_pair(s->w, number);
     return step_visit(s, number, v, visit_first);
 }
 
+/* Into how many parts a window is cut: in none do the bodies pass by half of the smaller one's radius. */
+static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int32_t radius_q22 = (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+    const struct body_path *path_a = body_path(a), *path_b = body_path(b);
+    int64_t way_q40 = 0, parts;
+
+    for (int k = 0; k < 3; k++) {
+        way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]);
+    }
+    parts = (way_q40 >> 17) / radius_q22 + 1;
+    parts = parts < PARTS_MAX ? parts : PARTS_MAX;
+    return parts < time_q30 >> 12 ? (int32_t)parts : 1;
+}
+
+/* The first hit of a window's part, if there is any: its times become those of the whole window. */
+static int search_part(struct step *s, uint32_t number, struct step_visitor *v, int32_t part,
+                       int32_t parts)
+{
+    int32_t from_q30 = v->from_q30, to_q30 = v->to_q30, time_q30 = to_q30 - from_q30;
+    int result = CAROM_OK;
+
+    v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
+    v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
+    step_open_window(s, number, v->from_q30, v->to_q30);
+    v->found = false;
+    if (!stay_apart(s, &s->w->pairs[number])) {
+        result = step_first_hit(s, number, v);
+    }
+    if (v->found) {
+        v->hit_q30 =
+            v->from_q30 + (int32_t)(((int64_t)(v->to_q30 - v->from_q30) * v->hit.t_q30) >> 30);
+        v->hit.root_q30 = (int32_t)((((int64_t)part << 30) + v->hit.root_q30) / parts);
+    }
+    step_close_window(s, number, v->from_q30, v->to_q30);
+    v->from_q30 = from_q30;
+    v->to_q30 = to_q30;
+    return result;
+}
+
 int step_search(struct step *s, uint32_t number)
 {
     struct pair_work *m = &s->w->meetings[number];
-    struct step_visitor v;
-    int32_t from_q30, to_q30;
-    int result;
+    struct step_visitor v = {.found = false};
+    int32_t parts;
+    int result = CAROM_OK;
 
     m->hit_q30 = PAIRS_NEVER;
-    if (!step_window(s, number, &from_q30, &to_q30) || (m->kept && m->count == 0)) {
+    if (!step_window(s, number, &v.from_q30, &v.to_q30) || (m->kept && m->count == 0)) {
         return CAROM_OK;
     }
-    step_open_window(s, number, from_q30, to_q30);
-    result = step_first_hit(s, number, &v);
-    m = &s->w->meetings[number];
+    step_open_window(s, number, v.from_q30, v.to_q30);
+    parts = stay_apart(s, &s->w->pairs[number])
+                ? 0
+                : parts_of(s, &s->w->pairs[number], v.to_q30 - v.from_q30);
+    step_close_window(s, number, v.from_q30, v.to_q30);
+    for (int32_t part = 0; part < parts && !v.found && result == CAROM_OK; part++) {
+        result = search_part(s, number, &v, part, parts);
+    }
     if (result == CAROM_OK && v.found) {
-        m->hit_q30 = from_q30 + (int32_t)(((int64_t)(to_q30 - from_q30) * v.hit.t_q30) >> 30);
+        m->hit_q30 = v.hit_q30;
         m->root_q30 = v.hit.root_q30;
         m->late = v.hit.touch.valid ? 1 : 0;
         m->kind = v.hit.candidate.kind;
         m->i = v.hit.candidate.i;
         m->j = v.hit.candidate.j;
     }
-    step_close_window(s, number, from_q30, to_q30);
     return result;
 }
 
