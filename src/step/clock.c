@@ -4,6 +4,8 @@
 
 /* A path ends where so little is left of it. */
 #define END_Q30 2
+/* No path is made shorter than that. */
+#define SHORTEST_Q30 (1 << 8)
 /* A slice ends when the centre has gone so many radii: what is swept for it stays bounded. */
 #define WAY_RADII 8
 
@@ -136,9 +138,7 @@ int step_set_path(struct step *s, uint32_t i)
     if (!b->stands) {
         slice_q30 = step_slice(s, i, left_q30);
         shorter_q30 = slice_q30 >> (2 * b->shorter);
-        if (b->shorter > 0) {
-            slice_q30 = shorter_q30 > STEP_SLICE_MIN_Q30 ? shorter_q30 : slice_q30;
-        }
+        slice_q30 = shorter_q30 > SHORTEST_Q30 ? shorter_q30 : slice_q30;
         slice_q30 = avoid_sliver(slice_q30, left_q30);
         b->to_q30 = s->now_q30 + slice_q30;
     }

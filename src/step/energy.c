@@ -121,18 +121,30 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
     }
 }
 
-/* A body that moved and may now be where a body of another island was before; the end of islands: none. */
-static uint32_t intruder(const struct step *s, uint32_t body)
+/* Whether two bodies cross, or one is in the other. */
+static bool overlap(struct step *s, struct interfere_placed a, struct interfere_placed b)
+{
+    struct interfere *in = &s->w->interfere;
+
+    world_begin_gather(s->w);
+    return interfere_query(in, a, b, NULL, 0) != 0 || interfere_inside(a, b) ||
+           interfere_inside(b, a);
+}
+
+/* A body that moved and now is where a body of another island was before; the end of islands: none. */
+static uint32_t intruder(struct step *s, uint32_t body)
 {
     const struct world_state *before = world_now(s->w);
     const struct body *b = &s->w->bodies[body];
 
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *other = &s->w->bodies[i];
+        const struct interfere_placed was = {b, &before->bodies[body]};
+        const struct interfere_placed is = {other, &s->next->bodies[i]};
 
-        if (broad_active(other, &s->next->bodies[i]) && other->island != b->island &&
-            moved(&before->bodies[i], &s->next->bodies[i]) &&
-            broad_near(b, &before->bodies[body], other, &s->next->bodies[i], b->skin_q22)) {
+        if (broad_active(other, is.state) && other->island != b->island &&
+            moved(&before->bodies[i], is.state) &&
+            broad_near(b, was.state, other, is.state, b->skin_q22) && overlap(s, was, is)) {
             return i;
         }
     }
