@@ -31,6 +31,7 @@ struct pair_work {
     /* by the answer to hits */
     uint8_t checked : 1; /* its contacts are those of the hit at hand */
     uint8_t repeats;      /* how often, without any time between */
+    uint8_t hits;         /* in this frame */
     int32_t answered_q30; /* when last */
 };
 #define PAIRS_NEVER INT32_MAX

@@ -9,6 +9,9 @@
 #define SHORTER_MAX 5
 /* and then the island goes on as one body. */
 #define CALM_AFTER 1
+/* Hits of a pair in a frame, and the part of a skin a frame of its approach, for its bodies to cling. */
+#define CLING_HITS    6
+#define CLING_DIVISOR 4
 
 /* The hit of a pair, with the features as they meet. */
 static struct boyse_hit hit_of(struct step *s, uint32_t number)
@@ -173,13 +176,45 @@ static int solve_island(struct step *s)
     return result;
 }
 
+/* How fast the bodies of a pair approached each other at most, in the last solve. */
+static int64_t approach_q40(const struct step *s, uint32_t number)
+{
+    const struct contact_list *list = &s->w->rest.list;
+    int64_t most_q40 = 0;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        const struct contact *c = &list->contacts[i];
+
+        if (c->key.pair == number && -c->speed_q40 > most_q40) {
+            most_q40 = -c->speed_q40;
+        }
+    }
+    return most_q40;
+}
+
+/*
+ * Where nothing presses bodies on each other that do not bounce, one that slides or rolls over the other
+ * bends back to it at once, each time more slowly: they stay together from then on.
+ */
+static bool clings(const struct step *s, uint32_t number)
+{
+    const struct pair *p = &s->w->pairs[number];
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+
+    return s->w->meetings[number].hits > CLING_HITS && !a->in_contact && !b->in_contact &&
+           rest_restitution(a, b) < CAROM_ONE_Q30 &&
+           approach_q40(s, number) < carom_shl(skin_q22, 18) / CLING_DIVISOR;
+}
+
 /*
  * A pair that hits again where it was answered. The turn of a path is that of its middle, so a long path
  * may close what opens as the bodies move now: shorter ones do not. When these hit as well the solve
  * was not able to part the bodies.
  */
-static void insist(struct step *s, const struct pair *p, uint32_t repeats)
+static void insist(struct step *s, uint32_t number, uint32_t repeats)
 {
+    const struct pair *p = &s->w->pairs[number];
     struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     bool turn = (s->next->bodies[p->a].angular.c[0] | s->next->bodies[p->a].angular.c[1] |
                  s->next->bodies[p->a].angular.c[2] | s->next->bodies[p->b].angular.c[0] |
@@ -187,6 +222,8 @@ static void insist(struct step *s, const struct pair *p, uint32_t repeats)
 
     if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0)) {
         step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
+    } else if (clings(s, number)) {
+        step_join_pair(s, p);
     } else if (turn && repeats > 0) {
         a->shorter = b->shorter = (uint8_t)(repeats < SHORTER_MAX ? repeats : SHORTER_MAX);
     }
@@ -244,6 +281,7 @@ int step_answer(struct step *s, uint32_t number)
     repeats = m->answered_q30 == s->now_q30 ? m->repeats + 1u : 0;
     m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
     m->answered_q30 = s->now_q30;
+    m->hits = m->hits < UINT8_MAX ? (uint8_t)(m->hits + 1) : UINT8_MAX;
     w->stats.hits++;
     w->stats.substeps++;
     result = gather_island(s, &p, &hit);
@@ -253,7 +291,7 @@ int step_answer(struct step *s, uint32_t number)
     if (result < 0) {
         return result;
     }
-    insist(s, &p, repeats);
+    insist(s, hit.candidate.pair, repeats);
     if (spend(s, p.a) | spend(s, p.b)) {
         stop_island(s, &p);
     }

@@ -246,6 +246,15 @@ void step_calm_island(struct step *s, uint32_t body)
     s->w->stats.calmed++;
 }
 
+void step_join_pair(struct step *s, const struct pair *p)
+{
+    struct carom_world *w = s->w;
+
+    island_find(w->bodies, w->body_count, p, 1);
+    (void)rest_unite(&w->rest, w->bodies[p->a].island, !w->bodies[p->b].moving);
+    w->stats.calmed++;
+}
+
 void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;

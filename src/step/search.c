@@ -4,6 +4,8 @@
 
 /* A hit in so small a part of the window takes no time. */
 #define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
+/* What is nearer than this part of a skin goes no nearer, or rounding would close it in the end. */
+#define NEAR_DIVISOR 16
 /* Gaps change by less through rounding. */
 #define NOISE_Q22 4
 /* A window has no more parts. */
@@ -116,7 +118,7 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
         return 0;
     }
     gap = gap_by(pair, c, root.sign, 0, &valid);
-    if (valid && (gap <= 2 * NOISE_Q22 ||
+    if (valid && (gap <= pair->skin_q22 / NEAR_DIVISOR ||
                   gap - gap_by(pair, c, root.sign, high >> 3, &there) > gap / 16 + NOISE_Q22)) {
         return 0;
     }
