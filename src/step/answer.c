@@ -9,9 +9,12 @@
 #define SHORTER_MAX 5
 /* and then the island goes on as one body. */
 #define CALM_AFTER 1
-/* Hits of a pair in a frame, and the part of a skin a frame of its approach, for its bodies to cling. */
-#define CLING_HITS    6
-#define CLING_DIVISOR 4
+/* Hits of a pair in a frame, with hardly any time between, before its bodies cling; */
+#define CLING_HITS 12
+/* of one that approaches by less than this part of a skin a frame; or when it is nearer than that one. */
+#define SLOW_HITS      6
+#define CLOSED_DIVISOR 16
+#define SLOW_DIVISOR   4
 
 /* The hit of a pair, with the features as they meet. */
 static struct boyse_hit hit_of(struct step *s, uint32_t number)
@@ -176,35 +179,42 @@ static int solve_island(struct step *s)
     return result;
 }
 
-/* How fast the bodies of a pair approached each other at most, in the last solve. */
-static int64_t approach_q40(const struct step *s, uint32_t number)
+/* Whether a pair approaches by less than a part of a skin a frame; and how near it is, q22. */
+static bool is_slow(const struct step *s, uint32_t number, int32_t *gap_q22)
 {
     const struct contact_list *list = &s->w->rest.list;
-    int64_t most_q40 = 0;
+    bool slow = true;
 
+    *gap_q22 = INT32_MAX;
     for (uint32_t i = 0; i < list->pool->used; i++) {
         const struct contact *c = &list->contacts[i];
 
-        if (c->key.pair == number && -c->speed_q40 > most_q40) {
-            most_q40 = -c->speed_q40;
+        if (c->key.pair == number) {
+            *gap_q22 = c->gap_q22 < *gap_q22 ? c->gap_q22 : *gap_q22;
+            slow &= -c->speed_q40 < carom_shl(c->skin_q22, 18) / SLOW_DIVISOR;
         }
     }
-    return most_q40;
+    return slow;
 }
 
 /*
  * Where nothing presses bodies on each other that do not bounce, one that slides or rolls over the other
- * bends back to it at once, each time more slowly: they stay together from then on.
+ * bends back to it at once, again and again: they stay together from then on. So do those that are so
+ * near that rounding would close what is left of the gap.
  */
-static bool clings(const struct step *s, uint32_t number)
+static bool clings(const struct step *s, uint32_t number, int32_t since_q30)
 {
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22, gap_q22;
+    uint32_t hits = s->w->meetings[number].hits;
+    bool slow = is_slow(s, number, &gap_q22);
 
-    return s->w->meetings[number].hits > CLING_HITS && !a->in_contact && !b->in_contact &&
-           rest_restitution(a, b) < CAROM_ONE_Q30 &&
-           approach_q40(s, number) < carom_shl(skin_q22, 18) / CLING_DIVISOR;
+    if (a->in_contact || b->in_contact || rest_restitution(a, b) == CAROM_ONE_Q30) {
+        return false;
+    }
+    return (slow && (hits > SLOW_HITS || gap_q22 <= skin_q22 / CLOSED_DIVISOR)) ||
+           (hits > CLING_HITS && since_q30 < STEP_SLICE_MIN_Q30);
 }
 
 /*
@@ -212,7 +222,7 @@ static bool clings(const struct step *s, uint32_t number)
  * may close what opens as the bodies move now: shorter ones do not. When these hit as well the solve
  * was not able to part the bodies.
  */
-static void insist(struct step *s, uint32_t number, uint32_t repeats)
+static void insist(struct step *s, uint32_t number, uint32_t repeats, int32_t since_q30)
 {
     const struct pair *p = &s->w->pairs[number];
     struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
@@ -222,7 +232,7 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
 
     if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0)) {
         step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
-    } else if (clings(s, number)) {
+    } else if (clings(s, number, since_q30)) {
         step_join_pair(s, p);
     } else if (turn && repeats > 0) {
         a->shorter = b->shorter = (uint8_t)(repeats < SHORTER_MAX ? repeats : SHORTER_MAX);
@@ -275,9 +285,11 @@ int step_answer(struct step *s, uint32_t number)
     const struct pair p = w->pairs[number];
     struct boyse_hit hit = hit_of(s, number);
     uint32_t repeats;
+    int32_t since_q30;
     int result;
 
     s->now_q30 = m->hit_q30;
+    since_q30 = s->now_q30 - m->answered_q30;
     repeats = m->answered_q30 == s->now_q30 ? m->repeats + 1u : 0;
     m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
     m->answered_q30 = s->now_q30;
@@ -291,7 +303,7 @@ int step_answer(struct step *s, uint32_t number)
     if (result < 0) {
         return result;
     }
-    insist(s, hit.candidate.pair, repeats);
+    insist(s, hit.candidate.pair, repeats, since_q30);
     if (spend(s, p.a) | spend(s, p.b)) {
         stop_island(s, &p);
     }
