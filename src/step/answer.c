@@ -5,6 +5,8 @@
  */
 #include "parts.h"
 
+/* Times between the event and the root at which features may face each other. */
+#define TRIES 8
 /* A pair that hits again without any time between: so often with shorter paths, */
 #define SHORTER_MAX 5
 /* and then the island goes on as one body. */
@@ -33,8 +35,11 @@ static struct boyse_hit hit_of(struct step *s, uint32_t number)
     if (m->late) {
         boyse_touch(pair, &hit.candidate, t_q30, &hit.touch);
     }
-    if (!hit.touch.valid) {
-        boyse_touch(pair, &hit.candidate, m->root_q30, &hit.touch);
+    /* features that face each other just for a moment may do so a little before the root alone */
+    for (int k = TRIES; k >= 0 && !hit.touch.valid; k--) {
+        int32_t part_q30 = (int32_t)((int64_t)(m->root_q30 - t_q30) * k / TRIES);
+
+        boyse_touch(pair, &hit.candidate, t_q30 + part_q30, &hit.touch);
     }
     step_close_window(s, number, from_q30, to_q30);
     return hit;
@@ -135,7 +140,7 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
             struct boyse_pair *pair = step_set_pair(w, hit->candidate.pair);
 
             boyse_pair_for(pair, &hit->candidate);
-            if (!contact_force(&w->rest.list, pair, hit)) {
+            if (hit->touch.valid && !contact_force(&w->rest.list, pair, hit)) {
                 result = CAROM_ERR_CONTACTS_FULL;
             }
         }
