@@ -54,6 +54,7 @@ static void join(struct step *s, uint32_t i)
         step_leave_path(s, i, s->now_q30);
         body_place(b, &s->next->bodies[i]);
         b->member = true;
+        b->unsettled = false;
     }
 }
 
@@ -235,7 +236,8 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats, int32_t si
                  s->next->bodies[p->a].angular.c[2] | s->next->bodies[p->b].angular.c[0] |
                  s->next->bodies[p->b].angular.c[1] | s->next->bodies[p->b].angular.c[2]) != 0;
 
-    if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0)) {
+    if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0) ||
+        (s->w->meetings[number].hits > SLOW_HITS && (a->unsettled || b->unsettled))) {
         step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
     } else if (clings(s, number, since_q30)) {
         step_join_pair(s, p);
