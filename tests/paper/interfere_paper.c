@@ -3,13 +3,18 @@
  * The paper's way in place of Carom's gather: the faces that interfere where the frame ends, each
  * pair with all its vertices and edges, for Boyse's test of the way there.
  *
- * Programs are linked with -Wl,--wrap=interfere_leaves, so what gathers the leaves of a pair gets this.
+ * Programs are linked with -Wl,--wrap=interfere_leaves, so what gathers the leaves of a pair gets this;
+ * and with that of interfere_note_faces.
  */
 #include "paper.h"
 #include "interfere/narrow.h"
 
 void __real_interfere_leaves(struct interfere *w);
 void __wrap_interfere_leaves(struct interfere *w);
+void __real_interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+                                 const struct candidate *c, uint32_t n);
+void __wrap_interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+                                 const struct candidate *c, uint32_t n);
 
 struct gather {
     struct paper_visitor base;
@@ -92,5 +97,24 @@ void __wrap_interfere_leaves(struct interfere *w)
         gather_pair(w);
     } else {
         __real_interfere_leaves(w);
+    }
+}
+
+/*
+ * It names many more faces than Carom's when bodies are deep in each other: those that find no room in
+ * the list are left out.
+ */
+void __wrap_interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+                                 const struct candidate *c, uint32_t n)
+{
+    const struct pool *pool = w->face_pool;
+
+    for (uint32_t i = 0; i < n; i++) {
+        if (pool->size - pool->used < 2) {
+            interfere_finish(w);
+        }
+        if (pool->size - pool->used >= 2) {
+            __real_interfere_note_faces(w, all, &c[i], 1);
+        }
     }
 }
