@@ -41,7 +41,7 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
-PAPER_LINK := -Wl,--wrap=interfere_visit
+PAPER_LINK := -Wl,--wrap=interfere_leaves -Wl,--wrap=interfere_note_faces
 ENGINE_SOURCES := $(wildcard src/*/*.c)
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.

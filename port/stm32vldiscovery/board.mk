@@ -3,15 +3,17 @@
 CPU := Cortex-M3
 DISPLAY := none
 CLOCK_MHZ := 24
-SCENES := pair:30 brick:30
+SCENES := brick:30
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
+# at -O2 the program does not fit 128 KB
+OPT := -Os
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M stm32vldiscovery
 # SysTick's 24 bits are 5.4 million instructions.
 ICOUNT_SHIFT := 7
-ROM_SCENES := pair brick
-CAPS := 3,2,4,6,0,6
+ROM_SCENES := brick
+CAPS := 2,1,4,6,0,6
 DRAW_BYTES := 0
 LINE_BYTES := 64
 PICTURES := 0

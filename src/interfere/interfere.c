@@ -15,77 +15,6 @@
 
 /* ------------------------------------------------------------------- leaves */
 
-/* Cell of a coordinate in quanta along one axis of a grid, clamped to it. */
-static int32_t clamp_cell(int32_t x, int32_t x0, int shift, int32_t n)
-{
-    int32_t cell = (x - x0) >> shift;
-
-    return cell < 0 ? 0 : cell >= n ? n - 1 : cell;
-}
-
-/* The cells under a box of quanta. */
-struct cells {
-    int32_t col[2], row[2];
-};
-
-static struct cells cells_under(const struct carom_mesh *mb, const int32_t low[3],
-                                const int32_t high[3])
-{
-    int shift = mb->grid_shift;
-
-    return (struct cells){
-        {clamp_cell(low[0], mb->grid_x0, shift, mb->grid_nx),
-         clamp_cell(high[0], mb->grid_x0, shift, mb->grid_nx)},
-        {clamp_cell(low[1], mb->grid_y0, shift, mb->grid_ny),
-         clamp_cell(high[1], mb->grid_y0, shift, mb->grid_ny)},
-    };
-}
-
-/* The highest z of b in a cell; below all of it when there is none. */
-static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    const uint32_t *start = &mb->cell_start[cell];
-
-    if (w->pooled) {
-        uint16_t head = w->lists.head[cell];
-
-        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
-    }
-    return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
-}
-
-/* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
-static int32_t highest_under(const struct interfere *w, const int32_t low[3], const int32_t high[3],
-                             int32_t enough)
-{
-    const struct carom_mesh *mb = w->b->mesh;
-    struct cells cells = cells_under(mb, low, high);
-    int32_t top = INT16_MIN - 1;
-
-    for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
-        uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
-
-        for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
-            int32_t z = cell_top(w, cell++);
-
-            top = z > top ? z : top;
-            if (z >= enough) {
-                return z;
-            }
-        }
-    }
-    return top;
-}
-
-bool interfere_reaches_leaf(const struct interfere *w)
-{
-    const struct interfere_leaf *l = w->leaf;
-    int32_t low = l->quanta_low[2];
-
-    return highest_under(w, l->quanta_low, l->quanta_high, low) >= low;
-}
-
 /* The highest z of b in the cells under a on its way. */
 static int32_t highest_of_b(const struct interfere *w)
 {
@@ -100,7 +29,7 @@ static int32_t highest_of_b(const struct interfere *w)
         low[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
         high[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
     }
-    return highest_under(w, low, high, INT32_MAX);
+    return interfere_highest(w, low, high, INT32_MAX);
 }
 
 /* A coordinate of the sphere around a leaf, swept along its way. */
@@ -222,13 +151,13 @@ static void visit_made(struct interfere *w, uint32_t cell)
 static void visit_leaf(struct interfere *w)
 {
     const struct carom_mesh *mb = w->b->mesh;
-    struct cells cells;
+    struct interfere_cells cells;
 
     if (!interfere_place_leaf(w)) {
         return;
     }
     memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* CAROM_NO_FACE */
-    cells = cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
+    cells = interfere_cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
             uint32_t cell = (uint32_t)(row * mb->grid_nx + col);

@@ -45,6 +45,17 @@ static inline int32_t interfere_quanta(const struct carom_mesh *mb, int32_t x_q2
     return (x_q20 + (mb->mass.centre.c[k] >> 2)) >> (20 - mb->raw.quantum_bits);
 }
 
+/* The cells under a box of quanta. */
+struct interfere_cells {
+    int32_t col[2], row[2];
+};
+struct interfere_cells interfere_cells_under(const struct carom_mesh *mb, const int32_t low[3],
+                                             const int32_t high[3]);
+
+/* The highest z of b in the cells under a box, in quanta; `enough` or above when it is as high as that. */
+int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+                          int32_t enough);
+
 /* Whether b is as high as the leaf's box somewhere in the cells under it. */
 bool interfere_reaches_leaf(const struct interfere *w);
 

@@ -76,6 +76,15 @@ void rest_prepare_masses(struct contact *c);
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
 void rest_push(struct contact *c, const int32_t impulse[3]);
+/* |v|^2 of a vector of at most 31 bits. */
+static inline uint64_t rest_square32(const int32_t v[3])
+{
+    return (uint64_t)((int64_t)v[0] * v[0]) + (uint64_t)((int64_t)v[1] * v[1]) +
+           (uint64_t)((int64_t)v[2] * v[2]);
+}
+
+/* Shift four numbers down until each has at most so many bits; returns how far. */
+int rest_shrink(int64_t v[4], int bits);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
 

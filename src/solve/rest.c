@@ -19,36 +19,6 @@
 /* What rounding may have made of a gap since the hit was found. */
 #define HIT_GAP_NOISE_Q22 8
 
-int32_t rest_restitution(const struct body *a, const struct body *b)
-{
-    return a->restitution_q30 < b->restitution_q30 ? a->restitution_q30 : b->restitution_q30;
-}
-
-uint32_t rest_friction(const struct body *a, const struct body *b)
-{
-    return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
-}
-
-/* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
-void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
-{
-    for (int k = 0; k < 3; k++) {
-        v->c[k] = -c->drift.c[k];
-    }
-    for (int s = 0; s < 2; s++) {
-        const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
-
-        for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], bits) -
-                         fix_mul(b->spin.c[j], arm[i], bits);
-
-            v->c[k] += s == 0 ? at : -at;
-        }
-    }
-}
-
 static int64_t speed_along_normal_q40(const struct contact *c)
 {
     carom_v3_q40 v;
@@ -175,25 +145,6 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     }
     if (rise_q40 < 0) {
         hold_above(c, tau_q30, rise_q40);
-    }
-}
-
-void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
-                   const int64_t moment_q40[3])
-{
-    for (int s = 0; s < 2; s++) {
-        struct body_state *state = rest_state(r, c, s);
-        const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
-
-        for (int k = 0; b && k < 3; k++) {
-            int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t moment =
-                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
-
-            state->momentum.c[k] += s == 0 ? p[k] : -p[k];
-            state->angular.c[k] += s == 0 ? moment : -moment;
-        }
     }
 }
 

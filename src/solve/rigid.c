@@ -296,8 +296,7 @@ void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30)
 {
     const struct body_state none = {.momentum = {{0, 0, 0}}};
 
-    for (uint32_t i = rest_island_first(r, island); i != ISLAND_END;
-         i = rest_island_next(r, i)) {
+    for (uint32_t i = rest_island_first(r, island); i != ISLAND_END; i = rest_island_next(r, i)) {
         scale_about(&r->states[i], &none, factor_q30);
     }
 }

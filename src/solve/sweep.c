@@ -90,13 +90,6 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
     }
 }
 
-int32_t rest_clamp(int64_t v)
-{
-    const int64_t most = INT32_MAX;
-
-    return (int32_t)(v > most ? most : v < -most ? -most : v);
-}
-
 /* v s - w r modulo 2^64. */
 static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, int32_t w_high,
                               int32_t r)
@@ -166,72 +159,6 @@ static void present_velocity(const struct contact *c, int32_t v[3])
     }
 }
 
-static void push_side(struct body *b, const struct contact_lever *lever, const int32_t impulse[3])
-{
-    int down = lever->turn_bits - REST_FINER_BITS;
-
-    for (int k = 0; k < 3; k++) {
-        body_solve(b)->dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
-        body_solve(b)->dw[k] += carom_dot(lever->turn[k], impulse) >> down;
-    }
-}
-
-void rest_push(struct contact *c, const int32_t impulse[3])
-{
-    const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
-
-    if (c->side[0].body) {
-        push_side(c->side[0].body, &c->work->lever[0], impulse);
-    }
-    if (c->side[1].body) {
-        push_side(c->side[1].body, &c->work->lever[1], opposite);
-    }
-}
-
-/* Shift four numbers down until each has at most so many bits; returns how far. */
-static int shrink(int64_t v[4], int bits)
-{
-    uint64_t all = 0;
-    int down;
-
-    for (int k = 0; k < 4; k++) {
-        all |= (uint64_t)(v[k] ^ (v[k] >> 63));
-    }
-    down = fix_bits(all) - bits;
-    if (down <= 0) {
-        return 0;
-    }
-    for (int k = 0; k < 4; k++) {
-        v[k] >>= down;
-    }
-    return down;
-}
-
-/* |v|^2 of a vector of at most 31 bits. */
-static uint64_t square32(const int32_t v[3])
-{
-    return (uint64_t)((int64_t)v[0] * v[0]) + (uint64_t)((int64_t)v[1] * v[1]) +
-           (uint64_t)((int64_t)v[2] * v[2]);
-}
-
-bool rest_cut(int64_t v[3], int64_t limit)
-{
-    int64_t part[4] = {v[0], v[1], v[2], limit};
-    int down = shrink(part, 31);
-    const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
-    uint64_t most = (uint64_t)part[3], square = square32(v32);
-    int32_t ratio_q30;
-
-    if (square <= most * most) {
-        return false;
-    }
-    ratio_q30 = (int32_t)((most << 30) / fix_sqrt(square));
-    for (int k = 0; k < 3; k++) {
-        v[k] = carom_shl(((int64_t)v32[k] * ratio_q30) >> 30, down);
-    }
-    return true;
-}
-
 /* Friction is not against slip that closing a gap asks for. */
 static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 {
@@ -241,7 +168,7 @@ static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
     }
-    square = square32(slip);
+    square = rest_square32(slip);
     if (square > (uint64_t)((int64_t)c->work->band * c->work->band)) {
         ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->work->band << 30) / fix_sqrt(square));
     }
@@ -291,12 +218,12 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
                    carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
     }
     /* mu is at most 4: the limit has 31 bits */
-    shrink(after, 29);
+    rest_shrink(after, 29);
     for (int k = 0; k < 3; k++) {
         across[k] = (int32_t)after[k];
     }
     limit = (after[3] * (int32_t)c->work->friction_q16) >> 16;
-    return square32(across) <= (uint64_t)(limit * limit);
+    return rest_square32(across) <= (uint64_t)(limit * limit);
 }
 
 /*
@@ -311,7 +238,7 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
     int32_t mass_q11;
 
     /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
-    shrink(t, 15);
+    rest_shrink(t, 15);
     for (int k = 0; k < 3; k++) {
         int32_t part = (int32_t)t[k];
 
@@ -348,7 +275,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
         change[k] -= c->work->tangent_impulse[k];
     }
     /* if that is too large for one push a part of all of it: from one place in the cone to another */
-    shrink(change, 29);
+    rest_shrink(change, 29);
     g->along = (int32_t)change[3];
     for (int k = 0; k < 3; k++) {
         g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);

@@ -9,16 +9,6 @@
 /* A slice ends when the centre has gone so many radii: what is swept for it stays bounded. */
 #define WAY_RADII 8
 
-void step_mark(struct carom_world *w, enum carom_stage stage)
-{
-    if (w->config.ticks) {
-        uint32_t now = w->config.ticks();
-
-        w->stats.ticks[stage] += now - w->mark_tick;
-        w->mark_tick = now;
-    }
-}
-
 /* What a body takes of gravity on its path: in contact it has taken all of it. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
@@ -93,11 +83,6 @@ void step_look_away(struct step *s, uint32_t i)
 {
     s->w->bodies[i].placed = false;
     set_own_path(s, i);
-}
-
-int32_t step_slice(const struct step *s, uint32_t i, int32_t left_q30)
-{
-    return body_slice(&s->w->bodies[i], &s->next->bodies[i], left_q30);
 }
 
 /* The slice cut where the path at hand has gone as far as one may. */

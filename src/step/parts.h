@@ -7,13 +7,15 @@
  *
  *   step      the frame on one page
  *   clock     paths: set, left at a time, looked at in a place; the ends of slices
- *   region    regions of bodies, and the pairs that these make
+ *   slice     the longest slice of a body, ticks
+ *   regions   regions of bodies, and the pairs that these make
  *   search    the next hit of a pair
  *   cut       paths that are set again for the hit they lead to
  *   answer    a hit: the island that it belongs to, its contacts, the solve, and the last resort
  *   contacts  the static check, chords, and what contacts leave behind
  *   energy    of contact over the frame; rigid: the motion of an island as one body
  *   finish    events, statistics
+ *   noted     the list of interfering faces
  */
 #ifndef CAROM_SRC_STEP_PARTS_H
 #define CAROM_SRC_STEP_PARTS_H

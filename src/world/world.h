@@ -32,9 +32,9 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 496 bytes where a pointer has 32 bits. */
+/* 544 bytes where a pointer has 32 bits. */
 struct carom_world {
-    /* world: what the caller gave, and the arrays in the block; 84 bytes */
+    /* world: what the caller gave, and the arrays in the block; 80 bytes */
     struct carom_config config; /* gravity: the present one */
     uint32_t body_count;        /* places in use, free ones in between included */
     struct body *bodies;
@@ -54,13 +54,13 @@ struct carom_world {
     struct pair *pairs;
     struct pair_work *meetings;
 
-    /* interfere, 104 bytes */
+    /* interfere, 136 bytes */
     struct interfere interfere;
 
     /* contact and solve, 68 bytes */
     struct rest rest;
 
-    /* commit: what happened in the step, and its cost; 96 bytes */
+    /* commit: what happened in the step, and its cost; 108 bytes */
     uint32_t event_count;
     struct carom_stats stats;
     uint32_t start_tick, mark_tick; /* of the step, and of its last stage mark */

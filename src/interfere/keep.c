@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The pool keeps the candidates of as many pairs as fit; those of the others are gathered anew whenever
+ * somebody asks for them. So a short pool costs time.
+ */
+#include "narrow.h"
+
+/* Give up other pairs' candidates when less than this part of the pool would be free. */
+#define LEAST_FREE_PART 8
+
+/*
+ * Close the gaps that pairs left which were gathered anew, or which are kept no longer. What the pair
+ * at hand has so far stays behind all others.
+ */
+static void close_gaps(struct interfere *w)
+{
+    struct pool *pool = w->candidate_pool;
+    uint32_t kept = 0, own = pool->used - w->own_first, i = 0;
+
+    while (i < w->own_first) {
+        struct pair_work *m = &w->meetings[w->candidates[i].pair];
+        uint32_t count = m->kept && m->first == i ? m->count : 0;
+
+        if (count == 0) {
+            i++;
+            continue;
+        }
+        memmove(&w->candidates[kept], &w->candidates[i], count * sizeof *w->candidates);
+        m->first = kept;
+        kept += count;
+        i += count;
+    }
+    memmove(&w->candidates[kept], &w->candidates[w->own_first], own * sizeof *w->candidates);
+    w->own_first = kept;
+    pool->used = kept + own;
+}
+
+/* Make room for one candidate more: by the gaps, by giving up other pairs, by handing over a chunk. */
+static void make_room(struct interfere *w)
+{
+    struct pool *pool = w->candidate_pool;
+
+    if (w->meetings && w->own_first > 0) {
+        close_gaps(w);
+        if (pool->size - pool->used < pool->size / LEAST_FREE_PART + 1) {
+            for (uint32_t i = 0; i < w->pair_count; i++) {
+                w->meetings[i].kept = false;
+            }
+            close_gaps(w);
+        }
+    }
+    if (pool->used == pool->size) {
+        w->visitor->visit(w->visitor, &w->candidates[w->own_first], pool->used - w->own_first);
+        pool->refused++;
+        w->whole = false;
+        pool->used = w->own_first;
+    }
+}
+
+void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
+{
+    struct pool *pool = w->candidate_pool;
+
+    if (pool->used == pool->size) {
+        make_room(w);
+    }
+    w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, i, j};
+    w->candidate_count++;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* What every file of a step may use: the booking of ticks, and the longest slice. */
+#include "parts.h"
+
+void step_mark(struct carom_world *w, enum carom_stage stage)
+{
+    if (w->config.ticks) {
+        uint32_t now = w->config.ticks();
+
+        w->stats.ticks[stage] += now - w->mark_tick;
+        w->mark_tick = now;
+    }
+}
+
+int32_t step_slice(const struct step *s, uint32_t i, int32_t left_q30)
+{
+    return body_slice(&s->w->bodies[i], &s->next->bodies[i], left_q30);
+}
