@@ -31,7 +31,8 @@ extern "C" {
 enum carom_status {
     CAROM_OK = 0,
     CAROM_OVER_BUDGET = 1, /* bit: the step took more ticks than config.budget_ticks */
-    CAROM_SUBSTEP_CAP = 2  /* bit: out of sub-steps; the rest of the frame was dropped */
+    CAROM_SUBSTEP_CAP =
+        2 /* bit: a body used up its hits; its island stood for the rest of the frame */
 };
 
 enum carom_error {
@@ -284,10 +285,11 @@ struct carom_world; /* lives at the start of the caller's block */
 
 struct carom_config {
     struct carom_caps caps;
-    carom_v3_q40 gravity;    /* at first; units / frame^2, each component within +-1 */
-    bool sleep;              /* bodies at rest sleep until something wakes them */
-    uint8_t substep_cap;     /* sub-steps a frame; 0: 8 + 2 for each moving body that is awake */
-    uint8_t sweep_cap;       /* sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of a
+    carom_v3_q40 gravity; /* at first; units / frame^2, each component within +-1 */
+    bool sleep;           /* bodies at rest sleep until something wakes them */
+    uint8_t substep_cap;  /* hits of a body in a frame; with the last its island stands for the rest
+                                of the frame; 0: 32 */
+    uint8_t sweep_cap;    /* sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of a
                                 frame; what has not settled goes on in the next */
     uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
@@ -330,7 +332,8 @@ struct carom_body_state {
     carom_v3_q40 velocity; /* derived from the momenta that are the state */
     carom_v3_q40 spin;
     bool asleep;
-    bool out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
+    bool
+        out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
                  faster than 64 units or 2^15 radians a frame */
 };
 /* Where a body is and how it moves. */
@@ -406,7 +409,8 @@ enum carom_event_kind {
     CAROM_EVENT_REST,  /* a fell asleep */
     CAROM_EVENT_OUT,   /* a left the world's range and is frozen */
     CAROM_EVENT_WAKE,  /* a woke, in the step or since the one before */
-    CAROM_EVENT_CUT    /* a, b and what they touch used up their hits: they stood for a part of the frame */
+    CAROM_EVENT_CUT    /* at a hit of a and b one of them used up its hits: both, and what touched
+                          them, stood for the rest of the frame */
 };
 
 struct carom_event {
@@ -416,7 +420,10 @@ struct carom_event {
     int64_t impulse_q40; /* HIT: normal impulse, mass x units / frame */
 };
 
-/* Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. */
+/*
+ * Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. A CUT
+ * for which there is no room is left out; stats.cut_islands counts all of them.
+ */
 int carom_events(const struct carom_world *world, const struct carom_event **events);
 
 struct carom_face_ref {
@@ -480,16 +487,21 @@ const char *carom_stage_name(int stage);
 struct carom_stats {
     uint32_t ticks[CAROM_STAGE_COUNT]; /* config.ticks by stage; 0 without it */
     uint32_t total_ticks;
-    uint32_t over_stage; /* the dearest stage of a step over its budget */
-    uint32_t substeps, hits, gathers, refinements;
-    uint32_t candidates;  /* handed to the collision test, all gathers of the step */
+    uint32_t over_stage;  /* the dearest stage of a step over its budget */
+    uint32_t substeps;    /* 1, and one for each hit that was answered and each slice that ended */
+    uint32_t hits;        /* that were answered */
+    uint32_t gathers;     /* searches for the candidates of one pair */
+    uint32_t refinements; /* paths of a pair that were set again to end at its hit, or tried to */
+    uint32_t candidates;  /* found by all gathers of the step */
     uint32_t roots;       /* candidates that came to the exact test */
     uint32_t contacts;    /* points of the last solve */
     uint32_t sweeps;      /* of all solves of several contacts */
     uint32_t impacts;     /* contacts solved as impacts */
     uint32_t energy_rule; /* impacts that the energy rule changed */
-    uint32_t cut_islands; /* that stood still for the rest of the frame: they used up their hits */
-    uint32_t calmed;      /* islands that a solve could not part and that went on as one body */
+    uint32_t
+        cut_islands; /* CAROM_EVENT_CUT: how often an island began to stand, or was hit again */
+    uint32_t calmed; /* islands and pairs that went on as one body, or came to rest on what stands
+                             still: a solve did not part them, or nothing pressed them together */
 };
 /* What the last step did, by stage. */
 int carom_stats(const struct carom_world *world, struct carom_stats *stats);
