@@ -22,18 +22,30 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
            t_q30 - b->from_q30 >= SLICE_MIN_Q30;
 }
 
-/* Whether nobody near the body was asked in between, with a path that has gone since. */
+/*
+ * Whether nobody near the body has had a path since its own began: with one that has gone by now it could
+ * not be asked again. Near is what the spheres around both may reach, whatever the regions.
+ */
 static bool may_cut(const struct step *s, uint32_t i)
 {
     const struct carom_world *w = s->w;
+    const struct body *b = &w->bodies[i];
+    int64_t way_q22, other_q22, turn_q30;
 
-    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        const struct pair *p = &w->pairs[n];
-        const struct pair_work *m = &w->meetings[n];
-        uint32_t other = p->a == i ? p->b : p->a;
+    body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
+    for (uint32_t k = 0; k < w->body_count; k++) {
+        const struct body *c = &w->bodies[k];
+        bool near = true;
 
-        if ((p->a == i || p->b == i) && !(m->kept && m->count == 0) && step_active(s, other) &&
-            w->bodies[other].from_q30 > w->bodies[i].from_q30) {
+        if (k == i || !step_active(s, k) || c->from_q30 <= b->from_q30) {
+            continue;
+        }
+        body_path_length(c, CAROM_ONE_Q30, &other_q22, &turn_q30);
+        for (int axis = 0; axis < 3; axis++) {
+            near = near && carom_abs(b->path.origin_q22[axis] - c->path.origin_q22[axis]) <=
+                               b->radius_q22 + c->radius_q22 + way_q22 + other_q22;
+        }
+        if (near) {
             return false;
         }
     }
@@ -134,7 +146,7 @@ static void restore_hit(struct pair_work *m, const struct pair_work *was)
     m->late = was->late;
 }
 
-int step_cut(struct step *s, uint32_t number, bool *done)
+int step_cut(struct step *s, uint32_t number, bool *tried)
 {
     const struct pair p = s->w->pairs[number];
     const struct pair_work was = s->w->meetings[number];
@@ -142,28 +154,30 @@ int step_cut(struct step *s, uint32_t number, bool *done)
     const bool cut[2] = {turns_on(s, p.a, was.hit_q30), turns_on(s, p.b, was.hit_q30)};
     const int32_t ends_q30[2] = {was.hit_q30, was.hit_q30}, old_q30[2] = {a->to_q30, b->to_q30};
     int32_t from_q30, to_q30;
+    bool good;
     int result;
 
-    *done = false;
+    *tried = false;
     if ((!cut[0] && !cut[1]) || (cut[0] && !may_cut(s, p.a)) || (cut[1] && !may_cut(s, p.b))) {
         return CAROM_OK;
     }
+    *tried = true;
     s->w->stats.refinements++;
     result = set_ends(s, &p, cut, ends_q30);
     if (result < 0) {
         return result;
     }
-    *done = !hits_in_the_past(s);
-    if (!*done) {
+    good = !hits_in_the_past(s);
+    if (!good) {
         result = set_ends(s, &p, cut, old_q30); /* those that were asked */
     }
-    a->cuts = cut[0] ? (uint8_t)(*done ? a->cuts + 1 : CUTS_MAX) : a->cuts;
-    b->cuts = cut[1] ? (uint8_t)(*done ? b->cuts + 1 : CUTS_MAX) : b->cuts;
+    a->cuts = cut[0] ? (uint8_t)(good ? a->cuts + 1 : CUTS_MAX) : a->cuts;
+    b->cuts = cut[1] ? (uint8_t)(good ? b->cuts + 1 : CUTS_MAX) : b->cuts;
     number = step_find_pair(s->w, &p);
     if (number == UINT32_MAX) {
         return result;
     }
-    if (!*done) {
+    if (!good) {
         restore_hit(&s->w->meetings[number], &was);
     } else if (s->w->meetings[number].hit_q30 == PAIRS_NEVER &&
                step_window(s, number, &from_q30, &to_q30)) {

@@ -131,9 +131,10 @@ enum step_event step_next(const struct step *s, uint32_t *number);
 
 /*
  * Set the paths of a pair's bodies again so that they end at its hit: the turn over a part of a slice is
- * not a part of the turn over the whole. Whether that was done: then there may be another hit first.
+ * not a part of the turn over the whole. Whether that was tried: then there may be another hit first, and
+ * pairs may have other numbers.
  */
-int step_cut(struct step *s, uint32_t number, bool *done);
+int step_cut(struct step *s, uint32_t number, bool *tried);
 
 /* Answer the hit of a pair. */
 int step_answer(struct step *s, uint32_t number);
