@@ -65,6 +65,17 @@ static int order(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
     return a != c ? (a < c ? -1 : 1) : b != d ? (b < d ? -1 : 1) : 0;
 }
 
+/* What a solve can give a body at most, q40, of what is kept: 2^60. */
+static int64_t most_impulse_q40(const struct body *b)
+{
+    const int64_t most = (int64_t)1 << 60;
+
+    /* the mass is below 2^(30 - e) */
+    return 40 + IMPULSE_BITS + 30 - b->mass.e > 60
+               ? most
+               : fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), b->mass);
+}
+
 /*
  * An impulse presses, along the normal; friction is within the widest cone there is across it; and it
  * is not more than a solve can give, see SPEC.md.
@@ -72,14 +83,11 @@ static int order(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
 static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
     const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
-    int64_t most_q40 = fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), a->mass), across_q40;
+    int64_t most_q40 = most_impulse_q40(a), across_q40;
 
-    if (b->moving) {
-        int64_t other_q40 = fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), b->mass);
-
-        most_q40 = other_q40 < most_q40 ? other_q40 : most_q40;
+    if (b->moving && most_impulse_q40(b) < most_q40) {
+        most_q40 = most_impulse_q40(b);
     }
-    most_q40 = most_q40 < (int64_t)1 << 60 ? most_q40 : (int64_t)1 << 60;
     if (warm->normal_q40 > most_q40 || warm->normal_q40 < -IMPULSE_NOISE_Q40) {
         return false;
     }
