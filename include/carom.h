@@ -330,7 +330,8 @@ struct carom_body_state {
     carom_v3_q40 velocity; /* derived from the momenta that are the state */
     carom_v3_q40 spin;
     bool asleep;
-    bool out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
+    bool
+        out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
                  faster than 64 units or 2^15 radians a frame */
 };
 /* Where a body is and how it moves. */
@@ -406,7 +407,7 @@ enum carom_event_kind {
     CAROM_EVENT_REST,  /* a fell asleep */
     CAROM_EVENT_OUT,   /* a left the world's range and is frozen */
     CAROM_EVENT_WAKE,  /* a woke, in the step or since the one before */
-    CAROM_EVENT_CUT    /* a, b and what they touch used up their hits: they stood for a part of the frame */
+    CAROM_EVENT_CUT /* a, b and what they touch used up their hits: they stood for a part of the frame */
 };
 
 struct carom_event {

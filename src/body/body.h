@@ -160,8 +160,8 @@ struct body {
 
     /* gather, 160 bytes */
     struct body_region region;
-    int32_t reach_q22; /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;  /* and how far the body may turn, radians */
+    int32_t reach_q22;     /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;      /* and how far the body may turn, radians */
     int32_t box_q18[2][3]; /* broad: in world axes around the region, grown by the reach */
 
     /* solve: before it, 72 bytes */

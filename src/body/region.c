@@ -86,8 +86,8 @@ void body_region_sweep(const struct body_region *region, int64_t from_q30, int64
                        struct body_sweep *sweep)
 {
     int32_t p_q30 = from_q30 > 0 ? part_of(region, from_q30) : 0;
-    int32_t w_q30 = time_q30 < region->time_q30 - from_q30 ? part_of(region, time_q30)
-                                                           : CAROM_ONE_Q30 - p_q30;
+    int32_t w_q30 =
+        time_q30 < region->time_q30 - from_q30 ? part_of(region, time_q30) : CAROM_ONE_Q30 - p_q30;
     int64_t bend[3];
 
     for (int k = 0; k < 3; k++) {

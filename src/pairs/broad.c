@@ -109,8 +109,7 @@ int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,
         for (uint32_t b = 0; b < body_count; b++) {
             int32_t place;
 
-            if (!broad_is_pair(bodies, states, a, b) ||
-                !broad_boxes_meet(&bodies[a], &bodies[b])) {
+            if (!broad_is_pair(bodies, states, a, b) || !broad_boxes_meet(&bodies[a], &bodies[b])) {
                 continue;
             }
             place = pool_take(pool);

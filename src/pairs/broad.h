@@ -29,7 +29,7 @@ struct pair_work {
     uint8_t late : 1; /* nothing can be solved where the window begins: the hit comes later */
     uint8_t kept : 1; /* first and count are set */
     /* by the answer to hits */
-    uint8_t checked : 1; /* its contacts are those of the hit at hand */
+    uint8_t checked : 1;  /* its contacts are those of the hit at hand */
     uint8_t repeats;      /* how often, without any time between */
     uint8_t hits;         /* in this frame */
     int32_t answered_q30; /* when last */

@@ -22,10 +22,9 @@ _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDA
 #define ROUNDINGS                                                                                  \
     (ROUNDING(struct carom_world) + ROUNDING(struct contact_work) +                                \
      ROUNDING(struct contact_roll) + ROUNDING(struct body) + 3 * ROUNDING(struct pair) +           \
-     ROUNDING(struct pair_work) +                                                                  \
-     2 * ROUNDING(struct body_state) + 2 * ROUNDING(struct rest_warm) +                            \
-     ROUNDING(struct carom_event) + ROUNDING(struct contact) + ROUNDING(struct carom_face_ref) +   \
-     ROUNDING(struct zentry) + ROUNDING(struct candidate))
+     ROUNDING(struct pair_work) + 2 * ROUNDING(struct body_state) +                                \
+     2 * ROUNDING(struct rest_warm) + ROUNDING(struct carom_event) + ROUNDING(struct contact) +    \
+     ROUNDING(struct carom_face_ref) + ROUNDING(struct zentry) + ROUNDING(struct candidate))
 /* less what a body, a pair and a contact leave of theirs: there is one of each at least. */
 _Static_assert(sizeof(struct carom_world) + ROUNDINGS + OF_BODY + OF_PAIR + OF_CONTACT <=
                    CAROM_WORLD_FIXED_BYTES + CAROM_BODY_BYTES + CAROM_PAIR_BYTES +
