@@ -50,8 +50,8 @@ spoil()
     copy
     sed -i "/^void step_mark(/,/^{/ s/^{/{\n    static int frame = 1;\n\n    if (frame == $1 \&\& \
 stage == CAROM_STAGE_$2) {\n        $3;\n    }\n    frame += stage == CAROM_STAGE_COMMIT;/" \
-        "$work/src/step/move.c"
-    ! cmp -s src/step/move.c "$work/src/step/move.c"
+        "$work/src/step/slice.c"
+    ! cmp -s src/step/slice.c "$work/src/step/slice.c"
 }
 
 # Two scenes go on from a snapshot, from either machine to the other.

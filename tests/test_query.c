@@ -134,7 +134,7 @@ static uint32_t step(void)
         body_place(&bodies[i], &states[i]);
         body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30, NEAR_Q22);
     }
-    
+
     CHECK_EQ(interfere_visit(&work, bodies, &pair, 1, &visitor), CAROM_OK);
     solid_place(&a, &states[0]);
     solid_place(&b, &states[1]);
