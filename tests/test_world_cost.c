@@ -70,7 +70,7 @@ static void test_flight(void)
     static struct scene scene;
 
     /*
-     * 3000 are wanted of both. A body's clock and region of its own cost some 2400 and 4400 more than
+     * 3000 are wanted of both. A body's clock and region of its own cost some 2500 and 5300 more than
      * one path for all did; a good part of a turn is the midpoint rule, in 60 bits.
      */
     cost_end("in flight without spin", step_cost(box_world(&scene, false, 5)), 5500);
