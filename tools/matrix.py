@@ -157,7 +157,7 @@ class Build:
     def make(self):
         shutil.rmtree(self.folder, ignore_errors=True)
         os.makedirs(self.folder)
-        self.compile(sorted(glob.glob(self.engine + "/*.c")), "-ffreestanding", *WARNINGS)
+        self.compile(sorted(glob.glob(self.engine + "/*/*.c")), "-ffreestanding", *WARNINGS)
         self.compile(PROGRAM + self.port, *self.port_options)
         made = glob.glob(self.folder + "/*.o")
         call([*self.linker, "-o", self.elf, *made, *MESHES[self.target],
