@@ -19,7 +19,7 @@
  * still fail (893, 1754, 1791 and the rest of docs/soak.md) are for `make soak` alone.
  */
 #define FIRST 30
-static const uint64_t known[] = {53,  103,  173,  178,  215,  340,  425,  496,  626,
+static const uint64_t known[] = {53,  103,  173,  178,  215,  340,  425,  496, 626,
                                  792, 1455, 1513, 1719, 1973, 2123, 2257, 2391};
 #define WORLDS (FIRST + sizeof known / sizeof *known)
 /* Of all frames those that are cut short. */

@@ -6,8 +6,7 @@ CLOCK_MHZ := 50
 SCENES := head100:60
 FAMILY := arm
 ARCH := -mcpu=cortex-m3 -mthumb
-# Loops unrolled: a tenth faster, and the flash is there.
-OPT := -O2 -funroll-loops
+OPT := -O2
 PORT := port/lm3s6965evb/lm3s.c port/arm/systick.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M lm3s6965evb
 # SysTick's 24 bits are 2.6 million instructions.

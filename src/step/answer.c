@@ -293,6 +293,7 @@ int step_answer(struct step *s, uint32_t number)
     struct boyse_hit hit = hit_of(s, number);
     uint32_t repeats;
     int32_t since_q30;
+    bool last_a, last_b;
     int result;
 
     s->now_q30 = m->hit_q30;
@@ -311,7 +312,9 @@ int step_answer(struct step *s, uint32_t number)
         return result;
     }
     insist(s, hit.candidate.pair, repeats, since_q30);
-    if (spend(s, p.a) | spend(s, p.b)) {
+    last_a = spend(s, p.a);
+    last_b = spend(s, p.b);
+    if (last_a || last_b) {
         stop_island(s, &p);
     }
     return go_on(s);
