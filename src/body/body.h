@@ -40,7 +40,7 @@ struct body_state {
     uint8_t woken; /* since the last step */
 };
 
-/* What the shared memory of a path holds: BODY_ORIGIN is a path's origin and nothing else of it. */
+/* Holders of the shared memory of a path: BODY_ORIGIN is a path's origin and nothing else of it. */
 enum body_path_phase { BODY_NO_PATH, BODY_PATH, BODY_SOLVE, BODY_ORIGIN };
 
 struct body_path {
@@ -105,7 +105,7 @@ struct body_sweep {
     int32_t u_q30, whole_u_q30;   /* |u| of the part and of the region, rounded up */
 };
 
-/* What other shared memory of a body holds. */
+/* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
 /* A body. Each field stands under the stage that writes it. */
@@ -189,7 +189,7 @@ static inline const int64_t *body_origin_q22(const struct body *b)
     return b->path.origin_q22;
 }
 
-/* What a solve works out of a body. */
+/* The part of a body that a solve works in. */
 static inline struct body_path *body_solve(const struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_SOLVE);
