@@ -312,7 +312,7 @@ static int begin_one(struct step *s, uint32_t i)
     }
     if (b->active) {
         body_place(b, &s->next->bodies[i]);
-        if (b->region.elapsed_q30 < b->region.time_q30 && body_region_holds(b, 0)) {
+        if (body_region_holds(b, 0)) {
             return CAROM_OK;
         }
     }
