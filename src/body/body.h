@@ -90,7 +90,8 @@ struct body_region {
     int32_t length_q22; /* of the centre's way, rounded up */
     int32_t bend_q22;   /* |bend|, rounded up */
     int32_t room_q22;
-    int64_t time_q30; /* frames, at most BODY_REGION_FRAMES */
+    int64_t time_q30;  /* frames, at most BODY_REGION_FRAMES */
+    int64_t until_q30; /* the part of that which candidates are gathered for */
     /* used up */
     int64_t elapsed_q30;    /* when the path at hand begins */
     int64_t turned_off_q30; /* angle between the body and the path, at most */
@@ -118,7 +119,7 @@ struct body {
 
     /* of a step, 11 bytes and the tag */
     bool active;     /* region: was to move when its region was set */
-    bool alone;      /* region: had no pairs then */
+    bool free;       /* region: there were no candidates then */
     bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
     bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
     bool entering;   /* rest: in_contact is new */
@@ -158,7 +159,7 @@ struct body {
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
 
-    /* gather, 160 bytes */
+    /* gather, 168 bytes */
     struct body_region region;
     int32_t reach_q22;     /* how far any point may go in the region, and the margin */
     int32_t turn_q30;      /* and how far the body may turn, radians */

@@ -40,7 +40,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
 
     region->at = s->position;
     region->q = path->q;
-    region->time_q30 = time_q30;
+    region->time_q30 = region->until_q30 = time_q30;
     region->room_q22 = room_q22;
     region->elapsed_q30 = 0;
     region->turned_off_q30 = 0;
@@ -169,7 +169,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     int64_t until_q30 = region->elapsed_q30 + time_q30;
     int32_t part_q30;
 
-    if (until_q30 > region->time_q30) {
+    if (until_q30 > region->until_q30) {
         return false;
     }
     part_q30 = part_of(region, time_q30);

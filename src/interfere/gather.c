@@ -94,7 +94,7 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
     struct pair_work *meetings = w->meetings;
 
     w->meetings = NULL;
-    w->span = (struct interfere_span){0, 0, INT64_MAX};
+    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX};
     w->error = CAROM_OK;
     for (uint32_t i = 0; i < pair_count && !w->error; i++) {
         pool_clear(w->candidate_pool);

@@ -97,7 +97,11 @@ struct interfere_area {
 /* The part of both regions' time that a pair is gathered for, frames. */
 struct interfere_span {
     int64_t from_a_q30, from_b_q30, time_q30;
+    uint32_t most; /* a gather that finds more candidates gives up */
 };
+
+/* What a gather returns that gave up. */
+#define INTERFERE_TOO_MANY 1
 
 /* All pairs of a world, and their bodies. */
 struct interfere_pairs {
@@ -140,7 +144,7 @@ struct interfere {
 /*
  * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew
  * for a span of both regions, to be kept or not; in chunks when the pool has not room for all of them.
- * Returns CAROM_OK, or CAROM_ERR_RANGE for a pair too large and fast for q22.
+ * Returns CAROM_OK, INTERFERE_TOO_MANY, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
                          const struct interfere_span *span, bool keep,

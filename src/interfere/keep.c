@@ -66,4 +66,7 @@ void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     }
     w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, i, j};
     w->candidate_count++;
+    if (pool->used - w->own_first > w->span.most) {
+        w->error = INTERFERE_TOO_MANY;
+    }
 }

@@ -126,14 +126,16 @@ static int set_pairs(struct step *s, uint32_t i)
     return result;
 }
 
-static bool has_pairs(const struct carom_world *w, uint32_t i)
+/* Whether a body has no candidates. */
+static bool is_free(const struct carom_world *w, uint32_t i)
 {
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        if (w->pairs[n].a == i || w->pairs[n].b == i) {
-            return true;
+        if ((w->pairs[n].a == i || w->pairs[n].b == i) &&
+            (!w->meetings[n].kept || w->meetings[n].count > 0)) {
+            return false;
         }
     }
-    return false;
+    return true;
 }
 
 /* ------------------------------------------------------------------ regions */
@@ -171,13 +173,13 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
         return slice_q30;
     }
     if (b->active) {
-        bool to_end = b->region.time_q30 - b->region.elapsed_q30 < CAROM_ONE_Q30;
+        bool to_end = b->region.until_q30 - b->region.elapsed_q30 < CAROM_ONE_Q30;
 
         held = (b->region.elapsed_q30 >> 30) << to_end;
     }
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     way_q22 = (way_q22 << 30) / slice_q30 + 1;
-    most_q22 = b->radius_q22 / (b->alone                      ? REGION_PARTS_FREE
+    most_q22 = b->radius_q22 / (b->free                       ? REGION_PARTS_FREE
                                 : b->in_contact || b->touched ? REGION_PARTS
                                                               : REGION_PARTS_FLIGHT);
     frames = frames * way_q22 > most_q22 ? most_q22 / way_q22 : frames;
@@ -213,18 +215,9 @@ static void begin_standing(struct step *s, uint32_t i)
 
 int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
 {
-    struct body *b = &s->w->bodies[i];
-    int result;
-
+    s->w->bodies[i].free = is_free(s->w, i);
     begin_region(s, i, slice_q30);
-    result = set_pairs(s, i);
-    if (b->alone && has_pairs(s->w, i)) {
-        b->alone = false;
-        begin_region(s, i, slice_q30);
-        result = set_pairs(s, i);
-    }
-    b->alone = result == CAROM_OK && !has_pairs(s->w, i);
-    return result;
+    return set_pairs(s, i);
 }
 
 /* The path that a body is going to take from the start of a frame if it goes on so; its slice. */
@@ -248,49 +241,25 @@ int step_adopt(struct step *s, uint32_t i)
     return result;
 }
 
-/* Regions of all, and all pairs; whether a body that was alone is not any more. */
-static int set_all(struct step *s, bool *met)
+/* Regions of all, and all pairs. */
+static int begin_all(struct step *s)
 {
     struct carom_world *w = s->w;
     int result;
 
-    *met = false;
     for (uint32_t i = 0; i < w->body_count; i++) {
+        w->bodies[i].free = w->pools[CAROM_POOL_pairs].used == 0;
         if (step_active(s, i)) {
             begin_region(s, i, foresee(s, i));
+            body_place(&w->bodies[i], &s->next->bodies[i]);
         } else if (w->bodies[i].mesh && !w->bodies[i].standing) {
             begin_standing(s, i);
         }
     }
+    pool_clear(&w->pools[CAROM_POOL_candidates]);
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        struct body *a = &w->bodies[w->pairs[n].a], *b = &w->bodies[w->pairs[n].b];
-
-        *met |= a->alone || b->alone;
-        a->alone = b->alone = false;
-    }
-    return result;
-}
-
-static int begin_all(struct step *s)
-{
-    struct carom_world *w = s->w;
-    bool met;
-    int result = set_all(s, &met);
-
-    if (met) {
-        result = set_all(s, &met);
-    }
-    pool_clear(&w->pools[CAROM_POOL_candidates]);
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].alone = true;
-        if (step_active(s, i)) {
-            body_place(&w->bodies[i], &s->next->bodies[i]);
-        }
-    }
-    for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        w->bodies[w->pairs[n].a].alone = w->bodies[w->pairs[n].b].alone = false;
         w->meetings[n] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
     }
     w->interfere.stale = false;

@@ -10,6 +10,8 @@
 #define NOISE_Q22 4
 /* A window has no more parts. */
 #define PARTS_MAX 64
+/* More candidates are too many for a region that lasts because there were none. */
+#define ENOUGH 8
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
 
@@ -32,7 +34,7 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
 
     if (step_active(s, i)) {
         used = b->region.elapsed_q30 + (t_q30 - b->from_q30);
-        *left_q30 = b->region.time_q30 - used < *left_q30 ? b->region.time_q30 - used : *left_q30;
+        *left_q30 = b->region.until_q30 - used < *left_q30 ? b->region.until_q30 - used : *left_q30;
     }
     return used;
 }
@@ -41,7 +43,7 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
 static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
                                      int64_t time_q30)
 {
-    struct interfere_span span = {0, 0, time_q30};
+    struct interfere_span span = {0, 0, time_q30, UINT32_MAX};
 
     span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
     span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
@@ -59,6 +61,26 @@ static bool goes_far(const struct step *s, const struct pair *p)
                       (step_active(s, p->b) ? b->region.length_q22 : 0);
 
     return way_q22 > (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+}
+
+/* Whether a body's region lasts beyond the frame because nothing was near. */
+static bool lasts(const struct step *s, uint32_t i)
+{
+    const struct body *b = &s->w->bodies[i];
+    int64_t left_q30 = b->region.until_q30;
+
+    return step_active(s, i) && b->free && used_q30(s, i, CAROM_ONE_Q30, &left_q30) >= 0 &&
+           left_q30 > 0;
+}
+
+/* Such a region ends with the frame. */
+static void shorten(struct step *s, uint32_t i)
+{
+    if (lasts(s, i)) {
+        int64_t left_q30 = 0;
+
+        s->w->bodies[i].region.until_q30 = used_q30(s, i, CAROM_ONE_Q30, &left_q30);
+    }
 }
 
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
@@ -86,7 +108,14 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     v->step = s;
     v->found = false;
     v->error = CAROM_OK;
+    span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
     result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+    if (result == INTERFERE_TOO_MANY) {
+        shorten(s, p->a);
+        shorten(s, p->b);
+        span = span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30);
+        result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+    }
     return v->error ? v->error : result;
 }
 
