@@ -279,8 +279,10 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
         v.to_q30 = window_end(&s);
         expect(step_first_hit(&s, 0, &v), "first hit");
         if (v.found) {
-            boyse_pair_for(v.pair, &v.hit.candidate);
-            boyse_touch(v.pair, &v.hit.candidate, v.hit.root_q30, &v.hit.touch);
+            struct boyse_pair *pair = step_set_pair(w, 0);
+
+            boyse_pair_for(pair, &v.hit.candidate);
+            boyse_touch(pair, &v.hit.candidate, v.hit.root_q30, &v.hit.touch);
         }
     }
     verdict->hit = v.found;

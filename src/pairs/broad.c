@@ -78,7 +78,7 @@ void broad_set_box(struct body *b)
 
 bool broad_boxes_meet(struct body *a, struct body *b)
 {
-    if (!overlap((const int32_t(*)[3])a->box_q18, (const int32_t(*)[3])b->box_q18)) {
+    if (broad_apart(a, b)) {
         return false;
     }
     if (a->boxed && b->boxed) {
@@ -90,7 +90,7 @@ bool broad_boxes_meet(struct body *a, struct body *b)
     if (!b->boxed) {
         set_mesh_box(b);
     }
-    return overlap((const int32_t(*)[3])a->box_q18, (const int32_t(*)[3])b->box_q18);
+    return !broad_apart(a, b);
 }
 
 bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,

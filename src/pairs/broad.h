@@ -26,8 +26,9 @@ struct pair_work {
     int32_t root_q30; /* where the surfaces meet, a time of the window that was searched */
     uint32_t i, j;    /* its features */
     uint8_t kind;
-    uint8_t late : 1; /* nothing can be solved where the window begins: the hit comes later */
-    uint8_t kept : 1; /* first and count are set */
+    uint8_t late : 1;  /* nothing can be solved where the window begins: the hit comes later */
+    uint8_t kept : 1;  /* first and count are set */
+    uint8_t found : 1; /* the last gather found some */
     /* by the answer to hits */
     uint8_t checked : 1;  /* its contacts are those of the hit at hand */
     uint8_t repeats;      /* how often, without any time between */
@@ -51,6 +52,17 @@ bool broad_near(const struct body *a, const struct body_state *state_a, const st
  * most bodies are far from all others; around the mesh when it stands still.
  */
 void broad_set_box(struct body *b);
+
+/* Whether the boxes at hand of two bodies are apart: most are. */
+static inline bool broad_apart(const struct body *a, const struct body *b)
+{
+    for (int k = 0; k < 3; k++) {
+        if (a->box_q18[1][k] < b->box_q18[0][k] || b->box_q18[1][k] < a->box_q18[0][k]) {
+            return true;
+        }
+    }
+    return false;
+}
 
 /* Whether the boxes of two bodies overlap; spheres' boxes that do give way to those of the meshes. */
 bool broad_boxes_meet(struct body *a, struct body *b);

@@ -62,7 +62,9 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
     if (t_q30 > b->from_q30) {
         b->strained |= b->path.turns && !b->in_contact && path_time(b, t_q30) < CAROM_ONE_Q30;
         body_region_advance(b, t_q30 - b->from_q30, b->to_q30 - b->from_q30);
-        *state = step_state_at(s, i, t_q30);
+        if (step_active(s, i) && !b->stands) {
+            body_advance(b, state, path_time(b, t_q30), b->to_q30 - b->from_q30, pull_on(b));
+        }
     }
     b->from_q30 = b->to_q30 = t_q30;
 }

@@ -5,10 +5,11 @@
 static void visit_contacts(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
+    struct boyse_pair *pair = n > 0 ? step_set_pair(v->step->w, v->number) : NULL;
 
     for (uint32_t i = 0; i < n && !v->error; i++) {
-        boyse_pair_for(v->pair, &c[i]);
-        if (!contact_add(&v->step->w->rest.list, v->pair, &c[i], v->margin_q22)) {
+        boyse_pair_for(pair, &c[i]);
+        if (!contact_add(&v->step->w->rest.list, pair, &c[i], v->margin_q22)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }
     }
@@ -16,18 +17,22 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 
 int step_check_pair(struct step *s, uint32_t number)
 {
-    const struct pair_work *m = &s->w->meetings[number];
+    struct pair_work *m = &s->w->meetings[number];
     const struct pair *p = &s->w->pairs[number];
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
     struct step_visitor v;
 
     if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
-    v.pair = step_set_pair(s->w, number);
     /* bodies that bounce for ever must not be held by their margin */
-    v.margin_q22 =
-        v.pair->skin_q22 *
-        (rest_restitution(v.pair->a, v.pair->b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    v.margin_q22 = skin_q22 * (rest_restitution(a, b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    if (!m->kept && step_stay_apart(s, number,
+                                    (int64_t)v.margin_q22 + 2 * skin_q22 +
+                                        mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh))) {
+        return CAROM_OK;
+    }
     v.from_q30 = v.to_q30 = s->now_q30;
     return step_visit(s, number, &v, visit_contacts);
 }

@@ -89,7 +89,7 @@ int step_adopt(struct step *s, uint32_t i);
 struct step_visitor {
     struct candidate_visitor base;
     struct step *step;
-    struct boyse_pair *pair;  /* set up */
+    uint32_t number;          /* of the pair */
     int32_t from_q30, to_q30; /* the time of the frame that is looked at */
     bool found;
     struct boyse_hit hit; /* its times are those of the paths at hand */
@@ -104,6 +104,12 @@ struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number);
 /* Hand every candidate of a pair to f. */
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
                void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));
+
+/*
+ * Whether the spheres around a pair's bodies, and so much more, stay apart on the paths at hand: then
+ * nothing of theirs meets, and nothing need be gathered.
+ */
+bool step_stay_apart(const struct step *s, uint32_t number, int64_t more_q22);
 
 /* The window of a pair: the time that both paths take, when there is any. */
 bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32_t *to_q30);

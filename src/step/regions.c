@@ -96,6 +96,14 @@ static void remove_pair(struct carom_world *w, uint32_t place)
     renumber(w, place + 1, -1);
 }
 
+/* Whether two bodies, at least one of which has a new region, are near each other. */
+static bool are_near(const struct step *s, uint32_t a, uint32_t b)
+{
+    struct body *bodies = s->w->bodies;
+
+    return broad_is_pair(bodies, s->next->bodies, a, b) && broad_boxes_meet(&bodies[a], &bodies[b]);
+}
+
 /* The pairs of a body whose region is new: they are gathered when somebody asks for them. */
 static int set_pairs(struct step *s, uint32_t i)
 {
@@ -103,35 +111,35 @@ static int set_pairs(struct step *s, uint32_t i)
     int result = CAROM_OK;
 
     s->pairs_changed = true;
-    for (uint32_t k = 0; k < w->body_count && result == CAROM_OK; k++) {
-        bool first = broad_is_pair(w->bodies, s->next->bodies, i, k);
-        uint32_t a = first ? i : k, b = first ? k : i, place;
-        bool near = k != i && (first || broad_is_pair(w->bodies, s->next->bodies, k, i)) &&
-                    broad_boxes_meet(&w->bodies[i], &w->bodies[k]);
+    for (uint32_t n = w->pools[CAROM_POOL_pairs].used; n-- > 0;) {
+        const struct pair *p = &w->pairs[n];
 
-        if (!near && !first) { /* the other way round, if it was one that is none any more */
-            a = w->bodies[i].moving && (!w->bodies[k].moving || i > k) ? i : k;
-            b = a == i ? k : i;
-        }
-        place = place_of(w, a, b);
-        if (is_at(w, place, a, b)) {
-            w->meetings[place].kept = false;
-            if (!near) {
-                remove_pair(w, place);
+        if (p->a == i || p->b == i) {
+            w->meetings[n].kept = false;
+            if (!are_near(s, p->a, p->b)) {
+                remove_pair(w, n);
             }
-        } else if (near) {
-            result = insert_pair(w, place, a, b);
+        }
+    }
+    for (uint32_t k = 0; k < w->body_count && result == CAROM_OK; k++) {
+        if (k != i && !broad_apart(&w->bodies[i], &w->bodies[k]) && w->bodies[k].mesh) {
+            bool first = w->bodies[i].moving && (!w->bodies[k].moving || i > k);
+            uint32_t a = first ? i : k, b = first ? k : i, place;
+
+            place = place_of(w, a, b);
+            if (!is_at(w, place, a, b) && are_near(s, a, b)) {
+                result = insert_pair(w, place, a, b);
+            }
         }
     }
     return result;
 }
 
-/* Whether a body has no candidates. */
+/* Whether a body has no candidates, as far as somebody asked. */
 static bool is_free(const struct carom_world *w, uint32_t i)
 {
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        if ((w->pairs[n].a == i || w->pairs[n].b == i) &&
-            (!w->meetings[n].kept || w->meetings[n].count > 0)) {
+        if ((w->pairs[n].a == i || w->pairs[n].b == i) && w->meetings[n].found) {
             return false;
         }
     }
@@ -267,7 +275,7 @@ static int begin_all(struct step *s)
     return result;
 }
 
-/* A body whose region does not hold any more, or that went to sleep or stopped. */
+/* A body that woke, or that went to sleep or stopped. */
 static int begin_one(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -279,11 +287,10 @@ static int begin_one(struct step *s, uint32_t i)
         begin_standing(s, i);
         return set_pairs(s, i);
     }
-    if (b->active) {
+    if (b->active) { /* its path stayed within its region */
         body_place(b, &s->next->bodies[i]);
-        if (body_region_holds(b, 0)) {
-            return CAROM_OK;
-        }
+        CAROM_ASSERT(body_region_holds(b, 0));
+        return CAROM_OK;
     }
     return step_adopt(s, i);
 }
@@ -293,8 +300,7 @@ int step_begin_regions(struct step *s)
     struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    /* where nothing is near, to begin anew costs less than to ask whether regions hold */
-    if (w->interfere.stale || s->single || w->pools[CAROM_POOL_pairs].used == 0) {
+    if (w->interfere.stale || s->single) {
         result = begin_all(s);
     } else {
         for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {

@@ -104,8 +104,10 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     }
     span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
                 : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
+    world_begin_gather(w);
     v->base.visit = f;
     v->step = s;
+    v->number = number;
     v->found = false;
     v->error = CAROM_OK;
     span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
@@ -174,16 +176,17 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
 {
     struct step_visitor *v = (struct step_visitor *)self;
     struct boyse_hit *best = &v->hit;
+    struct boyse_pair *pair = n > 0 ? step_set_pair(v->step->w, v->number) : NULL;
 
     for (uint32_t i = 0; i < n; i++) {
         struct boyse_hit hit;
 
-        boyse_pair_for(v->pair, &c[i]);
-        if (!boyse_first(v->pair, &c[i], &hit, &v->step->w->stats.roots)) {
+        boyse_pair_for(pair, &c[i]);
+        if (!boyse_first(pair, &c[i], &hit, &v->step->w->stats.roots)) {
             continue;
         }
         hit.candidate = c[i];
-        hit.touch.valid = step_put_off(v->pair, &hit);
+        hit.touch.valid = step_put_off(pair, &hit);
         if (!v->found || hit.t_q30 < best->t_q30 ||
             (hit.t_q30 == best->t_q30 && candidate_compare(&c[i], &best->candidate) < 0)) {
             *best = hit;
@@ -192,16 +195,14 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
     }
 }
 
-/*
- * Whether the spheres around two bodies stay apart on the paths at hand: then nothing of theirs hits, and
- * nothing need be gathered. Way and turn of a path are rounded up; turns do not matter to spheres.
- */
-static bool stay_apart(const struct step *s, const struct pair *p)
+bool step_stay_apart(const struct step *s, uint32_t number, int64_t more_q22)
 {
+    const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int64_t reach_q22 = (int64_t)a->radius_q22 + b->radius_q22, apart[3];
+    int64_t reach_q22 = (int64_t)a->radius_q22 + b->radius_q22 + more_q22, apart[3];
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
 
+    /* way and turn of a path are rounded up; turns do not matter to spheres */
     for (int k = 0; k < 3; k++) {
         int64_t way_q40 = carom_abs(path_a->v.c[k] - path_b->v.c[k]) + carom_abs(path_a->g.c[k]) +
                           carom_abs(path_b->g.c[k]);
@@ -218,7 +219,6 @@ static bool stay_apart(const struct step *s, const struct pair *p)
 
 int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
 {
-    v->pair = step_set_pair(s->w, number);
     return step_visit(s, number, v, visit_first);
 }
 
@@ -249,7 +249,7 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
     step_open_window(s, number, v->from_q30, v->to_q30);
     v->found = false;
-    if (!stay_apart(s, &s->w->pairs[number])) {
+    if (!step_stay_apart(s, number, 0)) {
         result = step_first_hit(s, number, v);
     }
     if (v->found) {
@@ -275,7 +275,7 @@ int step_search(struct step *s, uint32_t number)
         return CAROM_OK;
     }
     step_open_window(s, number, v.from_q30, v.to_q30);
-    parts = stay_apart(s, &s->w->pairs[number])
+    parts = step_stay_apart(s, number, 0)
                 ? 0
                 : parts_of(s, &s->w->pairs[number], v.to_q30 - v.from_q30);
     step_close_window(s, number, v.from_q30, v.to_q30);
