@@ -5,6 +5,9 @@
  */
 #include "narrow.h"
 
+/* Lists reach farther than is asked for by this part. */
+#define AREA_PART 256
+
 /* Enter a face in its cells from the place on; false when the pool is full. */
 static bool enter_face(struct interfere *w, const struct carom_mesh *mesh,
                        struct interfere_place *at)
@@ -59,9 +62,24 @@ static bool hold(const struct interfere *w, const struct carom_mesh *mesh,
            w->area.high[0] >= area->high[0] && w->area.high[1] >= area->high[1];
 }
 
+/* A little more than is asked for: bodies that are led aside ask again in the same step. */
+static struct interfere_area grown(const struct interfere_area *area)
+{
+    struct interfere_area more = *area;
+
+    for (int k = 0; k < 2; k++) {
+        int32_t by = (area->high[k] - area->low[k]) / AREA_PART;
+
+        more.low[k] -= by;
+        more.high[k] += by;
+    }
+    return more;
+}
+
 bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from)
 {
+    const struct interfere_area more = grown(area);
     bool first = from->face == 0 && from->cells == 0;
 
     if (first && hold(w, mesh, area)) {
@@ -70,12 +88,12 @@ bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
     w->listed = NULL;
     zlist_clear(&w->lists);
     for (; from->face < mesh->raw.face_count; from->face++, from->cells = 0) {
-        if (face_in(mesh, from->face, area) && !enter_face(w, mesh, from)) {
+        if (face_in(mesh, from->face, &more) && !enter_face(w, mesh, from)) {
             return false;
         }
     }
     w->listed = first ? mesh : NULL;
-    w->area = *area;
+    w->area = more;
     return true;
 }
 

@@ -118,7 +118,8 @@ int step_set_path(struct step *s, uint32_t i)
     b->cuts = 0;
     b->from_q30 = s->now_q30;
     b->to_q30 = CAROM_ONE_Q30;
-    if (left_q30 == 0 || step_retire(s, i)) {
+    /* as a frame begins what nothing has changed yet is in range */
+    if (left_q30 == 0 || ((s->now_q30 > 0 || b->in_contact) && step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }

@@ -256,7 +256,7 @@ static int begin_all(struct step *s)
     int result;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].free = w->pools[CAROM_POOL_pairs].used == 0;
+        w->bodies[i].free = false;
         if (step_active(s, i)) {
             begin_region(s, i, foresee(s, i));
             body_place(&w->bodies[i], &s->next->bodies[i]);
@@ -288,8 +288,10 @@ static int begin_one(struct step *s, uint32_t i)
         return set_pairs(s, i);
     }
     if (b->active) { /* its path stayed within its region */
-        body_place(b, &s->next->bodies[i]);
-        CAROM_ASSERT(body_region_holds(b, 0));
+        if (s->w->pools[CAROM_POOL_pairs].used > 0) {
+            body_place(b, &s->next->bodies[i]);
+            CAROM_ASSERT(body_region_holds(b, 0));
+        }
         return CAROM_OK;
     }
     return step_adopt(s, i);
