@@ -88,13 +88,13 @@ struct body_region {
     carom_v3_q30 turn;  /* twice that, in world axes */
     int32_t u_q30;      /* |u|, rounded up */
     int32_t length_q22; /* of the centre's way, rounded up */
-    int32_t bend_q22;   /* |bend|, rounded up */
     int32_t room_q22;
-    int64_t time_q30;  /* frames, at most BODY_REGION_FRAMES */
-    int64_t until_q30; /* the part of that which candidates are gathered for */
     /* used up */
+    int32_t turned_off_q30; /* angle between the body and the path, at most */
     int64_t elapsed_q30;    /* when the path at hand begins */
-    int64_t turned_off_q30; /* angle between the body and the path, at most */
+    /* frames, at most BODY_REGION_FRAMES */
+    int64_t time_q30;
+    int64_t until_q30; /* the part of that which candidates are gathered for */
 };
 
 /* A part of a region's time: where the motion starts and ends, and bounds of what lies between. */
@@ -159,7 +159,7 @@ struct body {
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
 
-    /* gather, 168 bytes */
+    /* gather, 160 bytes */
     struct body_region region;
     int32_t reach_q22;     /* how far any point may go in the region, and the margin */
     int32_t turn_q30;      /* and how far the body may turn, radians */

@@ -49,8 +49,8 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
         region->bend.c[k] = longer(longer(path->g.c[k], longer_q16), longer_q16);
     }
     set_turn(b, longer_q16);
-    region->bend_q22 = (int32_t)(fix_length_bound(region->bend.c) >> 18) + 1;
-    region->length_q22 = (int32_t)(fix_length_bound(region->way.c) >> 18) + 1 + region->bend_q22;
+    region->length_q22 = (int32_t)(fix_length_bound(region->way.c) >> 18) +
+                         (int32_t)(fix_length_bound(region->bend.c) >> 18) + 2;
     turn_q30 = 2 * (int64_t)region->u_q30;
     b->reach_q22 = region->length_q22 + (int32_t)fix_mul_q30(turn_q30, b->radius_q22) + 2 +
                    room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
@@ -183,15 +183,16 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by a quarter of what their bends differ by */
     off += (fix_length_bound(bend) >> 20) + 1;
-    off += fix_mul(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
+    off += fix_mul((int64_t)region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
     return off <= region->room_q22;
 }
 
 void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30)
 {
     struct body_region *region = &b->region;
+    /* the path turns evenly but for cubes; no room holds two radians */
+    int64_t off_q30 = region->turned_off_q30 + turns_off_q30(b, time_q30);
 
-    /* the path turns evenly but for cubes */
-    region->turned_off_q30 += turns_off_q30(b, time_q30);
+    region->turned_off_q30 = off_q30 < INT32_MAX ? (int32_t)off_q30 : INT32_MAX;
     region->elapsed_q30 += part_q30;
 }

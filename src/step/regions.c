@@ -177,7 +177,9 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
     int64_t way_q22, turn_q30, most_q22, frames = BODY_REGION_FRAMES, held = 1;
 
-    if (slice_q30 < left_q30 || slice_q30 < STEP_SLICE_MIN_Q30 || s->single) {
+    /* where nothing is near, a new region costs less than to ask whether the old one holds */
+    if (slice_q30 < left_q30 || slice_q30 < STEP_SLICE_MIN_Q30 || s->single ||
+        s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
     if (b->active) {
