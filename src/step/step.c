@@ -154,6 +154,7 @@ static void arrive(struct step *s)
 
         if (step_active(s, i) && b->stands) {
             body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
+            b->from_q30 = b->to_q30 = CAROM_ONE_Q30;
         } else if (step_active(s, i)) {
             step_leave_path(s, i, CAROM_ONE_Q30);
         }
