@@ -251,7 +251,6 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
 /* R J R^T: inertia by mass in world axes. */
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out);
 
-void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 /* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
 void body_normalise(carom_quat_q30 *q);
 

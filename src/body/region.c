@@ -102,7 +102,7 @@ void body_region_sweep(const struct body_region *region, int64_t from_q30, int64
     sweep->length_q22 = (int32_t)(fix_length_bound(sweep->way.c) >> 18) + 3 + sweep->bend_q22;
     sweep->whole_u_q30 = region->u_q30;
     sweep->u_q30 = region->u_q30 > 0 ? carom_mul_q30(region->u_q30, w_q30) + 2 : 0;
-    body_matrix(&sweep->start, &region->q);
+    fix_matrix(&sweep->start, &region->q);
     sweep->end = sweep->start;
     if (region->u_q30 > 0) {
         if (p_q30 > 0) {

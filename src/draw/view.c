@@ -189,7 +189,7 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view, const 
     body->moving = from->moving;
     body->ramp = (draw_ramp_entry(from->moving, false, 0) << 24) + (1u << 28);
     memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
-    body_matrix(&r, &state->rotation);
+    fix_matrix(&r, &state->rotation);
     place_eye(body, view, &r, &state->position);
     /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
     body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);

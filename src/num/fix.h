@@ -188,6 +188,9 @@ int64_t fix_length_bound(const int64_t v[3]);
  */
 bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
 
+/* The matrix of a rotation. Range: components below 2^31, so that two products are below 2^63. */
+void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
+
 /* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);

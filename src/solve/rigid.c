@@ -154,7 +154,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
 
     arm_q30(r, rigid, i, arm);
     square_q30 = carom_dot(arm, arm) >> 30;
-    body_matrix(&axes, &r->states[i].rotation);
+    fix_matrix(&axes, &r->states[i].rotation);
     body_world_inertia(&r->bodies[i], &axes, &own);
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n <= m; n++) {

@@ -16,7 +16,7 @@ static struct fix_wide kinetic2(const struct body *b, const struct body_state *s
 {
     carom_m3_q30 r;
 
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     return body_kinetic2(b, s, &r);
 }
 

@@ -248,7 +248,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 
     memcpy(l.states, world_now(w)->bodies, w->body_count * sizeof *l.states);
     find_islands(w);
-    body_matrix(&r, &l.states[surface].rotation);
+    fix_matrix(&r, &l.states[surface].rotation);
     for (int k = 0; k < 3; k++) {
         l.up_q30[k] = r.c[k][2];
     }

@@ -294,7 +294,7 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
     s = &world_now(w)->bodies[body];
     out->position = s->position;
     out->rotation = s->rotation;
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     body_velocity(&w->bodies[body], s, &out->velocity);
     body_spin(&w->bodies[body], s, &r, &out->spin);
     out->asleep = s->asleep;
