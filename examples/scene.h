@@ -34,7 +34,7 @@
 #ifndef CAROM_SCENE_H
 #define CAROM_SCENE_H
 
-#include "carom.h"
+#include "carom_draw.h"
 
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };

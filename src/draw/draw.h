@@ -29,6 +29,7 @@
 #define CAROM_SRC_DRAW_H
 
 #include "../world/world.h"
+#include "carom_draw.h"
 
 #define DRAW_GUARD 1024
 
