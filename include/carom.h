@@ -338,6 +338,18 @@ struct carom_body_state {
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
+
+/* What there is to see of a body. */
+struct carom_body_look {
+    const struct carom_mesh *mesh;
+    carom_v3_q32 position;
+    carom_quat_q30 rotation;
+    bool moving;
+};
+/* For whoever draws it. CAROM_ERR_BODY for a number that is free, too. */
+int carom_body_look(const struct carom_world *world, int body, struct carom_body_look *look);
+/* The numbers of all bodies are below this. */
+int carom_body_count(const struct carom_world *world);
 /*
  * Place a body and wake it, with what touched it and what is near to its new place; a stationary
  * body that is set where it is wakes nothing. asleep and out are ignored.

@@ -74,13 +74,10 @@ struct carom_rect {
 
 /* What pixels show of a body. Carom's own. */
 struct carom_drawn_body {
-    const struct carom_mesh *mesh;
-    carom_v3_q32 position;
-    carom_quat_q30 rotation;
+    struct carom_body_look look;
     uint32_t moves;        /* of its surface */
     struct carom_rect all; /* what shows of it is in here, and of its interfering faces in there */
     struct carom_rect hot;
-    bool moving;
 };
 
 /*

@@ -12,6 +12,8 @@ os.chdir(ROOT)
 
 # The folders of src/, a stage each; each may use only those before it.
 STAGES = "num mesh body pairs interfere boyse contact solve world step draw".split()
+# A library of its own: from folders other than these it takes what the public headers declare.
+ALONE = {"draw": ["num", "mesh"]}
 
 PUBLIC = ["include/carom.h", "include/carom_draw.h"]
 

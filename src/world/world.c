@@ -302,6 +302,29 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
     return CAROM_OK;
 }
 
+int carom_body_look(const struct carom_world *w, int body, struct carom_body_look *out)
+{
+    const struct body_state *s;
+
+    if (!w || !out) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = &world_now(w)->bodies[body];
+    out->mesh = w->bodies[body].mesh;
+    out->position = s->position;
+    out->rotation = s->rotation;
+    out->moving = w->bodies[body].moving;
+    return CAROM_OK;
+}
+
+int carom_body_count(const struct carom_world *w)
+{
+    return w ? (int)w->body_count : CAROM_ERR_NULL;
+}
+
 int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)
 {
     struct body_state state;
