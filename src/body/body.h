@@ -189,24 +189,36 @@ static inline const int64_t *body_origin_q22(const struct body *b)
     return b->path.origin_q22;
 }
 
-/* The part of a body that a solve works in. */
-static inline struct body_path *body_solve(const struct body *b)
+/* The part of a body that a solve works in; and to read there. */
+static inline struct body_path *body_solve(struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_SOLVE);
-    return (struct body_path *)&b->path;
+    return &b->path;
 }
 
-/* What surfaces did on a body in a step; by what they lift an island between steps. */
-static inline struct fix_wide *body_work2(const struct body *b)
+static inline const struct body_path *body_solved(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_SOLVE);
+    return &b->path;
+}
+
+/* What surfaces did on a body in a step; they did more. By what they lift an island between steps. */
+static inline struct fix_wide body_work2(const struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return (struct fix_wide *)&b->work2;
+    return b->work2;
 }
 
-static inline int64_t *body_lift_q32(const struct body *b)
+static inline void body_add_work2(struct body *b, struct fix_wide work2)
+{
+    PHASE_ASSERT(b->work_phase, BODY_WORK);
+    b->work2 = fix_wide_add(b->work2, work2);
+}
+
+static inline int64_t *body_lift_q32(struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_LIFT);
-    return (int64_t *)&b->lift_q32;
+    return &b->lift_q32;
 }
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */

@@ -65,12 +65,14 @@ void rest_part(struct rest *r)
     rest_solve_sweeps(r, &sw, false);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
+        carom_v3_q40 impulse = *contact_impulse(c);
         const int64_t none[3] = {0, 0, 0};
 
-        rest_apply_at(r, c, contact_impulse(c)->c, none);
+        rest_apply_at(r, c, impulse.c, none);
         for (int k = 0; k < 3; k++) {
-            contact_impulse(c)->c[k] += contact_wanted(c)->c[k];
+            impulse.c[k] += contact_wanted(c)->c[k];
         }
+        contact_set_impulse(c, &impulse);
     }
     load(r, true);
     for (uint32_t i = 0; i < r->count; i++) {

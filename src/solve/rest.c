@@ -283,7 +283,7 @@ static void book_work(struct rest *r)
         const struct contact *c = rest_contact(r, i);
         struct body *b = c->side[0].body;
 
-        *body_work2(b) = fix_wide_add(*body_work2(b), rest_work2(c));
+        body_add_work2(b, rest_work2(c));
     }
 }
 

@@ -49,7 +49,7 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
         }
         rest_apply_at(r, c, impulse.c, moment.c);
         if (keep) {
-            *contact_impulse(c) = impulse;
+            contact_set_impulse(c, &impulse);
             if (c->work->roll) {
                 *contact_moment(c) = moment;
             }
@@ -82,7 +82,7 @@ static struct fix_wide before2(const struct rest *r)
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(body_solve(b)->saved_angular.c, b->spin.c));
+        sum = fix_wide_add(sum, fix_wide_dot(body_solved(b)->saved_angular.c, b->spin.c));
     }
     return sum;
 }

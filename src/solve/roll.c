@@ -121,7 +121,7 @@ static int finer(const struct contact *c, const struct body *b)
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct body *b, int32_t share_q30)
 {
-    const struct carom_sym3 *t = &body_solve(b)->turning;
+    const struct carom_sym3 *t = &body_solved(b)->turning;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
@@ -213,7 +213,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dw = body_solve(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
+            int64_t dw = body_solved(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
 
             spin[k] += s == 0 ? dw : -dw;
         }

@@ -39,7 +39,7 @@ static struct fix_wide climbed2(const struct body *b, const struct body_state *f
 static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
                                const struct body_state *to)
 {
-    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(*body_work2(b)));
+    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(body_work2(b)));
 
     return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
 }

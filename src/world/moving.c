@@ -269,7 +269,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 /* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
 static void stir(struct carom_world *w, uint32_t body)
 {
-    struct world_state *now = world_now(w);
+    struct world_state *now = &w->states[w->now];
 
     world_wake_around(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {

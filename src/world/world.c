@@ -256,7 +256,7 @@ int carom_body_remove(struct carom_world *w, int body)
     if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    s = world_now(w);
+    s = &w->states[w->now];
     world_wake_around(w, (uint32_t)body);
     interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);

@@ -67,10 +67,10 @@ struct carom_world {
 };
 
 /* Whoever looks for candidates has the scratch from here on. */
-static inline void world_begin_gather(const struct carom_world *w)
+static inline void world_begin_gather(struct carom_world *w)
 {
     (void)w;
-    PHASE_BEGIN(((struct carom_world *)w)->scratch_phase, WORLD_GATHER);
+    PHASE_BEGIN(w->scratch_phase, WORLD_GATHER);
 }
 
 /* The pair of the candidates at hand. */
@@ -80,9 +80,9 @@ static inline struct boyse_pair *world_pair(const struct carom_world *w)
     return &w->scratch->gather.pair;
 }
 
-static inline struct world_state *world_now(const struct carom_world *w)
+static inline const struct world_state *world_now(const struct carom_world *w)
 {
-    return (struct world_state *)&w->states[w->now];
+    return &w->states[w->now];
 }
 
 /* Whether a state's place and speed are within what the formats hold. */
