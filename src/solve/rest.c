@@ -17,14 +17,6 @@
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
-static int64_t speed_along_normal_q40(const struct contact *c)
-{
-    carom_v3_q40 v;
-
-    rest_relative_velocity(c, &v);
-    return rest_along_q40(&v, &c->normal);
-}
-
 /* Velocities of the bodies that have contacts, each once. */
 static void load_velocities(struct rest *r)
 {
@@ -326,7 +318,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
-        if (c->idle || !may_enter(c) || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
+        if (c->idle || !may_enter(c) || carom_abs(rest_speed_q40(c)) >= slow_q40(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {

@@ -117,12 +117,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
     }
     r->energy_rules++;
     for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-
-        PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
-        c->work->wanted_q40 = *contact_impulse(c);
-        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
-        rest_relative_velocity(c, &c->velocity_q40);
+        rest_want(rest_contact(r, i));
     }
     rest_solve_sweeps(r, &plastic, false);
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
