@@ -31,8 +31,7 @@ extern "C" {
 enum carom_status {
     CAROM_OK = 0,
     CAROM_OVER_BUDGET = 1, /* bit: the step took more ticks than config.budget_ticks */
-    CAROM_SUBSTEP_CAP =
-        2 /* bit: a body used up its hits; its island stood for the rest of the frame */
+    CAROM_SUBSTEP_CAP = 2  /* bit: a body used up its hits; its island stood from there on */
 };
 
 enum carom_error {
@@ -332,9 +331,8 @@ struct carom_body_state {
     carom_v3_q40 velocity; /* derived from the momenta that are the state */
     carom_v3_q40 spin;
     bool asleep;
-    bool
-        out; /* left the world's range: frozen in its last pose, touched by nothing. Also what became
-                 faster than 64 units or 2^15 radians a frame */
+    bool out; /* left the world's range: frozen in its last pose, touched by nothing. Also what
+                 became faster than 64 units or 2^15 radians a frame */
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
@@ -510,10 +508,9 @@ struct carom_stats {
     uint32_t sweeps;      /* of all solves of several contacts */
     uint32_t impacts;     /* contacts solved as impacts */
     uint32_t energy_rule; /* impacts that the energy rule changed */
-    uint32_t
-        cut_islands; /* CAROM_EVENT_CUT: how often an island began to stand, or was hit again */
-    uint32_t calmed; /* islands and pairs that went on as one body, or came to rest on what stands
-                             still: a solve did not part them, or nothing pressed them together */
+    uint32_t cut_islands; /* CAROM_EVENT_CUT: islands that began to stand, or were hit again */
+    uint32_t calmed;      /* islands and pairs that went on as one body, or came to rest on what
+                             stands still: a solve did not part them, or nothing pressed them together */
 };
 /* What the last step did, by stage. */
 int carom_stats(const struct carom_world *world, struct carom_stats *stats);

@@ -138,7 +138,7 @@ static void test_no_change(void)
 
 /*
  * Contacts of a box with a plane are on the plane and on the box, whether the frame goes on after them
- * or, for want of sub-steps, ends with an impact.
+ * or, for want of hits, ends with an impact.
  */
 static void test_contacts(void)
 {
