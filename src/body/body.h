@@ -108,9 +108,13 @@ struct body_sweep {
 /* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
-/* A body. Each field stands under the stage that writes it. */
+/*
+ * A body, 576 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
+ * world sets outlives a step, and so do in_contact and the region with `active`, `alone`, `boxed` and the
+ * box: no result depends on these.
+ */
 struct body {
-    /* world, 7 bytes; of all that a body has, only what world sets and `standing` outlive a step */
+    /* world, 7 bytes */
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
     bool standing;    /* still, and the path, the region and the box are those of where it is */
@@ -124,10 +128,10 @@ struct body {
     bool entering;   /* rest: in_contact is new */
     bool solving;    /* rest: has a contact in the solve at hand */
     bool unsettled;  /* rest: its island's last solve left places that approach */
-    bool touched;    /* energy: had a contact in this step */
-    bool grounded;   /* energy: and one with a body that stands still */
-    bool rewound;    /* energy: is back where the frame found it */
-    bool woke;       /* wake: in the static check at hand */
+    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
+    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
+    bool rewound;  /* energy: is back where the frame found it */
+    bool woke;     /* wake: in the static check at hand */
     PHASE_TAG(work_phase)
 
     /* islands, by whoever asks for them: 6 bytes */
@@ -150,7 +154,7 @@ struct body {
     uint16_t events; /* answer: hits that it took part in, in this frame */
     uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
     uint8_t shorter; /* answer: the next path is shorter by so many factors of 4 */
-    bool member;     /* answer: of the island of the hit at hand */
+    bool member;     /* step, cut: its path is new; answer: of the island of the hit at hand */
     bool placed;     /* clock: its path is that of a place where it is looked at */
     bool stands;     /* answer: for what is left of the frame */
     bool strained;   /* clock: left a path that turns before its end */
@@ -158,20 +162,21 @@ struct body {
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
 
-    /* gather, 160 bytes */
+    /* region, 160 bytes */
     struct body_region region;
-    int32_t reach_q22;     /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;      /* and how far the body may turn, radians */
-    int32_t box_q18[2][3]; /* broad: in world axes around the region, grown by the reach */
+    int32_t reach_q22; /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;  /* and how far the body may turn, radians */
+
+    /* broad, 24 bytes: in world axes around the region, grown by the reach */
+    int32_t box_q18[2][3];
 
     /* solve: before it, 72 bytes */
     carom_v3_q40 saved_momentum; /* for the energy rule */
-    carom_v3_q40 velocity, spin;
+    carom_v3_q40 velocity, spin; /* between steps, while a snapshot is read: its force */
 
     union {                    /* by PHASE_TAG work_phase; 16 bytes */
         struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
-        int64_t
-            lift_q32; /* moving, between steps: what they lift an island by, at its lowest body */
+        int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
     };
 };
 

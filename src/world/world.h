@@ -50,7 +50,7 @@ struct carom_world {
     bool idle;    /* the last step found nothing awake, and nothing has changed since */
     PHASE_TAG(scratch_phase)
 
-    /* broad: in order; and what belongs to each */
+    /* regions: in order; and what search, answer and interfere keep of each; 8 bytes */
     struct pair *pairs;
     struct pair_work *meetings;
 
