@@ -233,20 +233,14 @@ int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
     return fix_mul(v, s.m, s.e);
 }
 
-/* How far to shift the largest of three components so that it has `bits` bits. */
-static int common_shift(const int64_t v[3], int bits)
+int fix_bits3(const int64_t v[3])
 {
-    uint64_t all = 0;
-
-    for (int k = 0; k < 3; k++) {
-        all |= (uint64_t)carom_abs(v[k]);
-    }
-    return fix_bits(all) - bits;
+    return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
 }
 
 int64_t fix_length(const int64_t v[3])
 {
-    int shift = common_shift(v, 30);
+    int shift = fix_bits3(v) - 30;
     uint64_t sum = 0;
     int64_t root;
 
@@ -267,7 +261,7 @@ int64_t fix_length(const int64_t v[3])
 
 bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
 {
-    int shift = common_shift(v, 31);
+    int shift = fix_bits3(v) - 31;
     int64_t c[3];
     uint64_t sum = 0;
     int64_t length;

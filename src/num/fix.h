@@ -61,6 +61,9 @@ inline int fix_bits(uint64_t v)
     return high ? 32 + fix_bits32(high) : fix_bits32((uint32_t)v);
 }
 
+/* Bits of the largest of |x|, |y| and |z|. */
+int fix_bits3(const int64_t v[3]);
+
 /* floor(sqrt(v)), exact for every v. */
 uint32_t fix_sqrt(uint64_t v);
 
@@ -137,6 +140,20 @@ static inline int32_t fix_smaller(int32_t a, int32_t b)
 static inline int32_t fix_larger(int32_t a, int32_t b)
 {
     return a > b ? a : b;
+}
+
+/* The largest of |x|, |y| and |z|, each above INT32_MIN. */
+static inline int32_t fix_largest(const int32_t v[3])
+{
+    return fix_larger(fix_larger(fix_abs32(v[0]), fix_abs32(v[1])), fix_abs32(v[2]));
+}
+
+/* a x b, exact; each component of both above INT32_MIN: two products are below 2^63. */
+static inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
+{
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
 }
 
 /* |x| + |y| + |z|; each below 2^62 */

@@ -17,6 +17,9 @@ struct pair {
     uint16_t a, b;
 };
 
+/* Where a pair is in a list, which is in order, or belongs. */
+uint32_t broad_place_of(const struct pair *list, uint32_t count, struct pair p);
+
 /* What a step keeps of a pair while its bodies are near each other. */
 struct pair_work {
     /* by interfere: where the pool has all of its candidates, when it has */

@@ -44,8 +44,8 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
         for (int k = 0; k < 3; k++) {
             int64_t from = contact_impulse(c)->c[k];
 
-            impulse.c[k] = from + fix_mul(contact_wanted(c)->c[k] - from, k_q30, 30);
-            moment.c[k] = fix_mul(rest_moment(c)->c[k], k_q30, 30);
+            impulse.c[k] = from + fix_mul_q30(contact_wanted(c)->c[k] - from, k_q30);
+            moment.c[k] = fix_mul_q30(rest_moment(c)->c[k], k_q30);
         }
         rest_apply_at(r, c, impulse.c, moment.c);
         if (keep) {

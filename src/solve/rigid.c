@@ -163,7 +163,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
                            carom_mul_q30(arm[m], arm[n]);
 
             part += m == n ? square_q30 : 0;
-            sum_q30[at] += fix_mul(part, share, 30);
+            sum_q30[at] += fix_mul_q30(part, share);
         }
     }
 }
@@ -260,8 +260,8 @@ static void scale_about(struct body_state *to, const struct body_state *from, in
     for (int k = 0; k < 3; k++) {
         int64_t p = from->momentum.c[k], l = from->angular.c[k];
 
-        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
-        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
+        to->momentum.c[k] = p + fix_mul_q30(to->momentum.c[k] - p, factor_q30);
+        to->angular.c[k] = l + fix_mul_q30(to->angular.c[k] - l, factor_q30);
     }
 }
 

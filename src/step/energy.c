@@ -226,7 +226,7 @@ static void give_back_gravity(struct step *s, uint32_t first)
 
         for (int k = 0; step_active(s, i) && b->stands && b->in_contact && k < 3; k++) {
             s->next->bodies[i].momentum.c[k] -= fix_mul_scaled(
-                fix_mul(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30, 30), b->mass);
+                fix_mul_q30(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30), b->mass);
         }
     }
 }

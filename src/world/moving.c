@@ -40,7 +40,7 @@ static void set_path(const struct lift *l, struct body *b, const struct body_sta
 static void shift(const struct lift *l, struct body_state *s, int64_t way_q32)
 {
     for (int k = 0; k < 3; k++) {
-        s->position.c[k] += fix_mul(way_q32, (int32_t)l->up_q30[k], 30);
+        s->position.c[k] += fix_mul_q30(way_q32, (int32_t)l->up_q30[k]);
     }
 }
 
@@ -117,7 +117,7 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
         struct body *island = &l->w->bodies[a->island];
 
         if (hits(l, &c[i], &hit)) {
-            int64_t lift_q32 = fix_mul(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30, 30);
+            int64_t lift_q32 = fix_mul_q30(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30);
 
             if (lift_q32 > *body_lift_q32(island)) {
                 *body_lift_q32(island) = lift_q32;
