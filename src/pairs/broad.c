@@ -1,23 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "broad.h"
 
-uint32_t broad_place_of(const struct pair *list, uint32_t count, struct pair p)
-{
-    uint32_t low = 0, high = count;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        const struct pair *at = &list[middle];
-
-        if (at->a < p.a || (at->a == p.a && at->b < p.b)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 /* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
 static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)
 {

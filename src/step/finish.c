@@ -43,7 +43,7 @@ bool step_retire(struct step *s, uint32_t i)
 
 static uint32_t touching_place(const struct world_state *s, const struct pair *p)
 {
-    return broad_place_of(s->touching, s->touching_count, *p);
+    return broad_place_of(s->touching, s->touching_count, p->a, p->b);
 }
 
 static bool touching_at(const struct world_state *s, uint32_t place, const struct pair *p)

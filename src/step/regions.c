@@ -19,8 +19,7 @@
 
 static uint32_t place_of(const struct carom_world *w, uint32_t a, uint32_t b)
 {
-    return broad_place_of(w->pairs, w->pools[CAROM_POOL_pairs].used,
-                          (struct pair){(uint16_t)a, (uint16_t)b});
+    return broad_place_of(w->pairs, w->pools[CAROM_POOL_pairs].used, a, b);
 }
 
 static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
