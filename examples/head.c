@@ -7,7 +7,7 @@
  *          stage of one that takes more)
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  */
-#include "carom.h"
+#include "carom_draw.h"
 #include "port.h"
 #include "scene.h"
 #include "scene_play.h"

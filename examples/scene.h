@@ -5,14 +5,14 @@
  *   head        the paper's: a bumpy head of 1876 faces, dropped with spin on a field of 3034
  *   head450     the same with 450 faces on a field of 386
  *   head836     with 836 on 512
- *   head48      a head of 48 faces and half the size on 128, one sub-step a frame
+ *   head48      a head of 48 faces and half the size on 128, one hit a frame
  *   head100     with 100 on 128
  *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; other ways: head-spin2 .. 4
  *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces
  *   apart       the head a thousand units above the field
  *   box         a box of three different sides, dropped on a plane
  *   pair        a tetrahedron and a box that fall on the plane one after the other
- *   brick       the box on the plane, with fewer sub-steps and sweeps
+ *   brick       the box on the plane, with fewer hits of a body and fewer sweeps
  *   boxes3      three boxes that fall on the field of 128 faces one after the other
  *   boxes10     ten of them, put on the plane
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
@@ -34,7 +34,7 @@
 #ifndef CAROM_SCENE_H
 #define CAROM_SCENE_H
 
-#include "carom.h"
+#include "carom_draw.h"
 
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };

@@ -23,7 +23,7 @@ static double orthonormality(const carom_quat_q30 *q)
     carom_m3_q30 m;
     double worst = 0;
 
-    body_matrix(&m, q);
+    fix_matrix(&m, q);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j <= i; j++) {
             double sum = i == j ? -1 : 0;

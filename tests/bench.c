@@ -9,7 +9,7 @@
  */
 #include <stdlib.h>
 
-#include "carom.h"
+#include "carom_draw.h"
 #include "port.h"
 #include "scene.h"
 

@@ -8,7 +8,7 @@
 #ifndef CAROM_TESTS_DRAW_SCENE_H
 #define CAROM_TESTS_DRAW_SCENE_H
 
-#include "carom.h"
+#include "carom_draw.h"
 #include "draw/draw.h"
 #include "test.h"
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lab.h"
+#include "open_cases.h"
 
 /* Well above the rounding of coordinates, far below the skin. */
 #define CROSSING_TOLERANCE 1e-9
@@ -34,6 +35,7 @@ void lab_report(bool ok, const char *name, const char *format, ...)
 
 int lab_finish(void)
 {
+    open_cases_print();
     printf("1..%u\n", tests.count);
     return tests.failed != 0 || tests.count == 0;
 }

@@ -88,7 +88,7 @@ static void test_matrix(void)
         double exact[3][3];
 
         body_normalise(&q);
-        body_matrix(&m, &q);
+        fix_matrix(&m, &q);
         real_quaternion(exact, &q);
         for (int i = 0; i < 3; i++) {
             for (int k = 0; k < 3; k++) {
@@ -147,11 +147,11 @@ static void test_turn(void)
         int32_t u_world[3];
 
         random_state(&r, 1, 0.4);
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         body_spin(&body, &state, &m, &spin);
         body_predict(&body, &state, tau_q30, NULL);
         q = body_rotation_at(&body, t_q30);
-        body_matrix(&turned, &q);
+        fix_matrix(&turned, &q);
         real_vector(w, spin.c, 40);
         real_quaternion(start, &state.rotation);
         carom_rotate(u_world, &m, body.path.u.c);
@@ -226,7 +226,7 @@ static void test_nutation(void)
         body_predict(&body, &state, CAROM_ONE_Q30, NULL);
         body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
     }
-    body_matrix(&m, &state.rotation);
+    fix_matrix(&m, &state.rotation);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             /* turned by 2 radians in all; the error of a frame's step is a few 0.06^3 / 12 */
@@ -255,7 +255,7 @@ static void test_tumble(void)
 
         body_predict(&body, &state, CAROM_ONE_Q30, NULL);
         body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         e = body_kinetic2(&body, &state, &m);
         energy = real(e.hi, -64) + (double)e.lo;
         first = n == 0 ? energy : first;
@@ -292,7 +292,7 @@ static void test_needle(void)
 
         body_predict(&body, &state, CAROM_ONE_Q30, NULL);
         body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         body_spin(&body, &state, &m, &spin);
         e = body_kinetic2(&body, &state, &m);
         energy = real(e.hi, -64) + (double)e.lo;
@@ -412,7 +412,7 @@ static void vertex_at(double out[3], uint32_t v, int32_t t_q30)
     carom_quat_q30 q = body_rotation_at(&body, t_q30);
     carom_m3_q30 r;
 
-    body_matrix(&r, &q);
+    fix_matrix(&r, &q);
     carom_rotate(local.c, &r, local.c);
     for (int k = 0; k < 3; k++) {
         out[k] = real(local.c[k], 22) + real(body.path.start.x.c[k] + way.c[k], 32);
@@ -476,7 +476,7 @@ static void test_slice(void)
         carom_m3_q30 m;
 
         random_state(&r, 0, n % 2 ? 0.7 : 60);
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         body_spin(&body, &state, &m, &spin);
         slice_q30 = body_slice(&body, &state, tau_q30);
         real_vector(w, spin.c, 40);
@@ -517,7 +517,7 @@ static void test_motion(void)
         carom_m3_q30 m;
 
         throw_box(&r, n % 3 == 0, most_v, most_w, &v, &w);
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         body_velocity(&body, &state, &v2);
         body_spin(&body, &state, &m, &w2);
         for (int k = 0; k < 3; k++) {
@@ -550,7 +550,7 @@ static void test_inertia(void)
             make_box();
         }
         random_state(&r, 2, 2);
-        body_matrix(&matrix, &state.rotation);
+        fix_matrix(&matrix, &state.rotation);
         body_world_inertia(&body, &matrix, &turned);
         real_sym3(mine, &turned);
         real_sym3(j, &shape.mesh.mass.inertia);
@@ -603,7 +603,7 @@ static void test_calm(void)
             continue;
         }
         *(n % 3 ? &calm : &thin) += 1;
-        body_matrix(&m, &state.rotation);
+        fix_matrix(&m, &state.rotation);
         body_velocity(&body, &state, &v);
         body_spin(&body, &state, &m, &w);
         CHECK(real_length((double[3]){real(v.c[0], 40), real(v.c[1], 40), real(v.c[2], 40)}) < 64);

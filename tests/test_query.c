@@ -339,7 +339,7 @@ static void test_inside_turned(void)
 
         states[0].rotation = shape_random_turn(&r);
         states[1].rotation = shape_random_turn(&r);
-        body_matrix(&m, &states[1].rotation);
+        fix_matrix(&m, &states[1].rotation);
         for (int k = 0; k < 3; k++) {
             int64_t d_q32 = 0;
 

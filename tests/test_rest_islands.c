@@ -81,8 +81,9 @@ static void test_islands(void)
  */
 enum { TWO = 1, ONE = 2 };
 
-static void begin_apart(int islands, double fall, double one_gap)
+static void begin_apart(int islands)
 {
+    const double fall = 1 / 367.0;
     static const int32_t on_top[3] = {1 << 18, 1 << 17, -(1 << 21)};
 
     hand_begin(3, fall);
@@ -96,7 +97,7 @@ static void begin_apart(int islands, double fall, double one_gap)
         hand_touch_corners_of(3, hand.bodies[2].skin_q22);
     }
     if (islands & ONE) {
-        hand_touch_corners_of(2, (int32_t)(one_gap * hand.bodies[3].skin_q22));
+        hand_touch_corners_of(2, hand.bodies[3].skin_q22);
     }
 }
 
@@ -111,42 +112,18 @@ static void test_apart(void)
     struct body_state alone[HAND_BODIES], at_first[HAND_BODIES];
 
     hand_make_box();
-    begin_apart(TWO, 1 / 367.0, 1);
+    begin_apart(TWO);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
     memcpy(alone, hand.states, sizeof alone);
-    begin_apart(ONE, 1 / 367.0, 1);
+    begin_apart(ONE);
     memcpy(at_first, hand.states, sizeof at_first);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
     CHECK(!same_state(3, &at_first[3]) && !same_state(1, &alone[1]) && !same_state(2, &alone[2]));
     alone[3] = hand.states[3];
-    begin_apart(TWO | ONE, 1 / 367.0, 1);
+    begin_apart(TWO | ONE);
     CHECK_EQ(hand.pool.used, 13);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
     CHECK(same_state(1, &alone[1]) && same_state(2, &alone[2]) && same_state(3, &alone[3]));
-}
-
-/* After a hit only islands that hit are solved: by pair, or since they are as near and as fast. */
-static void test_keep_hits(void)
-{
-    struct body_state before[HAND_BODIES];
-
-    hand_make_box();
-    for (int n = 0; n < 3; n++) {
-        /* the hit is of pair 2, of pair 0 while 3 is to hit later, and while 3 hits as well */
-        static const double gap[3] = {0.5, 1.5, 0.5};
-        bool two = n > 0, one = n != 1;
-
-        begin_apart(TWO | ONE, 1 / 367.0, gap[n]);
-        memcpy(before, hand.states, sizeof before);
-        rest_keep_hits(&hand.rest, two ? 0 : 2);
-        CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
-        CHECK(same_state(1, &before[1]) == !two && same_state(2, &before[2]) == !two);
-        CHECK(same_state(3, &before[3]) == !one);
-        /* and what is left alone does not take gravity early */
-        CHECK_EQ(rest_enter_contact(&hand.rest, CAROM_ONE_Q30), two);
-        CHECK(hand.bodies[1].in_contact == two && hand.bodies[2].in_contact == two &&
-              !hand.bodies[3].in_contact);
-    }
 }
 
 /* Only the islands of bodies that newly took gravity are left to solve. */
@@ -155,7 +132,7 @@ static void test_enter_apart(void)
     struct body_state before[HAND_BODIES];
 
     hand_make_box();
-    begin_apart(TWO | ONE, 1 / 367.0, 1);
+    begin_apart(TWO | ONE);
     hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
     hand.bodies[3].in_contact = true;
     memcpy(before, hand.states, sizeof before);
@@ -217,7 +194,6 @@ const struct test tests_rest_islands[] = {
     {"rest_islands/sleep", test_sleep},
     {"rest_islands/islands", test_islands},
     {"rest_islands/apart", test_apart},
-    {"rest_islands/keep_hits", test_keep_hits},
     {"rest_islands/enter_apart", test_enter_apart},
     {"rest_islands/island_numbers", test_island_numbers},
     {0},

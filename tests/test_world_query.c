@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom_query_faces and carom_query_inside: what they accept and refuse, and that asking changes
- * nothing that a step does. Contacts are said to be where they are.
+ * carom_query_faces, carom_query_inside and carom_body_look: what they accept and refuse, and that asking
+ * changes nothing that a step does. Contacts are said to be where they are.
  */
 #include <string.h>
 
@@ -138,7 +138,7 @@ static void test_no_change(void)
 
 /*
  * Contacts of a box with a plane are on the plane and on the box, whether the frame goes on after them
- * or, for want of sub-steps, ends with an impact.
+ * or, for want of hits, ends with an impact.
  */
 static void test_contacts(void)
 {
@@ -175,8 +175,39 @@ static void test_contacts(void)
     }
 }
 
-const struct test tests_world_query[] = {{"world_query/errors", test_errors},
-                                         {"world_query/places", test_places},
-                                         {"world_query/no_change", test_no_change},
-                                         {"world_query/contacts", test_contacts},
-                                         {0}};
+/* What is to be seen of a body is what it was made from and where it is; free numbers show nothing. */
+static void test_look(void)
+{
+    struct carom_body_look look = {.mesh = NULL};
+    struct carom_body_state state;
+    struct carom_world *world;
+
+    make_shapes();
+    world = setup(0);
+    CHECK_EQ(carom_body_count(NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_body_look(NULL, 1, &look), CAROM_ERR_NULL);
+    CHECK_EQ(carom_body_look(world, 1, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_body_look(world, -1, &look), CAROM_ERR_BODY);
+    CHECK_EQ(carom_body_look(world, 2, &look), CAROM_ERR_BODY);
+    CHECK_EQ(carom_body_count(world), 2);
+    CHECK_EQ(carom_body_look(world, 0, &look), CAROM_OK);
+    CHECK(look.mesh == &ground.mesh && !look.moving);
+    set_height(world, (int64_t)3 << 30);
+    for (int frame = 0; frame < 4; frame++) {
+        CHECK(carom_world_step(world) >= 0);
+        CHECK_EQ(carom_body_look(world, 1, &look), CAROM_OK);
+        CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
+        CHECK(look.mesh == &box.mesh && look.moving);
+        CHECK_EQ(memcmp(&look.position, &state.position, sizeof look.position), 0);
+        CHECK_EQ(memcmp(&look.rotation, &state.rotation, sizeof look.rotation), 0);
+    }
+    CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
+    CHECK_EQ(carom_body_count(world), 2);
+    CHECK_EQ(carom_body_look(world, 0, &look), CAROM_ERR_BODY);
+    CHECK(look.mesh == &box.mesh);
+}
+
+const struct test tests_world_query[] = {
+    {"world_query/errors", test_errors},     {"world_query/look", test_look},
+    {"world_query/places", test_places},     {"world_query/no_change", test_no_change},
+    {"world_query/contacts", test_contacts}, {0}};

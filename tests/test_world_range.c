@@ -116,7 +116,7 @@ static void test_thin_spin(void)
     shape_box(&box, 12, 8, 8, 16000);
     shape_body(&box, true, &b, &s);
     body_set_mass(&b, fix_scale(ONE, 40));
-    body_matrix(&r, &s.rotation);
+    fix_matrix(&r, &s.rotation);
     for (int bits = 0; bits < 61; bits++) {
         const int64_t most = (int64_t)1 << (40 + BODY_SPIN_BITS);
 

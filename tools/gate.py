@@ -12,6 +12,10 @@ os.chdir(ROOT)
 
 # The folders of src/, a stage each; each may use only those before it.
 STAGES = "num mesh body pairs interfere boyse contact solve world step draw".split()
+# A library of its own: from folders other than these it takes what the public headers declare.
+ALONE = {"draw": ["num", "mesh"]}
+
+PUBLIC = ["include/carom.h", "include/carom_draw.h"]
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]
@@ -103,9 +107,13 @@ def code(text):
 
 
 def public_functions():
-    """The functions that include/carom.h declares, in its order."""
-    with open("include/carom.h") as file:
-        return re.findall(r"^[a-z][\w \*]*?\b(carom_\w+)\(", code(file.read()), re.M)
+    """The header and name of each function that the public headers declare, in their order."""
+    found = []
+    for header in PUBLIC:
+        with open(header) as file:
+            names = re.findall(r"^[a-z][\w \*]*?\b(carom_\w+)\(", code(file.read()), re.M)
+        found += [(header, name) for name in names]
+    return found
 
 
 def finish(failures, verdict):

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "carom.h"
+#include "carom_draw.h"
 
 /* Direct memory access: copies words at once, the processor waits. */
 #define DMA3_SOURCE  (*(volatile uint32_t *)0x040000d4)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ARM Versatile/PB: ARM926EJ-S, PL110 LCD controller. */
-#include "carom.h"
+#include "carom_draw.h"
 #include "port.h"
 #include "semihost.h"
 

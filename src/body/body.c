@@ -119,7 +119,7 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
     carom_m3_q30 r;
     int64_t l[3];
 
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     fix_rotate_back(l, &r, w->c);
     body_sym3_mul(l, &b->mesh->mass.inertia, l);
     fix_rotate(l, &r, l);
@@ -194,22 +194,6 @@ void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct caro
         }
     }
     out->e = b->mesh->mass.inertia.e;
-}
-
-void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
-{
-    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
-
-    /* twice each product: a shift of 29 in place of 30 */
-    m->c[0][0] = (int32_t)(CAROM_ONE_Q30 - carom_round(y * y + z * z, 29));
-    m->c[1][1] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + z * z, 29));
-    m->c[2][2] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
-    m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
-    m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
-    m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
-    m->c[2][0] = (int32_t)carom_round(x * z - w * y, 29);
-    m->c[1][2] = (int32_t)carom_round(y * z - w * x, 29);
-    m->c[2][1] = (int32_t)carom_round(y * z + w * x, 29);
 }
 
 void body_normalise(carom_quat_q30 *q)

@@ -109,9 +109,13 @@ struct body_sweep {
 /* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
-/* A body. Each field stands under the stage that writes it. */
+/*
+ * A body, 576 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
+ * world sets outlives a step, and so do in_contact and the region with `active`, `alone`, `boxed` and the
+ * box: no result depends on these.
+ */
 struct body {
-    /* world, 7 bytes; of all that a body has, only what world sets and `standing` outlive a step */
+    /* world, 7 bytes */
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
     bool standing;    /* still, and the path, the region and the box are those of where it is */
@@ -125,10 +129,10 @@ struct body {
     bool entering;   /* rest: in_contact is new */
     bool solving;    /* rest: has a contact in the solve at hand */
     bool unsettled;  /* rest: its island's last solve left places that approach */
-    bool touched;    /* energy: had a contact in this step */
-    bool grounded;   /* energy: and one with a body that stands still */
-    bool rewound;    /* energy: is back where the frame found it */
-    bool woke;       /* wake: in the static check at hand */
+    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
+    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
+    bool rewound;  /* energy: is back where the frame found it */
+    bool woke;     /* wake: in the static check at hand */
     PHASE_TAG(work_phase)
 
     /* islands, by whoever asks for them: 6 bytes */
@@ -151,7 +155,7 @@ struct body {
     uint16_t events; /* answer: hits that it took part in, in this frame */
     uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
     uint8_t shorter; /* answer: the next path is shorter by so many factors of 4 */
-    bool member;     /* answer: of the island of the hit at hand */
+    bool member;     /* step, cut: its path is new; answer: of the island of the hit at hand */
     bool placed;     /* clock: its path is that of a place where it is looked at */
     bool stands;     /* answer: for what is left of the frame */
     bool strained;   /* clock: left a path that turns before its end */
@@ -159,20 +163,21 @@ struct body {
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
 
-    /* gather, 160 bytes */
+    /* region, 160 bytes */
     struct body_region region;
-    int32_t reach_q22;     /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;      /* and how far the body may turn, radians */
-    int32_t box_q18[2][3]; /* broad: in world axes around the region, grown by the reach */
+    int32_t reach_q22; /* how far any point may go in the region, and the margin */
+    int32_t turn_q30;  /* and how far the body may turn, radians */
+
+    /* broad, 24 bytes: in world axes around the region, grown by the reach */
+    int32_t box_q18[2][3];
 
     /* solve: before it, 72 bytes */
     carom_v3_q40 saved_momentum; /* for the energy rule */
-    carom_v3_q40 velocity, spin;
+    carom_v3_q40 velocity, spin; /* between steps, while a snapshot is read: its force */
 
     union {                    /* by PHASE_TAG work_phase; 16 bytes */
         struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
-        int64_t
-            lift_q32; /* moving, between steps: what they lift an island by, at its lowest body */
+        int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
     };
 };
 
@@ -190,24 +195,36 @@ static inline const int64_t *body_origin_q22(const struct body *b)
     return b->path.origin_q22;
 }
 
-/* The part of a body that a solve works in. */
-static inline struct body_path *body_solve(const struct body *b)
+/* The part of a body that a solve works in; and to read there. */
+static inline struct body_path *body_solve(struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_SOLVE);
-    return (struct body_path *)&b->path;
+    return &b->path;
 }
 
-/* What surfaces did on a body in a step; by what they lift an island between steps. */
-static inline struct fix_wide *body_work2(const struct body *b)
+static inline const struct body_path *body_solved(const struct body *b)
+{
+    PHASE_ASSERT(b->path.phase, BODY_SOLVE);
+    return &b->path;
+}
+
+/* What surfaces did on a body in a step; they did more. By what they lift an island between steps. */
+static inline struct fix_wide body_work2(const struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return (struct fix_wide *)&b->work2;
+    return b->work2;
 }
 
-static inline int64_t *body_lift_q32(const struct body *b)
+static inline void body_add_work2(struct body *b, struct fix_wide work2)
+{
+    PHASE_ASSERT(b->work_phase, BODY_WORK);
+    b->work2 = fix_wide_add(b->work2, work2);
+}
+
+static inline int64_t *body_lift_q32(struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_LIFT);
-    return (int64_t *)&b->lift_q32;
+    return &b->lift_q32;
 }
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
@@ -252,7 +269,6 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
 /* R J R^T: inertia by mass in world axes. */
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out);
 
-void body_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 /* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
 void body_normalise(carom_quat_q30 *q);
 

@@ -139,7 +139,7 @@ void body_place(struct body *b, const struct body_state *s)
     path->u2_q30 = path->c_q30 = 0;
     path->turns = false;
     path->q = s->rotation;
-    body_matrix(&path->start.r, &s->rotation);
+    fix_matrix(&path->start.r, &s->rotation);
 }
 
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
@@ -190,7 +190,7 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
     body_place_origin(b, &start);
     PHASE_BEGIN(path->phase, BODY_PATH);
     path->q = start.rotation;
-    body_matrix(&path->start.r, &path->q);
+    fix_matrix(&path->start.r, &path->q);
     if (path->turns) {
         int32_t u2_q30 = path->u2_q30;
 
@@ -214,7 +214,7 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     if (body_calm(b, s)) {
         return tau_q30;
     }
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     body_spin(b, s, &r, &w);
     rate_q40 = fix_length(w.c);
     turn_q40 = fix_mul_q30(rate_q40, tau_q30);
@@ -230,7 +230,7 @@ void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r
     carom_quat_q30 turned;
 
     turn(&turned, q, u->c);
-    body_matrix(r, &turned);
+    fix_matrix(r, &turned);
 }
 
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)

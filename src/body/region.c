@@ -91,18 +91,18 @@ void body_region_sweep(const struct body_region *region, int64_t from_q30, int64
     int64_t bend[3];
 
     for (int k = 0; k < 3; k++) {
-        int64_t way = region->way.c[k] + 2 * fix_mul(region->bend.c[k], p_q30, 30);
+        int64_t way = region->way.c[k] + 2 * fix_mul_q30(region->bend.c[k], p_q30);
 
-        bend[k] = fix_mul(fix_mul(region->bend.c[k], w_q30, 30), w_q30, 30);
-        sweep->way.c[k] = fix_mul(way, w_q30, 30) + bend[k];
-        way = fix_mul(region->way.c[k] + fix_mul(region->bend.c[k], p_q30, 30), p_q30, 30);
+        bend[k] = fix_mul_q30(fix_mul_q30(region->bend.c[k], w_q30), w_q30);
+        sweep->way.c[k] = fix_mul_q30(way, w_q30) + bend[k];
+        way = fix_mul_q30(region->way.c[k] + fix_mul_q30(region->bend.c[k], p_q30), p_q30);
         sweep->at.c[k] = region->at.c[k] + (way >> 8);
     }
     sweep->bend_q22 = (int32_t)(fix_length_bound(bend) >> 18) + 1;
     sweep->length_q22 = (int32_t)(fix_length_bound(sweep->way.c) >> 18) + 3 + sweep->bend_q22;
     sweep->whole_u_q30 = region->u_q30;
     sweep->u_q30 = region->u_q30 > 0 ? carom_mul_q30(region->u_q30, w_q30) + 2 : 0;
-    body_matrix(&sweep->start, &region->q);
+    fix_matrix(&sweep->start, &region->q);
     sweep->end = sweep->start;
     if (region->u_q30 > 0) {
         if (p_q30 > 0) {
@@ -122,7 +122,7 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
 
     for (int k = 0; k < 3; k++) {
         int64_t way_q40 =
-            fix_mul(region->way.c[k] + fix_mul(region->bend.c[k], t_q30, 30), t_q30, 30);
+            fix_mul_q30(region->way.c[k] + fix_mul_q30(region->bend.c[k], t_q30), t_q30);
 
         d[k] = x_q32[k] - region->at.c[k] - (way_q40 >> 8);
     }
@@ -154,10 +154,10 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
     if (region->elapsed_q30 == 0) {
         return fix_length_bound(d) + 4; /* from one start on both turn about the same by any time */
     }
-    cubes_q30 = fix_mul((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30, 30);
+    cubes_q30 = fix_mul_q30((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30);
     /* the region's rate of turn falls by its square on the way */
-    cubes_q30 += fix_mul(carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30),
-                         part_q30, 30);
+    cubes_q30 += fix_mul_q30(
+        carom_mul_q30(carom_mul_q30(region->u_q30, region->u_q30), region->u_q30), part_q30);
     return fix_length_bound(d) + 2 * cubes_q30 + 4;
 }
 
@@ -176,14 +176,14 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     for (int k = 0; k < 3; k++) {
         start[k] = carom_shl(path->origin_q22[k], 10) + path->start.x.c[k];
         end[k] = start[k] + ((path->v.c[k] + path->g.c[k]) >> 8);
-        bend[k] = path->g.c[k] - fix_mul(fix_mul(region->bend.c[k], part_q30, 30), part_q30, 30);
+        bend[k] = path->g.c[k] - fix_mul_q30(fix_mul_q30(region->bend.c[k], part_q30), part_q30);
     }
     off = off_q22(region, start, region->elapsed_q30);
     at_end = off_q22(region, end, until_q30);
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by a quarter of what their bends differ by */
     off += (fix_length_bound(bend) >> 20) + 1;
-    off += fix_mul((int64_t)region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22, 30);
+    off += fix_mul_q30(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22);
     return off <= region->room_q22;
 }
 

@@ -132,17 +132,12 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
                          const struct boyse_places *start)
 {
     int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
-    int32_t largest = 0;
+    int32_t largest;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
         return level;
     }
-    for (int k = 0; k < 3; k++) {
-        int32_t part = start->w[k] < 0 ? -start->w[k] : start->w[k];
-
-        largest = part > largest ? part : largest;
-    }
-    largest >>= boyse_steady(pair) ? 0 : start->up;
+    largest = fix_largest(start->w) >> (boyse_steady(pair) ? 0 : start->up);
     most = (int64_t)largest * (pair->skin_q22 / 4) >> 12;
     return level < most ? level : most;
 }

@@ -147,9 +147,8 @@ static inline struct stretch turning_rate(const struct vec *axis, const carom_v3
 /* |axis|_1 >= |axis| */
 static inline uint32_t size_of(const struct vec *axis)
 {
-    int32_t x = axis->c[0], y = axis->c[1], z = axis->c[2];
-
-    return (uint32_t)(x < 0 ? -x : x) + (uint32_t)(y < 0 ? -y : y) + (uint32_t)(z < 0 ? -z : z);
+    return (uint32_t)fix_abs32(axis->c[0]) + (uint32_t)fix_abs32(axis->c[1]) +
+           (uint32_t)fix_abs32(axis->c[2]);
 }
 
 /* A length times |axis|, q20. */

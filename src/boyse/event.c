@@ -172,7 +172,7 @@ static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_
 
 int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root, int32_t scale_q30)
 {
-    int32_t steep8 = root->slope8 < 0 ? -root->slope8 : root->slope8, missing, t_q30;
+    int32_t steep8 = fix_abs32(root->slope8), missing, t_q30;
     struct sample met = {root->t_q30, 0};
     uint32_t back;
 

@@ -34,7 +34,7 @@ static void set_bounds(struct boyse_view *view)
         int64_t s_q30 = fix_sqrt((uint64_t)(body_path(from)->u2_q30 + 1) << 30) + 1;
 
         way += fix_mul_q30(2 * s_q30, from->radius_q22) + 1;
-        bend += fix_mul(3 * (int64_t)from->radius_q22, bend_q30(body_path(from), s_q30), 30) + 1;
+        bend += fix_mul_q30(3 * (int64_t)from->radius_q22, bend_q30(body_path(from), s_q30)) + 1;
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
@@ -44,10 +44,10 @@ static void set_bounds(struct boyse_view *view)
         reach = fix_length(centre) + from->radius_q22 + way;
         view->seen.way_q22 = clamp(way + fix_mul_q30(2 * reach, (int32_t)s_q30) + 1);
         view->seen.bend_q22 = clamp(bend + fix_mul_q30(2 * way, (int32_t)s_q30) +
-                                    fix_mul(3 * reach, bend_q30(body_path(to), s_q30), 30) + 2);
+                                    fix_mul_q30(3 * reach, bend_q30(body_path(to), s_q30)) + 2);
         view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->radius_q22) + 1);
         view->fixed.bend_q22 = clamp(
-            bend + fix_mul(3 * (int64_t)to->radius_q22, bend_q30(body_path(to), s_q30), 30) + 1);
+            bend + fix_mul_q30(3 * (int64_t)to->radius_q22, bend_q30(body_path(to), s_q30)) + 1);
     }
 }
 

@@ -2,18 +2,6 @@
 /* Features at the start of a path, and the coefficients of P(t). */
 #include "place.h"
 
-static int32_t largest_part(const int32_t v[3])
-{
-    int32_t largest = 0;
-
-    for (int k = 0; k < 3; k++) {
-        int32_t part = v[k] < 0 ? -v[k] : v[k];
-
-        largest = part > largest ? part : largest;
-    }
-    return largest;
-}
-
 /*
  * Of edges that are nearly parallel w is small, and what is rounded off it turns N: its products are
  * exact, so it is taken with as many more digits. What is left turns N by little, and does no harm as
@@ -28,7 +16,7 @@ void boyse_complete_edges(struct boyse_places *p)
         p->d[k] = p->vertex.c[k] - p->start_b.c[k];
     }
     p->up = p->on_b_q22 = 0;
-    largest = largest_part(p->w);
+    largest = fix_largest(p->w);
     if (largest < BOYSE_FINE_Q30) {
         p->up = 29 - fix_bits32((uint32_t)largest); /* below 2^29 */
         carom_cross(p->w, p->e, p->f, 30 - p->up);

@@ -104,10 +104,10 @@ struct contact {
 };
 
 /* The velocity before, of a contact at which sweeps have not begun. */
-static inline carom_v3_q40 *contact_velocity(const struct contact *c)
+static inline carom_v3_q40 *contact_velocity(struct contact *c)
 {
     PHASE_ASSERT(c->phase, CONTACT_VELOCITY);
-    return (carom_v3_q40 *)&c->velocity_q40;
+    return &c->velocity_q40;
 }
 
 /* A contact in the sweeps: for `gain` and `way`. */
@@ -118,10 +118,16 @@ static inline struct contact *contact_gain(struct contact *c)
 }
 
 /* The impulse, of a contact that was solved or not taken up. */
-static inline carom_v3_q40 *contact_impulse(const struct contact *c)
+static inline const carom_v3_q40 *contact_impulse(const struct contact *c)
 {
     PHASE_ASSERT(c->phase, CONTACT_IMPULSE);
-    return (carom_v3_q40 *)&c->impulse_q40;
+    return &c->impulse_q40;
+}
+
+static inline void contact_set_impulse(struct contact *c, const carom_v3_q40 *impulse)
+{
+    PHASE_ASSERT(c->phase, CONTACT_IMPULSE);
+    c->impulse_q40 = *impulse;
 }
 
 /* K^-1, until the energy rule takes its room for the impulse that was wanted. */

@@ -25,7 +25,7 @@ static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
 static carom_v3_q40 along(carom_v3_q40 to, int64_t s_q40, const int32_t d_q30[3])
 {
     for (int k = 0; k < 3; k++) {
-        to.c[k] += fix_mul(s_q40, d_q30[k], 30);
+        to.c[k] += fix_mul_q30(s_q40, d_q30[k]);
     }
     return to;
 }
@@ -48,10 +48,8 @@ static bool cross_q60(int64_t w[3], const int32_t e[3], const int32_t f[3], int6
 {
     bool small = true;
 
+    fix_cross(w, e, f);
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        w[k] = (int64_t)e[i] * f[j] - (int64_t)e[j] * f[i];
         small = small && carom_abs(w[k]) >> 30 < sine_q30;
     }
     return small;
@@ -74,7 +72,7 @@ static int64_t nearest_q40(const carom_v3_q40 *d, const int32_t e[3], const int3
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
-        df_q40[k] = fix_mul(d->c[i], f[j], 30) - fix_mul(d->c[j], f[i], 30);
+        df_q40[k] = fix_mul_q30(d->c[i], f[j]) - fix_mul_q30(d->c[j], f[i]);
     }
     ratio = fix_wide_ratio(fix_wide_dot(df_q40, w_q60), fix_wide_dot(w_q60, w_q60));
     ratio.e -= 60; /* q100 over q120, to q40 */

@@ -55,46 +55,41 @@ static struct carom_rect on_picture(const struct draw_view *view, struct draw_re
 
 /* What goes into a picture. */
 struct changes {
-    const struct carom_world *world;
+    struct draw_source source;
     struct draw_view view;                   /* of all of it */
     const struct carom_face_ref *refs, *end; /* interfering faces of bodies not yet looked at */
 };
 
 /* What is to show of a body, but for where on the picture; of one that is not there, nothing. */
-static struct carom_drawn_body look(const struct carom_world *world, uint32_t number)
+static struct carom_drawn_body look(const struct draw_source *source, uint32_t number)
 {
-    struct carom_drawn_body now = {.mesh = NULL};
+    struct carom_drawn_body now = {.moves = 0};
 
-    if (number < world->body_count && world->bodies[number].mesh) {
-        const struct body_state *state = &world_now(world)->bodies[number];
-
-        now.mesh = world->bodies[number].mesh;
-        now.moving = world->bodies[number].moving;
-        now.moves = now.mesh->surface ? now.mesh->surface->moves : 0;
-        now.position = state->position;
-        now.rotation = state->rotation;
+    if (draw_look(source, number, &now.look) && now.look.mesh->surface) {
+        now.moves = now.look.mesh->surface->moves;
     }
     return now;
 }
 
-static bool same_body(const struct carom_drawn_body *a, const struct carom_drawn_body *b)
+static bool same_body(const struct carom_drawn_body *before, const struct carom_drawn_body *now)
 {
-    return a->mesh == b->mesh && a->moving == b->moving && a->moves == b->moves &&
+    const struct carom_body_look *a = &before->look, *b = &now->look;
+
+    return a->mesh == b->mesh && a->moving == b->moving && before->moves == now->moves &&
            memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
            memcmp(&a->rotation, &b->rotation, sizeof a->rotation) == 0;
 }
 
 /* Where a body shows: all of it, or those of its faces that are given. */
-static struct carom_rect find_rect(const struct changes *c, uint32_t number,
+static struct carom_rect find_rect(const struct changes *c, const struct carom_body_look *look,
                                    const struct carom_face_ref *faces, ptrdiff_t count)
 {
-    const struct body *from = &c->world->bodies[number];
-    const struct carom_mesh_raw *raw = &from->mesh->raw;
+    const struct carom_mesh_raw *raw = &look->mesh->raw;
     struct draw_extent extent;
     struct draw_body body;
 
     draw_extent_begin(&extent);
-    if (draw_body_init(&body, &c->view, from, &world_now(c->world)->bodies[number])) {
+    if (draw_body_init(&body, &c->view, look)) {
         for (uint32_t v = 0; faces == NULL && v < raw->vertex_count; v++) {
             draw_extent_add(&extent, &body, v);
         }
@@ -113,21 +108,21 @@ static struct carom_rect find_rect(const struct changes *c, uint32_t number,
  */
 static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t number)
 {
-    struct carom_drawn_body *before = &drawn->bodies[number], now = look(c->world, number);
+    struct carom_drawn_body *before = &drawn->bodies[number], now = look(&c->source, number);
     const struct carom_face_ref *hot = c->refs;
     bool same = drawn->shows && same_body(before, &now);
 
     while (c->refs < c->end && c->refs->body == number) {
         c->refs++;
     }
-    if (now.mesh && hot < c->refs) {
-        now.hot = find_rect(c, number, hot, c->refs - hot);
+    if (now.look.mesh && hot < c->refs) {
+        now.hot = find_rect(c, &now.look, hot, c->refs - hot);
     }
     if (same) {
         now.all = before->all;
-    } else if (now.mesh) {
-        now.all = drawn->shows || now.moving ? find_rect(c, number, NULL, 0)
-                                             : on_picture(&c->view, c->view.rect);
+    } else if (now.look.mesh) {
+        now.all = drawn->shows || now.look.moving ? find_rect(c, &now.look, NULL, 0)
+                                                  : on_picture(&c->view, c->view.rect);
     }
     if (drawn->shows) {
         add_rect(drawn, same ? before->hot : before->all);
@@ -153,20 +148,20 @@ static bool same_picture(const struct carom_drawn *drawn, const struct carom_cam
 }
 
 /* How many bodies there are to look at, of the picture and of the world. */
-static uint32_t body_count(const struct carom_world *world, const struct carom_drawn *drawn)
+static uint32_t body_count(const struct changes *c, const struct carom_drawn *drawn)
 {
-    bool more = drawn->shows && drawn->count > world->body_count;
+    bool more = drawn->shows && drawn->count > c->source.count;
 
-    return more ? drawn->count : world->body_count;
+    return more ? drawn->count : c->source.count;
 }
 
 /* Whether all is where it is in the picture, and no face interferes or did. */
 static bool stands_still(const struct changes *c, const struct carom_drawn *drawn)
 {
-    uint32_t count = body_count(c->world, drawn);
+    uint32_t count = body_count(c, drawn);
 
     for (uint32_t i = 0; i < count; i++) {
-        const struct carom_drawn_body *before = &drawn->bodies[i], now = look(c->world, i);
+        const struct carom_drawn_body *before = &drawn->bodies[i], now = look(&c->source, i);
 
         if (!same_body(before, &now) || !is_empty(&before->hot)) {
             return false;
@@ -180,7 +175,7 @@ static void find_changes(struct changes *c, const struct carom_camera *camera,
                          const struct carom_picture *picture, enum carom_draw_style style,
                          struct carom_drawn *drawn)
 {
-    uint32_t count = body_count(c->world, drawn);
+    uint32_t count = body_count(c, drawn);
 
     draw_view_rect(&c->view, draw_whole(&c->view, picture));
     for (uint32_t i = 0; i < count; i++) {
@@ -189,7 +184,7 @@ static void find_changes(struct changes *c, const struct carom_camera *camera,
     if (!drawn->shows) {
         add_rect(drawn, on_picture(&c->view, c->view.rect));
     }
-    drawn->count = c->world->body_count;
+    drawn->count = c->source.count;
     drawn->camera = *camera;
     drawn->picture = *picture;
     drawn->style = (uint8_t)style;
@@ -199,21 +194,21 @@ int carom_draw_changes(const struct carom_world *world, const struct carom_camer
                        const struct carom_picture *picture, enum carom_draw_style style,
                        struct carom_drawn *drawn)
 {
-    struct changes c = {.world = world};
+    struct changes c;
     int result = drawn == NULL || drawn->bodies == NULL ? CAROM_ERR_NULL
                                                         : draw_check(world, camera, picture, style);
-    int hot_count;
     bool same;
 
     if (result != CAROM_OK) {
         return result;
     }
-    if (world->body_count > drawn->room) {
+    draw_source_init(&c.source, world);
+    if (c.source.count > drawn->room) {
         return CAROM_ERR_MEMORY;
     }
     same = same_picture(drawn, camera, picture, style);
-    hot_count = carom_interfering_faces(world, &c.refs);
-    c.end = c.refs + hot_count;
+    c.refs = c.source.hot;
+    c.end = c.refs + c.source.hot_count;
     drawn->changed_count = 0;
     if (same && stands_still(&c, drawn)) {
         return CAROM_OK;
@@ -227,7 +222,7 @@ int carom_draw_changes(const struct carom_world *world, const struct carom_camer
         const struct carom_rect *r = &drawn->changed[i];
         const int32_t *middle = c.view.middle;
 
-        result = draw_part(world, &c.view, picture, style,
+        result = draw_part(&c.source, &c.view, picture, style,
                            (struct draw_rect){r->x0 - middle[0], r->y0 - middle[1],
                                               r->x1 - middle[0], r->y1 - middle[1]});
         drawn->shows = result == CAROM_OK;

@@ -23,29 +23,32 @@ static int32_t ball_within(const struct carom_mesh *mesh)
 }
 
 /* From the eye to a body's centre of mass, in view axes, q16: below 2^31. */
-static void way_to(const struct draw_view *view, const struct body_state *state, int64_t way[3])
+static void way_to(const struct draw_view *view, const carom_v3_q32 *position, int64_t way[3])
 {
     for (int k = 0; k < 3; k++) {
-        way[k] = (state->position.c[k] - view->eye.c[k]) >> 16;
+        way[k] = (position->c[k] - view->eye.c[k]) >> 16;
     }
     fix_rotate(way, &view->axes, way);
 }
 
-/* The largest body; where the others are is not asked, so that those out of sight cost nothing. */
-static uint32_t find_largest(const struct carom_world *world)
+/*
+ * The number of the largest body and where it is, if there is any; where the others are is not asked,
+ * so that those out of sight cost nothing.
+ */
+static uint32_t find_largest(const struct draw_source *source, struct carom_body_look *largest)
 {
-    int32_t radius_q22 = 0;
-    uint32_t largest = world->body_count;
+    uint32_t number = 0;
 
-    for (uint32_t i = 0; i < world->body_count; i++) {
-        const struct carom_mesh *mesh = world->bodies[i].mesh;
+    for (uint32_t i = 0; i < source->count; i++) {
+        struct carom_body_look look;
 
-        if (mesh && mesh->raw.kind == CAROM_SOLID && mesh->radius_q22 > radius_q22) {
-            radius_q22 = mesh->radius_q22;
-            largest = i;
+        if (draw_look(source, i, &look) && look.mesh->raw.kind == CAROM_SOLID &&
+            look.mesh->radius_q22 > (largest->mesh ? largest->mesh->radius_q22 : 0)) {
+            *largest = look;
+            number = i;
         }
     }
-    return largest;
+    return number;
 }
 
 /*
@@ -53,24 +56,25 @@ static uint32_t find_largest(const struct carom_world *world)
  * ball's centre: what is further away is hidden. On the picture the ball is an ellipse, and wherever it
  * is it reaches at least focal radius / distance from the projection of its centre.
  */
-void draw_cover_init(struct draw_view *view, const struct carom_world *world)
+void draw_cover_init(struct draw_view *view, const struct draw_source *source)
 {
     struct draw_cover *cover = &view->cover;
-    uint32_t body = find_largest(world);
+    struct carom_body_look look = {.mesh = NULL};
+    uint32_t body = find_largest(source, &look);
     int64_t way[3], world_way[3], distance, x_q4, y_q4, radius_q4;
     int32_t radius_q16;
 
     cover->radius2_q8 = 0;
-    if (body == world->body_count) {
+    if (look.mesh == NULL) {
         return;
     }
-    way_to(view, &world_now(world)->bodies[body], way);
+    way_to(view, &look.position, way);
     /* all of the body must be beyond the near plane */
-    if (way[2] <= (world->bodies[body].mesh->radius_q22 >> 6) + (1 << 12)) {
+    if (way[2] <= (look.mesh->radius_q22 >> 6) + (1 << 12)) {
         return;
     }
     distance = fix_length(way) + 1;
-    radius_q16 = ball_within(world->bodies[body].mesh) >> 6;
+    radius_q16 = ball_within(look.mesh) >> 6;
     /* way < 2^31, focal <= 2^31: products fit */
     x_q4 = way[0] * view->focal_q16 / way[2] >> 12;
     y_q4 = way[1] * view->focal_q16 / way[2] >> 12;

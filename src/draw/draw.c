@@ -30,20 +30,21 @@ int draw_check(const struct carom_world *world, const struct carom_camera *camer
     return CAROM_OK;
 }
 
-int draw_part(const struct carom_world *world, struct draw_view *view,
+int draw_part(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
               struct draw_rect part)
 {
     if (style == CAROM_DRAW_FLAT) {
-        return draw_flat(world, view, picture, part);
+        return draw_flat(source, view, picture, part);
     }
-    draw_wire(world, view, picture, part);
+    draw_wire(source, view, picture, part);
     return CAROM_OK;
 }
 
 int carom_draw(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style)
 {
+    struct draw_source source;
     struct draw_view view;
     int result = draw_check(world, camera, picture, style);
 
@@ -53,5 +54,6 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
     if (result != CAROM_OK) {
         return result;
     }
-    return draw_part(world, &view, picture, style, draw_whole(&view, picture));
+    draw_source_init(&source, world);
+    return draw_part(&source, &view, picture, style, draw_whole(&view, picture));
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * draw - a picture of a world: camera, clipping, flat shading row by row, wireframe.
+ * draw - a picture of a world: camera, clipping, flat shading row by row, wireframe. What it sees of
+ * the world source.c asks, as any program may.
  *
  * Four frames of reference:
  *
@@ -28,7 +29,8 @@
 #ifndef CAROM_SRC_DRAW_H
 #define CAROM_SRC_DRAW_H
 
-#include "../world/world.h"
+#include "../mesh/mesh.h"
+#include "carom_draw.h"
 
 #define DRAW_GUARD 1024
 
@@ -53,6 +55,20 @@ static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
 struct draw_rect {
     int32_t x0, y0, x1, y1;
 };
+
+/* ---- source.c: what is drawn */
+
+struct draw_source {
+    const struct carom_world *world;
+    uint32_t count;                   /* numbers of bodies are below */
+    const struct carom_face_ref *hot; /* interfering faces, by body */
+    int hot_count;
+};
+
+void draw_source_init(struct draw_source *source, const struct carom_world *world);
+
+/* A body as it is now; false when there is none of this number. */
+bool draw_look(const struct draw_source *source, uint32_t number, struct carom_body_look *look);
 
 /* ---- view.c: from the world to the picture */
 
@@ -141,8 +157,8 @@ static inline struct draw_rect draw_whole(const struct draw_view *view,
 }
 
 /* Prepare a body for the view's part; false when nothing of it can show there. */
-bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
-                    const struct body_state *state);
+bool draw_body_init(struct draw_body *body, const struct draw_view *view,
+                    const struct carom_body_look *look);
 /*
  * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
  * 1, or 2 when all of it does.
@@ -193,7 +209,7 @@ static inline int32_t draw_divide(int32_t n, int32_t d)
 /* ---- cover.c: what a body surely hides */
 
 /* Find the view's cover. */
-void draw_cover_init(struct draw_view *view, const struct carom_world *world);
+void draw_cover_init(struct draw_view *view, const struct draw_source *source);
 
 /* Whether some of a leaf may be covered. */
 bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
@@ -211,7 +227,7 @@ static inline bool draw_covers(const struct draw_cover *cover, const struct draw
 /* ---- flat.c: the faces that show, part by part */
 
 /* Returns CAROM_OK or CAROM_ERR_MEMORY for a workspace that is too small. */
-int draw_flat(const struct carom_world *world, struct draw_view *view,
+int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect);
 
 /* ---- scanline.c: their pixels, row by row */
@@ -344,7 +360,7 @@ uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *p
 
 /* ---- wire.c */
 
-void draw_wire(const struct carom_world *world, struct draw_view *view,
+void draw_wire(const struct draw_source *source, struct draw_view *view,
                const struct carom_picture *picture, struct draw_rect part);
 
 /* ---- palette.c */
@@ -359,7 +375,7 @@ int draw_check(const struct carom_world *world, const struct carom_camera *camer
                const struct carom_picture *picture, enum carom_draw_style style);
 
 /* Draw a part of the picture; nothing outside of it changes. */
-int draw_part(const struct carom_world *world, struct draw_view *view,
+int draw_part(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
               struct draw_rect part);
 

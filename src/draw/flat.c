@@ -12,7 +12,7 @@
 
 /* Where a pass over the world is. */
 struct flat {
-    const struct carom_world *world;
+    const struct draw_source *source;
     struct draw_view *view;
     struct draw_list list;
     struct draw_body body;
@@ -180,12 +180,11 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
 /* Mark the interfering faces of a body. */
 static void mark_hot(struct flat *f, uint32_t number)
 {
-    const struct carom_face_ref *refs;
-    int count = carom_interfering_faces(f->world, &refs);
+    const struct carom_face_ref *refs = f->source->hot;
     uint32_t faces = f->body.mesh->raw.face_count;
 
     f->hot = NULL;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < f->source->hot_count; i++) {
         if (refs[i].body == number && refs[i].face < faces) {
             if (f->hot == NULL) {
                 f->hot = f->hot_bits;
@@ -205,7 +204,6 @@ static size_t room(const struct draw_list *list)
 /* List what shows in the part; false when there is no room for all of it. */
 static bool see_part(struct flat *f)
 {
-    const struct carom_world *world = f->world;
     const struct draw_rect *rect = &f->view->rect;
 
     f->list.vertices = f->vertices;
@@ -213,15 +211,15 @@ static bool see_part(struct flat *f)
     f->list.vertex_count = f->list.face_count = 1;
     f->list.rows = f->rows;
     memset(f->rows, 0, (size_t)(rect->y1 - rect->y0) * sizeof f->rows[0]);
-    for (uint32_t i = 0; i < world->body_count; i++) {
-        const struct body *from = &world->bodies[i];
-        const struct carom_mesh *mesh = from->mesh;
+    for (uint32_t i = 0; i < f->source->count; i++) {
+        struct carom_body_look look;
+        const struct carom_mesh *mesh;
         bool covered = f->view->cover.radius2_q8 > 0 && i != f->view->cover.body;
 
-        if (mesh == NULL ||
-            !draw_body_init(&f->body, f->view, from, &world_now(world)->bodies[i])) {
+        if (!draw_look(f->source, i, &look) || !draw_body_init(&f->body, f->view, &look)) {
             continue;
         }
+        mesh = look.mesh;
         mark_hot(f, i);
         memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
@@ -256,12 +254,14 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
     uint8_t *at = picture->workspace;
     size_t vertices = 0, faces = 0, bytes;
 
-    for (uint32_t i = 0; i < f->world->body_count; i++) {
-        const struct carom_mesh *mesh = f->world->bodies[i].mesh;
+    for (uint32_t i = 0; i < f->source->count; i++) {
+        struct carom_body_look look;
 
-        if (mesh) {
-            vertices = mesh->raw.vertex_count > vertices ? mesh->raw.vertex_count : vertices;
-            faces = mesh->raw.face_count > faces ? mesh->raw.face_count : faces;
+        if (draw_look(f->source, i, &look)) {
+            const struct carom_mesh_raw *raw = &look.mesh->raw;
+
+            vertices = raw->vertex_count > vertices ? raw->vertex_count : vertices;
+            faces = raw->face_count > faces ? raw->face_count : faces;
         }
     }
     bytes = (faces + 31) / 32 * sizeof f->hot_bits[0] + vertices * sizeof f->seen[0] +
@@ -298,16 +298,16 @@ static bool try_part(struct flat *f, const struct carom_picture *picture, struct
  * too much, fewer columns. A pixel is drawn in any case, with as many of its faces as there is room
  * for: some 60 in front of each other when it is smallest.
  */
-int draw_flat(const struct carom_world *world, struct draw_view *view,
+int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect)
 {
-    struct flat f = {.world = world, .view = view};
+    struct flat f = {.source = source, .view = view};
     int32_t x = rect.x0, y = rect.y0, columns = rect.x1 - rect.x0, rows = rect.y1 - rect.y0;
 
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    draw_cover_init(view, world);
+    draw_cover_init(view, source);
     while (y < rect.y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 

@@ -176,21 +176,21 @@ static void place_vertices(struct draw_body *body)
     }
 }
 
-bool draw_body_init(struct draw_body *body, const struct draw_view *view, const struct body *from,
-                    const struct body_state *state)
+bool draw_body_init(struct draw_body *body, const struct draw_view *view,
+                    const struct carom_body_look *look)
 {
     carom_m3_q30 r;
 
-    body->sees = sees_body(view, &state->position, from->mesh->radius_q22);
+    body->sees = sees_body(view, &look->position, look->mesh->radius_q22);
     if (body->sees == 0) {
         return false;
     }
-    body->mesh = from->mesh;
-    body->moving = from->moving;
-    body->ramp = (draw_ramp_entry(from->moving, false, 0) << 24) + (1u << 28);
+    body->mesh = look->mesh;
+    body->moving = look->moving;
+    body->ramp = (draw_ramp_entry(look->moving, false, 0) << 24) + (1u << 28);
     memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
-    body_matrix(&r, &state->rotation);
-    place_eye(body, view, &r, &state->position);
+    fix_matrix(&r, &look->rotation);
+    place_eye(body, view, &r, &look->position);
     /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
     body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
     body->w_shift = 14 + body->shift + view->z_shift;

@@ -112,24 +112,24 @@ static void draw_body_wire(const struct draw_view *view, const struct carom_pict
 }
 
 static bool see_body(struct draw_body *body, const struct draw_view *view,
-                     const struct carom_world *world, uint32_t number)
+                     const struct draw_source *source, uint32_t number)
 {
-    return world->bodies[number].mesh &&
-           draw_body_init(body, view, &world->bodies[number], &world_now(world)->bodies[number]);
+    struct carom_body_look look;
+
+    return draw_look(source, number, &look) && draw_body_init(body, view, &look);
 }
 
 /* The interfering faces, over what was drawn of them before. */
 static void draw_hot_wire(const struct carom_picture *picture, const struct draw_view *view,
-                          const struct carom_world *world)
+                          const struct draw_source *source)
 {
-    const struct carom_face_ref *refs;
-    int count = carom_interfering_faces(world, &refs);
+    const struct carom_face_ref *refs = source->hot;
     struct draw_body body;
     bool seen = false;
 
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < source->hot_count; i++) {
         if (i == 0 || refs[i].body != refs[i - 1].body) {
-            seen = see_body(&body, view, world, refs[i].body);
+            seen = see_body(&body, view, source, refs[i].body);
         }
         if (seen && refs[i].face < body.mesh->raw.face_count) {
             const uint16_t *corner = body.mesh->raw.faces[refs[i].face];
@@ -143,7 +143,7 @@ static void draw_hot_wire(const struct carom_picture *picture, const struct draw
     }
 }
 
-void draw_wire(const struct carom_world *world, struct draw_view *view,
+void draw_wire(const struct draw_source *source, struct draw_view *view,
                const struct carom_picture *picture, struct draw_rect part)
 {
     struct draw_body body;
@@ -155,10 +155,10 @@ void draw_wire(const struct carom_world *world, struct draw_view *view,
         draw_run(draw_pixels(view, picture, y), draw_pixel_shift(picture->format), part.x0, part.x1,
                  draw_ground(view, picture, y));
     }
-    for (uint32_t i = 0; i < world->body_count; i++) {
-        if (see_body(&body, view, world, i)) {
+    for (uint32_t i = 0; i < source->count; i++) {
+        if (see_body(&body, view, source, i)) {
             draw_body_wire(view, picture, &body);
         }
     }
-    draw_hot_wire(picture, view, world);
+    draw_hot_wire(picture, view, source);
 }

@@ -105,7 +105,7 @@ struct interfere_area interfere_area_under(const struct body *bodies, const stru
     int shift = 32 - surface->mesh->raw.quantum_bits;
     carom_m3_q30 r;
 
-    body_matrix(&r, &surface->region.q);
+    fix_matrix(&r, &surface->region.q);
     for (uint32_t i = 0; i < pair_count; i++) {
         const struct body *a = &bodies[pairs[i].a];
         int64_t way[3], around_q22 = (int64_t)a->radius_q22 + a->reach_q22 + surface->reach_q22;

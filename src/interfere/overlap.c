@@ -183,8 +183,8 @@ static void place_pair(struct interfere *w, const struct body_state *a, const st
     carom_m3_q30 r_a, r_b;
     int64_t d_q32[3];
 
-    body_matrix(&r_a, &a->rotation);
-    body_matrix(&r_b, &b->rotation);
+    fix_matrix(&r_a, &a->rotation);
+    fix_matrix(&r_b, &b->rotation);
     for (int k = 0; k < 3; k++) {
         d_q32[k] = a->position.c[k] - b->position.c[k];
     }
@@ -269,12 +269,12 @@ static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct int
     for (int k = 0; k < 3; k++) {
         p_q32[k] = carom_shl(v.c[k], 10);
     }
-    body_matrix(&r, &a.state->rotation);
+    fix_matrix(&r, &a.state->rotation);
     fix_rotate(p_q32, &r, p_q32);
     for (int k = 0; k < 3; k++) {
         p_q32[k] += a.state->position.c[k] - b.state->position.c[k];
     }
-    body_matrix(&r, &b.state->rotation);
+    fix_matrix(&r, &b.state->rotation);
     fix_rotate_back(p_q32, &r, p_q32);
     for (int k = 0; k < 3; k++) {
         p_q32[k] += carom_shl(mb->mass.centre.c[k], 10);

@@ -58,10 +58,7 @@ static int32_t largest_change(const struct carom_surface *s, const int16_t (*a)[
     int32_t most = 0;
 
     for (uint32_t i = 0; i < 3 * s->mesh->raw.vertex_count; i++) {
-        int32_t d = a[i / 3][i % 3] - b[i / 3][i % 3];
-
-        d = d < 0 ? -d : d;
-        most = d > most ? d : most;
+        most = fix_larger(fix_abs32(a[i / 3][i % 3] - b[i / 3][i % 3]), most);
     }
     return most;
 }
@@ -81,7 +78,7 @@ static int64_t find_rise_q22(const struct carom_surface *s, const int16_t (*vert
     for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
         int32_t dx = vertices[v][0] - s->now[v][0], dy = vertices[v][1] - s->now[v][1];
         int32_t z = vertices[v][2], dz = z - s->now[v][2];
-        int32_t d = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+        int32_t d = fix_abs32(dx) + fix_abs32(dy);
 
         up = dz > up ? dz : up;
         aside = d > aside ? d : aside;

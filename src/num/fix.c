@@ -233,20 +233,14 @@ int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
     return fix_mul(v, s.m, s.e);
 }
 
-/* How far to shift the largest of three components so that it has `bits` bits. */
-static int common_shift(const int64_t v[3], int bits)
+int fix_bits3(const int64_t v[3])
 {
-    uint64_t all = 0;
-
-    for (int k = 0; k < 3; k++) {
-        all |= (uint64_t)carom_abs(v[k]);
-    }
-    return fix_bits(all) - bits;
+    return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
 }
 
 int64_t fix_length(const int64_t v[3])
 {
-    int shift = common_shift(v, 30);
+    int shift = fix_bits3(v) - 30;
     uint64_t sum = 0;
     int64_t root;
 
@@ -267,7 +261,7 @@ int64_t fix_length(const int64_t v[3])
 
 bool fix_normalise(carom_v3_q30 *out, const int64_t v[3])
 {
-    int shift = common_shift(v, 31);
+    int shift = fix_bits3(v) - 31;
     int64_t c[3];
     uint64_t sum = 0;
     int64_t length;
@@ -297,6 +291,22 @@ int64_t fix_length_bound(const int64_t v[3])
     most = most > z ? most : z;
     /* with m the largest: (m + (a + b) / 2)^2 >= m^2 + m (a + b) >= m^2 + a^2 + b^2 */
     return most + (x + y + z - most + 1) / 2;
+}
+
+void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
+{
+    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
+
+    /* twice each product: a shift of 29 in place of 30 */
+    m->c[0][0] = (int32_t)(CAROM_ONE_Q30 - carom_round(y * y + z * z, 29));
+    m->c[1][1] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + z * z, 29));
+    m->c[2][2] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
+    m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
+    m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
+    m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
+    m->c[2][0] = (int32_t)carom_round(x * z - w * y, 29);
+    m->c[1][2] = (int32_t)carom_round(y * z - w * x, 29);
+    m->c[2][1] = (int32_t)carom_round(y * z + w * x, 29);
 }
 
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])

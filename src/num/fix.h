@@ -61,6 +61,9 @@ inline int fix_bits(uint64_t v)
     return high ? 32 + fix_bits32(high) : fix_bits32((uint32_t)v);
 }
 
+/* Bits of the largest of |x|, |y| and |z|. */
+int fix_bits3(const int64_t v[3]);
+
 /* floor(sqrt(v)), exact for every v. */
 uint32_t fix_sqrt(uint64_t v);
 
@@ -139,6 +142,20 @@ static inline int32_t fix_larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+/* The largest of |x|, |y| and |z|, each above INT32_MIN. */
+static inline int32_t fix_largest(const int32_t v[3])
+{
+    return fix_larger(fix_larger(fix_abs32(v[0]), fix_abs32(v[1])), fix_abs32(v[2]));
+}
+
+/* a x b, exact; each component of both above INT32_MIN: two products are below 2^63. */
+static inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
+{
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
+}
+
 /* |x| + |y| + |z|; each below 2^62 */
 inline uint64_t fix_sum(const int64_t v[3])
 {
@@ -187,6 +204,9 @@ int64_t fix_length_bound(const int64_t v[3]);
  * Error: each component within 2 units of the last place of q30.
  */
 bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
+
+/* The matrix of a rotation. Range: components below 2^31, so that two products are below 2^63. */
+void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 
 /* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);

@@ -17,7 +17,7 @@ static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_qua
     int64_t middle[3], half[3];
     carom_m3_q30 r;
 
-    body_matrix(&r, q);
+    fix_matrix(&r, q);
     for (int k = 0; k < 3; k++) {
         int64_t low = mesh->box[0][k], high = mesh->box[1][k];
 

@@ -39,6 +39,22 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
     }
 }
 
+int64_t rest_speed_q40(const struct contact *c)
+{
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return rest_along_q40(&v, &c->normal);
+}
+
+void rest_want(struct contact *c)
+{
+    PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
+    c->work->wanted_q40 = *contact_impulse(c);
+    PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
+    rest_relative_velocity(c, &c->velocity_q40);
+}
+
 void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
                    const int64_t moment_q40[3])
 {

@@ -7,7 +7,7 @@
 /* a k^2 + b k + c with k in q30; |a|, |b|, |c| < 2^60. */
 static int64_t quadratic(const int64_t abc[3], int32_t k_q30)
 {
-    return fix_mul(fix_mul(abc[0], k_q30, 30) + abc[1], k_q30, 30) + abc[2];
+    return fix_mul_q30(fix_mul_q30(abc[0], k_q30) + abc[1], k_q30) + abc[2];
 }
 
 /* The largest k in [0, 1] whose quadratic is not positive, rounded down; c <= 0 <= a. */

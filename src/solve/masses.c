@@ -32,14 +32,6 @@ void rest_prepare_body(struct body *b)
     body_solve(b)->turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
 }
 
-/* a x b, exact */
-static void cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
-{
-    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
-    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
-    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
-}
-
 /* The turn by an impulse on one side, and what it adds to K. */
 static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
                          int64_t k_q30[6])
@@ -55,7 +47,7 @@ static void prepare_side(const struct contact_side *side, struct contact_lever *
         const uint8_t *at = fix_sym3_at[i];
         const int32_t row[3] = {turning->m[at[0]], turning->m[at[1]], turning->m[at[2]]};
 
-        cross(turn[i], row, side->arm_q30);
+        fix_cross(turn[i], row, side->arm_q30);
         for (int k = 0; k < 3; k++) {
             all |= (uint64_t)(turn[i][k] ^ (turn[i][k] >> 63));
         }
@@ -76,7 +68,7 @@ static void prepare_side(const struct contact_side *side, struct contact_lever *
     for (int i = 0; i < 3; i++) {
         const int32_t spin[3] = {lever->turn[0][i], lever->turn[1][i], lever->turn[2][i]};
 
-        cross(part, spin, side->arm_q30);
+        fix_cross(part, spin, side->arm_q30);
         for (int k = 0; k <= i; k++) {
             k_q30[fix_sym3_at[i][k]] += carom_round(part[k], lever->turn_bits);
         }

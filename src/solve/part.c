@@ -24,14 +24,6 @@ static void load(struct rest *r, bool before)
     }
 }
 
-static int64_t speed_q40(const struct contact *c)
-{
-    carom_v3_q40 v;
-
-    rest_relative_velocity(c, &v);
-    return rest_along_q40(&v, &c->normal);
-}
-
 bool rest_approaches(struct rest *r)
 {
     bool any = false;
@@ -41,7 +33,7 @@ bool rest_approaches(struct rest *r)
         const struct contact *c = rest_contact(r, i);
         int64_t least_q40 = c->work->target_q40 < 0 ? c->work->target_q40 : 0;
 
-        any = speed_q40(c) < least_q40 - carom_shl(c->skin_q22 / SLOW_DIVISOR, 18);
+        any = rest_speed_q40(c) < least_q40 - carom_shl(c->skin_q22 / SLOW_DIVISOR, 18);
     }
     load(r, true);
     return any;
@@ -56,26 +48,25 @@ void rest_part(struct rest *r)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
-        c->work->wanted_q40 = *contact_impulse(c);
-        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
-        rest_relative_velocity(c, &c->velocity_q40);
+        rest_want(c);
         c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
     }
     rest_solve_sweeps(r, &sw, false);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
+        carom_v3_q40 impulse = *contact_impulse(c);
         const int64_t none[3] = {0, 0, 0};
 
-        rest_apply_at(r, c, contact_impulse(c)->c, none);
+        rest_apply_at(r, c, impulse.c, none);
         for (int k = 0; k < 3; k++) {
-            contact_impulse(c)->c[k] += contact_wanted(c)->c[k];
+            impulse.c[k] += contact_wanted(c)->c[k];
         }
+        contact_set_impulse(c, &impulse);
     }
     load(r, true);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->speed_q40 = speed_q40(c);
+        c->speed_q40 = rest_speed_q40(c);
     }
 }

@@ -116,6 +116,10 @@ void rest_apply(struct rest *r);
 
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
+/* V.N */
+int64_t rest_speed_q40(const struct contact *c);
+/* Before another solve of a contact: its impulse is the one that was wanted, V is that before. */
+void rest_want(struct contact *c);
 
 /*
  * Give contact i of a face on a face the normal of one before it that differs by a hair, or its

@@ -16,16 +16,6 @@
 #define TOO_NEAR_DIVISOR 16
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
-/* What rounding may have made of a gap since the hit was found. */
-#define HIT_GAP_NOISE_Q22 8
-
-static int64_t speed_along_normal_q40(const struct contact *c)
-{
-    carom_v3_q40 v;
-
-    rest_relative_velocity(c, &v);
-    return rest_along_q40(&v, &c->normal);
-}
 
 /* Velocities of the bodies that have contacts, each once. */
 static void load_velocities(struct rest *r)
@@ -283,7 +273,7 @@ static void book_work(struct rest *r)
         const struct contact *c = rest_contact(r, i);
         struct body *b = c->side[0].body;
 
-        *body_work2(b) = fix_wide_add(*body_work2(b), rest_work2(c));
+        body_add_work2(b, rest_work2(c));
     }
 }
 
@@ -304,20 +294,6 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
         rest_store_warm(r);
     }
     return result;
-}
-
-void rest_keep_hits(struct rest *r, uint16_t pair)
-{
-    load_velocities(r);
-    for (uint32_t i = 0; i < r->list.pool->used; i++) {
-        struct contact *c = &r->list.contacts[i];
-        /* a hit stops at half the skin */
-        bool hits = c->gap_q22 < c->skin_q22 / 2 + HIT_GAP_NOISE_Q22 &&
-                    speed_along_normal_q40(c) < -slow_q40(r, c);
-
-        c->idle =
-            c->key.pair != pair && !hits && !rest_body(r, c, 0)->woke && !rest_body(r, c, 1)->woke;
-    }
 }
 
 /* Whether a contact has a body that moves and has not taken gravity. */
@@ -342,7 +318,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
-        if (c->idle || !may_enter(c) || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
+        if (c->idle || !may_enter(c) || carom_abs(rest_speed_q40(c)) >= slow_q40(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {

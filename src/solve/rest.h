@@ -68,12 +68,6 @@ struct rest {
 int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
 
 /*
- * Leave idle what neither belongs to the pair that hit, nor hits at the same time, nor belongs to a
- * body that the static check woke.
- */
-void rest_keep_hits(struct rest *r, uint16_t pair);
-
-/*
  * Bodies with a contact that is slower than 4 g h, and not idle, take the rest of the frame's
  * gravity at once and move straight. Returns whether any body newly did; only the contacts of such
  * bodies are not idle then.

@@ -44,12 +44,12 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
         for (int k = 0; k < 3; k++) {
             int64_t from = contact_impulse(c)->c[k];
 
-            impulse.c[k] = from + fix_mul(contact_wanted(c)->c[k] - from, k_q30, 30);
-            moment.c[k] = fix_mul(rest_moment(c)->c[k], k_q30, 30);
+            impulse.c[k] = from + fix_mul_q30(contact_wanted(c)->c[k] - from, k_q30);
+            moment.c[k] = fix_mul_q30(rest_moment(c)->c[k], k_q30);
         }
         rest_apply_at(r, c, impulse.c, moment.c);
         if (keep) {
-            *contact_impulse(c) = impulse;
+            contact_set_impulse(c, &impulse);
             if (c->work->roll) {
                 *contact_moment(c) = moment;
             }
@@ -82,7 +82,7 @@ static struct fix_wide before2(const struct rest *r)
         const struct body *b = &r->bodies[i];
 
         sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(body_solve(b)->saved_angular.c, b->spin.c));
+        sum = fix_wide_add(sum, fix_wide_dot(body_solved(b)->saved_angular.c, b->spin.c));
     }
     return sum;
 }
@@ -117,12 +117,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
     }
     r->energy_rules++;
     for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-
-        PHASE_BEGIN(c->work->phase, CONTACT_WANTED);
-        c->work->wanted_q40 = *contact_impulse(c);
-        PHASE_BEGIN(c->phase, CONTACT_VELOCITY);
-        rest_relative_velocity(c, &c->velocity_q40);
+        rest_want(rest_contact(r, i));
     }
     rest_solve_sweeps(r, &plastic, false);
     /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */

@@ -154,7 +154,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
 
     arm_q30(r, rigid, i, arm);
     square_q30 = carom_dot(arm, arm) >> 30;
-    body_matrix(&axes, &r->states[i].rotation);
+    fix_matrix(&axes, &r->states[i].rotation);
     body_world_inertia(&r->bodies[i], &axes, &own);
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n <= m; n++) {
@@ -163,7 +163,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
                            carom_mul_q30(arm[m], arm[n]);
 
             part += m == n ? square_q30 : 0;
-            sum_q30[at] += fix_mul(part, share, 30);
+            sum_q30[at] += fix_mul_q30(part, share);
         }
     }
 }
@@ -260,8 +260,8 @@ static void scale_about(struct body_state *to, const struct body_state *from, in
     for (int k = 0; k < 3; k++) {
         int64_t p = from->momentum.c[k], l = from->angular.c[k];
 
-        to->momentum.c[k] = p + fix_mul(to->momentum.c[k] - p, factor_q30, 30);
-        to->angular.c[k] = l + fix_mul(to->angular.c[k] - l, factor_q30, 30);
+        to->momentum.c[k] = p + fix_mul_q30(to->momentum.c[k] - p, factor_q30);
+        to->angular.c[k] = l + fix_mul_q30(to->angular.c[k] - l, factor_q30);
     }
 }
 

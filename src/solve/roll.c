@@ -121,7 +121,7 @@ static int finer(const struct contact *c, const struct body *b)
 /* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
 static int64_t turning_q30(const struct body *b, int32_t share_q30)
 {
-    const struct carom_sym3 *t = &body_solve(b)->turning;
+    const struct carom_sym3 *t = &body_solved(b)->turning;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
@@ -132,7 +132,7 @@ static int64_t turning_q30(const struct body *b, int32_t share_q30)
         }
         largest = sum > largest ? sum : largest;
     }
-    return fix_round_shift(fix_mul(largest, share_q30, 30), 30 - t->e);
+    return fix_round_shift(fix_mul_q30(largest, share_q30), 30 - t->e);
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -204,7 +204,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     struct contact *c = rest_contact(r, i);
     struct contact_roll *roll = contact_rolling(c);
     int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
-    int32_t change[3], limit, most = 0, moved;
+    int32_t change[3], limit, moved;
 
     for (uint32_t n = i; same_pair(r, i, n); n++) {
         pressure += rest_contact(r, n)->work->normal_impulse;
@@ -213,26 +213,22 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            int64_t dw = body_solve(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
+            int64_t dw = body_solved(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
 
             spin[k] += s == 0 ? dw : -dw;
         }
     }
     /* so a component of the moment stays within 2^30 */
-    limit = rest_clamp(fix_mul(pressure, roll->arm_q30, 30));
+    limit = rest_clamp(fix_mul_q30(pressure, roll->arm_q30));
     limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
     for (int k = 0; k < 3; k++) {
         next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q30) >> 30);
     }
     rest_cut(next, limit > 0 ? limit : 0);
     for (int k = 0; k < 3; k++) {
-        int32_t size;
-
         change[k] = (int32_t)next[k] - roll->moment[k];
-        size = change[k] < 0 ? -change[k] : change[k];
-        most = size > most ? size : most;
     }
-    moved = rest_clamp(((int64_t)roll->mass_q24 * most) >> 24);
+    moved = rest_clamp(((int64_t)roll->mass_q24 * fix_largest(change)) >> 24);
     if (moved < quiet) {
         return 0;
     }

@@ -9,11 +9,6 @@ int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
     return fix_dot_q30(v, d->c);
 }
 
-static int bits3(const int64_t v[3])
-{
-    return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));
-}
-
 struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
 {
     int64_t d64[3] = {d->c[0], d->c[1], d->c[2]};
@@ -38,7 +33,7 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
         bits = b > bits ? b : bits;
     }
     /* Less than 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much. */
-    slips = bits > 34 && bits > bits3(t) + 30 - 28;
+    slips = bits > 34 && bits > fix_bits3(t) + 30 - 28;
     if (slips) {
         for (int k = 0; k < 3; k++) {
             across[k] = fix_wide_shift(cross_q70[k], bits > 62 ? bits - 62 : 0);
@@ -194,7 +189,7 @@ static int slide_direction(const struct impact_problem *p, uint32_t friction_q16
         out[k] = ((int64_t)p->frame.v.c[k] * ((int64_t)1 << 16)) +
                  (int64_t)friction_q16 * p->frame.n.c[k];
     }
-    return bits3(out);
+    return fix_bits3(out);
 }
 
 /* Paper (9) and (10); mu = 0 gives the frictionless impulse. */
@@ -230,7 +225,7 @@ static int64_t in_unit_q40(struct fix_wide v_q70, int bits)
 /* The unit must not be so small that V does not fit, nor finer than the velocities are. */
 static int unit_bits(const struct impact_problem *p, int bits)
 {
-    int lowest = bits3(p->in->velocity.c) + 30 + 40 - SPEED_BITS;
+    int lowest = fix_bits3(p->in->velocity.c) + 30 + 40 - SPEED_BITS;
 
     return bits > lowest ? bits : lowest > 30 ? lowest : 30;
 }
@@ -278,12 +273,12 @@ static int eliminate(const struct impact_problem *p, const struct goal *goal)
 
 static int64_t times_share(const struct impact_mover *m, int64_t v)
 {
-    return fix_mul(v, m->share_q30, 30) + fix_mul(v, m->share_rest_q60, 60);
+    return fix_mul_q30(v, m->share_q30) + fix_mul(v, m->share_rest_q60, 60);
 }
 
 static int64_t times_arm(const struct impact_mover *m, int64_t v, int k)
 {
-    return fix_mul(v, m->arm_q30[k], 30) + fix_mul(v, m->arm_rest_q60[k], 60);
+    return fix_mul_q30(v, m->arm_q30[k]) + fix_mul(v, m->arm_rest_q60[k], 60);
 }
 
 /* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
@@ -320,7 +315,7 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
         out_q40[3 + k] =
             fix_round_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
         for (int l = 0; l < 3; l++) {
-            out_q40[3 + k] -= fix_mul(dw[l], m->inertia_q30[fix_sym3_at[k][l]], 30);
+            out_q40[3 + k] -= fix_mul_q30(dw[l], m->inertia_q30[fix_sym3_at[k][l]]);
         }
     }
 }

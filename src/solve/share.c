@@ -33,7 +33,7 @@ static bool as_good(const struct contact *c, const carom_v3_q30 *other, int32_t 
         if (off > CONTACT_LEAN_MAX_Q30 || off < -CONTACT_LEAN_MAX_Q30) {
             return false;
         }
-        change_q40 += fix_mul(c->velocity_q40.c[k], (int32_t)off, 30);
+        change_q40 += fix_mul_q30(c->velocity_q40.c[k], (int32_t)off);
     }
     return carom_abs(change_q40) < carom_shl(c->skin_q22 / CHANGE_DIVISOR, 18);
 }

@@ -16,7 +16,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     if (!b->in_contact) {
         return false;
     }
-    body_matrix(&m, &s->rotation);
+    fix_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);
     return fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;

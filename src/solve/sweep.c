@@ -123,11 +123,11 @@ static void change_at(const struct contact_side *side, int64_t out[3])
     int64_t dw[3];
 
     for (int k = 0; k < 3; k++) {
-        dw[k] = body_solve(b)->dw[k] >> (REST_FINER_BITS - 2);
+        dw[k] = body_solved(b)->dw[k] >> (REST_FINER_BITS - 2);
     }
     wrapping_cross(out, dw, side->arm_q30);
     for (int k = 0; k < 3; k++) {
-        out[k] = body_solve(b)->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
+        out[k] = body_solved(b)->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
     }
 }
 

@@ -72,7 +72,7 @@ static void push_all(struct contact *c)
 
     for (int k = 0; k < 3; k++) {
         left[k] =
-            fix_mul(c->work->normal_impulse, c->normal.c[k], 30) + c->work->tangent_impulse[k];
+            fix_mul_q30(c->work->normal_impulse, c->normal.c[k]) + c->work->tangent_impulse[k];
     }
     while (more) {
         int32_t part[3];
@@ -115,7 +115,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     c->work->normal_impulse = units(w->normal_q40, inverse);
     for (int k = 0; k < 3; k++) {
         c->work->tangent_impulse[k] =
-            units(w->tangent_q40.c[k] - fix_mul(along, c->normal.c[k], 30), inverse);
+            units(w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]), inverse);
     }
     push_all(c);
     w->normal_q40 = 0; /* used */
@@ -154,7 +154,7 @@ void rest_store_warm(struct rest *r)
         w->normal_q40 = rest_along_q40(contact_impulse(c), &c->normal);
         for (int k = 0; k < 3; k++) {
             w->tangent_q40.c[k] =
-                contact_impulse(c)->c[k] - fix_mul(w->normal_q40, w->normal.c[k], 30);
+                contact_impulse(c)->c[k] - fix_mul_q30(w->normal_q40, w->normal.c[k]);
         }
     }
 }

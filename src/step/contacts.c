@@ -171,7 +171,7 @@ static void find_chords(struct step *s)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
-    const struct boyse_pair *pair = NULL;
+    struct boyse_pair *pair = NULL;
     uint32_t pair_number = UINT32_MAX;
     int32_t slice_q30 = 0;
 
@@ -191,7 +191,7 @@ static void find_chords(struct step *s)
         if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
             continue;
         }
-        boyse_pair_for((struct boyse_pair *)pair, &c->key);
+        boyse_pair_for(pair, &c->key);
         way_q22 = gap_change(pair, &c->key) + 4;
         if (carom_abs(way_q22) < 1 << 24) {
             c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));

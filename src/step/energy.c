@@ -16,7 +16,7 @@ static struct fix_wide kinetic2(const struct body *b, const struct body_state *s
 {
     carom_m3_q30 r;
 
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     return body_kinetic2(b, s, &r);
 }
 
@@ -39,7 +39,7 @@ static struct fix_wide climbed2(const struct body *b, const struct body_state *f
 static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
                                const struct body_state *to)
 {
-    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(*body_work2(b)));
+    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(body_work2(b)));
 
     return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
 }
@@ -226,7 +226,7 @@ static void give_back_gravity(struct step *s, uint32_t first)
 
         for (int k = 0; step_active(s, i) && b->stands && b->in_contact && k < 3; k++) {
             s->next->bodies[i].momentum.c[k] -= fix_mul_scaled(
-                fix_mul(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30, 30), b->mass);
+                fix_mul_q30(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30), b->mass);
         }
     }
 }

@@ -41,22 +41,9 @@ bool step_retire(struct step *s, uint32_t i)
     return true;
 }
 
-/* Where a pair is in the list, or belongs. */
 static uint32_t touching_place(const struct world_state *s, const struct pair *p)
 {
-    uint32_t low = 0, high = s->touching_count;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        const struct pair *at = &s->touching[middle];
-
-        if (at->a < p->a || (at->a == p->a && at->b < p->b)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
+    return broad_place_of(s->touching, s->touching_count, p->a, p->b);
 }
 
 static bool touching_at(const struct world_state *s, uint32_t place, const struct pair *p)

@@ -99,7 +99,7 @@ struct step_visitor {
 };
 
 /* Set up a pair with the paths of its bodies at hand, in the room there is for one. */
-struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number);
+struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number);
 
 /* Hand every candidate of a pair to f. */
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,

@@ -17,22 +17,9 @@
 
 /* ------------------------------------------------------------------ numbers */
 
-/* Where a pair is in the list, or belongs. */
 static uint32_t place_of(const struct carom_world *w, uint32_t a, uint32_t b)
 {
-    uint32_t low = 0, high = w->pools[CAROM_POOL_pairs].used;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        const struct pair *p = &w->pairs[middle];
-
-        if (p->a < a || (p->a == a && p->b < b)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
+    return broad_place_of(w->pairs, w->pools[CAROM_POOL_pairs].used, a, b);
 }
 
 static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)

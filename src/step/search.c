@@ -15,7 +15,7 @@
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
 
-struct boyse_pair *step_set_pair(const struct carom_world *w, uint32_t number)
+struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
     const struct pair *p = &w->pairs[number];
     struct boyse_pair *pair;

@@ -76,7 +76,7 @@ static bool momenta_in_range(const struct body *b, const struct body_state *s)
     carom_v3_q40 v, w;
     carom_m3_q30 r;
 
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     if (!world_in_range(b, s) || fix_length(s->angular.c) > most_q40) {
         return false;
     }

@@ -40,7 +40,7 @@ static void set_path(const struct lift *l, struct body *b, const struct body_sta
 static void shift(const struct lift *l, struct body_state *s, int64_t way_q32)
 {
     for (int k = 0; k < 3; k++) {
-        s->position.c[k] += fix_mul(way_q32, (int32_t)l->up_q30[k], 30);
+        s->position.c[k] += fix_mul_q30(way_q32, (int32_t)l->up_q30[k]);
     }
 }
 
@@ -117,7 +117,7 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
         struct body *island = &l->w->bodies[a->island];
 
         if (hits(l, &c[i], &hit)) {
-            int64_t lift_q32 = fix_mul(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30, 30);
+            int64_t lift_q32 = fix_mul_q30(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30);
 
             if (lift_q32 > *body_lift_q32(island)) {
                 *body_lift_q32(island) = lift_q32;
@@ -248,7 +248,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 
     memcpy(l.states, world_now(w)->bodies, w->body_count * sizeof *l.states);
     find_islands(w);
-    body_matrix(&r, &l.states[surface].rotation);
+    fix_matrix(&r, &l.states[surface].rotation);
     for (int k = 0; k < 3; k++) {
         l.up_q30[k] = r.c[k][2];
     }
@@ -269,7 +269,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 /* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
 static void stir(struct carom_world *w, uint32_t body)
 {
-    struct world_state *now = world_now(w);
+    struct world_state *now = &w->states[w->now];
 
     world_wake_around(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {

@@ -92,7 +92,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         return false;
     }
     /* a thin body may spin faster about its axis than any that is made */
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
     if (!points_in_range(b, &v, &still) || fix_length(s->angular.c) >= angular_limit_q40 ||
         (b->moving && !body_spin_fits(b, s, &r))) {

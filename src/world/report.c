@@ -38,9 +38,9 @@ const char *carom_result_text(int result)
     case CAROM_OVER_BUDGET:
         return "ok, over the frame budget";
     case CAROM_SUBSTEP_CAP:
-        return "ok, out of sub-steps";
+        return "ok, but some island used up its hits and stood still for a part of the frame";
     default:
-        return "ok, over the frame budget and out of sub-steps";
+        return "ok, but over the frame budget, and some island stood still for a part of the frame";
     }
 }
 

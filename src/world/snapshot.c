@@ -52,24 +52,41 @@ static uint64_t word(struct stream *s, uint64_t v, int bytes)
     return read;
 }
 
+/* Numbers change only when they are read: a world that is saved stays as it is. */
 static void number64(struct stream *s, int64_t *v)
 {
-    *v = (int64_t)word(s, (uint64_t)*v, 8);
+    uint64_t read = word(s, (uint64_t)*v, 8);
+
+    if (s->loading) {
+        *v = (int64_t)read;
+    }
 }
 
 static void number32(struct stream *s, int32_t *v)
 {
-    *v = (int32_t)(uint32_t)word(s, (uint32_t)*v, 4);
+    uint32_t read = (uint32_t)word(s, (uint32_t)*v, 4);
+
+    if (s->loading) {
+        *v = (int32_t)read;
+    }
 }
 
 static void number16(struct stream *s, uint16_t *v)
 {
-    *v = (uint16_t)word(s, *v, 2);
+    uint16_t read = (uint16_t)word(s, *v, 2);
+
+    if (s->loading) {
+        *v = read;
+    }
 }
 
 static void number8(struct stream *s, uint8_t *v)
 {
-    *v = (uint8_t)word(s, *v, 1);
+    uint8_t read = (uint8_t)word(s, *v, 1);
+
+    if (s->loading) {
+        *v = read;
+    }
 }
 
 /* A count or a constant that must be what it is here. */
@@ -189,6 +206,14 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
     }
 }
 
+/* The present state, which stays as it is. */
+static void stream_now(struct stream *s, const struct carom_world *w)
+{
+    struct world_state now = *world_now(w);
+
+    stream_state(s, w, &now);
+}
+
 uint64_t carom_world_hash(const struct carom_world *w)
 {
     struct stream s;
@@ -197,7 +222,7 @@ uint64_t carom_world_hash(const struct carom_world *w)
         return 0;
     }
     memset(&s, 0, sizeof s);
-    stream_state(&s, w, world_now(w));
+    stream_now(&s, w);
     return s.fnv;
 }
 
@@ -209,7 +234,7 @@ int carom_snapshot_size(const struct carom_world *w)
         return CAROM_ERR_NULL;
     }
     memset(&s, 0, sizeof s);
-    stream_state(&s, w, world_now(w));
+    stream_now(&s, w);
     return (int)s.at;
 }
 
@@ -226,7 +251,7 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     }
     memset(&s, 0, sizeof s);
     s.out = out;
-    stream_state(&s, w, world_now(w));
+    stream_now(&s, w);
     return size;
 }
 

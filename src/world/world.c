@@ -256,7 +256,7 @@ int carom_body_remove(struct carom_world *w, int body)
     if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    s = world_now(w);
+    s = &w->states[w->now];
     world_wake_around(w, (uint32_t)body);
     interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
@@ -294,12 +294,35 @@ int carom_body_get(const struct carom_world *w, int body, struct carom_body_stat
     s = &world_now(w)->bodies[body];
     out->position = s->position;
     out->rotation = s->rotation;
-    body_matrix(&r, &s->rotation);
+    fix_matrix(&r, &s->rotation);
     body_velocity(&w->bodies[body], s, &out->velocity);
     body_spin(&w->bodies[body], s, &r, &out->spin);
     out->asleep = s->asleep;
     out->out = s->out;
     return CAROM_OK;
+}
+
+int carom_body_look(const struct carom_world *w, int body, struct carom_body_look *out)
+{
+    const struct body_state *s;
+
+    if (!w || !out) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_has_body(w, body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = &world_now(w)->bodies[body];
+    out->mesh = w->bodies[body].mesh;
+    out->position = s->position;
+    out->rotation = s->rotation;
+    out->moving = w->bodies[body].moving;
+    return CAROM_OK;
+}
+
+int carom_body_count(const struct carom_world *w)
+{
+    return w ? (int)w->body_count : CAROM_ERR_NULL;
 }
 
 int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)

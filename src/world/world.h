@@ -50,7 +50,7 @@ struct carom_world {
     bool idle;    /* the last step found nothing awake, and nothing has changed since */
     PHASE_TAG(scratch_phase)
 
-    /* broad: in order; and what belongs to each */
+    /* regions: in order; and what search, answer and interfere keep of each; 8 bytes */
     struct pair *pairs;
     struct pair_work *meetings;
 
@@ -67,10 +67,10 @@ struct carom_world {
 };
 
 /* Whoever looks for candidates has the scratch from here on. */
-static inline void world_begin_gather(const struct carom_world *w)
+static inline void world_begin_gather(struct carom_world *w)
 {
     (void)w;
-    PHASE_BEGIN(((struct carom_world *)w)->scratch_phase, WORLD_GATHER);
+    PHASE_BEGIN(w->scratch_phase, WORLD_GATHER);
 }
 
 /* The pair of the candidates at hand. */
@@ -80,9 +80,9 @@ static inline struct boyse_pair *world_pair(const struct carom_world *w)
     return &w->scratch->gather.pair;
 }
 
-static inline struct world_state *world_now(const struct carom_world *w)
+static inline const struct world_state *world_now(const struct carom_world *w)
 {
-    return (struct world_state *)&w->states[w->now];
+    return &w->states[w->now];
 }
 
 /* Whether a state's place and speed are within what the formats hold. */
