@@ -150,16 +150,22 @@ static int run(struct step *s)
 static void arrive(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
-        struct body *b = &s->w->bodies[i];
-
-        if (step_active(s, i) && b->stands) {
-            body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
-            b->from_q30 = b->to_q30 = CAROM_ONE_Q30;
-        } else if (step_active(s, i)) {
+        if (step_active(s, i) && !s->w->bodies[i].stands) {
             step_leave_path(s, i, CAROM_ONE_Q30);
         }
     }
     step_mark(s->w, CAROM_STAGE_ADVANCE);
+}
+
+/* A body that stood has its clock until its energy was looked at. */
+static void stop_clock(struct step *s, uint32_t i)
+{
+    struct body *b = &s->w->bodies[i];
+
+    if (b->stands && step_active(s, i)) {
+        body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
+        b->from_q30 = b->to_q30 = CAROM_ONE_Q30;
+    }
 }
 
 /* What a whole frame ends with. */
@@ -173,6 +179,7 @@ static int finish(struct step *s)
     }
     step_limit_energy(s);
     for (uint32_t i = 0; i < w->body_count; i++) {
+        stop_clock(s, i);
         (void)step_retire(s, i);
     }
     if (w->config.sleep) {
