@@ -78,6 +78,11 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
     int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
     int64_t back_q40 = carom_shl(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22, 18);
 
+    if (e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
+        int64_t more_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+
+        back_q40 = more_q40 > back_q40 ? more_q40 : back_q40;
+    }
     back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }
