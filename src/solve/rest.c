@@ -69,20 +69,22 @@ static int64_t slow_q40(const struct rest *r, const struct contact *c)
 }
 
 /*
- * Newton's e. Where no gravity tells an impact from rest a body may come back again and again; what
- * paths bend by would add up to an overlap, so a gap that is all but closed opens, by no more than
- * the approach.
+ * Newton's e. Where no gravity tells an impact from rest a body may come back again and again: what its
+ * path is going to bend back by must be there to begin with, and what lacks to the event gap besides, or
+ * it would come nearer each time. A path that does not bend opens a gap that is all but closed. Neither
+ * is more than the approach, so it takes no energy from anywhere.
  */
 static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 {
     int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
-    int64_t back_q40 = carom_shl(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22, 18);
+    int64_t back_q40 = 0;
+    int32_t wanted_q22 = c->skin_q22 / TOO_NEAR_DIVISOR;
 
-    if (e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
-        int64_t more_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
-
-        back_q40 = more_q40 > back_q40 ? more_q40 : back_q40;
+    if (c->chord_q28 < INT32_MAX && c->speed_q40 > carom_shl(c->chord_q28, 12)) {
+        back_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+        wanted_q22 = c->skin_q22 / 2;
     }
+    back_q40 += wanted_q22 > c->gap_q22 ? carom_shl(wanted_q22 - c->gap_q22, 18) : 0;
     back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }

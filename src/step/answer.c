@@ -212,14 +212,14 @@ static bool clings(const struct step *s, uint32_t number, int32_t since_q30)
 {
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22, gap_q22;
+    int32_t gap_q22;
     uint32_t hits = s->w->meetings[number].hits;
     bool slow = is_slow(s, number, &gap_q22);
 
     if (a->in_contact || b->in_contact || rest_restitution(a, b) == CAROM_ONE_Q30) {
         return false;
     }
-    return (slow && (hits > SLOW_HITS || gap_q22 <= skin_q22 / CLOSED_DIVISOR)) ||
+    return (slow && hits > SLOW_HITS) ||
            (hits > CLING_HITS && since_q30 < STEP_SLICE_MIN_Q30);
 }
 
