@@ -53,19 +53,29 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
     return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-/* An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. */
+/*
+ * An approach slower than this is no impact: 4 g h. Of bodies that bounce for ever only those that would
+ * rise by less than 1/16 of a skin rest, where they are as near as a hit leaves them.
+ */
 static int64_t slow_q40(const struct rest *r, const struct contact *c)
 {
     int64_t largest_q40 = 0;
 
-    for (int s = 0; s < 2 && restitution(r, c) < CAROM_ONE_Q30; s++) {
+    for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
 
         if (b && b->acceleration_q40 > largest_q40) {
             largest_q40 = b->acceleration_q40;
         }
     }
-    return 4 * largest_q40;
+    if (restitution(r, c) < CAROM_ONE_Q30) {
+        return 4 * largest_q40;
+    }
+    if (c->gap_q22 > c->skin_q22 / 2 + HIT_GAP_NOISE_Q22) {
+        return 0;
+    }
+    /* the square of 2^20 parts: an acceleration is below 2, a skin below 2^16 units */
+    return (int64_t)fix_sqrt((uint64_t)(largest_q40 >> 12) * (uint64_t)(c->skin_q22 / 8)) << 15;
 }
 
 /*
@@ -130,8 +140,6 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
         c->work->target_q40 = impact_target_q40(c, e_q30);
-    } else if (e_q30 == CAROM_ONE_Q30) {
-        c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
@@ -145,7 +153,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
     /* what the path's bend takes back of V.N must be there to begin with */
-    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
+    if (!c->impact && c->chord_q28 < INT32_MAX) {
         int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
 
         c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;
