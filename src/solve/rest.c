@@ -55,11 +55,12 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
 
 /*
  * An approach slower than this is no impact: 4 g h. Of bodies that bounce for ever only those that would
- * rise by less than 1/16 of a skin rest, where they are as near as a hit leaves them.
+ * rise by less than 1/16 of a skin rest, where they are as near as a hit leaves them; such a one has
+ * taken the frame's gravity, which is no approach.
  */
 static int64_t slow_q40(const struct rest *r, const struct contact *c)
 {
-    int64_t largest_q40 = 0;
+    int64_t largest_q40 = 0, taken_q40 = 0;
 
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
@@ -67,15 +68,17 @@ static int64_t slow_q40(const struct rest *r, const struct contact *c)
         if (b && b->acceleration_q40 > largest_q40) {
             largest_q40 = b->acceleration_q40;
         }
+        taken_q40 += b && b->in_contact ? b->acceleration_q40 : 0;
     }
     if (restitution(r, c) < CAROM_ONE_Q30) {
         return 4 * largest_q40;
     }
     if (c->gap_q22 > c->skin_q22 / 2 + HIT_GAP_NOISE_Q22) {
-        return 0;
+        return taken_q40;
     }
-    /* the square of 2^20 parts: an acceleration is below 2, a skin below 2^16 units */
-    return (int64_t)fix_sqrt((uint64_t)(largest_q40 >> 12) * (uint64_t)(c->skin_q22 / 8)) << 15;
+    /* an acceleration is below 2, a skin below 2^16 units: the root is of less than 2^43 */
+    return taken_q40 +
+           ((int64_t)fix_sqrt((uint64_t)(largest_q40 >> 12) * (uint64_t)(c->skin_q22 / 8)) << 15);
 }
 
 /*
