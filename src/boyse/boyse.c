@@ -6,7 +6,9 @@
 /*
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
-#define ROOT_LEVEL_Q22 3
+#define ROOT_LEVEL_Q22 12
+/* What touches gets nearer by no more than this part of that. */
+#define TOUCHING_DIVISOR 64
 /* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
 #define PARALLEL_Q30    (1 << 24)
 #define NEARLY_PARALLEL 6
@@ -159,7 +161,7 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level)
     int64_t size = carom_abs(gap_q40), shift;
 
     if (touching != 0) {
-        return gap_q40 - touching * (level / ROOT_LEVEL_Q22);
+        return gap_q40 - touching * (level / TOUCHING_DIVISOR);
     }
     shift = size > 2 * level ? level : size / 2;
     return gap_q40 > 0 ? shift : -shift;
