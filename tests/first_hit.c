@@ -7,8 +7,8 @@
 #include "lab.h"
 #include "real.h"
 
-#define UNIT (1.0 / 4194304) /* of the last place of q22, which places are rounded to */
-#define LEVEL 12 /* units: so much nearer is the surface that bodies are followed to */
+#define UNIT  (1.0 / 4194304) /* of the last place of q22, which places are rounded to */
+#define LEVEL 12              /* units: so much nearer is the surface that bodies are followed to */
 
 /* --------------------------------------------------------------------- world */
 

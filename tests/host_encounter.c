@@ -167,15 +167,6 @@ static void meet(struct crowd *crowd, bool hulls, int number, bool shown, struct
     }
 }
 
-/*
- * Meetings that are known to fail: faces cross (hulls 1079), or frames are cut short again and again
- * (hulls 14150). The short form leaves them out, the long one counts them.
- */
-static bool is_open(bool hulls, int number, int stride)
-{
-    return stride > 1 && hulls && (number == 1079 || number == 14150);
-}
-
 static void test(struct crowd *crowd, bool hulls, int e, int stride)
 {
     const int count = (hulls ? SHAPES : 1) * EACH;
@@ -188,9 +179,6 @@ static void test(struct crowd *crowd, bool hulls, int e, int stride)
         struct outcome o;
         bool bad;
 
-        if (is_open(hulls, number, stride)) {
-            continue;
-        }
         meet(crowd, hulls, number, false, &o);
         runs++;
         frames += o.tally.frames;

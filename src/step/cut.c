@@ -23,8 +23,8 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
     const struct body *b = &s->w->bodies[i];
 
     return step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
-           b->cuts < CUTS_MAX && body_norm2_q30(&b->path) >= TURN2_MIN_Q30 && b->to_q30 - t_q30 > END_Q30 &&
-           t_q30 - b->from_q30 >= SLICE_MIN_Q30;
+           b->cuts < CUTS_MAX && body_norm2_q30(&b->path) >= TURN2_MIN_Q30 &&
+           b->to_q30 - t_q30 > END_Q30 && t_q30 - b->from_q30 >= SLICE_MIN_Q30;
 }
 
 /*
