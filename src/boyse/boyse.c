@@ -6,7 +6,9 @@
 /*
  * A pair that starts clear of contact is followed to a surface this much nearer (see lower).
  */
-#define ROOT_LEVEL_Q22 3
+#define ROOT_LEVEL_Q22 12
+/* What touches gets nearer by no more than this part of that. */
+#define TOUCHING_DIVISOR 64
 /* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
 #define PARALLEL_Q30    (1 << 24)
 #define NEARLY_PARALLEL 6
@@ -149,14 +151,14 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
  * Of edges it is at most half of what they start with. Those that are parallel just when they meet
  * change the sign of the gap and that of w there: P only comes near to 0, and that must be seen.
  */
-static int64_t lower(int64_t gap_q40, int touching, int64_t level, bool edges)
+static int64_t lower(int64_t gap_q40, int touching, int64_t level)
 {
     int64_t size = carom_abs(gap_q40), shift;
 
     if (touching != 0) {
-        return gap_q40 - touching * level;
+        return gap_q40 - touching * (level / TOUCHING_DIVISOR);
     }
-    shift = size > 2 * level ? level : edges ? size / 2 : size > level ? size - level : 0;
+    shift = size > 2 * level ? level : size / 2;
     return gap_q40 > 0 ? shift : -shift;
 }
 
@@ -205,8 +207,7 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         return true;
     }
     if (c->kind == CANDIDATE_EDGE_EDGE || a[0] > 0 || touching != 0) {
-        shift_q40 =
-            lower(a[0], touching, level_q40(pair, c, start), c->kind == CANDIDATE_EDGE_EDGE);
+        shift_q40 = lower(a[0], touching, level_q40(pair, c, start));
     }
     /*
      * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is

@@ -43,31 +43,51 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
     return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-/* An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. */
+/*
+ * An approach slower than this is no impact: 4 g h. Of bodies that bounce for ever only those that would
+ * rise by less than 1/16 of a skin rest, where they are as near as a hit leaves them; such a one has
+ * taken the frame's gravity, which is no approach.
+ */
 static int64_t slow_q40(const struct rest *r, const struct contact *c)
 {
-    int64_t largest_q40 = 0;
+    int64_t largest_q40 = 0, taken_q40 = 0;
 
-    for (int s = 0; s < 2 && restitution(r, c) < CAROM_ONE_Q30; s++) {
+    for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
 
         if (b && b->acceleration_q40 > largest_q40) {
             largest_q40 = b->acceleration_q40;
         }
+        taken_q40 += b && b->in_contact ? b->acceleration_q40 : 0;
     }
-    return 4 * largest_q40;
+    if (restitution(r, c) < CAROM_ONE_Q30) {
+        return 4 * largest_q40;
+    }
+    if (c->gap_q22 > c->skin_q22 / 2 + HIT_GAP_NOISE_Q22) {
+        return taken_q40;
+    }
+    /* an acceleration is below 2, a skin below 2^16 units: the root is of less than 2^43 */
+    return taken_q40 +
+           ((int64_t)fix_sqrt((uint64_t)(largest_q40 >> 12) * (uint64_t)(c->skin_q22 / 8)) << 15);
 }
 
 /*
- * Newton's e. Where no gravity tells an impact from rest a body may come back again and again; what
- * paths bend by would add up to an overlap, so a gap that is all but closed opens, by no more than
- * the approach.
+ * Newton's e. Where no gravity tells an impact from rest a body may come back again and again: what its
+ * path is going to bend back by must be there to begin with, and what lacks to the event gap besides, or
+ * it would come nearer each time. A path that does not bend opens a gap that is all but closed. Neither
+ * is more than the approach, so it takes no energy from anywhere.
  */
 static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 {
     int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
-    int64_t back_q40 = carom_shl(c->skin_q22 / TOO_NEAR_DIVISOR - c->gap_q22, 18);
+    int64_t back_q40 = 0;
+    int32_t wanted_q22 = c->skin_q22 / TOO_NEAR_DIVISOR;
 
+    if (c->chord_q28 < INT32_MAX && c->speed_q40 > carom_shl(c->chord_q28, 12)) {
+        back_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+        wanted_q22 = c->skin_q22 / 2;
+    }
+    back_q40 += wanted_q22 > c->gap_q22 ? carom_shl(wanted_q22 - c->gap_q22, 18) : 0;
     back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }
@@ -113,8 +133,6 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
         c->work->target_q40 = impact_target_q40(c, e_q30);
-    } else if (e_q30 == CAROM_ONE_Q30) {
-        c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
@@ -128,7 +146,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
     /* what the path's bend takes back of V.N must be there to begin with */
-    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
+    if (!c->impact && c->chord_q28 < INT32_MAX) {
         int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
 
         c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;

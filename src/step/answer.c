@@ -13,10 +13,9 @@
 #define CALM_AFTER 1
 /* Hits of a pair in a frame, with hardly any time between, before its bodies cling; */
 #define CLING_HITS 12
-/* of one that approaches by less than this part of a skin a frame; or when it is nearer than that one. */
-#define SLOW_HITS      6
-#define CLOSED_DIVISOR 16
-#define SLOW_DIVISOR   4
+/* of one that approaches by less than this part of a skin a frame. */
+#define SLOW_HITS    6
+#define SLOW_DIVISOR 4
 
 /* The hit of a pair, with the features as they meet. */
 static struct boyse_hit hit_of(struct step *s, uint32_t number)
@@ -185,41 +184,34 @@ static int solve_island(struct step *s)
     return result;
 }
 
-/* Whether a pair approaches by less than a part of a skin a frame; and how near it is, q22. */
-static bool is_slow(const struct step *s, uint32_t number, int32_t *gap_q22)
+/* Whether a pair approaches by less than a part of a skin a frame. */
+static bool is_slow(const struct step *s, uint32_t number)
 {
     const struct contact_list *list = &s->w->rest.list;
     bool slow = true;
 
-    *gap_q22 = INT32_MAX;
     for (uint32_t i = 0; i < list->pool->used; i++) {
         const struct contact *c = &list->contacts[i];
 
-        if (c->key.pair == number) {
-            *gap_q22 = c->gap_q22 < *gap_q22 ? c->gap_q22 : *gap_q22;
-            slow &= -c->speed_q40 < carom_shl(c->skin_q22, 18) / SLOW_DIVISOR;
-        }
+        slow &= c->key.pair != number || -c->speed_q40 < carom_shl(c->skin_q22, 18) / SLOW_DIVISOR;
     }
     return slow;
 }
 
 /*
  * Where nothing presses bodies on each other that do not bounce, one that slides or rolls over the other
- * bends back to it at once, again and again: they stay together from then on. So do those that are so
- * near that rounding would close what is left of the gap.
+ * bends back to it at once, again and again: they stay together from then on.
  */
 static bool clings(const struct step *s, uint32_t number, int32_t since_q30)
 {
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22, gap_q22;
     uint32_t hits = s->w->meetings[number].hits;
-    bool slow = is_slow(s, number, &gap_q22);
 
     if (a->in_contact || b->in_contact || rest_restitution(a, b) == CAROM_ONE_Q30) {
         return false;
     }
-    return (slow && (hits > SLOW_HITS || gap_q22 <= skin_q22 / CLOSED_DIVISOR)) ||
+    return (hits > SLOW_HITS && is_slow(s, number)) ||
            (hits > CLING_HITS && since_q30 < STEP_SLICE_MIN_Q30);
 }
 

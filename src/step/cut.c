@@ -11,6 +11,11 @@
 #define END_Q30 2
 /* Nor is so short a one: its turn is below the last place of a rotation. */
 #define SLICE_MIN_Q30 (1 << 10)
+/*
+ * Nor one that hardly turns, by less than 2^-10: its energy is right to 2^-20, and rotations to so few
+ * digits that slice after slice would lose the turn that features face each other by.
+ */
+#define TURN2_MIN_Q30 (1 << 8)
 
 /* Whether a body's path turns and goes on behind a hit. */
 static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
@@ -18,8 +23,8 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
     const struct body *b = &s->w->bodies[i];
 
     return step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
-           b->cuts < CUTS_MAX && b->to_q30 - t_q30 > END_Q30 &&
-           t_q30 - b->from_q30 >= SLICE_MIN_Q30;
+           b->cuts < CUTS_MAX && body_norm2_q30(&b->path) >= TURN2_MIN_Q30 &&
+           b->to_q30 - t_q30 > END_Q30 && t_q30 - b->from_q30 >= SLICE_MIN_Q30;
 }
 
 /*

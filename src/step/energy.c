@@ -153,7 +153,8 @@ static uint32_t intruder(struct step *s, uint32_t body)
 
 /*
  * The island comes to a halt where the frame found it. An island that went where it was before has
- * this frame undone as well, and so on: as the frame found them no two bodies are in each other.
+ * this frame undone as well, and so on: as the frame found them no two bodies are in each other. On the
+ * ground it halts, too, or both would do the same again in each frame.
  */
 static void hold_still(struct step *s, uint32_t first)
 {
@@ -167,7 +168,9 @@ static void hold_still(struct step *s, uint32_t first)
             uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : ISLAND_END;
 
             if (by != ISLAND_END) {
-                rewind_island(s, s->w->bodies[by].island, false);
+                uint32_t other = s->w->bodies[by].island;
+
+                rewind_island(s, other, s->w->bodies[other].grounded);
                 again = true;
             }
         }
