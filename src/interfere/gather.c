@@ -2,6 +2,9 @@
 /* Gathering the candidates of a pair, at once or in chunks, and of all pairs in turn. */
 #include "narrow.h"
 
+/* Normals are carried over by other roundings where they are asked. */
+#define CONE_NOISE_Q30 (1 << 12)
+
 /*
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
  * the fastest bodies do not.
@@ -15,7 +18,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
 {
     const struct pair *p = &all->pairs[number];
     const struct body *bodies = all->bodies;
-    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
+    int64_t cone_q30;
 
     w->pair = (uint16_t)number;
     w->a = &bodies[p->a];
@@ -28,6 +31,9 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
         w->error = CAROM_ERR_RANGE;
         return;
     }
+    cone_q30 = INTERFERE_CONE_Q30;
+    cone_q30 += w->by_paths ? (int64_t)w->leaf->angle_q30 + CONE_NOISE_Q30
+                            : (int64_t)bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
     w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
@@ -72,6 +78,7 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     if (!m->kept) {
         w->own_first = pool->used;
         w->span = *span;
+        w->by_paths = !keep;
         gather(w, all, number, visitor);
         m->first = w->own_first;
         m->count = pool->used - w->own_first;
@@ -95,6 +102,7 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
 
     w->meetings = NULL;
     w->span = (struct interfere_span){0, 0, INT64_MAX};
+    w->by_paths = false;
     w->error = CAROM_OK;
     for (uint32_t i = 0; i < pair_count && !w->error; i++) {
         pool_clear(w->candidate_pool);
