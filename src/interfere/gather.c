@@ -14,6 +14,31 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
+/* How far turns of a body's axes carry the other one around, by squares: below 2^27 times 2^34. */
+static int64_t carried_around(const struct body *other, const struct body *by)
+{
+    int64_t radius = other->radius_q22 >> 10;
+
+    return by->path.turns ? body_path(by)->u2_q30 * radius * radius : 0;
+}
+
+/*
+ * In the axes of a small body that spins a large one sweeps through everything: then the small one asks. Kinds
+ * and edges of candidates change places again when they are taken (interfere_emit).
+ */
+static void choose_asker(struct interfere *w)
+{
+    const struct body *a = w->a;
+
+    w->swapped =
+        w->by_paths && w->b->moving && carried_around(w->a, w->b) > carried_around(w->b, w->a);
+    if (w->swapped) {
+        w->a = w->b;
+        w->b = a;
+        w->span = (struct interfere_span){w->span.from_b_q30, w->span.from_a_q30, w->span.time_q30};
+    }
+}
+
 static void gather_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const struct pair *p = &all->pairs[number];
@@ -23,6 +48,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
     w->pair = (uint16_t)number;
     w->a = &bodies[p->a];
     w->b = &bodies[p->b];
+    choose_asker(w);
     w->pooled = interfere_makes_lists(w->b->mesh);
     if (!interfere_set_motion(w)) {
         return;

@@ -133,6 +133,7 @@ struct interfere {
     struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
 
     bool by_paths;                   /* it is gathered for the paths at hand alone */
+    bool swapped;                    /* a is b of the pair, and b a */
     bool pooled;                     /* b's z-lists are in `lists` */
     const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
     struct interfere_area area;      /* where they hold all of it */

@@ -13,9 +13,8 @@
 /* Of more pairs of faces than that, radians that both bodies may turn by: while candidates are kept, */
 #define FACE_PAIRS_MANY 500
 #define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 8)
-/* in a window that is not cut, and in a part of one. */
-#define TURN_UNCUT_Q30 (CAROM_ONE_Q30 / 4)
-#define TURN_PARTS     4
+/* and by 1 / that in a part of a window. */
+#define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
 
@@ -214,13 +213,13 @@ static int64_t parts_of_turn(const struct body *a, const struct body *b)
     int64_t u2_q30 = (path_a->turns ? path_a->u2_q30 : 0) + (path_b->turns ? path_b->u2_q30 : 0);
     int64_t turn_q30;
 
-    /* twice the sum of squares is no less than the square of the sum, and so is that of the turns / 8 */
-    if (u2_q30 * 8 <= carom_mul_q30(TURN_UNCUT_Q30, TURN_UNCUT_Q30) || !many_faces(a, b)) {
+    /* a turn is 2 |u|, and the square of a sum of two no more than twice the sum of the squares */
+    if (u2_q30 * 8 * TURN_PARTS * TURN_PARTS <= CAROM_ONE_Q30 || !many_faces(a, b)) {
         return 1;
     }
     turn_q30 = path_a->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_a->u2_q30 << 30) : 0;
     turn_q30 += path_b->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_b->u2_q30 << 30) : 0;
-    return turn_q30 < TURN_UNCUT_Q30 ? 1 : ((turn_q30 * TURN_PARTS) >> 30) + 1;
+    return ((turn_q30 * TURN_PARTS) >> 30) + 1;
 }
 
 /*
