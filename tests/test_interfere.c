@@ -508,7 +508,7 @@ static void check_motion(uint64_t seed)
     }
     CHECK(8 * vertices >= POSES && 8 * edges + 8 >= POSES); /* the oracle is not idle */
     CHECK(handed < 10 * (vertices + edges) + 60 * POSES);
-    CHECK(by_paths ? swapped >= POSES / 8 && swapped < POSES : swapped == 0);
+    CHECK(swapped >= POSES / 8 && swapped < POSES);
 }
 
 /* Fields and solids that move themselves. */

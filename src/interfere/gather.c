@@ -15,11 +15,16 @@ static bool in_range(const struct body *a, const struct body *b)
 }
 
 /* How far turns of a body's axes carry the other one around, by squares: below 2^27 times 2^34. */
-static int64_t carried_around(const struct body *other, const struct body *by)
+static int64_t carried_around(const struct interfere *w, const struct body *other,
+                              const struct body *by)
 {
     int64_t radius = other->radius_q22 >> 10;
+    int32_t u2_q30 = by->path.turns ? by->path.u2_q30 : 0;
 
-    return by->path.turns ? body_path(by)->u2_q30 * radius * radius : 0;
+    if (!w->by_paths) {
+        u2_q30 = carom_mul_q30(by->region.u_q30, by->region.u_q30);
+    }
+    return u2_q30 * radius * radius;
 }
 
 /*
@@ -30,8 +35,7 @@ static void choose_asker(struct interfere *w)
 {
     const struct body *a = w->a;
 
-    w->swapped =
-        w->by_paths && w->b->moving && carried_around(w->a, w->b) > carried_around(w->b, w->a);
+    w->swapped = w->b->moving && carried_around(w, w->a, w->b) > carried_around(w, w->b, w->a);
     if (w->swapped) {
         w->a = w->b;
         w->b = a;
