@@ -242,7 +242,10 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
 }
 
-/* The first hit of a window's part, if there is any: its times become those of the whole window. */
+/*
+ * The first hit of a window's part, if there is any: its times become those of the whole window. One that is
+ * not cut is open.
+ */
 static int search_part(struct step *s, uint32_t number, struct step_visitor *v, int32_t part,
                        int32_t parts)
 {
@@ -251,7 +254,9 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
-    step_open_window(s, number, v->from_q30, v->to_q30);
+    if (parts > 1) {
+        step_open_window(s, number, v->from_q30, v->to_q30);
+    }
     v->found = false;
     if (!stay_apart(s, &s->w->pairs[number])) {
         result = step_first_hit(s, number, v);
@@ -261,7 +266,9 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
             v->from_q30 + (int32_t)(((int64_t)(v->to_q30 - v->from_q30) * v->hit.t_q30) >> 30);
         v->hit.root_q30 = (int32_t)((((int64_t)part << 30) + v->hit.root_q30) / parts);
     }
-    step_close_window(s, number, v->from_q30, v->to_q30);
+    if (parts > 1) {
+        step_close_window(s, number, v->from_q30, v->to_q30);
+    }
     v->from_q30 = from_q30;
     v->to_q30 = to_q30;
     return result;
@@ -282,9 +289,14 @@ int step_search(struct step *s, uint32_t number)
     parts = stay_apart(s, &s->w->pairs[number])
                 ? 0
                 : parts_of(s, &s->w->pairs[number], v.to_q30 - v.from_q30);
-    step_close_window(s, number, v.from_q30, v.to_q30);
+    if (parts != 1) {
+        step_close_window(s, number, v.from_q30, v.to_q30);
+    }
     for (int32_t part = 0; part < parts && !v.found && result == CAROM_OK; part++) {
         result = search_part(s, number, &v, part, parts);
+    }
+    if (parts == 1) {
+        step_close_window(s, number, v.from_q30, v.to_q30);
     }
     if (result == CAROM_OK && v.found) {
         m->hit_q30 = v.hit_q30;
