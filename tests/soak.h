@@ -75,6 +75,7 @@ struct soak_result {
     long step_frame;
     double seconds;                /* of all steps */
     uint32_t candidates, substeps; /* of the frames that had most */
+    uint32_t faces;                /* of all bodies */
     uint32_t fullest;              /* percent of the pool that was most full */
 };
 
@@ -86,10 +87,12 @@ enum soak_fault {
     SOAK_ENERGY,
     SOAK_MOMENTUM,
     SOAK_SLOW_STEP,
+    SOAK_MUCH_WORK,
     SOAK_FAULTS
 };
 extern const char *const soak_fault_names[SOAK_FAULTS];
 #define SOAK_STEP_SECONDS 0.2
+#define SOAK_CANDIDATES   1024 /* of a step, for each face of the world */
 bool soak_has(const struct soak_result *result, enum soak_fault fault);
 
 #define SOAK_FRAMES 300

@@ -9,8 +9,9 @@
 
 #define WORLD_SECONDS 60 /* a world whose steps take more is left */
 
-const char *const soak_fault_names[SOAK_FAULTS] = {
-    "crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step"};
+const char *const soak_fault_names[SOAK_FAULTS] = {"crosses",   "error",    "stands still",
+                                                   "cut short", "energy",   "momentum",
+                                                   "slow step", "much work"};
 
 double soak_seconds(void)
 {
@@ -170,6 +171,9 @@ bool soak_start(struct soak_world *w, struct soak_result *r)
     if (r->error < 0) {
         return false;
     }
+    for (int i = 0; i < w->crowd->body_count; i++) {
+        r->faces += w->crowd->bodies[i].def.mesh->raw.face_count;
+    }
     crowd_watch_crossings(w->crowd, &r->tally);
     momentum_of(w, r->momentum);
     return true;
@@ -240,6 +244,8 @@ bool soak_has(const struct soak_result *r, enum soak_fault fault)
         return r->tally.rise > 1;
     case SOAK_MOMENTUM:
         return r->momentum_frame > 0;
+    case SOAK_MUCH_WORK:
+        return r->candidates > SOAK_CANDIDATES * r->faces;
     default:
         return r->step_seconds > SOAK_STEP_SECONDS || r->unfinished;
     }

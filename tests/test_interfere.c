@@ -37,6 +37,8 @@ static struct carom_face_ref faces[FACES];
 static struct pool entry_pool, candidate_pool, face_pool;
 static struct interfere work;
 static struct interfere_leaf leaf;
+static struct pair_work meeting;
+static bool by_paths; /* gather for the paths at hand, not for the regions */
 
 /* --------------------------------------------------------------- the answer */
 
@@ -92,6 +94,19 @@ static void collect(struct candidate_visitor *self, const struct candidate *c, u
     }
 }
 
+static int visit(struct collector *to)
+{
+    const struct interfere_pairs all = {bodies, pairs, 1};
+    const struct interfere_span span = {0, 0, 0};
+
+    if (!by_paths) {
+        return interfere_visit(&work, bodies, pairs, 1, &to->base);
+    }
+    memset(&meeting, 0, sizeof meeting);
+    work.meetings = &meeting;
+    return interfere_visit_pair(&work, &all, 0, &span, false, &to->base);
+}
+
 /* Gather from the start with pools of these sizes. */
 static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size, uint32_t face_size,
                   struct collector *to)
@@ -112,7 +127,7 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
     memset(to, 0, sizeof *to);
     to->base.visit = collect;
     to->set = set;
-    result = interfere_visit(&work, bodies, pairs, 1, &to->base);
+    result = visit(to);
     interfere_finish(&work);
     return result;
 }
@@ -418,7 +433,8 @@ static int32_t random_motion(struct test_random *r)
         body_predict(&bodies[i], &states[i], CAROM_ONE_Q30, NULL);
         bodies[i].path.g = g;
         body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
-                          (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
+                          by_paths ? 0
+                                   : (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
     }
     return t_q30;
 }
@@ -437,15 +453,31 @@ static void make_sheet(void)
     solid_note_owned(&a);
 }
 
+/* Gather for both paths from one time to another. */
+static int gather_part(const int32_t times_q30[2], struct collector *to)
+{
+    const struct body_path paths[2] = {bodies[0].path, bodies[1].path};
+    int result;
+
+    for (int i = 0; i < 2 && by_paths; i++) {
+        body_cut_path(&bodies[i], &states[i], times_q30[0], times_q30[1]);
+    }
+    result = gather(&found, ENTRIES, CANDIDATES, FACES, to);
+    for (int i = 0; i < 2; i++) {
+        bodies[i].path = paths[i];
+    }
+    return result;
+}
+
 /*
  * Whatever is within the margin and faces the other body at some time of the motion, or of one that
- * the regions allow, was a candidate from the start.
+ * the regions allow, was a candidate from the start; or, by paths, at some time of a part of the motion.
  */
 static void check_motion(uint64_t seed)
 {
     struct test_random r = {seed};
     double cone = real(INTERFERE_CONE_Q30, 30) - ANGLE_NOISE;
-    uint32_t vertices = 0, edges = 0, handed = 0;
+    uint32_t vertices = 0, edges = 0, handed = 0, swapped = 0;
 
     for (int which = 0; which < 4; which++) {
         make(which % 3);
@@ -457,12 +489,17 @@ static void check_motion(uint64_t seed)
                                                                           : bodies[1].skin_q22);
         for (int n = 0; n < POSES / 3; n++) {
             struct collector to;
-            int32_t t_q30 = random_motion(&r);
+            int32_t t_q30 = random_motion(&r), part_q30[2] = {0, CAROM_ONE_Q30};
 
-            CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
+            if (by_paths) {
+                part_q30[0] = (int32_t)test_random_range(&r, 0, t_q30 - t_q30 / 8);
+                part_q30[1] = (int32_t)test_random_range(&r, t_q30 + 1, CAROM_ONE_Q30);
+            }
+            CHECK_EQ(gather_part(part_q30, &to), CAROM_OK);
             handed += to.count;
+            swapped += work.swapped;
             for (int k = 0; k <= 8; k++) {
-                place_at(&r, k == 0 ? t_q30 : CAROM_ONE_Q30 / 8 * k);
+                place_at(&r, k == 0 ? t_q30 : part_q30[0] + (part_q30[1] - part_q30[0]) / 8 * k);
                 vertices += try_vertices(&a, CANDIDATE_VERTEX_FACE, cone);
                 vertices += try_vertices(&a, CANDIDATE_FACE_VERTEX, cone);
                 edges += try_edges(&a, cone);
@@ -471,6 +508,7 @@ static void check_motion(uint64_t seed)
     }
     CHECK(8 * vertices >= POSES && 8 * edges + 8 >= POSES); /* the oracle is not idle */
     CHECK(handed < 10 * (vertices + edges) + 60 * POSES);
+    CHECK(swapped >= POSES / 8 && swapped < POSES);
 }
 
 /* Fields and solids that move themselves. */
@@ -480,6 +518,14 @@ static void test_motion(void)
     check_motion(1);
     shape_ball(&shape_b, 11, 2048);
     check_motion(2);
+}
+
+/* The same of parts of the paths at hand, where the body that turns less is asked. */
+static void test_paths(void)
+{
+    by_paths = true;
+    test_motion();
+    by_paths = false;
 }
 
 static void test_plane(void)
@@ -606,9 +652,15 @@ static void test_nothing(void)
 }
 
 const struct test tests_interfere[] = {
-    {"interfere/plane", test_plane},           {"interfere/field", test_field},
-    {"interfere/fine_field", test_fine_field}, {"interfere/solid", test_solid},
-    {"interfere/motion", test_motion},         {"interfere/chunks", test_chunks},
-    {"interfere/faces_full", test_faces_full}, {"interfere/order", test_order},
-    {"interfere/nothing", test_nothing},       {0},
+    {"interfere/plane", test_plane},
+    {"interfere/field", test_field},
+    {"interfere/fine_field", test_fine_field},
+    {"interfere/solid", test_solid},
+    {"interfere/motion", test_motion},
+    {"interfere/paths", test_paths},
+    {"interfere/chunks", test_chunks},
+    {"interfere/faces_full", test_faces_full},
+    {"interfere/order", test_order},
+    {"interfere/nothing", test_nothing},
+    {0},
 };

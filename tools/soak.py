@@ -23,7 +23,8 @@ BEGIN, END = "<!-- soak -->\n", "<!-- end of soak -->\n"
 CHUNK = 20  # worlds a process
 SECONDS = 150  # for a world, in which its steps may take 60
 CUT_ALLOWED = 0.01  # of all frames
-FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step"]
+FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
+          "much work"]
 LOST = "lost"  # the program ended, or did not
 
 

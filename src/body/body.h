@@ -321,6 +321,8 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
 /* The part of a region that begins at `from` and takes `time`; both in frames, within its time. */
 void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
                        struct body_sweep *sweep);
+/* The same of the path at hand, which may be a part of one. */
+void body_path_sweep(const struct body *b, struct body_sweep *sweep);
 /* Whether the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
 /* Go on along the present path, which takes time_q30, by a part of that. */

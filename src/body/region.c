@@ -113,6 +113,34 @@ void body_region_sweep(const struct body_region *region, int64_t from_q30, int64
     }
 }
 
+/*
+ * A part of a path turns by (1 + c t, u t), so its end is the axes turned by u / (1 + c). By N = (1 + c t)^2
+ * + |u|^2 t^2, which is 1 or more, it turns at the rate 2 |u| / N, and that changes by 2 |u| N' / N^2, N'
+ * being at most 2 (c + c^2 + |u|^2), c below 1/8. A sweep says that by 2 |u| times its whole |u|.
+ */
+void body_path_sweep(const struct body *b, struct body_sweep *sweep)
+{
+    const struct body_path *path = body_path(b);
+    carom_v3_q30 u;
+
+    for (int k = 0; k < 3; k++) {
+        sweep->at.c[k] = carom_shl(path->origin_q22[k], 10);
+        sweep->way.c[k] = path->v.c[k] + path->g.c[k];
+        u.c[k] = path->u.c[k];
+        if (path->c_q30 != 0) {
+            u.c[k] = (int32_t)(((int64_t)u.c[k] * CAROM_ONE_Q30) / (CAROM_ONE_Q30 + path->c_q30));
+        }
+    }
+    sweep->bend_q22 = (int32_t)(fix_length_bound(path->g.c) >> 18) + 1;
+    sweep->length_q22 = (int32_t)(fix_length_bound(sweep->way.c) >> 18) + 3 + sweep->bend_q22;
+    sweep->u_q30 = path->turns ? (int32_t)fix_sqrt_above((uint64_t)(path->u2_q30 + 1) << 30) : 0;
+    sweep->whole_u_q30 = 2 * (path->c_q30 + path->c_q30 / 8 + path->u2_q30 + 2);
+    sweep->start = sweep->end = path->start.r;
+    if (path->turns) {
+        body_turned(&path->q, &u, &sweep->end);
+    }
+}
+
 /* How far the centre is off the region's path at a time, x_q32 being where it is. */
 static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
                        int64_t elapsed_q30)

@@ -2,6 +2,9 @@
 /* Gathering the candidates of a pair, at once or in chunks, and of all pairs in turn. */
 #include "narrow.h"
 
+/* Normals are carried over by other roundings where they are asked. */
+#define CONE_NOISE_Q30 (1 << 12)
+
 /*
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
  * the fastest bodies do not.
@@ -11,15 +14,46 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
+/* How far turns of a body's axes carry the other one around, by squares: below 2^27 times 2^34. */
+static int64_t carried_around(const struct interfere *w, const struct body *other,
+                              const struct body *by)
+{
+    int64_t radius = other->radius_q22 >> 10;
+    int32_t u2_q30 = by->path.turns ? by->path.u2_q30 : 0;
+
+    if (!w->by_paths) {
+        u2_q30 = carom_mul_q30(by->region.u_q30, by->region.u_q30);
+    }
+    return u2_q30 * radius * radius;
+}
+
+/*
+ * In the axes of a small body that spins a large one sweeps through everything: then the small one asks. Kinds
+ * and edges of candidates change places again when they are taken (interfere_emit).
+ */
+static void choose_asker(struct interfere *w)
+{
+    const struct body *a = w->a;
+
+    w->swapped = w->b->moving && carried_around(w, w->a, w->b) > carried_around(w, w->b, w->a);
+    if (w->swapped) {
+        w->a = w->b;
+        w->b = a;
+        w->span = (struct interfere_span){w->span.from_b_q30, w->span.from_a_q30, w->span.time_q30,
+                                          w->span.most};
+    }
+}
+
 static void gather_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const struct pair *p = &all->pairs[number];
     const struct body *bodies = all->bodies;
-    int64_t cone_q30 = (int64_t)INTERFERE_CONE_Q30 + bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
+    int64_t cone_q30;
 
     w->pair = (uint16_t)number;
     w->a = &bodies[p->a];
     w->b = &bodies[p->b];
+    choose_asker(w);
     w->pooled = interfere_makes_lists(w->b->mesh);
     if (!interfere_set_motion(w)) {
         return;
@@ -28,6 +62,9 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
         w->error = CAROM_ERR_RANGE;
         return;
     }
+    cone_q30 = INTERFERE_CONE_Q30;
+    cone_q30 += w->by_paths ? (int64_t)w->leaf->angle_q30 + CONE_NOISE_Q30
+                            : (int64_t)bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
     w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
@@ -72,6 +109,7 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     if (!m->kept) {
         w->own_first = pool->used;
         w->span = *span;
+        w->by_paths = !keep;
         gather(w, all, number, visitor);
         m->first = w->own_first;
         m->count = pool->used - w->own_first;
@@ -96,6 +134,7 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
 
     w->meetings = NULL;
     w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX};
+    w->by_paths = false;
     w->error = CAROM_OK;
     for (uint32_t i = 0; i < pair_count && !w->error; i++) {
         pool_clear(w->candidate_pool);

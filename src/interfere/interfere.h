@@ -136,14 +136,17 @@ struct interfere {
     uint16_t pair;
     struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
 
+    bool by_paths;                   /* it is gathered for the paths at hand alone */
+    bool swapped;                    /* a is b of the pair, and b a */
     bool pooled;                     /* b's z-lists are in `lists` */
     const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
     struct interfere_area area;      /* where they hold all of it */
 };
 
 /*
- * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew
- * for a span of both regions, to be kept or not; in chunks when the pool has not room for all of them.
+ * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew, to be
+ * kept for a span of both regions, or for the paths at hand alone; in chunks when the pool has not room for
+ * all of them.
  * Returns CAROM_OK, INTERFERE_TOO_MANY, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,

@@ -64,7 +64,14 @@ void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j)
     if (pool->used == pool->size) {
         make_room(w);
     }
-    w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, i, j};
+    if (!w->swapped) {
+        w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, i, j};
+    } else if (kind == CANDIDATE_EDGE_EDGE) {
+        w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, j, i};
+    } else {
+        kind = kind == CANDIDATE_VERTEX_FACE ? CANDIDATE_FACE_VERTEX : CANDIDATE_VERTEX_FACE;
+        w->candidates[pool_take(pool)] = (struct candidate){w->pair, kind, i, j};
+    }
     w->candidate_count++;
     if (pool->used - w->own_first > w->span.most) {
         w->error = INTERFERE_TOO_MANY;

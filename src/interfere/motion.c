@@ -2,6 +2,9 @@
 /* How one body of a pair moves as the other sees it. */
 #include "narrow.h"
 
+/* Whoever asks for a candidate places it by other roundings. */
+#define PATH_NOISE_Q22 16
+
 void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
 {
     for (int i = 0; i < 3; i++) {
@@ -18,10 +21,11 @@ void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q
  * How far a point may be off the straight way from its start to its end, as seen from b: an eighth
  * of the second derivative. A turn with the Cayley vector u moves a point at r by at most 2 |u| r,
  * and that by at most 4 |u|^2 (1 + |u|) r; in axes that turn so themselves there is twice the turn
- * times the way on top.
+ * times the way on top. What meets b, or comes within the margin, is no farther from its centre then
+ * than b's radius and the margin, so its way later and before is all that it may be farther.
  */
 static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
-                       const struct body_sweep *b, int64_t distance_q22)
+                       const struct body_sweep *b, int64_t distance_q22, int64_t margin_q22)
 {
     int64_t bend = 2 * ((int64_t)a->bend_q22 + b->bend_q22);
     int64_t way = (int64_t)a->length_q22 + b->length_q22;
@@ -30,12 +34,35 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
     way += fix_mul(w->a->radius_q22, twice_q30, 30);
     bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
     if (b->u_q30 > 0) {
+        int64_t from_a = distance_q22 + w->a->radius_q22, from_b = w->b->radius_q22 + margin_q22;
+
         twice_q30 = 2 * b->u_q30;
         bend += 2 * fix_mul(way, twice_q30, 30);
-        bend += fix_mul(fix_mul(distance_q22 + w->a->radius_q22 + way, twice_q30, 30),
+        bend += fix_mul(fix_mul((from_a < from_b ? from_a : from_b) + way, twice_q30, 30),
                         twice_q30 + b->whole_u_q30, 30);
     }
     return bend / 8 + 2;
+}
+
+/* The sweep of a body; returns how far it may be off that. */
+static int32_t sweep_body(const struct interfere *w, const struct body *b, int64_t from_q30,
+                          struct body_sweep *sweep)
+{
+    if (w->by_paths) {
+        body_path_sweep(b, sweep);
+        return mesh_drift_most(b->mesh) + PATH_NOISE_Q22;
+    }
+    body_region_sweep(&b->region, from_q30, w->span.time_q30, sweep);
+    return b->region.room_q22;
+}
+
+/* Whether a body has the axes of the world, all the time. */
+static bool is_upright(const struct interfere *w, const struct body *b,
+                       const struct body_sweep *sweep)
+{
+    const carom_quat_q30 *q = w->by_paths ? &body_path(b)->q : &b->region.q;
+
+    return (q->c[1] | q->c[2] | q->c[3]) == 0 && sweep->u_q30 == 0;
 }
 
 bool interfere_set_motion(struct interfere *w)
@@ -43,16 +70,16 @@ bool interfere_set_motion(struct interfere *w)
     struct interfere_leaf *l = w->leaf;
     struct body_sweep sweep[2], *a = &sweep[0], *b = &sweep[1];
     const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
-    int64_t start[3], end[3], distance = 0;
+    int64_t start[3], end[3], distance = 0, margin_q22;
 
-    body_region_sweep(&w->a->region, w->span.from_a_q30, w->span.time_q30, a);
-    body_region_sweep(&w->b->region, w->span.from_b_q30, w->span.time_q30, b);
+    margin_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22;
+    margin_q22 += sweep_body(w, w->a, w->span.from_a_q30, a);
+    margin_q22 += sweep_body(w, w->b, w->span.from_b_q30, b);
     for (int k = 0; k < 3; k++) {
         start[k] = a->at.c[k] - b->at.c[k];
         end[k] = start[k] + ((a->way.c[k] - b->way.c[k]) >> 8);
     }
-    if ((w->b->region.q.c[1] | w->b->region.q.c[2] | w->b->region.q.c[3]) != 0 || b->u_q30 > 0) {
-        /* most ground is not turned, and does not turn */
+    if (!is_upright(w, w->b, b)) { /* most ground is */
         fix_rotate_back(start, &b->start, start);
         fix_rotate_back(end, &b->end, end);
     }
@@ -76,7 +103,6 @@ bool interfere_set_motion(struct interfere *w)
     l->angle_q30 = 2 * (a->u_q30 + b->u_q30);
     /* 1 - cos^2 of half of the angle, at most a quarter of its square */
     l->skew_q30 = carom_mul_q30(l->angle_q30, l->angle_q30) / 4 + 1;
-    l->near_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22 + w->a->region.room_q22 +
-                  w->b->region.room_q22 + sag_q22(w, a, b, distance);
+    l->near_q22 = margin_q22 + sag_q22(w, a, b, distance, margin_q22);
     return true;
 }

@@ -10,6 +10,13 @@ static void visit_faces(struct candidate_visitor *self, const struct candidate *
     interfere_note_faces(&((struct step_visitor *)self)->step->w->interfere, &all, c, n);
 }
 
+static void place(struct step *s, uint32_t i)
+{
+    if (step_active(s, i)) {
+        body_place(&s->w->bodies[i], &s->next->bodies[i]);
+    }
+}
+
 int step_note_faces(struct step *s)
 {
     struct interfere *in = &s->w->interfere;
@@ -26,6 +33,10 @@ int step_note_faces(struct step *s)
 
         if (!step_active(s, p->a) && !step_active(s, p->b)) {
             continue;
+        }
+        if (step_goes_far(s, p)) { /* what it has of a path has ended */
+            place(s, p->a);
+            place(s, p->b);
         }
         v.from_q30 = v.to_q30 = CAROM_ONE_Q30;
         result = step_visit(s, n, &v, visit_faces);

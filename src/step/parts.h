@@ -101,6 +101,12 @@ struct step_visitor {
 /* Set up a pair with the paths of its bodies at hand, in the room there is for one. */
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number);
 
+/*
+ * Bodies that go or turn far in their regions would have candidates without number: these are gathered for the
+ * paths at hand alone, and not kept.
+ */
+bool step_goes_far(const struct step *s, const struct pair *p);
+
 /* Hand every candidate of a pair to f. */
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
                void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t));

@@ -12,6 +12,8 @@
 #define REGION_PARTS        10
 #define REGION_PARTS_FLIGHT 20
 #define REGION_PARTS_FREE   4
+/* Room is no more than this part of the radius: what is swept grows with it. */
+#define ROOM_PARTS 64
 /* A hit leads a body that goes farther than this in a slice aside by more than any room. */
 #define ROOM_WAY_SKINS 10
 
@@ -192,6 +194,7 @@ static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
 
     b->active = true;
     b->standing = false;
+    room_q22 = room_q22 < b->radius_q22 / ROOM_PARTS ? room_q22 : b->radius_q22 / ROOM_PARTS;
     room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
     body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     broad_set_box(b);

@@ -12,6 +12,11 @@
 #define PARTS_MAX 64
 /* More candidates are too many for a region that lasts because there were none. */
 #define ENOUGH 8
+/* Of more pairs of faces than that, radians that both bodies may turn by: while candidates are kept, */
+#define FACE_PAIRS_MANY 500
+#define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 8)
+/* and by 1 / that in a part of a window. */
+#define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
 
@@ -50,16 +55,24 @@ static struct interfere_span span_of(const struct step *s, const struct pair *p,
     return span;
 }
 
-/*
- * Bodies that go far in their regions would have candidates without number: these are gathered for the
- * time that is looked at, and not kept.
- */
-static bool goes_far(const struct step *s, const struct pair *p)
+/* Whether two meshes have so many faces that turns are to be cut. */
+static bool many_faces(const struct body *a, const struct body *b)
+{
+    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count >= FACE_PAIRS_MANY;
+}
+
+bool step_goes_far(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int64_t way_q22 = (step_active(s, p->a) ? a->region.length_q22 : 0) +
                       (step_active(s, p->b) ? b->region.length_q22 : 0);
 
+    if ((step_active(s, p->a) ? a->region.u_q30 : 0) +
+                (step_active(s, p->b) ? b->region.u_q30 : 0) >
+            TURN_KEPT_Q30 / 2 &&
+        many_faces(a, b)) {
+        return true;
+    }
     return way_q22 > (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
 }
 
@@ -89,7 +102,7 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
     const struct pair *p = &w->pairs[number];
-    bool keep = !goes_far(s, p);
+    bool keep = !step_goes_far(s, p);
     int32_t from_q30 = 0;
     struct interfere_span span;
     int result;
@@ -222,23 +235,46 @@ int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
     return step_visit(s, number, v, visit_first);
 }
 
-/* Into how many parts a window is cut: in none do the bodies pass by half of the smaller one's radius. */
+/* Into how many parts a window is cut for the turns of both paths. */
+static int64_t parts_of_turn(const struct body *a, const struct body *b)
+{
+    const struct body_path *path_a = body_path(a), *path_b = body_path(b);
+    int64_t u2_q30 = (path_a->turns ? path_a->u2_q30 : 0) + (path_b->turns ? path_b->u2_q30 : 0);
+    int64_t turn_q30;
+
+    /* a turn is 2 |u|, and the square of a sum of two no more than twice the sum of the squares */
+    if (u2_q30 * 8 * TURN_PARTS * TURN_PARTS <= CAROM_ONE_Q30 || !many_faces(a, b)) {
+        return 1;
+    }
+    turn_q30 = path_a->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_a->u2_q30 << 30) : 0;
+    turn_q30 += path_b->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_b->u2_q30 << 30) : 0;
+    return ((turn_q30 * TURN_PARTS) >> 30) + 1;
+}
+
+/*
+ * Into how many parts a window is cut: in none do the bodies pass by half of the smaller one's radius, or
+ * turn by more than candidates are few for.
+ */
 static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t radius_q22 = (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
-    int64_t way_q40 = 0, parts;
+    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b);
 
     for (int k = 0; k < 3; k++) {
         way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]);
     }
     parts = (way_q40 >> 17) / radius_q22 + 1;
+    parts = parts > parts_turn ? parts : parts_turn;
     parts = parts < PARTS_MAX ? parts : PARTS_MAX;
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
 }
 
-/* The first hit of a window's part, if there is any: its times become those of the whole window. */
+/*
+ * The first hit of a window's part, if there is any: its times become those of the whole window. One that is
+ * not cut is open.
+ */
 static int search_part(struct step *s, uint32_t number, struct step_visitor *v, int32_t part,
                        int32_t parts)
 {
@@ -247,7 +283,9 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
-    step_open_window(s, number, v->from_q30, v->to_q30);
+    if (parts > 1) {
+        step_open_window(s, number, v->from_q30, v->to_q30);
+    }
     v->found = false;
     if (!step_stay_apart(s, number, 0)) {
         result = step_first_hit(s, number, v);
@@ -257,7 +295,9 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
             v->from_q30 + (int32_t)(((int64_t)(v->to_q30 - v->from_q30) * v->hit.t_q30) >> 30);
         v->hit.root_q30 = (int32_t)((((int64_t)part << 30) + v->hit.root_q30) / parts);
     }
-    step_close_window(s, number, v->from_q30, v->to_q30);
+    if (parts > 1) {
+        step_close_window(s, number, v->from_q30, v->to_q30);
+    }
     v->from_q30 = from_q30;
     v->to_q30 = to_q30;
     return result;
@@ -278,9 +318,14 @@ int step_search(struct step *s, uint32_t number)
     parts = step_stay_apart(s, number, 0)
                 ? 0
                 : parts_of(s, &s->w->pairs[number], v.to_q30 - v.from_q30);
-    step_close_window(s, number, v.from_q30, v.to_q30);
+    if (parts != 1) {
+        step_close_window(s, number, v.from_q30, v.to_q30);
+    }
     for (int32_t part = 0; part < parts && !v.found && result == CAROM_OK; part++) {
         result = search_part(s, number, &v, part, parts);
+    }
+    if (parts == 1) {
+        step_close_window(s, number, v.from_q30, v.to_q30);
     }
     if (result == CAROM_OK && v.found) {
         m->hit_q30 = v.hit_q30;
