@@ -16,6 +16,8 @@
 #define TOO_NEAR_DIVISOR 16
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
+/* What rounding may have made of a gap since the hit was found. */
+#define HIT_GAP_NOISE_Q22 8
 
 /* Velocities of the bodies that have contacts, each once. */
 static void load_velocities(struct rest *r)
