@@ -14,7 +14,7 @@
 #define ENOUGH 8
 /* Of more pairs of faces than that, radians that both bodies may turn by: while candidates are kept, */
 #define FACE_PAIRS_MANY 500
-#define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 8)
+#define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 16 * 5)
 /* and by 1 / that in a part of a window. */
 #define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
