@@ -346,6 +346,8 @@ struct carom_body_look {
 };
 /* For whoever draws it. CAROM_ERR_BODY for a number that is free, too. */
 int carom_body_look(const struct carom_world *world, int body, struct carom_body_look *look);
+/* The mesh of a body; NULL when there is none of this number. */
+const struct carom_mesh *carom_body_mesh(const struct carom_world *world, int body);
 /* The numbers of all bodies are below this. */
 int carom_body_count(const struct carom_world *world);
 /*

@@ -190,6 +190,8 @@ static void test_look(void)
     CHECK_EQ(carom_body_look(world, -1, &look), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_look(world, 2, &look), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_count(world), 2);
+    CHECK(carom_body_mesh(NULL, 1) == NULL && carom_body_mesh(world, -1) == NULL);
+    CHECK(carom_body_mesh(world, 2) == NULL && carom_body_mesh(world, 1) == &box.mesh);
     CHECK_EQ(carom_body_look(world, 0, &look), CAROM_OK);
     CHECK(look.mesh == &ground.mesh && !look.moving);
     set_height(world, (int64_t)3 << 30);
@@ -204,7 +206,7 @@ static void test_look(void)
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
     CHECK_EQ(carom_body_count(world), 2);
     CHECK_EQ(carom_body_look(world, 0, &look), CAROM_ERR_BODY);
-    CHECK(look.mesh == &box.mesh);
+    CHECK(look.mesh == &box.mesh && carom_body_mesh(world, 0) == NULL);
 }
 
 const struct test tests_world_query[] = {

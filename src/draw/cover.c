@@ -32,40 +32,19 @@ static void way_to(const struct draw_view *view, const carom_v3_q32 *position, i
 }
 
 /*
- * The number of the largest body and where it is, if there is any; where the others are is not asked,
- * so that those out of sight cost nothing.
- */
-static uint32_t find_largest(const struct draw_source *source, struct carom_body_look *largest)
-{
-    uint32_t number = 0;
-
-    for (uint32_t i = 0; i < source->count; i++) {
-        struct carom_body_look look;
-
-        if (draw_look(source, i, &look) && look.mesh->raw.kind == CAROM_SOLID &&
-            look.mesh->radius_q22 > (largest->mesh ? largest->mesh->radius_q22 : 0)) {
-            *largest = look;
-            number = i;
-        }
-    }
-    return number;
-}
-
-/*
  * A line of sight that passes through the ball comes into the body before it is as far away as the
  * ball's centre: what is further away is hidden. On the picture the ball is an ellipse, and wherever it
  * is it reaches at least focal radius / distance from the projection of its centre.
  */
-void draw_cover_init(struct draw_view *view, const struct draw_source *source)
+void draw_cover_init(struct draw_view *view, const struct draw_source *source, uint32_t body)
 {
     struct draw_cover *cover = &view->cover;
-    struct carom_body_look look = {.mesh = NULL};
-    uint32_t body = find_largest(source, &look);
     int64_t way[3], world_way[3], distance, x_q4, y_q4, radius_q4;
+    struct carom_body_look look;
     int32_t radius_q16;
 
     cover->radius2_q8 = 0;
-    if (look.mesh == NULL) {
+    if (!draw_look(source, body, &look)) {
         return;
     }
     way_to(view, &look.position, way);

@@ -67,8 +67,18 @@ struct draw_source {
 
 void draw_source_init(struct draw_source *source, const struct carom_world *world);
 
+/* The mesh of a body; NULL when there is none of this number. */
+static inline const struct carom_mesh *draw_mesh(const struct draw_source *source, uint32_t number)
+{
+    return carom_body_mesh(source->world, (int)number);
+}
+
 /* A body as it is now; false when there is none of this number. */
-bool draw_look(const struct draw_source *source, uint32_t number, struct carom_body_look *look);
+static inline bool draw_look(const struct draw_source *source, uint32_t number,
+                             struct carom_body_look *look)
+{
+    return carom_body_look(source->world, (int)number, look) == CAROM_OK;
+}
 
 /* ---- view.c: from the world to the picture */
 
@@ -208,8 +218,8 @@ static inline int32_t draw_divide(int32_t n, int32_t d)
 
 /* ---- cover.c: what a body surely hides */
 
-/* Find the view's cover. */
-void draw_cover_init(struct draw_view *view, const struct draw_source *source);
+/* Set the view's cover, which is in a body, if there is one of this number. */
+void draw_cover_init(struct draw_view *view, const struct draw_source *source, uint32_t body);
 
 /* Whether some of a leaf may be covered. */
 bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,

@@ -21,7 +21,8 @@ struct flat {
     uint32_t *hot_bits;
     uint16_t *rows;
     struct draw_vertex *vertices;
-    uint8_t *end; /* of the workspace */
+    uint8_t *end;     /* of the workspace */
+    uint32_t largest; /* of the solids, its number; none: their count */
 };
 
 /* ------------------------------------------------------------ into the list */
@@ -248,20 +249,24 @@ static bool see_part(struct flat *f)
 /* For some leaves, and for some 60 faces of a row. */
 #define ROOM_LEAST 8160
 
-/* Lay out the workspace. */
+/* Lay out the workspace, and find the largest solid. */
 static bool make_flat(struct flat *f, const struct carom_picture *picture)
 {
     uint8_t *at = picture->workspace;
     size_t vertices = 0, faces = 0, bytes;
+    int32_t radius_q22 = 0;
 
+    f->largest = f->source->count;
     for (uint32_t i = 0; i < f->source->count; i++) {
-        struct carom_body_look look;
+        const struct carom_mesh *mesh = draw_mesh(f->source, i);
 
-        if (draw_look(f->source, i, &look)) {
-            const struct carom_mesh_raw *raw = &look.mesh->raw;
-
-            vertices = raw->vertex_count > vertices ? raw->vertex_count : vertices;
-            faces = raw->face_count > faces ? raw->face_count : faces;
+        if (mesh) {
+            vertices = mesh->raw.vertex_count > vertices ? mesh->raw.vertex_count : vertices;
+            faces = mesh->raw.face_count > faces ? mesh->raw.face_count : faces;
+            if (mesh->raw.kind == CAROM_SOLID && mesh->radius_q22 > radius_q22) {
+                radius_q22 = mesh->radius_q22;
+                f->largest = i;
+            }
         }
     }
     bytes = (faces + 31) / 32 * sizeof f->hot_bits[0] + vertices * sizeof f->seen[0] +
@@ -307,7 +312,7 @@ int draw_flat(const struct draw_source *source, struct draw_view *view,
     if (!make_flat(&f, picture)) {
         return CAROM_ERR_MEMORY;
     }
-    draw_cover_init(view, source);
+    draw_cover_init(view, source, f.largest);
     while (y < rect.y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 

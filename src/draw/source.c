@@ -8,8 +8,3 @@ void draw_source_init(struct draw_source *source, const struct carom_world *worl
     source->count = (uint32_t)carom_body_count(world);
     source->hot_count = carom_interfering_faces(world, &source->hot);
 }
-
-bool draw_look(const struct draw_source *source, uint32_t number, struct carom_body_look *look)
-{
-    return carom_body_look(source->world, (int)number, look) == CAROM_OK;
-}

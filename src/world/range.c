@@ -2,11 +2,6 @@
 /* Whether numbers of a body are within what the formats hold, and what gravity and a force give it. */
 #include "world.h"
 
-bool world_has_body(const struct carom_world *w, int body)
-{
-    return body >= 0 && (uint32_t)body < w->body_count && w->bodies[body].mesh;
-}
-
 bool world_each_within(const int64_t v[3], int64_t limit)
 {
     for (int k = 0; k < 3; k++) {

@@ -320,6 +320,11 @@ int carom_body_look(const struct carom_world *w, int body, struct carom_body_loo
     return CAROM_OK;
 }
 
+const struct carom_mesh *carom_body_mesh(const struct carom_world *w, int body)
+{
+    return w && world_has_body(w, body) ? w->bodies[body].mesh : NULL;
+}
+
 int carom_body_count(const struct carom_world *w)
 {
     return w ? (int)w->body_count : CAROM_ERR_NULL;

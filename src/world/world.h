@@ -97,7 +97,10 @@ bool world_plausible(const struct carom_world *w, const struct world_state *s,
                      const carom_v3_q40 *gravity);
 
 /* Whether there is a body of this number. */
-bool world_has_body(const struct carom_world *world, int body);
+static inline bool world_has_body(const struct carom_world *w, int body)
+{
+    return (uint32_t)body < w->body_count && w->bodies[body].mesh; /* none has a number of 2^31 */
+}
 
 /* Whether each component is at most `limit` in size. */
 bool world_each_within(const int64_t v[3], int64_t limit);
