@@ -14,6 +14,10 @@
 #define RECOVERY_DIVISOR 5
 /* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
 #define TOO_NEAR_DIVISOR 16
+/* In lasting contact an approach by less than this part of a skin a frame is no impact. */
+#define LASTING_DIVISOR 4
+/* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
+#define CALM_DIVISOR 8
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 /* What rounding may have made of a gap since the hit was found. */
@@ -53,19 +57,39 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
     return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-/* An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. */
-static int64_t slow_q40(const struct rest *r, const struct contact *c)
+/* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
+static bool may_rest(const struct rest *r, const struct contact *c)
+{
+    return restitution(r, c) < CAROM_ONE_Q30 || c->lasting ||
+           (c->side[0].body && c->side[0].body->in_contact) ||
+           (c->side[1].body && c->side[1].body->in_contact);
+}
+
+/* What gravity gives in a frame. */
+static int64_t pull_q40(const struct contact *c)
 {
     int64_t largest_q40 = 0;
 
-    for (int s = 0; s < 2 && restitution(r, c) < CAROM_ONE_Q30; s++) {
+    for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
 
         if (b && b->acceleration_q40 > largest_q40) {
             largest_q40 = b->acceleration_q40;
         }
     }
-    return 4 * largest_q40;
+    return largest_q40;
+}
+
+/*
+ * An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. In lasting
+ * contact it is a part of the skin, too, for without gravity nothing else tells impacts from rest.
+ */
+static int64_t slow_q40(const struct rest *r, const struct contact *c)
+{
+    int64_t slow_q40 = may_rest(r, c) ? 4 * pull_q40(c) : 0;
+    int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / LASTING_DIVISOR, 18) : 0;
+
+    return slow_q40 > least_q40 ? slow_q40 : least_q40;
 }
 
 /*
@@ -111,6 +135,28 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     c->work->target_q40 = least_q40;
 }
 
+/* A lasting contact that is near opens by a part of its skin in each slice, of half a radian. */
+static int64_t lift_q40(const struct contact *c)
+{
+    int64_t spin_q40 = 0;
+
+    for (int s = 0; s < 2 && c->gap_q22 < c->skin_q22 / 4; s++) {
+        int64_t own_q40 = c->side[s].body ? fix_length(c->side[s].body->spin.c) : 0;
+
+        spin_q40 = own_q40 > spin_q40 ? own_q40 : spin_q40;
+    }
+    return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
+}
+
+/* What the path takes back of V.N: it must be there to begin with. */
+static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
+{
+    int64_t more_q40 =
+        c->chord_q28 < INT32_MAX ? c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12) : 0;
+
+    return (more_q40 > 0 ? more_q40 : 0) + (c->lasting ? lift_q40(c) : 0);
+}
+
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
@@ -123,7 +169,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
     c->impact = c->speed_q40 < -slow_q40(r, c);
     if (c->impact) {
         c->work->target_q40 = impact_target_q40(c, e_q30);
-    } else if (e_q30 == CAROM_ONE_Q30) {
+    } else if (!may_rest(r, c)) {
         c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
@@ -137,11 +183,13 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
-    /* what the path's bend takes back of V.N must be there to begin with */
-    if (!c->impact && e_q30 < CAROM_ONE_Q30 && c->chord_q28 < INT32_MAX) {
-        int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
+    if (may_rest(r, c) && (!c->impact || c->lasting)) {
+        int64_t more_q40 = taken_back_q40(c, rise_q40);
+        int64_t *target_q40 = &c->work->target_q40;
 
-        c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;
+        *target_q40 = !c->impact               ? *target_q40 + more_q40
+                      : more_q40 > *target_q40 ? more_q40
+                                               : *target_q40;
     }
     if (rise_q40 < 0) {
         hold_above(c, tau_q30, rise_q40);
@@ -218,6 +266,17 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     return any;
 }
 
+/* Whether the island has a lasting contact. */
+static bool lasts(const struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (rest_contact(r, i)->lasting) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* What resting contacts may add to twice the energy of the bodies at hand. */
 static struct fix_wide lift2(const struct rest *r)
 {
@@ -240,9 +299,9 @@ static void note_unsettled(struct rest *r, bool unsettled)
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
     struct rest_sweep sw = {.residual = REST_RESIDUAL_REST, .rolls = true};
-    bool impacts = prepare(r, tau_q30);
+    bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
-    if (impacts && r->count == 1) {
+    if (impacts && r->count == 1 && !lasting) {
         int result = solve_impact(r, rest_contact(r, 0));
 
         if (result == CAROM_OK) {
@@ -263,7 +322,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     if (impacts && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
-    rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
+    rest_energy_rule(r, impacts && !lasting ? (struct fix_wide){0, 0} : lift2(r), lasting);
     note_unsettled(r, sw.ran_out && rest_approaches(r));
     return CAROM_OK;
 }
@@ -327,6 +386,14 @@ static bool may_enter(const struct contact *c)
            (c->side[1].body && !c->side[1].body->in_contact);
 }
 
+/* Whether a contact is so slow that its bodies lie. */
+static bool lies(const struct rest *r, const struct contact *c)
+{
+    int64_t pull = pull_q40(c);
+
+    return carom_abs(speed_along_normal_q40(c)) < (may_rest(r, c) ? 4 * pull : pull / CALM_DIVISOR);
+}
+
 /* Whether a body is on a side of the contact that newly took gravity. */
 static bool enters(const struct contact *c)
 {
@@ -342,7 +409,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
-        if (c->idle || !may_enter(c) || carom_abs(speed_along_normal_q40(c)) >= slow_q40(r, c)) {
+        if (c->idle || !may_enter(c) || !lies(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {
