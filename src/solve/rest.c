@@ -386,12 +386,15 @@ static bool may_enter(const struct contact *c)
            (c->side[1].body && !c->side[1].body->in_contact);
 }
 
-/* Whether a contact is so slow that its bodies lie. */
+/* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
 static bool lies(const struct rest *r, const struct contact *c)
 {
     int64_t pull = pull_q40(c);
+    carom_v3_q40 v;
 
-    return carom_abs(speed_along_normal_q40(c)) < (may_rest(r, c) ? 4 * pull : pull / CALM_DIVISOR);
+    rest_relative_velocity(c, &v);
+    return may_rest(r, c) ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
+                          : fix_length(v.c) < pull / CALM_DIVISOR;
 }
 
 /* Whether a body is on a side of the contact that newly took gravity. */
