@@ -94,8 +94,10 @@ static void note_hits(struct step *s)
 /* Nor of what bends by less than this part of a skin: the gap of the next frame makes up for it. */
 #define CHORD_BEND_DIVISOR 16
 
-/* A pair that has hit more often than this in a frame is in lasting contact. */
+/* A pair that has hit more often than this in a frame is in lasting contact, */
 #define LASTING_HITS 3
+/* and one that has hit where a gap is below this part of the skin: hits stop at half of one. */
+#define CLOSED_DIVISOR 16
 /* What bends sooner is asked for in parts of the slice down to this one. */
 #define SOONEST 8
 
@@ -192,7 +194,9 @@ static void forget_paths(struct step *s)
 /* The work on a lasting contact may cost energy: the frame gives it back in the end (energy.c). */
 static void note_lasting(struct step *s, struct contact *c)
 {
-    c->lasting = s->w->meetings[c->key.pair].hits > LASTING_HITS;
+    uint32_t hits = s->w->meetings[c->key.pair].hits;
+
+    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? 0 : LASTING_HITS);
     for (int k = 0; c->lasting && k < 2; k++) {
         if (c->side[k].body) {
             c->side[k].body->strained = true;
