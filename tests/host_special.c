@@ -250,8 +250,8 @@ int main(int argc, char **argv)
         tallies[i].first = -1;
     }
     for (long number = from; number < from + count; number += step) {
-        /* these cross by less than a tenth of a skin: the long form counts them, the short one does not */
-        if (step > 1 && (number == 78125 || number == 94555)) {
+        /* these cross by a tenth of a skin: the long form counts them, the short one does not */
+        if (step > 1 && (number == 78125 || number == 47435)) {
             continue;
         }
         run(&tallies[number % SPECIAL_CLASSES], number, count == 1);

@@ -319,7 +319,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     rest_save_momenta(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
-    if (impacts && sw.ran_out && rest_approaches(r)) {
+    if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
     rest_energy_rule(r, impacts && !lasting ? (struct fix_wide){0, 0} : lift2(r), lasting);
