@@ -58,9 +58,9 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
 }
 
 /* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
-static bool may_rest(const struct rest *r, const struct contact *c)
+static bool may_rest(const struct contact *c, int32_t e_q30)
 {
-    return restitution(r, c) < CAROM_ONE_Q30 || c->lasting ||
+    return e_q30 < CAROM_ONE_Q30 || c->lasting ||
            (c->side[0].body && c->side[0].body->in_contact) ||
            (c->side[1].body && c->side[1].body->in_contact);
 }
@@ -84,9 +84,9 @@ static int64_t pull_q40(const struct contact *c)
  * An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. In lasting
  * contact it is a part of the skin, too, for without gravity nothing else tells impacts from rest.
  */
-static int64_t slow_q40(const struct rest *r, const struct contact *c)
+static int64_t slow_q40(const struct contact *c, bool rests)
 {
-    int64_t slow_q40 = may_rest(r, c) ? 4 * pull_q40(c) : 0;
+    int64_t slow_q40 = rests ? 4 * pull_q40(c) : 0;
     int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / LASTING_DIVISOR, 18) : 0;
 
     return slow_q40 > least_q40 ? slow_q40 : least_q40;
@@ -161,15 +161,16 @@ static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
     int32_t e_q30 = restitution(r, c);
+    bool rests = may_rest(c, e_q30);
     int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
 
-    c->impact = c->speed_q40 < -slow_q40(r, c);
+    c->impact = c->speed_q40 < -slow_q40(c, rests);
     if (c->impact) {
         c->work->target_q40 = impact_target_q40(c, e_q30);
-    } else if (!may_rest(r, c)) {
+    } else if (!rests) {
         c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
@@ -183,7 +184,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
-    if (may_rest(r, c) && (!c->impact || c->lasting)) {
+    if (rests && (!c->impact || c->lasting)) {
         int64_t more_q40 = taken_back_q40(c, rise_q40);
         int64_t *target_q40 = &c->work->target_q40;
 
@@ -372,7 +373,7 @@ void rest_keep_hits(struct rest *r, uint16_t pair)
         struct contact *c = &r->list.contacts[i];
         /* a hit stops at half the skin */
         bool hits = c->gap_q22 < c->skin_q22 / 2 + HIT_GAP_NOISE_Q22 &&
-                    speed_along_normal_q40(c) < -slow_q40(r, c);
+                    speed_along_normal_q40(c) < -slow_q40(c, may_rest(c, restitution(r, c)));
 
         c->idle =
             c->key.pair != pair && !hits && !rest_body(r, c, 0)->woke && !rest_body(r, c, 1)->woke;
@@ -393,8 +394,8 @@ static bool lies(const struct rest *r, const struct contact *c)
     carom_v3_q40 v;
 
     rest_relative_velocity(c, &v);
-    return may_rest(r, c) ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
-                          : fix_length(v.c) < pull / CALM_DIVISOR;
+    return may_rest(c, restitution(r, c)) ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
+                                          : fix_length(v.c) < pull / CALM_DIVISOR;
 }
 
 /* Whether a body is on a side of the contact that newly took gravity. */
