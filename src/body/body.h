@@ -154,7 +154,7 @@ struct body {
     int32_t from_q30, to_q30;
     uint16_t events; /* answer: hits that it took part in, in this frame */
     uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
-    uint8_t shorter; /* answer: the next path is shorter by so many factors of 4 */
+    uint8_t shorter; /* answer: slices are shorter by so many factors of 4; one less after each */
     bool member;     /* step, cut: its path is new; answer: of the island of the hit at hand */
     bool placed;     /* clock: its path is that of a place where it is looked at */
     bool stands;     /* answer: for what is left of the frame */

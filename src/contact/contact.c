@@ -37,7 +37,7 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
         *to = to[-1];
     }
     c->work = NULL;
-    c->idle = c->resting = c->impact = false;
+    c->idle = c->resting = c->impact = c->lasting = false;
     PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;

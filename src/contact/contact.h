@@ -89,6 +89,7 @@ struct contact {
     bool idle;    /* nothing asks for its island to be solved now */
     bool resting; /* solved without any impact in its island */
     bool impact;
+    bool lasting; /* by the step: its pair has hit again and again in the frame */
     PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */

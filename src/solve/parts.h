@@ -132,9 +132,10 @@ void rest_save_momenta(struct rest *r);
 
 /*
  * The energy rule for several contacts, after the impulses were applied: if energy rose above what
- * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as far as needed.
+ * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as
+ * far as needed. In lasting contact it may rise by a 256th: the frame gives that back in the end.
  */
-void rest_energy_rule(struct rest *r, struct fix_wide lift);
+void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting);
 
 /*
  * After sweeps that ran out: take out without friction what places still approach by, where they do.

@@ -14,10 +14,12 @@
 #define RECOVERY_DIVISOR 5
 /* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
 #define TOO_NEAR_DIVISOR 16
+/* In lasting contact an approach by less than this part of a skin a frame is no impact. */
+#define LASTING_DIVISOR 4
+/* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
+#define CALM_DIVISOR 8
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
-/* What rounding may have made of a gap since the hit was found. */
-#define HIT_GAP_NOISE_Q22 8
 
 /* Velocities of the bodies that have contacts, each once. */
 static void load_velocities(struct rest *r)
@@ -45,14 +47,18 @@ static int32_t restitution(const struct rest *r, const struct contact *c)
     return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-/*
- * An approach slower than this is no impact: 4 g h. Of bodies that bounce for ever only those that would
- * rise by less than 1/16 of a skin rest, where they are as near as a hit leaves them; such a one has
- * taken the frame's gravity, which is no approach.
- */
-static int64_t slow_q40(const struct rest *r, const struct contact *c)
+/* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
+static bool may_rest(const struct contact *c, int32_t e_q30)
 {
-    int64_t largest_q40 = 0, taken_q40 = 0;
+    return e_q30 < CAROM_ONE_Q30 || c->lasting ||
+           (c->side[0].body && c->side[0].body->in_contact) ||
+           (c->side[1].body && c->side[1].body->in_contact);
+}
+
+/* What gravity gives in a frame. */
+static int64_t pull_q40(const struct contact *c)
+{
+    int64_t largest_q40 = 0;
 
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
@@ -60,17 +66,20 @@ static int64_t slow_q40(const struct rest *r, const struct contact *c)
         if (b && b->acceleration_q40 > largest_q40) {
             largest_q40 = b->acceleration_q40;
         }
-        taken_q40 += b && b->in_contact ? b->acceleration_q40 : 0;
     }
-    if (restitution(r, c) < CAROM_ONE_Q30) {
-        return 4 * largest_q40;
-    }
-    if (c->gap_q22 > c->skin_q22 / 2 + HIT_GAP_NOISE_Q22) {
-        return taken_q40;
-    }
-    /* an acceleration is below 2, a skin below 2^16 units: the root is of less than 2^43 */
-    return taken_q40 +
-           ((int64_t)fix_sqrt((uint64_t)(largest_q40 >> 12) * (uint64_t)(c->skin_q22 / 8)) << 15);
+    return largest_q40;
+}
+
+/*
+ * An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. In lasting
+ * contact it is a part of the skin, too, for without gravity nothing else tells impacts from rest.
+ */
+static int64_t slow_q40(const struct contact *c, bool rests)
+{
+    int64_t slow_q40 = rests ? 4 * pull_q40(c) : 0;
+    int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / LASTING_DIVISOR, 18) : 0;
+
+    return slow_q40 > least_q40 ? slow_q40 : least_q40;
 }
 
 /*
@@ -123,18 +132,43 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     c->work->target_q40 = least_q40;
 }
 
+/* A lasting contact that is near opens by a part of its skin in each slice, of half a radian. */
+static int64_t lift_q40(const struct contact *c)
+{
+    int64_t spin_q40 = 0;
+
+    for (int s = 0; s < 2 && c->gap_q22 < c->skin_q22 / 4; s++) {
+        int64_t own_q40 = c->side[s].body ? fix_length(c->side[s].body->spin.c) : 0;
+
+        spin_q40 = own_q40 > spin_q40 ? own_q40 : spin_q40;
+    }
+    return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
+}
+
+/* What the path takes back of V.N: it must be there to begin with. */
+static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
+{
+    int64_t more_q40 =
+        c->chord_q28 < INT32_MAX ? c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12) : 0;
+
+    return (more_q40 > 0 ? more_q40 : 0) + (c->lasting ? lift_q40(c) : 0);
+}
+
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
     int32_t e_q30 = restitution(r, c);
+    bool rests = may_rest(c, e_q30);
     int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
 
-    c->impact = c->speed_q40 < -slow_q40(r, c);
+    c->impact = c->speed_q40 < -slow_q40(c, rests);
     if (c->impact) {
         c->work->target_q40 = impact_target_q40(c, e_q30);
+    } else if (!rests) {
+        c->work->target_q40 = 0;
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
@@ -147,11 +181,13 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
         c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
-    /* what the path's bend takes back of V.N must be there to begin with */
-    if (!c->impact && c->chord_q28 < INT32_MAX) {
-        int64_t more_q40 = c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12);
+    if (rests && (!c->impact || c->lasting)) {
+        int64_t more_q40 = taken_back_q40(c, rise_q40);
+        int64_t *target_q40 = &c->work->target_q40;
 
-        c->work->target_q40 += more_q40 > 0 ? more_q40 : 0;
+        *target_q40 = !c->impact               ? *target_q40 + more_q40
+                      : more_q40 > *target_q40 ? more_q40
+                                               : *target_q40;
     }
     if (rise_q40 < 0) {
         hold_above(c, tau_q30, rise_q40);
@@ -228,6 +264,17 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     return any;
 }
 
+/* Whether the island has a lasting contact. */
+static bool lasts(const struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (rest_contact(r, i)->lasting) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* What resting contacts may add to twice the energy of the bodies at hand. */
 static struct fix_wide lift2(const struct rest *r)
 {
@@ -250,9 +297,9 @@ static void note_unsettled(struct rest *r, bool unsettled)
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
     struct rest_sweep sw = {.residual = REST_RESIDUAL_REST, .rolls = true};
-    bool impacts = prepare(r, tau_q30);
+    bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
-    if (impacts && r->count == 1) {
+    if (impacts && r->count == 1 && !lasting) {
         int result = solve_impact(r, rest_contact(r, 0));
 
         if (result == CAROM_OK) {
@@ -270,10 +317,10 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     rest_save_momenta(r);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
-    if (impacts && sw.ran_out && rest_approaches(r)) {
+    if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
-    rest_energy_rule(r, impacts ? (struct fix_wide){0, 0} : lift2(r));
+    rest_energy_rule(r, impacts && !lasting ? (struct fix_wide){0, 0} : lift2(r), lasting);
     note_unsettled(r, sw.ran_out && rest_approaches(r));
     return CAROM_OK;
 }
@@ -323,6 +370,17 @@ static bool may_enter(const struct contact *c)
            (c->side[1].body && !c->side[1].body->in_contact);
 }
 
+/* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
+static bool lies(const struct rest *r, const struct contact *c)
+{
+    int64_t pull = pull_q40(c);
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return may_rest(c, restitution(r, c)) ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
+                                          : fix_length(v.c) < pull / CALM_DIVISOR;
+}
+
 /* Whether a body is on a side of the contact that newly took gravity. */
 static bool enters(const struct contact *c)
 {
@@ -338,7 +396,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
-        if (c->idle || !may_enter(c) || carom_abs(rest_speed_q40(c)) >= slow_q40(r, c)) {
+        if (c->idle || !may_enter(c) || !lies(r, c)) {
             continue;
         }
         for (int s = 0; s < 2; s++) {

@@ -2,6 +2,11 @@
 /* The rule that several contacts together never gain energy. */
 #include "parts.h"
 
+/* Momenta are rounded: a rise below 2^-26 is not one. */
+#define ROUNDING_BITS 26
+/* Lasting contact may take that for what paths bend by. */
+#define LASTING_BITS 8
+
 static struct fix_wide kinetic2(const struct rest *r)
 {
     struct fix_wide sum = {0, 0};
@@ -57,13 +62,10 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
     }
 }
 
-/*
- * Whether the energy is above `before` and what surfaces that move have added. Momenta are rounded: a
- * rise below 2^-26 is not one.
- */
-static bool rises(const struct rest *r, struct fix_wide before)
+/* Whether the energy is above `before`, by more than 2^-bits of it, and what surfaces that move have added. */
+static bool rises(const struct rest *r, struct fix_wide before, int bits)
 {
-    struct fix_wide slack = {before.hi >> 26, (uint64_t)fix_wide_shift(before, 26)};
+    struct fix_wide slack = {before.hi >> bits, (uint64_t)fix_wide_shift(before, bits)};
     struct fix_wide limit = fix_wide_add(before, slack);
 
     for (uint32_t i = 0; i < r->count; i++) {
@@ -101,10 +103,11 @@ static bool may_rise(const struct rest *r, struct fix_wide allowed)
     return fix_wide_sign(sum) > 0;
 }
 
-void rest_energy_rule(struct rest *r, struct fix_wide lift)
+void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
 {
     struct rest_sweep plastic = {
         .plastic = true, .frictionless = true, .residual = REST_RESIDUAL_IMPACT};
+    int bits = lasting ? LASTING_BITS : ROUNDING_BITS;
     int32_t low = 0, high = CAROM_ONE_Q30;
     struct fix_wide before;
 
@@ -112,7 +115,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
         return; /* whatever it was before: not below 0 */
     }
     before = fix_wide_add(before2(r), lift);
-    if (!rises(r, before)) {
+    if (!rises(r, before, bits)) {
         return;
     }
     r->energy_rules++;
@@ -125,7 +128,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift)
         int32_t k_q30 = low + (high - low) / 2;
 
         apply_blend(r, k_q30, false);
-        if (rises(r, before)) {
+        if (rises(r, before, bits)) {
             high = k_q30;
         } else {
             low = k_q30;

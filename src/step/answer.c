@@ -11,11 +11,8 @@
 #define SHORTER_MAX 5
 /* and then the island goes on as one body. */
 #define CALM_AFTER 1
-/* Hits of a pair in a frame, with hardly any time between, before its bodies cling; */
-#define CLING_HITS 12
-/* of one that approaches by less than this part of a skin a frame. */
-#define SLOW_HITS    6
-#define SLOW_DIVISOR 4
+/* So do bodies that no solve has set right, after so many hits of a pair in a frame. */
+#define UNSETTLED_HITS 6
 
 /* The hit of a pair, with the features as they meet. */
 static struct boyse_hit hit_of(struct step *s, uint32_t number)
@@ -184,43 +181,12 @@ static int solve_island(struct step *s)
     return result;
 }
 
-/* Whether a pair approaches by less than a part of a skin a frame. */
-static bool is_slow(const struct step *s, uint32_t number)
-{
-    const struct contact_list *list = &s->w->rest.list;
-    bool slow = true;
-
-    for (uint32_t i = 0; i < list->pool->used; i++) {
-        const struct contact *c = &list->contacts[i];
-
-        slow &= c->key.pair != number || -c->speed_q40 < carom_shl(c->skin_q22, 18) / SLOW_DIVISOR;
-    }
-    return slow;
-}
-
-/*
- * Where nothing presses bodies on each other that do not bounce, one that slides or rolls over the other
- * bends back to it at once, again and again: they stay together from then on.
- */
-static bool clings(const struct step *s, uint32_t number, int32_t since_q30)
-{
-    const struct pair *p = &s->w->pairs[number];
-    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    uint32_t hits = s->w->meetings[number].hits;
-
-    if (a->in_contact || b->in_contact || rest_restitution(a, b) == CAROM_ONE_Q30) {
-        return false;
-    }
-    return (hits > SLOW_HITS && is_slow(s, number)) ||
-           (hits > CLING_HITS && since_q30 < STEP_SLICE_MIN_Q30);
-}
-
 /*
  * A pair that hits again where it was answered. The turn of a path is that of its middle, so a long path
- * may close what opens as the bodies move now: shorter ones do not. When these hit as well the solve
- * was not able to part the bodies.
+ * may close what opens as the bodies move now: shorter ones do not, and slices grow again one by one. When
+ * these hit as well the solve was not able to part the bodies.
  */
-static void insist(struct step *s, uint32_t number, uint32_t repeats, int32_t since_q30)
+static void insist(struct step *s, uint32_t number, uint32_t repeats)
 {
     const struct pair *p = &s->w->pairs[number];
     struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
@@ -229,12 +195,12 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats, int32_t si
                  s->next->bodies[p->b].angular.c[1] | s->next->bodies[p->b].angular.c[2]) != 0;
 
     if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0) ||
-        (s->w->meetings[number].hits > SLOW_HITS && (a->unsettled || b->unsettled))) {
+        (s->w->meetings[number].hits > UNSETTLED_HITS && (a->unsettled || b->unsettled))) {
         step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
-    } else if (clings(s, number, since_q30)) {
-        step_join_pair(s, p);
-    } else if (turn && repeats > 0) {
-        a->shorter = b->shorter = (uint8_t)(repeats < SHORTER_MAX ? repeats : SHORTER_MAX);
+    }
+    if (turn && repeats > 0) {
+        a->shorter = (uint8_t)(a->shorter + (a->shorter < SHORTER_MAX));
+        b->shorter = (uint8_t)(b->shorter + (b->shorter < SHORTER_MAX));
     }
 }
 
@@ -268,7 +234,6 @@ static int go_on(struct step *s)
     for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
         if (w->bodies[i].member) {
             result = step_set_path(s, i);
-            w->bodies[i].shorter = 0;
         } else if (w->bodies[i].placed) {
             step_look_away(s, i);
         }
@@ -284,12 +249,10 @@ int step_answer(struct step *s, uint32_t number)
     const struct pair p = w->pairs[number];
     struct boyse_hit hit = hit_of(s, number);
     uint32_t repeats;
-    int32_t since_q30;
     bool last_a, last_b;
     int result;
 
     s->now_q30 = m->hit_q30;
-    since_q30 = s->now_q30 - m->answered_q30;
     repeats = m->answered_q30 == s->now_q30 ? m->repeats + 1u : 0;
     m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
     m->answered_q30 = s->now_q30;
@@ -303,7 +266,7 @@ int step_answer(struct step *s, uint32_t number)
     if (result < 0) {
         return result;
     }
-    insist(s, hit.candidate.pair, repeats, since_q30);
+    insist(s, hit.candidate.pair, repeats);
     last_a = spend(s, p.a);
     last_b = spend(s, p.b);
     if (last_a || last_b) {

@@ -15,6 +15,18 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
     }
 }
 
+/*
+ * Bodies that bounce for ever must not be held by their margin. Those that lie, or have touched in the
+ * last frame, may have come to rest.
+ */
+static bool is_bouncing(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    return rest_restitution(a, b) == CAROM_ONE_Q30 && !a->in_contact && !b->in_contact &&
+           !step_is_touching(world_now(s->w), p);
+}
+
 int step_check_pair(struct step *s, uint32_t number)
 {
     struct pair_work *m = &s->w->meetings[number];
@@ -26,8 +38,7 @@ int step_check_pair(struct step *s, uint32_t number)
     if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
-    /* bodies that bounce for ever must not be held by their margin */
-    v.margin_q22 = skin_q22 * (rest_restitution(a, b) == CAROM_ONE_Q30 ? 2 : BODY_MARGIN_SKINS);
+    v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : BODY_MARGIN_SKINS);
     if (!m->kept && step_stay_apart(s, number,
                                     (int64_t)v.margin_q22 + 2 * skin_q22 +
                                         mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh))) {
@@ -86,19 +97,46 @@ static void note_hits(struct step *s)
     }
 }
 
-/* Of shorter slices nothing is asked: less than a thousandth of a frame. */
-#define CHORD_SLICE_MIN_Q30 (1 << 20)
+/* Of shorter slices nothing is asked: less than a thousandth of a frame, but of lasting contact. */
+#define CHORD_SLICE_MIN_Q30   (1 << 20)
+#define LASTING_SLICE_MIN_Q30 (1 << 12)
 /* Nor of what bends by less than this part of a skin: the gap of the next frame makes up for it. */
 #define CHORD_BEND_DIVISOR 16
 
-/* By how much the gap of a contact changes on the present paths, q22. */
-static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c)
+/* A pair that has hit more often than this in a frame is in lasting contact, */
+#define LASTING_HITS 3
+/* and one that has hit where a gap is below this part of the skin: hits stop at half of one. */
+#define CLOSED_DIVISOR 16
+/* What bends sooner is asked for in parts of the slice down to this one. */
+#define SOONEST 8
+
+/* By how much the gap of a contact changes on the present paths up to a time, q22. */
+static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
     struct boyse_touch from, to;
 
     boyse_touch(pair, c, 0, &from);
-    boyse_touch(pair, c, CAROM_ONE_Q30, &to);
+    boyse_touch(pair, c, t_q30, &to);
     return (int64_t)(to.sign == from.sign ? to.gap_q22 : -to.gap_q22) - from.gap_q22;
+}
+
+/*
+ * By how much a gap opens, rounding apart. That of a lasting contact opens by what it does at its slowest:
+ * the turn of a path is fastest at its ends, and a gap that opens in the end may close before.
+ */
+static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
+{
+    int64_t least_q22 = gap_change(pair, &c->key, CAROM_ONE_Q30);
+
+    if (!c->lasting) {
+        return least_q22 + 4;
+    }
+    for (int part = 2; part <= SOONEST; part *= 4) {
+        int64_t way_q22 = part * gap_change(pair, &c->key, CAROM_ONE_Q30 / part);
+
+        least_q22 = way_q22 < least_q22 ? way_q22 : least_q22;
+    }
+    return least_q22;
 }
 
 /*
@@ -162,6 +200,19 @@ static void forget_paths(struct step *s)
     }
 }
 
+/* The work on a lasting contact may cost energy: the frame gives it back in the end (energy.c). */
+static void note_lasting(struct step *s, struct contact *c)
+{
+    uint32_t hits = s->w->meetings[c->key.pair].hits;
+
+    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? 0 : LASTING_HITS);
+    for (int k = 0; c->lasting && k < 2; k++) {
+        if (c->side[k].body) {
+            c->side[k].body->strained = true;
+        }
+    }
+}
+
 /*
  * How the gap of each contact is going to change in the next slice. A body that rolls or tips does
  * not keep the V.N that it starts with: its arm turns, and so does its spin. Without this it comes
@@ -180,6 +231,7 @@ static void find_chords(struct step *s)
         int64_t way_q22;
 
         c->chord_q28 = INT32_MAX;
+        note_lasting(s, c);
         if (c->idle || !bends(c, CAROM_ONE_Q30 - s->now_q30)) {
             continue;
         }
@@ -188,11 +240,11 @@ static void find_chords(struct step *s)
             slice_q30 = straight_paths(s, &w->pairs[pair_number]);
             pair = step_set_pair(w, pair_number);
         }
-        if (slice_q30 <= CHORD_SLICE_MIN_Q30) {
+        if (slice_q30 <= (c->lasting ? LASTING_SLICE_MIN_Q30 : CHORD_SLICE_MIN_Q30)) {
             continue;
         }
         boyse_pair_for(pair, &c->key);
-        way_q22 = gap_change(pair, &c->key) + 4;
+        way_q22 = opening(pair, c);
         if (carom_abs(way_q22) < 1 << 24) {
             c->chord_q28 = rest_clamp(way_q22 * ((int64_t)1 << 26) / (slice_q30 >> 10));
         }

@@ -103,7 +103,10 @@ static bool moved(const struct body_state *from, const struct body_state *to)
            memcmp(&from->rotation, &to->rotation, sizeof from->rotation) != 0;
 }
 
-/* The island goes back to where the frame found it; its momenta are what they were, or none. */
+/*
+ * The island goes back to where the frame found it. Its momenta are none, or a quarter of what they were:
+ * with all of them it would do the same in the next frame, and in all that follow.
+ */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
@@ -116,8 +119,10 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
         s->w->bodies[i].rewound = true;
         state->position = before->position;
         state->rotation = before->rotation;
-        state->momentum = halt ? (carom_v3_q40){{0, 0, 0}} : before->momentum;
-        state->angular = halt ? (carom_v3_q40){{0, 0, 0}} : before->angular;
+        for (int k = 0; k < 3; k++) {
+            state->momentum.c[k] = halt ? 0 : before->momentum.c[k] / 4;
+            state->angular.c[k] = halt ? 0 : before->angular.c[k] / 4;
+        }
     }
 }
 
@@ -247,15 +252,6 @@ void step_calm_island(struct step *s, uint32_t body)
     }
     (void)rest_unite(&s->w->rest, first, grounded);
     s->w->stats.calmed++;
-}
-
-void step_join_pair(struct step *s, const struct pair *p)
-{
-    struct carom_world *w = s->w;
-
-    island_find(w->bodies, w->body_count, p, 1);
-    (void)rest_unite(&w->rest, w->bodies[p->a].island, !w->bodies[p->b].moving);
-    w->stats.calmed++;
 }
 
 void step_limit_energy(struct step *s)

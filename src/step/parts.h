@@ -186,8 +186,6 @@ void step_limit_energy(struct step *s);
  * else in its motion as one rigid body.
  */
 void step_calm_island(struct step *s, uint32_t body);
-/* The same of the two bodies of a pair alone. */
-void step_join_pair(struct step *s, const struct pair *p);
 
 /* ------------------------------------------------------------------------ finish */
 

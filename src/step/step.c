@@ -118,6 +118,9 @@ static int end_slice(struct step *s, uint32_t i)
     }
     s->w->stats.substeps++;
     s->now_q30 = s->w->bodies[i].to_q30;
+    if (s->w->bodies[i].shorter > 0) {
+        s->w->bodies[i].shorter--;
+    }
     step_leave_path(s, i, s->now_q30);
     result = step_set_path(s, i);
     step_mark(s->w, CAROM_STAGE_PREDICT);
