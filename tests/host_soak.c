@@ -20,8 +20,8 @@
  * has others that still do.
  */
 #define FIRST 30
-static const uint64_t known[] = {53,   103,  173,  178,  215,  340,  425,  496,  626,  792, 893,
-                                 963,  1455, 1513, 1678, 1719, 1754, 1791, 1973, 2123, 2257, 2391};
+static const uint64_t known[] = {53,  103,  173,  178,  215,  340,  425,  496,  626,  792,  893,
+                                 963, 1455, 1513, 1678, 1719, 1754, 1791, 1973, 2123, 2257, 2391};
 #define WORLDS (FIRST + sizeof known / sizeof *known)
 /* Of all frames those that are cut short. */
 #define CUT_ALLOWED 0.01
