@@ -17,9 +17,10 @@
 
 /* What make test runs: the first ones, and some in which an engine was found to fail once. */
 #define FIRST 30
-static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406,  425,  496,  502,  601,
-                                 626,  646,  740,  748,  792,  893,  963,  1060, 1098, 1113, 1455, 1468,
-                                 1513, 1608, 1678, 1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
+static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406,  425,
+                                 496,  502,  601,  626,  646,  740,  748,  792,  893,
+                                 963,  1060, 1098, 1113, 1455, 1468, 1513, 1608, 1678,
+                                 1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
 #define WORLDS (FIRST + sizeof known / sizeof *known)
 /* Of all frames those that are cut short. */
 #define CUT_ALLOWED 0.01

@@ -9,18 +9,11 @@ static const struct {
     long number;
     const char *why;
 } cases[] = {
-    {"encounter hulls", 1079, "faces cross"},
-    {"encounter hulls", 14150, "frames are cut short again and again"},
-    {"grid", 13432, "faces cross in frames that are cut short"},
-    {"soak", 893, "most frames are cut short"},
-    {"soak", 1754, "a body stands still for 6 frames"},
-    {"soak", 1791, "a body stands still for 41 frames"},
-    {"special", 78125, "crosses by less than a tenth of a skin"},
-    {"special", 94555, "crosses by less than a tenth of a skin"},
+    {0}, /* the end */
 };
-enum { CASES = sizeof cases / sizeof *cases };
+enum { CASES = sizeof cases / sizeof *cases - 1 };
 
-static bool left_out[CASES];
+static bool left_out[CASES + 1];
 
 bool open_case(const char *program, long number)
 {

@@ -32,7 +32,7 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 544 bytes where a pointer has 32 bits. */
+/* 552 bytes where a pointer has 32 bits. */
 struct carom_world {
     /* world: what the caller gave, and the arrays in the block; 80 bytes */
     struct carom_config config; /* gravity: the present one */
@@ -54,7 +54,7 @@ struct carom_world {
     struct pair *pairs;
     struct pair_work *meetings;
 
-    /* interfere, 136 bytes */
+    /* interfere, 144 bytes */
     struct interfere interfere;
 
     /* contact and solve, 68 bytes */
