@@ -253,8 +253,8 @@ static void test_enter(void)
 
 /*
  * Two bodies without weight that hardly approach and hardly have a gap: an impact opens it as fast as it
- * closed, or as e says where the path does not bend back. In lasting contact it opens as of bodies that lie, faster by what the path takes back, and
- * not when that would take more than a 256th of the energy.
+ * closed, or as e says where the path does not bend back. In lasting contact it opens as of bodies that
+ * lie, faster by what the path takes back, and not when that would take more than a 256th of the energy.
  */
 static void test_lasting(void)
 {
