@@ -157,10 +157,10 @@ static bool were_open(const struct first_hit_motion *motion, const struct first_
 /*
  * Whether the bodies stop at the event gap, or at less where they were never farther apart, and the
  * features would then meet. The kernel stops within a few units of the last place of the gap, and
- * follows a polynomial of 29 bits, which is the gap times the sine, to a surface 3 units nearer, 12
- * of bodies that turn by more than 1/4: of edges by their sine, but no more than half of the event gap
- * at the start, so that some that pass by each other that near are held; where they are nearly parallel
- * it stops within a half of the event gap of it. A vertex is over a face up to 4 units beyond each of its sides seen along an axis, as much
+ * follows a polynomial of 29 bits, which is the gap times the sine, to a surface 12 units nearer: of
+ * edges by their sine, but no more than half of the event gap at the start, so that some that pass by
+ * each other that near are held; where they are nearly parallel it stops within a half of the event gap
+ * of it. A vertex is over a face up to 4 units beyond each of its sides seen along an axis, 12 units
  * above it, which is farther beyond a sharp corner.
  */
 static void judge_hit(const struct first_hit_motion *motion, const struct first_hit_track track[2],
@@ -168,8 +168,6 @@ static void judge_hit(const struct first_hit_motion *motion, const struct first_
 {
     double speed = first_hit_speed(track), slack = 8 * UNIT + speed * ldexp(1, -29), n[3];
     double size = speed + track[0].radius + track[1].radius, allowed;
-    double turn = 2 * (real_length(track[0].u) + real_length(track[1].u));
-    double level = (turn > 0.2499 ? 12 : 3) * UNIT;
     struct first_hit_features stop, root;
 
     for (int k = 0; k < 3; k++) {
@@ -181,12 +179,12 @@ static void judge_hit(const struct first_hit_motion *motion, const struct first_
     verdict->meet = root.gap < 0 ? distance_between(motion, track, hit, n)
                                  : distance_after(motion, track, hit, n);
     verdict->aside = stop.distance > 1.05 * verdict->event_gap + slack;
-    allowed = level + 5 * UNIT + size * ldexp(1, -25) / root.sine;
+    allowed = (LEVEL + 5) * UNIT + size * ldexp(1, -25) / root.sine;
     if (hit->candidate.kind == CANDIDATE_EDGE_EDGE) {
-        allowed += fmin(level / root.sine, verdict->event_gap);
+        allowed += fmin(LEVEL * UNIT / root.sine, verdict->event_gap);
         slack += fmin(root.sine, stop.sine) < 1. / 64 ? verdict->event_gap / 2 : 0;
     } else {
-        allowed += (level + 6 * UNIT) / root.sharp;
+        allowed += (LEVEL + 6) * UNIT / root.sharp;
     }
     verdict->early = stop.gap > verdict->event_gap + slack || verdict->meet > allowed;
     verdict->late = stop.gap < verdict->event_gap - slack &&

@@ -4,12 +4,11 @@
 #include "place.h"
 
 /*
- * A pair that starts clear of contact is followed to a surface this much nearer (see lower). Bodies that
- * turn by more than 1/4 have many paths in a frame, each of which is off by a unit.
+ * A pair that starts clear of contact is followed to a surface this much nearer (see lower): a place of a path
+ * is within 3 units of the pose that is committed there, of each of two bodies, at the end of one path
+ * and at the start of the next.
  */
-#define ROOT_LEVEL_Q22    3
-#define TURNING_LEVEL_Q22 12
-#define TURNING_Q30       (CAROM_ONE_Q30 / 4)
+#define ROOT_LEVEL_Q22 12
 /* What touches gets nearer by no more than this part of that. */
 #define TOUCHING_DIVISOR 64
 /* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
@@ -19,11 +18,6 @@
 #define BACK_Q30 (1 << 12)
 /* How often the level of edges that come to be parallel is made a quarter. */
 #define LEVELS 6
-
-static int32_t level_q22(const struct boyse_pair *pair)
-{
-    return pair->turn_q30 > TURNING_Q30 ? TURNING_LEVEL_Q22 : ROOT_LEVEL_Q22;
-}
 
 /*
  * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
@@ -40,9 +34,8 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
         return 0;
     }
     boyse_test(pair, c, start, 0, &touch);
-    return touch.valid && touch.gap_q22 <= level_q22(pair) && touch.gap_q22 > -limit_q22
-               ? touch.sign
-               : 0;
+    return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
+                                                                                        : 0;
 }
 
 /* How far apart edges are at a time, or their lines: those turn their normal round on the way. */
@@ -142,7 +135,7 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start)
 {
-    int64_t level = (int64_t)level_q22(pair) << 18, most;
+    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
     int32_t largest;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
@@ -182,7 +175,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     int32_t event_q22 = pair->skin_q22 / 2, root = CAROM_ONE_Q30; /* there they have met */
 
     boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
-    if (!to.valid || to.gap_q22 > level_q22(pair)) {
+    if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
         return false;
     }
     boyse_test(pair, c, start, 0, &from);
@@ -191,7 +184,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     }
     for (int32_t step = CAROM_ONE_Q30 / 2; step >= CAROM_ONE_Q30 >> 12; step /= 2) {
         boyse_test(pair, c, start, root - step, &to);
-        root -= to.valid && to.gap_q22 <= level_q22(pair) ? step : 0;
+        root -= to.valid && to.gap_q22 <= ROOT_LEVEL_Q22 ? step : 0;
     }
     boyse_test(pair, c, start, root, &to);
     if (to.gap_q22 < -event_q22) {
