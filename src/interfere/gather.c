@@ -28,14 +28,16 @@ static int64_t carried_around(const struct interfere *w, const struct body *othe
 }
 
 /*
- * In the axes of a small body that spins a large one sweeps through everything: then the small one asks. Kinds
+ * In the axes of a small body that spins a large one sweeps through everything: then the small one asks. Of
+ * two of about one size it is as good that the one asks whose leaves may be smaller. Kinds
  * and edges of candidates change places again when they are taken (interfere_emit).
  */
 static void choose_asker(struct interfere *w)
 {
     const struct body *a = w->a;
 
-    w->swapped = w->b->moving && carried_around(w, w->a, w->b) > carried_around(w, w->b, w->a);
+    w->swapped = w->b->moving && a->radius_q22 / 5 > w->b->radius_q22 / 4 &&
+                 carried_around(w, a, w->b) > carried_around(w, w->b, a);
     if (w->swapped) {
         w->a = w->b;
         w->b = a;
