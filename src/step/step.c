@@ -149,19 +149,26 @@ static int run(struct step *s)
     return result;
 }
 
-/* Where everybody is when the frame ends. */
+/* Where everybody is when the frame ends. What stands keeps its clock until its energy is known. */
 static void arrive(struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (step_active(s, i) && !s->w->bodies[i].stands) {
+            step_leave_path(s, i, CAROM_ONE_Q30);
+        }
+    }
+    step_mark(s->w, CAROM_STAGE_ADVANCE);
+}
+
+static void end_standing(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         struct body *b = &s->w->bodies[i];
 
         if (step_active(s, i) && b->stands) {
             body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
-        } else if (step_active(s, i)) {
-            step_leave_path(s, i, CAROM_ONE_Q30);
         }
     }
-    step_mark(s->w, CAROM_STAGE_ADVANCE);
 }
 
 /* What a whole frame ends with. */
@@ -174,6 +181,7 @@ static int finish(struct step *s)
         return result;
     }
     step_limit_energy(s);
+    end_standing(s);
     for (uint32_t i = 0; i < w->body_count; i++) {
         (void)step_retire(s, i);
     }
