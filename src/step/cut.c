@@ -111,27 +111,28 @@ static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, 
 /*
  * Paths that end at a hit have no root before their end as a rule, and the features are at the event
  * gap there, or as near as makes no difference: then that is the hit. A path that ends nearer is left
- * where a quarter of the skin, or what there was at its start, is left of the gap.
+ * where a quarter of the skin, or what there was at its start, is left of the gap. A gap that has opened
+ * is no hit, however near it was.
  */
 static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
 {
     struct pair_work *m = &s->w->meetings[number];
     const struct candidate c = {(uint16_t)number, m->kind, m->i, m->j};
-    int32_t low = 0, high = CAROM_ONE_Q30, least, end;
+    int32_t low = 0, high = CAROM_ONE_Q30, start, least, end;
     struct boyse_pair *pair;
 
     step_open_window(s, number, from_q30, to_q30);
     pair = step_set_pair(s->w, number);
     boyse_pair_for(pair, &c);
     end = gap_at(pair, &c, high);
-    least = gap_at(pair, &c, 0);
-    least = least < pair->skin_q22 / 4 ? least : pair->skin_q22 / 4;
+    start = gap_at(pair, &c, 0);
+    least = start < pair->skin_q22 / 4 ? start : pair->skin_q22 / 4;
     for (int round = 0; round < 12 && end < least; round++) {
         int32_t middle = low + (high - low) / 2;
 
         *(gap_at(pair, &c, middle) >= least ? &low : &high) = middle;
     }
-    if (end <= pair->skin_q22 / 2 + pair->skin_q22 / 32) {
+    if (end <= pair->skin_q22 / 2 + pair->skin_q22 / 32 && end <= start) {
         low = end < least ? low : CAROM_ONE_Q30;
         m->hit_q30 = from_q30 + (int32_t)(((int64_t)(to_q30 - from_q30) * low) >> 30);
         m->root_q30 = CAROM_ONE_Q30;
