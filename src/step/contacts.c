@@ -105,7 +105,8 @@ static void note_hits(struct step *s)
 
 /* A pair that has hit more often than this in a frame is in lasting contact, */
 #define LASTING_HITS 3
-/* and one that has hit where a gap is below this part of the skin: hits stop at half of one. */
+/* or than that where a gap is below this part of the skin: hits stop at half of one. */
+#define CLOSED_HITS    1
 #define CLOSED_DIVISOR 16
 /* What bends sooner is asked for in parts of the slice down to this one. */
 #define SOONEST 8
@@ -205,7 +206,7 @@ static void note_lasting(struct step *s, struct contact *c)
 {
     uint32_t hits = s->w->meetings[c->key.pair].hits;
 
-    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? 0 : LASTING_HITS);
+    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? CLOSED_HITS : LASTING_HITS);
     for (int k = 0; c->lasting && k < 2; k++) {
         if (c->side[k].body) {
             c->side[k].body->strained = true;
