@@ -26,10 +26,11 @@ struct soak_world {
     enum soak_kind kinds[CROWD_BODIES]; /* of bodies */
     enum soak_ground ground;
     enum soak_pace pace;
-    int moving;                /* bodies that move: the last ones */
-    double gravity;            /* its size */
-    double centre[3];          /* of where bodies are put */
-    double room[4], room_half; /* how a room is turned; from its middle to its walls */
+    int moving;       /* bodies that move: the last ones */
+    double gravity;   /* its size */
+    double centre[3]; /* of where bodies are put */
+    /* how a room is turned; from its middle to its walls, which are off by so much at most */
+    double room[4], room_half, room_slack;
     int halvings
         [CROWD_BODIES]; /* of mass 1, when all masses are powers of two: see soak_momentum */
     bool exact;         /* no gravity, no ground, all masses so */

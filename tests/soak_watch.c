@@ -153,8 +153,8 @@ static void watch_room(const struct soak_world *w, struct soak_result *r)
         }
         real_rotate_back(seen, m, away);
         for (int k = 0; k < 3; k++) {
-            if (!body->def.stationary && !body->now.state.out && fabs(seen[k]) > w->room_half &&
-                r->escaped_frame == 0) {
+            if (!body->def.stationary && !body->now.state.out &&
+                fabs(seen[k]) > w->room_half + w->room_slack && r->escaped_frame == 0) {
                 r->escaped_frame = r->tally.frames;
                 r->escaped = i;
             }

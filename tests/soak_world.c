@@ -242,6 +242,7 @@ static void add_room(struct soak_world *w, struct plan *p)
     double thick = half * soak_powers(&p->r, 0.01, 0.5), m[3][3];
 
     w->room_half = half;
+    w->room_slack = 0;
     soak_any_turn(&p->r, w->room);
     if (soak_pick(&p->r, 2) == 0) {
         w->room[0] = 1;
@@ -262,6 +263,8 @@ static void add_room(struct soak_world *w, struct plan *p)
         set_turn(def, w->room);
         crowd_place(def, w->centre[0] + away * m[0][i / 2], w->centre[1] + away * m[1][i / 2],
                     w->centre[2] + away * m[2][i / 2]);
+        /* a wall's vertices are off by half a quantum, and so is its centre of mass */
+        w->room_slack = fmax(w->room_slack, ldexp(1, -def->mesh->raw.quantum_bits));
     }
 }
 
