@@ -93,7 +93,10 @@ static bool are_near(const struct step *s, uint32_t a, uint32_t b)
     return broad_is_pair(bodies, s->next->bodies, a, b) && broad_boxes_meet(&bodies[a], &bodies[b]);
 }
 
-/* The pairs of a body whose region is new: they are gathered when somebody asks for them. */
+/*
+ * The pairs of a body whose region is new: they are gathered when somebody asks for them. One that has hit in
+ * this frame stays, for what it has counted must not depend on regions.
+ */
 static int set_pairs(struct step *s, uint32_t i)
 {
     struct carom_world *w = s->w;
@@ -105,7 +108,7 @@ static int set_pairs(struct step *s, uint32_t i)
 
         if (p->a == i || p->b == i) {
             w->meetings[n].kept = false;
-            if (!are_near(s, p->a, p->b)) {
+            if (w->meetings[n].hits == 0 && !are_near(s, p->a, p->b)) {
                 remove_pair(w, n);
             }
         }
