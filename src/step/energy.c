@@ -270,6 +270,7 @@ void step_limit_energy(struct step *s)
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
 
+        w->bodies[p->a].touched = true;
         island_join(w->bodies, p);
         w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
     }
