@@ -337,7 +337,7 @@ struct carom_body_state {
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
 
-/* What there is to see of a body. */
+/* A body as a renderer sees it. */
 struct carom_body_look {
     const struct carom_mesh *mesh;
     carom_v3_q32 position;

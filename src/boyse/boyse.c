@@ -9,7 +9,7 @@
  * and at the start of the next.
  */
 #define ROOT_LEVEL_Q22 12
-/* What touches gets nearer by no more than this part of that. */
+/* A pair that touches gets nearer by no more than this part of that. */
 #define TOUCHING_DIVISOR 64
 /* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
 #define PARALLEL_Q30    (1 << 24)

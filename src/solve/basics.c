@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What all that solves contacts uses: velocities and impulses at a contact, vectors cut to a length. */
+/* Velocities and impulses at a contact, and vectors cut to a length: every solver uses them. */
 #include "parts.h"
 
 int32_t rest_clamp(int64_t v)

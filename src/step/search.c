@@ -4,7 +4,7 @@
 
 /* A hit in so small a part of the window takes no time. */
 #define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
-/* What is nearer than this part of a skin goes no nearer, or rounding would close it in the end. */
+/* A pair nearer than this part of a skin goes no nearer, or rounding would close the gap in the end. */
 #define NEAR_DIVISOR 16
 /* Gaps change by less through rounding. */
 #define NOISE_Q22 4

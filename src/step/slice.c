@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What every file of a step may use: the booking of ticks, and the longest slice. */
+/* The booking of ticks, and the longest slice: every file of a step may use them. */
 #include "parts.h"
 
 void step_mark(struct carom_world *w, enum carom_stage stage)
