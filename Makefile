@@ -334,6 +334,10 @@ build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 
+build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)) $(B)/libcarom.a
+	@echo '  link  $@'
+	$(CXX) -o $@ $^ -lode -lBulletDynamics -lBulletCollision -lLinearMath -lm
+
 # The part of the engine that indexes meshes, and the scenes, for tools.
 build/tools/%.o: %.c
 	@mkdir -p $(@D)

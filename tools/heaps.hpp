@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * heaps - many boxes that fall on each other, through Carom and others.
+ *
+ * Unit boxes of mass 1 in layers over a plane at z = 0, a little turned and beside their places; gravity
+ * 9.81 m/s^2, 60 steps a second, friction 0.5, no restitution, nobody sleeps. Each library with the
+ * settings that it comes with.
+ */
+#ifndef CAROM_TOOLS_HEAPS_HPP
+#define CAROM_TOOLS_HEAPS_HPP
+
+#include <memory>
+#include <vector>
+
+namespace heaps
+{
+
+constexpr double GRAVITY = -9.81, STEP = 1.0 / 60, FRICTION = 0.5;
+
+struct Start {
+    double position[3];
+    double quaternion[4]; /* w, x, y, z; of length 1 */
+};
+
+/* Where the boxes of a heap begin: the same for every library, another heap for each seed. */
+std::vector<Start> layout(int boxes, unsigned seed);
+
+class Heap
+{
+  public:
+    virtual ~Heap() = default;
+    virtual const char *name() const = 0;
+    virtual void step() = 0;
+    /* How high the centre of a box is. */
+    virtual double height(int box) const = 0;
+    /* How many steps have not gone as they should, by what the library says. */
+    virtual int troubled() const
+    {
+        return 0;
+    }
+};
+
+using Made = std::unique_ptr<Heap>;
+
+Made make_carom(const std::vector<Start> &boxes);
+Made make_ode(const std::vector<Start> &boxes);
+Made make_bullet(const std::vector<Start> &boxes);
+
+} // namespace heaps
+
+#endif

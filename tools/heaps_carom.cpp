@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "carom.h"
+#include "heaps.hpp"
+
+namespace
+{
+
+using namespace heaps;
+
+constexpr int16_t H = 2048, G = 32 * 256;
+const int16_t box_vertices[8][3] = {{-H, -H, -H}, {H, -H, -H}, {H, H, -H}, {-H, H, -H},
+                                    {-H, -H, H},  {H, -H, H},  {H, H, H},  {-H, H, H}};
+const uint16_t box_faces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                   {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+const int16_t plane_vertices[4][3] = {{-G, -G, 0}, {G, -G, 0}, {G, G, 0}, {-G, G, 0}};
+const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
+const carom_mesh_raw box_raw = {box_vertices, box_faces, 8, 12, 12, CAROM_SOLID};
+const carom_mesh_raw plane_raw = {plane_vertices, plane_faces, 4, 2, 8, CAROM_SURFACE};
+
+int expect(int result)
+{
+    if (result < 0) {
+        std::fprintf(stderr, "carom: %s\n", carom_result_text(result));
+        std::exit(1);
+    }
+    return result;
+}
+
+class Carom : public Heap
+{
+  public:
+    explicit Carom(const std::vector<Start> &boxes)
+    {
+        const auto n = static_cast<uint32_t>(boxes.size());
+        const carom_caps caps = {n + 1, 16 * n, 24 * n < 4096 ? 24 * n : 4096, 65535, 1, 65535};
+        carom_config config = {};
+        carom_body_def def = {};
+
+        block_.resize(CAROM_WORLD_BYTES(caps.bodies, caps.pairs, caps.contacts, caps.faces,
+                                        caps.entries, caps.candidates) /
+                      sizeof block_[0]);
+        config.caps = caps;
+        config.gravity.c[2] = CAROM_GRAVITY_MM_S2(-9810, 60);
+        expect(carom_mesh_build(&plane_, &plane_raw, plane_block_, sizeof plane_block_));
+        expect(carom_mesh_build(&box_, &box_raw, box_block_, sizeof box_block_));
+        expect(carom_world_init(block_.data(), block_.size() * sizeof block_[0], &config, &world_));
+        def.mesh = &plane_;
+        def.stationary = true;
+        def.friction_q16 = static_cast<uint32_t>(FRICTION * 65536);
+        expect(carom_body_add(world_, &def));
+        def.mesh = &box_;
+        def.stationary = false;
+        for (const Start &start : boxes) {
+            for (int k = 0; k < 3; k++) {
+                def.position.c[k] = std::llround(std::ldexp(start.position[k], 32));
+            }
+            for (int k = 0; k < 4; k++) {
+                def.rotation.c[k] =
+                    static_cast<int32_t>(std::lround(std::ldexp(start.quaternion[k], 30)));
+            }
+            expect(carom_body_add(world_, &def));
+        }
+    }
+    const char *name() const override
+    {
+        return "carom";
+    }
+    void step() override
+    {
+        troubled_ += expect(carom_world_step(world_)) != CAROM_OK;
+    }
+    double height(int box) const override
+    {
+        carom_body_state state;
+
+        expect(carom_body_get(world_, box + 1, &state));
+        return std::ldexp(static_cast<double>(state.position.c[2]), -32);
+    }
+    int troubled() const override
+    {
+        return troubled_;
+    }
+
+  private:
+    std::vector<uint64_t> block_;
+    alignas(8) uint8_t plane_block_[CAROM_MESH_BYTES(4, 2)];
+    alignas(8) uint8_t box_block_[CAROM_MESH_BYTES(8, 12)];
+    carom_mesh plane_, box_;
+    carom_world *world_;
+    int troubled_ = 0;
+};
+
+} // namespace
+
+heaps::Made heaps::make_carom(const std::vector<Start> &boxes)
+{
+    return std::make_unique<Carom>(boxes);
+}
