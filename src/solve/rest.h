@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * rest - several contacts at once: continuous contact, and impacts at more than one place.
- * Symmetric sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
+ * Sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
  * sleep.
  *
  * Solver units. A solve picks a power of two V* above every wanted change of normal velocity and
@@ -17,9 +17,9 @@
 #include "impact.h"
 
 #define REST_BITS        27
-#define REST_SWEEPS_MAX  60 /* of an impact */
+#define REST_SWEEPS_MAX  32 /* of an impact */
 #define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
-#define REST_SWEEPS_MANY 70 /* and at many */
+#define REST_SWEEPS_MANY 48 /* and at many */
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 

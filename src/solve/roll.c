@@ -274,11 +274,11 @@ void rest_roll_accelerate(struct contact *c, int32_t part_q30)
     int32_t gain[3];
 
     for (int k = 0; k < 3; k++) {
-        gain[k] = carom_mul_q30(roll->way[k], part_q30);
-        roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);
-        roll->gain[k] = 0;
+        gain[k] = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
         gain[k] = within((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
         roll->moment[k] += gain[k];
+        roll->way[k] = gain[k];
+        roll->gain[k] = 0;
     }
     twist(c, gain);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Symmetric sweeps over accumulated, clamped impulses. */
+/* Sweeps over accumulated, clamped impulses, with momentum. */
 #include "rows.h"
 #include "parts.h"
 
@@ -354,35 +354,71 @@ static int32_t way_of(int64_t v)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/*
- * Two sweeps, forwards and backwards, are one step of a symmetric iteration; its steps are
- * conjugated (Fletcher-Reeves), which takes the root of the number of sweeps. When they grow, it
- * begins anew.
- */
-static void accelerate(struct rest *r, int64_t moved, int64_t before)
+/* Whether the last sweep went on in the way that the last step beyond a sweep had gone. */
+static bool agrees(const struct rest *r)
 {
-    int32_t part_q30 = moved < before ? (int32_t)(moved * CAROM_ONE_Q30 / before) : 0;
+    int64_t sum = 0;
 
-    part_q30 = carom_mul_q30(part_q30, part_q30);
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = contact_gain(rest_contact(r, i));
+
+        /* up to 2^48 each, of at most 4096 contacts */
+        for (int k = 0; k < 3; k++) {
+            sum += (int64_t)c->gain[k] * way_of((int64_t)c->gain[k] + c->way[k]) >> 14;
+        }
+    }
+    return sum >= 0;
+}
+
+/* Go beyond the last sweep by a part of the way it came, no farther than the friction cone reaches. */
+static void go_beyond(struct contact *c, int32_t part_q30)
+{
+    struct gain g;
+    int32_t all = 0;
+    int64_t normal, after[3];
+
+    for (int k = 0; k < 3; k++) {
+        g.whole[k] = carom_mul_q30(way_of((int64_t)c->way[k] + c->gain[k]), part_q30);
+        c->way[k] = c->gain[k] = 0;
+        all |= g.whole[k];
+    }
+    if (all == 0) {
+        return;
+    }
+    g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
+    normal = c->work->normal_impulse + g.along;
+    normal = normal > 0 ? normal : 0;
+    for (int k = 0; k < 3; k++) {
+        after[k] = c->work->tangent_impulse[k] + g.whole[k] -
+                   carom_mul_q30(g.along, c->normal.c[k]);
+    }
+    rest_cut(after, friction_limit(c, normal));
+    g.along = way_of(normal - c->work->normal_impulse);
+    for (int k = 0; k < 3; k++) {
+        g.whole[k] = way_of(after[k] - c->work->tangent_impulse[k] +
+                            carom_mul_q30(g.along, c->normal.c[k]));
+    }
+    add(c, &g);
+    for (int k = 0; k < 3; k++) {
+        c->way[k] = g.whole[k];
+        c->gain[k] = 0;
+    }
+}
+
+/*
+ * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
+ * the root of the number of sweeps. When they turn back it begins anew. `age` counts the sweeps that agree.
+ */
+static void accelerate(struct rest *r, int *age)
+{
+    int32_t part_q30;
+
+    *age = agrees(r) ? *age + 1 : 0;
+    part_q30 = (int32_t)(((int64_t)*age << 30) / (*age + 3));
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int32_t all = 0;
-        struct gain g;
 
-        for (int k = 0; k < 3; k++) {
-            g.whole[k] = carom_mul_q30(contact_gain(c)->way[k], part_q30);
-            all |= c->gain[k] | g.whole[k];
-            c->way[k] = way_of((int64_t)g.whole[k] + c->gain[k]);
-            c->gain[k] = 0;
-        }
-        if (all != 0) {
-            g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
-            for (int k = 0; c->work->friction_q16 == 0 && k < 3; k++) {
-                g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
-            }
-            add(c, &g);
-            c->gain[0] = c->gain[1] = c->gain[2] = 0;
-        }
+        go_beyond(c, part_q30);
         if (c->work->rolls) {
             rest_roll_accelerate(c, part_q30);
         }
@@ -416,30 +452,26 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
     /* a contact by itself is solved in a visit or a few */
     bool coupled = n > 1 || rest_contact(r, 0)->work->rolls;
     int rounds = most_rounds(r, sw);
-    int64_t before = 0;
+    int age = 0;
 
     for (int round = 0; round < rounds; round++) {
         int64_t moved = 0;
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
-            /* forwards and backwards in turn, so that no end of a stack is favoured */
-            uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
+            int64_t m = visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
-            if (rest_contact(r, at)->work->rolls) {
-                m = rest_roll_sweep(r, at, sw->residual);
+            if (rest_contact(r, i)->work->rolls) {
+                m = rest_roll_sweep(r, i, sw->residual);
                 moved = m > moved ? m : moved;
             }
         }
         if (moved <= sw->residual) {
             return false;
         }
-        if (coupled && round & 1 && round < rounds - 1) {
-            moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
-            accelerate(r, moved, before);
-            before = moved;
+        if (coupled && round < rounds - 1) {
+            accelerate(r, &age);
         }
     }
     into_cones(r);
