@@ -93,6 +93,15 @@ struct carom_mass {
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
 };
 
+/*
+ * H with H H^T = J^-1, J being the inertia over the mass: three columns, each times its 2^-e, in 1 / units.
+ * No place of the mesh, nor one within some skins of it, has a component of H_k x place above 2^reach_bits.
+ */
+struct carom_spread {
+    int32_t column[3][3];
+    int8_t e[3], reach_bits;
+};
+
 /* What follows up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
 struct carom_edge {
     uint16_t vertex[2];
@@ -136,6 +145,7 @@ struct carom_mesh {
     struct carom_mesh_raw raw;
     struct carom_mass mass;                  /* SOLID; zero for a SURFACE */
     struct carom_sym3 inverse, inverse_rest; /* their sum: of mass.inertia; zero if it has none */
+    struct carom_spread spread;              /* zero as well then */
     uint32_t edge_count, leaf_count, zref_count;
     int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
     int16_t box[2][3];        /* quanta: lowest and highest corner */

@@ -55,8 +55,10 @@ struct body_path {
         /* a solve's, from whose end on a body has no path until one is set */
         struct {
             carom_v3_q40 saved_angular; /* before it, for the energy rule */
-            int64_t dv[3], dw[3];       /* what it changes velocities by, in its units */
-            struct carom_sym3 turning;  /* R J^-1 R^T by the solver's unit of length squared */
+            /* what it changes velocities by, in its units: v by dv, and the spin by R H du */
+            int32_t dv[3], du[3];
+            uint32_t used;           /* bits of dv and du so far */
+            int32_t columns[3][3];   /* of R H, see carom_spread */
         };
     };
     struct {

@@ -17,9 +17,8 @@ struct contact_side {
 
 /* What an impulse at a contact does to one of its bodies, in the solver's units (rest.h). */
 struct contact_lever {
-    int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
-    int32_t turn[3][3]; /* change of spin by an impulse, times 2^-turn_bits */
-    int32_t turn_bits;
+    int32_t share_q30; /* of an impulse: what the body's mass and units make of it, at most 1 */
+    int32_t turn[3][3]; /* rows: the velocity of the place by du, below 2^30 */
 };
 
 /* What the shared memory of a contact, of its work and of a pair's rolling holds. */

@@ -4,8 +4,11 @@
 
 int32_t rest_clamp(int64_t v)
 {
-    const int64_t most = INT32_MAX;
+    return rest_within(v, INT32_MAX);
+}
 
+int32_t rest_within(int64_t v, int32_t most)
+{
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
@@ -74,25 +77,15 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
     }
 }
 
-static void push_side(struct body *b, const struct contact_lever *lever, const int32_t impulse[3])
-{
-    int down = lever->turn_bits - REST_FINER_BITS;
-
-    for (int k = 0; k < 3; k++) {
-        body_solve(b)->dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
-        body_solve(b)->dw[k] += carom_dot(lever->turn[k], impulse) >> down;
-    }
-}
-
 void rest_push(struct contact *c, const int32_t impulse[3])
 {
     const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
     if (c->side[0].body) {
-        push_side(c->side[0].body, &c->work->lever[0], impulse);
+        rest_push_side(c->side[0].body, &c->work->lever[0], impulse);
     }
     if (c->side[1].body) {
-        push_side(c->side[1].body, &c->work->lever[1], opposite);
+        rest_push_side(c->side[1].body, &c->work->lever[1], opposite);
     }
 }
 

@@ -3,76 +3,46 @@
 #include "rows.h"
 #include "parts.h"
 
-/*
- * R J^-1 R^T over the unit of length squared. Its largest entry is on the diagonal and at most the
- * trace, three times as large as before: two bits are given away.
- */
 void rest_prepare_body(struct body *b)
 {
     const carom_m3_q30 *r = &b->path.start.r;
-    int32_t half[3][3];
 
     PHASE_BEGIN(b->path.phase, BODY_SOLVE);
-    for (int i = 0; i < 3; i++) {
+    /* a column is below sqrt(3) 2^30 */
+    for (int j = 0; j < 3; j++) {
         for (int k = 0; k < 3; k++) {
-            int32_t column[3];
-
-            for (int j = 0; j < 3; j++) {
-                column[j] = b->mesh->inverse.m[fix_sym3_at[j][k]];
-            }
-            half[i][k] = (int32_t)carom_round(carom_dot(r->c[i], column), 30);
+            body_solve(b)->columns[j][k] =
+                (int32_t)carom_round(carom_dot(r->c[k], b->mesh->spread.column[j]), 30);
         }
     }
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k <= i; k++) {
-            body_solve(b)->turning.m[fix_sym3_at[i][k]] =
-                (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
-        }
-    }
-    body_solve(b)->turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
 }
 
-/* The turn by an impulse on one side, and what it adds to K. */
+/* The turn by du on one side, and what it adds to K: share (1 + turn turn^T). */
 static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
                          int64_t k_q30[6])
 {
-    const struct carom_sym3 *turning = &body_solve(side->body)->turning;
-    int64_t turn[3][3], part[3];
-    const bool whole = lever->share_q30 == CAROM_ONE_Q30;
-    uint64_t all = 0;
-    int down;
+    const struct body *b = side->body;
+    const struct carom_spread *spread = &b->mesh->spread;
+    int bits = rest_turn_bits(b), down = 62 - 2 * bits - 30;
 
-    /* row i of T (arm x P) is P.(T_i x arm) */
-    for (int i = 0; i < 3; i++) {
-        const uint8_t *at = fix_sym3_at[i];
-        const int32_t row[3] = {turning->m[at[0]], turning->m[at[1]], turning->m[at[2]]};
+    for (int j = 0; j < 3; j++) {
+        int64_t column[3];
 
-        fix_cross(turn[i], row, side->arm_q30);
-        for (int k = 0; k < 3; k++) {
-            all |= (uint64_t)(turn[i][k] ^ (turn[i][k] >> 63));
+        fix_cross(column, body_solved(b)->columns[j], side->arm_q30);
+        for (int i = 0; i < 3; i++) {
+            /* a place that is farther from the mesh than the bound reckons with counts as one that is not */
+            lever->turn[i][j] = rest_within(
+                fix_round_shift(column[i], 31 - bits - contact_arm_bits(b) - spread->e[j]),
+                CAROM_ONE_Q30 - 1);
         }
     }
-    /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
-    down = fix_bits(all) - 30;
-    down = down > turning->e - 20 ? down : turning->e - 20;
-    lever->turn_bits = 30 + turning->e - down;
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
-            int64_t t = turn[i][k];
-            int32_t entry = (int32_t)fix_round_shift(t, -down);
-
-            lever->turn[i][k] = whole ? entry : carom_mul_q30(entry, lever->share_q30);
-        }
-    }
-    /* what an impulse along axis i changes the velocity by */
-    for (int i = 0; i < 3; i++) {
-        const int32_t spin[3] = {lever->turn[0][i], lever->turn[1][i], lever->turn[2][i]};
-
-        fix_cross(part, spin, side->arm_q30);
         for (int k = 0; k <= i; k++) {
-            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], lever->turn_bits);
+            int64_t sum = carom_dot(lever->turn[i], lever->turn[k]);
+
+            sum = fix_round_shift(sum, -down) + (i == k ? CAROM_ONE_Q30 : 0);
+            k_q30[fix_sym3_at[i][k]] += fix_mul_q30(sum, lever->share_q30);
         }
-        k_q30[fix_sym3_at[i][i]] += lever->share_q30;
     }
 }
 
@@ -103,6 +73,33 @@ static void prepare_shares(struct contact *c)
     }
 }
 
+/* How many bits finer than velocities the impulses are that a side can take up without rounding. */
+static int side_bits(const struct contact_side *side, const struct contact_lever *lever)
+{
+    return side->body ? 2 * rest_turn_bits(side->body) + 2 +
+                            fix_bits32((uint32_t)lever->share_q30) - 31
+                      : 0;
+}
+
+/*
+ * Impulses have as fine a unit as the finer side takes: what a place that turns easily needs is small.
+ * Shares are from then on of impulses in that unit to a body's own.
+ */
+static void refine_unit(struct contact *c)
+{
+    int a = side_bits(&c->side[0], &c->work->lever[0]),
+        b = side_bits(&c->side[1], &c->work->lever[1]), fine = a > b ? a : b;
+
+    c->work->fine_bits = (int8_t)fine;
+    c->work->mass_unit.e += fine;
+    for (int s = 0; s < 2; s++) {
+        if (c->side[s].body) {
+            c->work->lever[s].share_q30 = (int32_t)fix_round_shift(
+                c->work->lever[s].share_q30, 2 * rest_turn_bits(c->side[s].body) + 2 - fine);
+        }
+    }
+}
+
 /* The adjugate of K in 30 bits, and its determinant. */
 static int32_t adjugate(int32_t out_q30[6], const int32_t k[6])
 {
@@ -124,22 +121,6 @@ static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
 {
     for (int i = 0; i < 3; i++) {
         out[i] = (int32_t)carom_round(rest_row(m, i, v), 30);
-    }
-}
-
-/*
- * Where K is large impulses are small: their unit is made smaller in turn. Matrices and steps that
- * are inverse to K keep their numbers and lose fractional bits.
- */
-static void refine_unit(struct contact *c, int64_t along_q30)
-{
-    int bits = fix_bits((uint64_t)along_q30) - 30;
-
-    c->work->fine_bits = (int8_t)(bits > 0 ? bits : 0);
-    c->work->mass_unit.e += c->work->fine_bits;
-    for (int s = 0; s < 2; s++) {
-        c->work->lever[s].share_q30 >>= c->work->fine_bits;
-        c->work->lever[s].turn_bits += c->work->fine_bits;
     }
 }
 
@@ -186,7 +167,6 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
     across_q30 = carom_shl((int64_t)half + root, shift);
     c->work->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
-    refine_unit(c, along_q30);
     most = across_q30 > along_q30 ? across_q30 : along_q30;
     c->work->mass_q24 = rest_clamp(most >> (6 + c->work->fine_bits));
 }
@@ -201,5 +181,6 @@ void rest_prepare_masses(struct contact *c)
             prepare_side(&c->side[s], &c->work->lever[s], k_q30);
         }
     }
+    refine_unit(c);
     prepare_steps(c, k_q30);
 }

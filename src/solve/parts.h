@@ -9,13 +9,21 @@
 #include "rest.h"
 
 /*
- * dv and dw have this many bits below the solver's unit: a share of 1/2 makes every other change of it a
- * tie, and ties go upward.
+ * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a tie,
+ * and ties go upward. du has those of the body, one more than a place of it is moved by at most.
  */
-#define REST_FINER_BITS 8
+#define REST_FINER_BITS 4
+
+static inline int rest_turn_bits(const struct body *b)
+{
+    return b->mesh->spread.reach_bits + 1;
+}
+
+/* When dv or du use more than these the unit is too small, and there is a larger one. */
+#define REST_USED_BITS 29
 
 /* Sweeps end when no velocity changes by more than this, in solver units of 2^-27 V*. */
-#define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 26))
+#define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 19))
 #define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
 
 struct rest_sweep {
@@ -70,9 +78,36 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
     return carom_dot(row, v);
 }
 
-/* A body's turning; then K of its contacts and the steps of a sweep. */
+/* A body's R H; then K of its contacts and the steps of a sweep. */
 void rest_prepare_body(struct body *b);
 void rest_prepare_masses(struct contact *c);
+
+/*
+ * dv and du of a body by an impulse below 2^31. With t = rest_turn_bits: an impulse is in units of
+ * 2^-(2 t + 2) by now, turn of 2^(t - 31) and du of 2^-(t + 1).
+ */
+static inline void rest_push_side(struct body *b, const struct contact_lever *lever,
+                                  const int32_t impulse[3])
+{
+    struct body_path *in = body_solve(b);
+    int down = 2 * rest_turn_bits(b) + 2 - REST_FINER_BITS;
+    int32_t own[3];
+    uint32_t used = in->used;
+
+    for (int k = 0; k < 3; k++) {
+        own[k] = lever->share_q30 == CAROM_ONE_Q30 ? impulse[k]
+                                                   : carom_mul_q30(impulse[k], lever->share_q30);
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t turn = (int64_t)lever->turn[0][k] * own[0] + (int64_t)lever->turn[1][k] * own[1] +
+                       (int64_t)lever->turn[2][k] * own[2] + ((int64_t)1 << 31);
+
+        in->dv[k] += (int32_t)(own[k] >> down);
+        in->du[k] += (int32_t)(turn >> 32);
+        used |= (uint32_t)(in->dv[k] ^ (in->dv[k] >> 31)) | (uint32_t)(in->du[k] ^ (in->du[k] >> 31));
+    }
+    in->used = used;
+}
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
 void rest_push(struct contact *c, const int32_t impulse[3]);

@@ -16,7 +16,7 @@
 #include "../pairs/island.h"
 #include "impact.h"
 
-#define REST_BITS        27
+#define REST_BITS        22
 #define REST_SWEEPS_MAX  32 /* of an impact */
 #define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
 #define REST_SWEEPS_MANY 48 /* and at many */
@@ -74,7 +74,8 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
-/* v, or +-(2^31 - 1). */
+/* v, or +-most; v, or +-(2^31 - 1). */
+int32_t rest_within(int64_t v, int32_t most);
 int32_t rest_clamp(int64_t v);
 
 /* The moment of rolling friction that a contact was given with its impulse; on a. */

@@ -3,13 +3,10 @@
 #include "rows.h"
 #include "parts.h"
 
-/*
- * Sweeps follow a slip of 13 V* and velocities below 16 V*, of which a vector of components up to
- * 9 V* is one. So a velocity is below 2^31 in length, and so are its parts along N and across.
- */
-#define SLIP_MAX  ((int64_t)13 << REST_BITS)
-#define PART_MAX  ((int64_t)9 << REST_BITS)
-#define SPEED_MAX (((int64_t)16 << REST_BITS) - 64)
+/* Sweeps follow a slip of 13 V*. */
+#define SLIP_MAX ((int64_t)13 << REST_BITS)
+/* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
+#define LARGER_BITS 4
 
 /*
  * Contacts of a body or two that slide or roll settle over the frames; a heap that is left unsettled
@@ -83,79 +80,41 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
             struct body *b = c->side[s].body;
 
             if (b) {
-                body_solve(b)->dv[0] = body_solve(b)->dv[1] = body_solve(b)->dv[2] = 0;
-                body_solve(b)->dw[0] = body_solve(b)->dw[1] = body_solve(b)->dw[2] = 0;
+                for (int k = 0; k < 3; k++) {
+                    body_solve(b)->dv[k] = body_solve(b)->du[k] = 0;
+                }
+                body_solve(b)->used = 0;
             }
         }
     }
 }
 
-/* v s - w r modulo 2^64. */
-static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, int32_t w_high,
-                              int32_t r)
+/* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
+static uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
-    uint32_t high = (uint32_t)v_high * (uint32_t)s - (uint32_t)w_high * (uint32_t)r;
-
-    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) +
-                     ((uint64_t)high << 32));
+    return (uint64_t)((int64_t)turn[0] * du[0]) + (uint64_t)((int64_t)turn[1] * du[1]) +
+           (uint64_t)((int64_t)turn[2] * du[2]);
 }
 
-/*
- * out = v x r modulo 2^64, in two halves: the low one signed, and what that leaves.
- */
-static void wrapping_cross(int64_t out[3], const int64_t v[3], const int32_t r[3])
-{
-    int32_t low[3], high[3];
-
-    for (int k = 0; k < 3; k++) {
-        low[k] = (int32_t)v[k];
-        high[k] = (int32_t)((v[k] - low[k]) >> 32);
-    }
-    out[0] = wrapping_minor(low[1], high[1], r[2], low[2], high[2], r[1]);
-    out[1] = wrapping_minor(low[2], high[2], r[0], low[0], high[0], r[2]);
-    out[2] = wrapping_minor(low[0], high[0], r[1], low[1], high[1], r[0]);
-}
-
-/* What the solve so far changed the velocity of a body's place of contact by, in finer units. */
-static void change_at(const struct contact_side *side, int64_t out[3])
-{
-    const struct body *b = side->body;
-    int64_t dw[3];
-
-    for (int k = 0; k < 3; k++) {
-        dw[k] = body_solved(b)->dw[k] >> (REST_FINER_BITS - 2);
-    }
-    wrapping_cross(out, dw, side->arm_q30);
-    for (int k = 0; k < 3; k++) {
-        out[k] = body_solved(b)->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
-    }
-}
-
-/*
- * V - wanted N by now. A thin body's spin may fill 40 bits while the sum stays small, so products
- * wrap: modulo 2^64 the sum is right.
- */
+/* V - wanted N by now. */
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
-    int64_t sum[3] = {0, 0, 0}, other[3] = {0, 0, 0};
-    bool fast = false;
+    uint64_t turn[3] = {(uint64_t)1 << 31, (uint64_t)1 << 31, (uint64_t)1 << 31};
+    int32_t way[3] = {0, 0, 0};
 
-    if (c->side[0].body) {
-        change_at(&c->side[0], sum);
-    }
-    if (c->side[1].body) {
-        change_at(&c->side[1], other);
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
+
+        for (int k = 0; b && k < 3; k++) {
+            uint64_t own = turned(c->work->lever[s].turn[k], body_solved(b)->du);
+
+            turn[k] += s == 0 ? own : -own;
+            way[k] += s == 0 ? body_solved(b)->dv[k] : -body_solved(b)->dv[k];
+        }
     }
     for (int k = 0; k < 3; k++) {
-        sum[k] = c->work->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
-        v[k] = (int32_t)sum[k];
-        fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
-    }
-    if (fast) {
-        rest_cut(sum, SPEED_MAX);
-        for (int k = 0; k < 3; k++) {
-            v[k] = (int32_t)sum[k];
-        }
+        v[k] = c->work->before[k] + ((way[k] + (1 << (REST_FINER_BITS - 1))) >> REST_FINER_BITS) +
+               (int32_t)((int64_t)turn[k] >> 32);
     }
 }
 
@@ -445,7 +404,18 @@ static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
-/* Returns whether they ran out before the residual was reached. */
+/* Whether a body's velocities have outgrown their bits. */
+static bool outgrown(const struct rest *r)
+{
+    uint32_t used = 0;
+
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        used |= body_solved(&r->bodies[i])->used;
+    }
+    return used >> REST_USED_BITS;
+}
+
+/* Returns whether they ran out before the residual was reached, or a body has outgrown its bits. */
 static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
@@ -466,6 +436,9 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
                 m = rest_roll_sweep(r, i, sw->residual);
                 moved = m > moved ? m : moved;
             }
+        }
+        if (outgrown(r)) {
+            return true;
         }
         if (moved <= sw->residual) {
             return false;
@@ -502,13 +475,20 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {
     choose_unit(r, sw);
-    begin(r, sw);
-    if (warm) {
-        rest_load_warm(r, sw);
+    for (;;) {
+        begin(r, sw);
+        if (warm) {
+            rest_load_warm(r, sw);
+        }
+        for (uint32_t i = 0; i < r->count; i++) {
+            rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
+        }
+        sw->ran_out = sweeps(r, sw);
+        if (!outgrown(r)) {
+            break;
+        }
+        sw->unit += LARGER_BITS;
+        warm = false; /* what was kept is used up */
     }
-    for (uint32_t i = 0; i < r->count; i++) {
-        rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
-    }
-    sw->ran_out = sweeps(r, sw);
     finish(r, sw);
 }
