@@ -247,7 +247,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(816, 824)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(824, 832)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(116, 116)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4
@@ -257,7 +257,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
 /* What stages work in one after the other: so much, or for each contact and pair that is solved. */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
-#define CAROM_WORK_BYTES    CAROM_BYTES_(224, 224)
+#define CAROM_WORK_BYTES    CAROM_BYTES_(216, 216)
 #define CAROM_ROLL_BYTES    64
 
 enum carom_pool {

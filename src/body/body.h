@@ -57,8 +57,9 @@ struct body_path {
             carom_v3_q40 saved_angular; /* before it, for the energy rule */
             /* what it changes velocities by, in its units: v by dv, and the spin by R H du */
             int32_t dv[3], du[3];
-            uint32_t used;           /* bits of dv and du so far */
-            int32_t columns[3][3];   /* of R H, see carom_spread */
+            int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
+            uint32_t used;                  /* bits of dv and du so far */
+            int32_t columns[3][3];          /* of R H, see carom_spread */
         };
     };
     struct {

@@ -82,6 +82,21 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 void rest_prepare_body(struct body *b);
 void rest_prepare_masses(struct contact *c);
 
+/* Add to a velocity; returns which bits it uses. The sum wraps: what outgrows its bits begins anew. */
+static inline uint32_t rest_add(int32_t *v, int32_t change)
+{
+    *v = (int32_t)((uint32_t)*v + (uint32_t)change);
+    return (uint32_t)(*v ^ (*v >> 31));
+}
+
+static inline int32_t turn_by(const struct contact_lever *lever, int k, int32_t x, int32_t y,
+                              int32_t z)
+{
+    return (int32_t)(((int64_t)lever->turn[0][k] * x + (int64_t)lever->turn[1][k] * y +
+                      (int64_t)lever->turn[2][k] * z + ((int64_t)1 << 31)) >>
+                     32);
+}
+
 /*
  * dv and du of a body by an impulse below 2^31. With t = rest_turn_bits: an impulse is in units of
  * 2^-(2 t + 2) by now, turn of 2^(t - 31) and du of 2^-(t + 1).
@@ -90,23 +105,18 @@ static inline void rest_push_side(struct body *b, const struct contact_lever *le
                                   const int32_t impulse[3])
 {
     struct body_path *in = body_solve(b);
-    int down = 2 * rest_turn_bits(b) + 2 - REST_FINER_BITS;
-    int32_t own[3];
-    uint32_t used = in->used;
+    const int down = 2 * rest_turn_bits(b) + 2 - REST_FINER_BITS;
+    int32_t x = impulse[0], y = impulse[1], z = impulse[2];
 
-    for (int k = 0; k < 3; k++) {
-        own[k] = lever->share_q30 == CAROM_ONE_Q30 ? impulse[k]
-                                                   : carom_mul_q30(impulse[k], lever->share_q30);
+    if (lever->share_q30 != CAROM_ONE_Q30) {
+        x = carom_mul_q30(x, lever->share_q30);
+        y = carom_mul_q30(y, lever->share_q30);
+        z = carom_mul_q30(z, lever->share_q30);
     }
-    for (int k = 0; k < 3; k++) {
-        int64_t turn = (int64_t)lever->turn[0][k] * own[0] + (int64_t)lever->turn[1][k] * own[1] +
-                       (int64_t)lever->turn[2][k] * own[2] + ((int64_t)1 << 31);
-
-        in->dv[k] += (int32_t)(own[k] >> down);
-        in->du[k] += (int32_t)(turn >> 32);
-        used |= (uint32_t)(in->dv[k] ^ (in->dv[k] >> 31)) | (uint32_t)(in->du[k] ^ (in->du[k] >> 31));
-    }
-    in->used = used;
+    in->used |= rest_add(&in->dv[0], x >> down) | rest_add(&in->dv[1], y >> down) |
+                rest_add(&in->dv[2], z >> down) | rest_add(&in->du[0], turn_by(lever, 0, x, y, z)) |
+                rest_add(&in->du[1], turn_by(lever, 1, x, y, z)) |
+                rest_add(&in->du[2], turn_by(lever, 2, x, y, z));
 }
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */

@@ -291,15 +291,19 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 void rest_roll_accelerate(struct contact *c, int32_t part_q30)
 {
     struct contact_roll *roll = contact_rolling(c);
-    int32_t gain[3];
+    int32_t gain[3], any = 0;
 
     for (int k = 0; k < 3; k++) {
-        gain[k] = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
-        /* a component of a moment is at most 2^30 */
-        gain[k] = rest_within((int64_t)roll->moment[k] + gain[k], CAROM_ONE_Q30) - roll->moment[k];
-        roll->moment[k] += gain[k];
-        roll->way[k] = gain[k];
+        int32_t way = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
+
+        /* a component of a moment is at most 2^30; the bodies have gone all the way */
+        roll->way[k] = rest_within((int64_t)roll->moment[k] + way, CAROM_ONE_Q30) - roll->moment[k];
+        gain[k] = roll->way[k] - way;
+        roll->moment[k] += roll->way[k];
         roll->gain[k] = 0;
+        any |= gain[k];
     }
-    twist(c, gain);
+    if (any) {
+        twist(c, gain);
+    }
 }

@@ -90,7 +90,7 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
 }
 
 /* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
-static uint64_t turned(const int32_t turn[3], const int32_t du[3])
+static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
     return (uint64_t)((int64_t)turn[0] * du[0]) + (uint64_t)((int64_t)turn[1] * du[1]) +
            (uint64_t)((int64_t)turn[2] * du[2]);
@@ -99,23 +99,37 @@ static uint64_t turned(const int32_t turn[3], const int32_t du[3])
 /* V - wanted N by now. */
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
+    const struct body *a = c->side[0].body, *b = c->side[1].body;
+    const int32_t *before = c->work->before;
     uint64_t turn[3] = {(uint64_t)1 << 31, (uint64_t)1 << 31, (uint64_t)1 << 31};
-    int32_t way[3] = {0, 0, 0};
+    int32_t way[3] = {1 << (REST_FINER_BITS - 1), 1 << (REST_FINER_BITS - 1),
+                      1 << (REST_FINER_BITS - 1)};
 
-    for (int s = 0; s < 2; s++) {
-        const struct body *b = c->side[s].body;
+    if (a) {
+        const struct body_path *in = body_solved(a);
+        const struct contact_lever *lever = &c->work->lever[0];
 
-        for (int k = 0; b && k < 3; k++) {
-            uint64_t own = turned(c->work->lever[s].turn[k], body_solved(b)->du);
-
-            turn[k] += s == 0 ? own : -own;
-            way[k] += s == 0 ? body_solved(b)->dv[k] : -body_solved(b)->dv[k];
-        }
+        turn[0] += turned(lever->turn[0], in->du);
+        turn[1] += turned(lever->turn[1], in->du);
+        turn[2] += turned(lever->turn[2], in->du);
+        way[0] += in->dv[0];
+        way[1] += in->dv[1];
+        way[2] += in->dv[2];
     }
-    for (int k = 0; k < 3; k++) {
-        v[k] = c->work->before[k] + ((way[k] + (1 << (REST_FINER_BITS - 1))) >> REST_FINER_BITS) +
-               (int32_t)((int64_t)turn[k] >> 32);
+    if (b) {
+        const struct body_path *in = body_solved(b);
+        const struct contact_lever *lever = &c->work->lever[1];
+
+        turn[0] -= turned(lever->turn[0], in->du);
+        turn[1] -= turned(lever->turn[1], in->du);
+        turn[2] -= turned(lever->turn[2], in->du);
+        way[0] -= in->dv[0];
+        way[1] -= in->dv[1];
+        way[2] -= in->dv[2];
     }
+    v[0] = before[0] + (way[0] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[0] >> 32);
+    v[1] = before[1] + (way[1] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[1] >> 32);
+    v[2] = before[2] + (way[2] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[2] >> 32);
 }
 
 /* Friction is not against slip that closing a gap asks for. */
@@ -141,10 +155,34 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->work->friction_q16, 16);
 }
 
-/* A change of impulse, each part below 2^30: along N, and with what is across it. */
+/* A change of impulse, each part below 2^30: along N, across it, and both. */
 struct gain {
-    int32_t along, whole[3];
+    int32_t along, across[3], whole[3];
 };
+
+static inline void across(struct gain *g, const int32_t n[3])
+{
+    g->across[0] = g->whole[0] - carom_mul_q30(g->along, n[0]);
+    g->across[1] = g->whole[1] - carom_mul_q30(g->along, n[1]);
+    g->across[2] = g->whole[2] - carom_mul_q30(g->along, n[2]);
+}
+
+/* Whether an impulse is within the friction cone; mu is at most 4. */
+static bool in_cone(const struct contact *c, int64_t normal, const int64_t tangent[3])
+{
+    int64_t all[4] = {tangent[0], tangent[1], tangent[2], normal}, limit;
+    int32_t across[3];
+
+    if ((uint64_t)((all[0] ^ (all[0] >> 63)) | (all[1] ^ (all[1] >> 63)) |
+                   (all[2] ^ (all[2] >> 63)) | all[3]) >> 29) {
+        rest_shrink(all, 29);
+    }
+    across[0] = (int32_t)all[0];
+    across[1] = (int32_t)all[1];
+    across[2] = (int32_t)all[2];
+    limit = (all[3] * (int32_t)c->work->friction_q16) >> 16;
+    return rest_square32(across) <= (uint64_t)(limit * limit);
+}
 
 /*
  * What ends all motion of the contact; false when that lies outside of the friction cone. Large
@@ -153,36 +191,35 @@ struct gain {
  */
 static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
 {
+    const int32_t *m = contact_inverse(c), *n = c->normal.c;
+    const struct contact_work *in = c->work;
+    int up = 30 - in->fine_bits;
     int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
                                      (v[2] ^ (v[2] >> 31)))) +
-               c->work->fine_bits - 29;
-    int64_t after[4], limit;
-    int32_t part[3], across[3];
+               in->fine_bits - 29;
+    int32_t x, y, z;
+    int64_t normal, tangent[3];
 
     down = down > 0 ? down : 0;
-    for (int k = 0; k < 3; k++) {
-        part[k] = v[k] >> down;
-    }
-    for (int k = 0; k < 3; k++) {
-        g->whole[k] =
-            -(int32_t)carom_round(rest_row(contact_inverse(c), k, part), 30 - c->work->fine_bits);
-    }
-    g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
-    after[3] = c->work->normal_impulse + carom_shl(g->along, down);
-    if (after[3] <= 0) {
+    x = v[0] >> down;
+    y = v[1] >> down;
+    z = v[2] >> down;
+    g->whole[0] =
+        -(int32_t)carom_round((int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z, up);
+    g->whole[1] =
+        -(int32_t)carom_round((int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z, up);
+    g->whole[2] =
+        -(int32_t)carom_round((int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z, up);
+    g->along = (int32_t)carom_round(carom_dot(n, g->whole), 30);
+    normal = in->normal_impulse + carom_shl(g->along, down);
+    if (normal <= 0) {
         return false;
     }
-    for (int k = 0; k < 3; k++) {
-        after[k] = c->work->tangent_impulse[k] +
-                   carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
-    }
-    /* mu is at most 4: the limit has 31 bits */
-    rest_shrink(after, 29);
-    for (int k = 0; k < 3; k++) {
-        across[k] = (int32_t)after[k];
-    }
-    limit = (after[3] * (int32_t)c->work->friction_q16) >> 16;
-    return rest_square32(across) <= (uint64_t)(limit * limit);
+    across(g, n);
+    tangent[0] = in->tangent_impulse[0] + carom_shl(g->across[0], down);
+    tangent[1] = in->tangent_impulse[1] + carom_shl(g->across[1], down);
+    tangent[2] = in->tangent_impulse[2] + carom_shl(g->across[2], down);
+    return in_cone(c, normal, tangent);
 }
 
 /*
@@ -237,6 +274,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
     rest_shrink(change, 29);
     g->along = (int32_t)change[3];
     for (int k = 0; k < 3; k++) {
+        g->across[k] = (int32_t)change[k];
         g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
     }
     return limited;
@@ -245,16 +283,16 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
 /* Along N first; then across towards no slip, within the friction cone. */
 static void slide(const struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
-    int64_t across[3];
+    int64_t pushed[3];
     int32_t slip[3];
 
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
-        across[k] = c->work->tangent_impulse[k] -
+        pushed[k] = c->work->tangent_impulse[k] -
                     (((int64_t)slip[k] * c->work->step[1]) >> (30 - c->work->fine_bits));
     }
     if (c->work->friction_q16 == 0 ||
-        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
+        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, pushed)) >> 15), slip, g)) {
         slide_by(c, -error, slip, g);
     }
 }
@@ -262,18 +300,19 @@ static void slide(const struct contact *c, int32_t error, const int32_t v[3], st
 /* Take up a change; returns its largest component, the last place apart. */
 static int32_t add(struct contact *c, const struct gain *g)
 {
-    int32_t most = 0;
+    struct contact_work *in = c->work;
+    int32_t *gain = contact_gain(c)->gain, most;
 
-    c->work->normal_impulse += g->along;
-    for (int k = 0; k < 3; k++) {
-        int32_t size = g->whole[k] < 0 ? -g->whole[k] : g->whole[k];
-
-        c->work->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
-        /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
-        contact_gain(c)->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
-        most = size > most ? size : most;
-    }
+    in->normal_impulse += g->along;
+    in->tangent_impulse[0] += g->across[0];
+    in->tangent_impulse[1] += g->across[1];
+    in->tangent_impulse[2] += g->across[2];
+    /* a contact by itself, of which nobody asks, may wrap */
+    gain[0] = (int32_t)((uint32_t)gain[0] + (uint32_t)g->whole[0]);
+    gain[1] = (int32_t)((uint32_t)gain[1] + (uint32_t)g->whole[1]);
+    gain[2] = (int32_t)((uint32_t)gain[2] + (uint32_t)g->whole[2]);
     rest_push(c, g->whole);
+    most = fix_largest(g->whole);
     return most > 1 ? most : 0;
 }
 
@@ -305,13 +344,8 @@ static int64_t visit(struct contact *c, int32_t quiet)
     return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
 }
 
-/* A component of the way: three of them make up a vector below 2^30. */
-static int32_t way_of(int64_t v)
-{
-    const int64_t most = CAROM_ONE_Q30 / 2;
-
-    return (int32_t)(v > most ? most : v < -most ? -most : v);
-}
+/* The last sweep and the step beyond the one before it, together, stay below this. */
+#define WAY_MAX (CAROM_ONE_Q30 / 2)
 
 /* Whether the last sweep went on in the way that the last step beyond a sweep had gone. */
 static bool agrees(const struct rest *r)
@@ -320,47 +354,83 @@ static bool agrees(const struct rest *r)
 
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = contact_gain(rest_contact(r, i));
+        int64_t x = (int64_t)c->gain[0] + c->way[0], y = (int64_t)c->gain[1] + c->way[1],
+                z = (int64_t)c->gain[2] + c->way[2];
 
-        /* up to 2^48 each, of at most 4096 contacts */
-        for (int k = 0; k < 3; k++) {
-            sum += (int64_t)c->gain[k] * way_of((int64_t)c->gain[k] + c->way[k]) >> 14;
+        if (x > WAY_MAX || x < -WAY_MAX || y > WAY_MAX || y < -WAY_MAX || z > WAY_MAX ||
+            z < -WAY_MAX) {
+            return false;
         }
+        /* up to 2^48, of at most 4096 contacts */
+        sum += (c->gain[0] * x >> 13) + (c->gain[1] * y >> 13) + (c->gain[2] * z >> 13);
     }
     return sum >= 0;
 }
 
-/* Go beyond the last sweep by a part of the way it came, no farther than the friction cone reaches. */
-static void go_beyond(struct contact *c, int32_t part_q30)
+/* v += part (v - last), and last = v. */
+static uint32_t go_on(int32_t *v, int32_t *last, int32_t part_q30)
+{
+    int32_t now = *v, change = (int32_t)((uint32_t)now - (uint32_t)*last);
+
+    *last = now;
+    return rest_add(v, carom_mul_q30(change, part_q30));
+}
+
+/* Bodies go beyond as their contacts do: velocities are linear in impulses. */
+static void bodies_beyond(struct rest *r, int32_t part_q30)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        struct body_path *in = body_solve(&r->bodies[i]);
+
+        for (int k = 0; k < 3; k++) {
+            in->used |= go_on(&in->dv[k], &in->last_dv[k], part_q30) |
+                        go_on(&in->du[k], &in->last_du[k], part_q30);
+        }
+    }
+}
+
+/* Where a contact would pull it has no impulse. */
+static void let_go(struct contact *c)
 {
     struct gain g;
-    int32_t all = 0;
-    int64_t normal, after[3];
 
+    g.along = rest_within(-c->work->normal_impulse, WAY_MAX);
     for (int k = 0; k < 3; k++) {
-        g.whole[k] = carom_mul_q30(way_of((int64_t)c->way[k] + c->gain[k]), part_q30);
-        c->way[k] = c->gain[k] = 0;
-        all |= g.whole[k];
-    }
-    if (all == 0) {
-        return;
-    }
-    g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
-    normal = c->work->normal_impulse + g.along;
-    normal = normal > 0 ? normal : 0;
-    for (int k = 0; k < 3; k++) {
-        after[k] = c->work->tangent_impulse[k] + g.whole[k] -
-                   carom_mul_q30(g.along, c->normal.c[k]);
-    }
-    rest_cut(after, friction_limit(c, normal));
-    g.along = way_of(normal - c->work->normal_impulse);
-    for (int k = 0; k < 3; k++) {
-        g.whole[k] = way_of(after[k] - c->work->tangent_impulse[k] +
-                            carom_mul_q30(g.along, c->normal.c[k]));
+        g.across[k] = rest_within(-c->work->tangent_impulse[k], WAY_MAX);
+        g.whole[k] = g.across[k] + carom_mul_q30(g.along, c->normal.c[k]);
+        c->way[k] += g.whole[k];
     }
     add(c, &g);
+    c->gain[0] = c->gain[1] = c->gain[2] = 0;
+}
+
+/* Go beyond the last sweep by a part of the way it came. */
+static void go_beyond(struct contact *c, int32_t part_q30)
+{
+    struct contact_work *in = c->work;
+    struct gain g;
+
     for (int k = 0; k < 3; k++) {
+        g.whole[k] = carom_mul_q30(c->way[k] + c->gain[k], part_q30);
         c->way[k] = g.whole[k];
         c->gain[k] = 0;
+    }
+    g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
+    across(&g, c->normal.c);
+    in->normal_impulse += g.along;
+    in->tangent_impulse[0] += g.across[0];
+    in->tangent_impulse[1] += g.across[1];
+    in->tangent_impulse[2] += g.across[2];
+    if (in->normal_impulse < 0) {
+        let_go(c);
+    }
+}
+
+/* Begin the steps beyond sweeps anew. */
+static void stay(struct contact *c)
+{
+    for (int k = 0; k < 3; k++) {
+        c->way[k] = c->gain[k] = 0;
     }
 }
 
@@ -374,10 +444,15 @@ static void accelerate(struct rest *r, int *age)
 
     *age = agrees(r) ? *age + 1 : 0;
     part_q30 = (int32_t)(((int64_t)*age << 30) / (*age + 3));
+    bodies_beyond(r, part_q30);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        go_beyond(c, part_q30);
+        if (part_q30 == 0) {
+            stay(c);
+        } else {
+            go_beyond(c, part_q30);
+        }
         if (c->work->rolls) {
             rest_roll_accelerate(c, part_q30);
         }
@@ -480,6 +555,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         if (warm) {
             rest_load_warm(r, sw);
         }
+        bodies_beyond(r, 0);
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }
