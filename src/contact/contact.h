@@ -52,12 +52,13 @@ struct contact_work {
     struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
     bool rolls;                /* and it takes part in the sweeps at hand */
     bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
+    bool slides;               /* drag_q28 and step are there: from the first time that it slides */
     int8_t fine_bits;
     PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
-    int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
+    int32_t mass_q24;            /* velocity by a unit impulse: the largest along an axis */
     int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
     int32_t step[2];        /* of a sweep when it slides, so too: along N, and one scalar across */
     union {                 /* by PHASE_TAG phase; contact_inverse, contact_wanted */

@@ -17,31 +17,41 @@ void rest_prepare_body(struct body *b)
     }
 }
 
-/* The turn by du on one side, and what it adds to K: share (1 + turn turn^T). */
-static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
-                         int64_t k_q30[6])
+/* How du turns the place of a contact on one side. */
+static void prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
     const struct body *b = side->body;
-    const struct carom_spread *spread = &b->mesh->spread;
-    int bits = rest_turn_bits(b), down = 62 - 2 * bits - 30;
+    int up = 31 - rest_turn_bits(b) - contact_arm_bits(b);
 
     for (int j = 0; j < 3; j++) {
         int64_t column[3];
 
         fix_cross(column, body_solved(b)->columns[j], side->arm_q30);
         for (int i = 0; i < 3; i++) {
-            /* a place that is farther from the mesh than the bound reckons with counts as one that is not */
-            lever->turn[i][j] = rest_within(
-                fix_round_shift(column[i], 31 - bits - contact_arm_bits(b) - spread->e[j]),
-                CAROM_ONE_Q30 - 1);
+            /* a place that is farther off the mesh than is reckoned with counts as one that is not */
+            lever->turn[i][j] =
+                rest_within(fix_round_shift(column[i], up - b->mesh->spread.e[j]), CAROM_ONE_Q30 - 1);
         }
     }
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k <= i; k++) {
-            int64_t sum = carom_dot(lever->turn[i], lever->turn[k]);
+}
 
-            sum = fix_round_shift(sum, -down) + (i == k ? CAROM_ONE_Q30 : 0);
-            k_q30[fix_sym3_at[i][k]] += fix_mul_q30(sum, lever->share_q30);
+/* K: the sum over the sides of share (1 + turn turn^T). */
+static void find_k(const struct contact *c, int64_t k_q30[6])
+{
+    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+
+    memset(k_q30, 0, 6 * sizeof k_q30[0]);
+    for (int s = 0; s < 2; s++) {
+        const struct contact_lever *lever = &c->work->lever[s];
+        const struct body *b = c->side[s].body;
+        int bits = b ? rest_turn_bits(b) : 0;
+
+        for (int n = 0; b && n < 6; n++) {
+            int64_t sum = carom_dot(lever->turn[row[n]], lever->turn[column[n]]);
+
+            sum = fix_round_shift(sum, 2 * bits - 32) + (n < 3 ? CAROM_ONE_Q30 : 0);
+            k_q30[n] +=
+                fix_round_shift(fix_mul_q30(sum, lever->share_q30), c->work->fine_bits - 2 * bits - 2);
         }
     }
 }
@@ -52,7 +62,8 @@ static void prepare_shares(struct contact *c)
     const struct body *a = c->side[0].body, *b = c->side[1].body;
 
     c->work->mass_unit = a ? a->mass : b->mass;
-    if (a && b && fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
+    if (a && b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
+        fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
         c->work->mass_unit = b->mass;
     }
     for (int s = 0; s < 2; s++) {
@@ -93,9 +104,11 @@ static void refine_unit(struct contact *c)
     c->work->fine_bits = (int8_t)fine;
     c->work->mass_unit.e += fine;
     for (int s = 0; s < 2; s++) {
-        if (c->side[s].body) {
+        const struct body *body = c->side[s].body;
+
+        if (body) {
             c->work->lever[s].share_q30 = (int32_t)fix_round_shift(
-                c->work->lever[s].share_q30, 2 * rest_turn_bits(c->side[s].body) + 2 - fine);
+                c->work->lever[s].share_q30, 2 * rest_turn_bits(body) + 2 - fine);
         }
     }
 }
@@ -124,24 +137,39 @@ static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
     }
 }
 
-/*
- * K^-1 for a contact that sticks; for one that slides, steps along N and across. The larger
- * eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
- * T/2 + sqrt(T^2/4 - D).
- */
-static void prepare_steps(struct contact *c, const int64_t k_q30[6])
+/* K with 29 bits, so that minors fit; returns by how many bits it was cut. */
+static int shorten(const int64_t k_q30[6], int32_t k[6])
 {
-    /* 29 bits, so that minors fit; K is at least 1, the lighter body alone gives that */
+    /* K is at least 1, the lighter body alone gives that */
     int shift = fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 29;
-    int32_t k[6], adjoint[6], n[3], det, half, product, root;
-    int64_t along_q30, across_q30, most;
 
     for (int i = 0; i < 6; i++) {
         k[i] = (int32_t)(k_q30[i] >> shift);
     }
+    return shift;
+}
+
+void rest_prepare_masses(struct contact *c)
+{
+    int64_t k_q30[6];
+    int32_t k[6], adjoint[6], det;
+    int shift;
+
+    prepare_shares(c);
+    refine_unit(c);
+    for (int s = 0; s < 2; s++) {
+        if (c->side[s].body) {
+            prepare_turn(&c->side[s], &c->work->lever[s]);
+        }
+    }
+    find_k(c, k_q30);
+    shift = shorten(k_q30, k);
     det = adjugate(adjoint, k);
     PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
+    c->work->slides = false;
     c->work->inverted = det >= 1 << 9;
+    c->work->mass_q24 =
+        rest_clamp(carom_shl(fix_largest(k), shift) >> (6 + c->work->fine_bits));
     if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
@@ -151,6 +179,21 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
                 (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
+}
+
+/*
+ * The larger eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
+ * T/2 + sqrt(T^2/4 - D).
+ */
+void rest_prepare_slide(struct contact *c)
+{
+    int64_t k_q30[6], along_q30, across_q30;
+    int32_t k[6], adjoint[6], n[3], half, product, root;
+    int shift;
+
+    find_k(c, k_q30);
+    shift = shorten(k_q30, k);
+    adjugate(adjoint, k);
     multiply(n, k, c->normal.c);
     product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
     along_q30 = carom_shl(product, shift);
@@ -167,20 +210,5 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
     across_q30 = carom_shl((int64_t)half + root, shift);
     c->work->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
-    most = across_q30 > along_q30 ? across_q30 : along_q30;
-    c->work->mass_q24 = rest_clamp(most >> (6 + c->work->fine_bits));
-}
-
-void rest_prepare_masses(struct contact *c)
-{
-    int64_t k_q30[6] = {0};
-
-    prepare_shares(c);
-    for (int s = 0; s < 2; s++) {
-        if (c->side[s].body) {
-            prepare_side(&c->side[s], &c->work->lever[s], k_q30);
-        }
-    }
-    refine_unit(c);
-    prepare_steps(c, k_q30);
+    c->work->slides = true;
 }

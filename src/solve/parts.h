@@ -31,6 +31,7 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
+    int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
     bool rolls;   /* resting contact, with rolling friction: no contact is an impact */
     bool ran_out; /* out: they ended before the residual was reached */
 };
@@ -81,6 +82,8 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 /* A body's R H; then K of its contacts and the steps of a sweep. */
 void rest_prepare_body(struct body *b);
 void rest_prepare_masses(struct contact *c);
+/* What a contact that slides needs besides. */
+void rest_prepare_slide(struct contact *c);
 
 /* Add to a velocity; returns which bits it uses. The sum wraps: what outgrows its bits begins anew. */
 static inline uint32_t rest_add(int32_t *v, int32_t change)

@@ -293,6 +293,26 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
+#define LD 256
+#define LM 8
+static int64_t loose_q40(const struct rest *r, bool start)
+{
+    int32_t skin_q22 = INT32_MAX;
+    bool moves = !start;
+
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+        int64_t v[3];
+
+        skin_q22 = b->skin_q22 < skin_q22 ? b->skin_q22 : skin_q22;
+        for (int k = 0; k < 3; k++) {
+            v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
+        }
+        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) > carom_shl(b->skin_q22, 18) / LM;
+    }
+    return moves ? carom_shl(skin_q22, 18) / LD : 0;
+}
+
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
@@ -315,6 +335,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
+    sw.loose_q40 = loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {

@@ -44,6 +44,8 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
     if (sw->unit < -4) {
         sw->unit = -4;
     }
+    int64_t loose = sw->loose_q40 >> (sw->unit > 0 ? sw->unit : 0);
+    if (loose > sw->residual) sw->residual = (int32_t)(loose < (1 << REST_BITS) ? loose : 1 << REST_BITS);
 }
 
 /* Velocities to solver units; no impulses yet. */
@@ -281,11 +283,14 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
 }
 
 /* Along N first; then across towards no slip, within the friction cone. */
-static void slide(const struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
+static void slide(struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
     int64_t pushed[3];
     int32_t slip[3];
 
+    if (!c->work->slides) {
+        rest_prepare_slide(c);
+    }
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
         pushed[k] = c->work->tangent_impulse[k] -
