@@ -30,16 +30,14 @@ static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint3
            w->pairs[place].b == b;
 }
 
-/* Pairs from a place on have other numbers: in the pool of candidates and in the list of contacts. */
+/*
+ * Pairs from a place on have other numbers in the list of contacts. Candidates take theirs when somebody
+ * asks for them.
+ */
 static void renumber(struct carom_world *w, uint32_t place, int by)
 {
     struct contact_list *list = &w->rest.list;
 
-    for (uint32_t i = 0; i < w->pools[CAROM_POOL_candidates].used; i++) {
-        struct candidate *c = &w->interfere.candidates[i];
-
-        c->pair = (uint16_t)(c->pair >= place ? c->pair + by : c->pair);
-    }
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct candidate *key = &list->contacts[i].key;
 
