@@ -27,7 +27,7 @@
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
 #define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 #define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
-#define BODY_REGION_FRAMES  8
+#define BODY_REGION_FRAMES  64
 
 /* What a step changes: all of it is hashed and saved. */
 struct body_state {

@@ -35,7 +35,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     struct body_region *region = &b->region;
     const struct body_path *path = body_path(b);
     int64_t turn_q30;
-    /* 8 frames over the shortest slice, 2^-11 of a frame: below 2^31 */
+    /* 64 frames over the shortest slice that is gone on with, 2^-6 of a frame: below 2^29 */
     int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
@@ -58,13 +58,22 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
 }
 
-/* A part of a region's time, which is at most 8 frames: what is divided is at most 2^63. */
+/*
+ * A part of a region's time, which is at most 2^36: of a long one the last bits are left out, so that what is
+ * divided is at most 2^63.
+ */
 static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
 {
-    if (elapsed_q30 == region->time_q30) {
+    uint64_t elapsed = (uint64_t)elapsed_q30, time = (uint64_t)region->time_q30;
+
+    if (elapsed == time) {
         return CAROM_ONE_Q30;
     }
-    return (int32_t)(((uint64_t)elapsed_q30 << 30) / (uint64_t)region->time_q30);
+    if (time >> 33 != 0) {
+        elapsed >>= 3;
+        time >>= 3;
+    }
+    return (int32_t)((elapsed << 30) / time);
 }
 
 /* Rotations along the region's turn. */

@@ -108,7 +108,9 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
 
-    if (!m->kept) {
+    if (m->kept) {
+        interfere_number(w, number);
+    } else {
         w->own_first = pool->used;
         w->span = *span;
         w->by_paths = !keep;

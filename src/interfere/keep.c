@@ -8,25 +8,50 @@
 /* Give up other pairs' candidates when less than this part of the pool would be free. */
 #define LEAST_FREE_PART 8
 
+void interfere_number(struct interfere *w, uint32_t number)
+{
+    const struct pair_work *m = &w->meetings[number];
+
+    /* all of a pair's candidates have one number */
+    if (m->count > 0 && w->candidates[m->first].pair != number) {
+        for (uint32_t i = m->first; i < m->first + m->count; i++) {
+            w->candidates[i].pair = (uint16_t)number;
+        }
+    }
+}
+
+/* How many candidates of a pair that is kept begin at a place. */
+static uint32_t kept_at(const struct interfere *w, uint32_t place)
+{
+    uint16_t number = w->candidates[place].pair;
+    const struct pair_work *m = &w->meetings[number];
+
+    return number < w->pair_count && m->kept && m->first == place ? m->count : 0;
+}
+
 /*
- * Close the gaps that pairs left which were gathered anew, or which are kept no longer. What the pair
- * at hand has so far stays behind all others.
+ * Close the gaps that pairs left which were gathered anew, or which are kept no longer: candidates there
+ * may have any number. What the pair at hand has so far stays behind all others.
  */
 static void close_gaps(struct interfere *w)
 {
     struct pool *pool = w->candidate_pool;
     uint32_t kept = 0, own = pool->used - w->own_first, i = 0;
 
+    for (uint32_t n = 0; n < w->pair_count; n++) {
+        if (w->meetings[n].kept) {
+            interfere_number(w, n);
+        }
+    }
     while (i < w->own_first) {
-        struct pair_work *m = &w->meetings[w->candidates[i].pair];
-        uint32_t count = m->kept && m->first == i ? m->count : 0;
+        uint32_t count = kept_at(w, i);
 
         if (count == 0) {
             i++;
             continue;
         }
+        w->meetings[w->candidates[i].pair].first = kept;
         memmove(&w->candidates[kept], &w->candidates[i], count * sizeof *w->candidates);
-        m->first = kept;
         kept += count;
         i += count;
     }

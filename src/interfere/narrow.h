@@ -146,6 +146,9 @@ struct interfere_place {
 bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from);
 
+/* Give the candidates that the pool keeps of a pair the number that it has now. */
+void interfere_number(struct interfere *w, uint32_t number);
+
 /* Take a candidate of the pair at hand into the pool; what has no room there goes to the visitor. */
 void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j);
 

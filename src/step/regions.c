@@ -12,6 +12,10 @@
 #define REGION_PARTS        10
 #define REGION_PARTS_FLIGHT 20
 #define REGION_PARTS_FREE   4
+/* Frames that it lasts, at most, when gravity bends the path: what it bends by grows with the square of them. */
+#define BENT_FRAMES 8
+/* A slice shorter than that is not gone on with. */
+#define GONE_ON_MIN_Q30 (1 << 24)
 /* Room is no more than this part of the radius: what is swept grows with it. */
 #define ROOM_PARTS 64
 /* A hit leads a body that goes farther than this in a slice aside by more than any room. */
@@ -30,16 +34,14 @@ static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint3
            w->pairs[place].b == b;
 }
 
-/* Pairs from a place on have other numbers: in the pool of candidates and in the list of contacts. */
+/*
+ * Pairs from a place on have other numbers in the list of contacts. Candidates take theirs when somebody
+ * asks for them.
+ */
 static void renumber(struct carom_world *w, uint32_t place, int by)
 {
     struct contact_list *list = &w->rest.list;
 
-    for (uint32_t i = 0; i < w->pools[CAROM_POOL_candidates].used; i++) {
-        struct candidate *c = &w->interfere.candidates[i];
-
-        c->pair = (uint16_t)(c->pair >= place ? c->pair + by : c->pair);
-    }
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct candidate *key = &list->contacts[i].key;
 
@@ -167,10 +169,12 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30)
 {
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
-    int64_t way_q22, turn_q30, most_q22, frames = BODY_REGION_FRAMES, held = 1;
+    const int64_t *g = b->path.g.c;
+    int64_t way_q22, turn_q30, most_q22, held = 1;
+    int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : BENT_FRAMES;
 
     /* where nothing is near, a new region costs less than to ask whether the old one holds */
-    if (slice_q30 < left_q30 || slice_q30 < STEP_SLICE_MIN_Q30 || s->single ||
+    if (slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
