@@ -293,7 +293,7 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
-#define LD 256
+#define LD 64
 #define LM 8
 static int64_t loose_q40(const struct rest *r, bool start)
 {
@@ -316,7 +316,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    struct rest_sweep sw = {.residual = REST_RESIDUAL_REST, .rolls = true};
+    struct rest_sweep sw = {.residual = r->count > 8 ? REST_RESIDUAL_REST << 3 : REST_RESIDUAL_REST, .rolls = true};
     bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
     if (impacts && r->count == 1 && !lasting) {
