@@ -21,16 +21,20 @@ void rest_prepare_body(struct body *b)
 static void prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
     const struct body *b = side->body;
-    int up = 31 - rest_turn_bits(b) - contact_arm_bits(b);
+    int more = rest_turn_bits(b) + contact_arm_bits(b) - 31;
 
     for (int j = 0; j < 3; j++) {
+        int down = more + b->mesh->spread.e[j];
         int64_t column[3];
 
         fix_cross(column, body_solved(b)->columns[j], side->arm_q30);
         for (int i = 0; i < 3; i++) {
+            int64_t turn = down > 0 ? carom_round(column[i], down) : fix_round_shift(column[i], -down);
+
             /* a place that is farther off the mesh than is reckoned with counts as one that is not */
-            lever->turn[i][j] =
-                rest_within(fix_round_shift(column[i], up - b->mesh->spread.e[j]), CAROM_ONE_Q30 - 1);
+            lever->turn[i][j] = turn >= CAROM_ONE_Q30    ? CAROM_ONE_Q30 - 1
+                                : turn <= -CAROM_ONE_Q30 ? -(CAROM_ONE_Q30 - 1)
+                                                         : (int32_t)turn;
         }
     }
 }
@@ -45,13 +49,14 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
         const struct contact_lever *lever = &c->work->lever[s];
         const struct body *b = c->side[s].body;
         int bits = b ? rest_turn_bits(b) : 0;
+        int32_t share_q30 =
+            (int32_t)fix_round_shift(lever->share_q30, c->work->fine_bits - 2 * bits - 2);
 
         for (int n = 0; b && n < 6; n++) {
             int64_t sum = carom_dot(lever->turn[row[n]], lever->turn[column[n]]);
 
-            sum = fix_round_shift(sum, 2 * bits - 32) + (n < 3 ? CAROM_ONE_Q30 : 0);
-            k_q30[n] +=
-                fix_round_shift(fix_mul_q30(sum, lever->share_q30), c->work->fine_bits - 2 * bits - 2);
+            sum = carom_round(sum, 32 - 2 * bits) + (n < 3 ? CAROM_ONE_Q30 : 0);
+            k_q30[n] += share_q30 == CAROM_ONE_Q30 ? sum : fix_mul_q30(sum, share_q30);
         }
     }
 }
