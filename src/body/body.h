@@ -132,6 +132,7 @@ struct body {
     bool entering;   /* rest: in_contact is new */
     bool solving;    /* rest: has a contact in the solve at hand */
     bool unsettled;  /* rest: its island's last solve left places that approach */
+    int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
     bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
     bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
     bool rewound;  /* energy: is back where the frame found it */

@@ -117,8 +117,6 @@ static void find_offsets(struct mesh_builder *b)
 
 /* Contacts lie some skins off the mesh: this part of the radius covers that. */
 #define REACH_DIVISOR 256
-/* So K fits: a mesh whose places reach farther, by its masses, turns as if they did not. */
-#define REACH_BITS_MAX 13
 
 /* See carom_spread. */
 static int reach_bits(const struct carom_mesh *mesh)
@@ -142,7 +140,7 @@ static int reach_bits(const struct carom_mesh *mesh)
         bits = fix_bits((uint64_t)(longest + off)) - 22 - mesh->spread.e[k];
         most = bits > most ? bits : most;
     }
-    return most < REACH_BITS_MAX ? most : REACH_BITS_MAX;
+    return most;
 }
 
 /*

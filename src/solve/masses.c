@@ -3,11 +3,15 @@
 #include "rows.h"
 #include "parts.h"
 
+/* So K fits: what would reach farther counts as reaching so far. */
+#define TURN_BITS_MAX 14
+
 void rest_prepare_body(struct body *b)
 {
     const carom_m3_q30 *r = &b->path.start.r;
 
     PHASE_BEGIN(b->path.phase, BODY_SOLVE);
+    b->turn_bits = (int8_t)(b->mesh->spread.reach_bits + 1);
     /* a column is below sqrt(3) 2^30 */
     for (int j = 0; j < 3; j++) {
         for (int k = 0; k < 3; k++) {
@@ -17,11 +21,11 @@ void rest_prepare_body(struct body *b)
     }
 }
 
-/* How du turns the place of a contact on one side. */
-static void prepare_turn(const struct contact_side *side, struct contact_lever *lever)
+/* How du turns the place of a contact on one side. Returns false when that takes more turn_bits. */
+static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
-    const struct body *b = side->body;
-    int more = rest_turn_bits(b) + contact_arm_bits(b) - 31;
+    struct body *b = side->body;
+    int more = b->turn_bits + contact_arm_bits(b) - 31;
 
     for (int j = 0; j < 3; j++) {
         int down = more + b->mesh->spread.e[j];
@@ -31,12 +35,17 @@ static void prepare_turn(const struct contact_side *side, struct contact_lever *
         for (int i = 0; i < 3; i++) {
             int64_t turn = down > 0 ? carom_round(column[i], down) : fix_round_shift(column[i], -down);
 
-            /* a place that is farther off the mesh than is reckoned with counts as one that is not */
-            lever->turn[i][j] = turn >= CAROM_ONE_Q30    ? CAROM_ONE_Q30 - 1
-                                : turn <= -CAROM_ONE_Q30 ? -(CAROM_ONE_Q30 - 1)
-                                                         : (int32_t)turn;
+            if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
+                if (b->turn_bits < TURN_BITS_MAX) {
+                    b->turn_bits++;
+                    return false;
+                }
+                turn = turn > 0 ? CAROM_ONE_Q30 - 1 : 1 - CAROM_ONE_Q30;
+            }
+            lever->turn[i][j] = (int32_t)turn;
         }
     }
+    return true;
 }
 
 /* K: the sum over the sides of share (1 + turn turn^T). */
@@ -48,7 +57,7 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
     for (int s = 0; s < 2; s++) {
         const struct contact_lever *lever = &c->work->lever[s];
         const struct body *b = c->side[s].body;
-        int bits = b ? rest_turn_bits(b) : 0;
+        int bits = b ? b->turn_bits : 0;
         int32_t share_q30 =
             (int32_t)fix_round_shift(lever->share_q30, c->work->fine_bits - 2 * bits - 2);
 
@@ -92,7 +101,7 @@ static void prepare_shares(struct contact *c)
 /* How many bits finer than velocities the impulses are that a side can take up without rounding. */
 static int side_bits(const struct contact_side *side, const struct contact_lever *lever)
 {
-    return side->body ? 2 * rest_turn_bits(side->body) + 2 +
+    return side->body ? 2 * side->body->turn_bits + 2 +
                             fix_bits32((uint32_t)lever->share_q30) - 31
                       : 0;
 }
@@ -113,7 +122,7 @@ static void refine_unit(struct contact *c)
 
         if (body) {
             c->work->lever[s].share_q30 = (int32_t)fix_round_shift(
-                c->work->lever[s].share_q30, 2 * rest_turn_bits(body) + 2 - fine);
+                c->work->lever[s].share_q30, 2 * body->turn_bits + 2 - fine);
         }
     }
 }
@@ -154,7 +163,7 @@ static int shorten(const int64_t k_q30[6], int32_t k[6])
     return shift;
 }
 
-void rest_prepare_masses(struct contact *c)
+bool rest_prepare_masses(struct contact *c)
 {
     int64_t k_q30[6];
     int32_t k[6], adjoint[6], det;
@@ -163,8 +172,8 @@ void rest_prepare_masses(struct contact *c)
     prepare_shares(c);
     refine_unit(c);
     for (int s = 0; s < 2; s++) {
-        if (c->side[s].body) {
-            prepare_turn(&c->side[s], &c->work->lever[s]);
+        if (c->side[s].body && !prepare_turn(&c->side[s], &c->work->lever[s])) {
+            return false;
         }
     }
     find_k(c, k_q30);
@@ -184,6 +193,7 @@ void rest_prepare_masses(struct contact *c)
                 (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
         }
     }
+    return true;
 }
 
 /*

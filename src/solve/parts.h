@@ -10,21 +10,22 @@
 
 /*
  * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a tie,
- * and ties go upward. du has those of the body, one more than a place of it is moved by at most.
+ * and ties go upward. du has turn_bits + 1, for a place may move by so much less than du.
  */
-#define REST_FINER_BITS 4
-
-static inline int rest_turn_bits(const struct body *b)
-{
-    return b->mesh->spread.reach_bits + 1;
-}
+#define REST_FINER_BITS 3
 
 /* When dv or du use more than these the unit is too small, and there is a larger one. */
 #define REST_USED_BITS 29
 
-/* Sweeps end when no velocity changes by more than this, in solver units of 2^-27 V*. */
-#define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 19))
-#define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
+/*
+ * Sweeps end when no velocity changes by more than this, in solver units. Contacts of a body or two that
+ * slide or roll settle over the frames, and creep by what is left: so few have a residual of their own.
+ */
+#define REST_FEW                  8
+#define REST_RESIDUAL_IMPACT      (1 << (REST_BITS - 20))
+#define REST_RESIDUAL_IMPACT_FEW  1
+#define REST_RESIDUAL_REST        (1 << (REST_BITS - 13))
+#define REST_RESIDUAL_REST_FEW    (1 << (REST_BITS - 16))
 
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
@@ -81,7 +82,8 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 
 /* A body's R H; then K of its contacts and the steps of a sweep. */
 void rest_prepare_body(struct body *b);
-void rest_prepare_masses(struct contact *c);
+/* Returns false when a body's turn_bits had to be raised: then all of its contacts must be prepared anew. */
+bool rest_prepare_masses(struct contact *c);
 /* What a contact that slides needs besides. */
 void rest_prepare_slide(struct contact *c);
 
@@ -101,14 +103,14 @@ static inline int32_t turn_by(const struct contact_lever *lever, int k, int32_t 
 }
 
 /*
- * dv and du of a body by an impulse below 2^31. With t = rest_turn_bits: an impulse is in units of
+ * dv and du of a body by an impulse below 2^31. With t = turn_bits: an impulse is in units of
  * 2^-(2 t + 2) by now, turn of 2^(t - 31) and du of 2^-(t + 1).
  */
 static inline void rest_push_side(struct body *b, const struct contact_lever *lever,
                                   const int32_t impulse[3])
 {
     struct body_path *in = body_solve(b);
-    const int down = 2 * rest_turn_bits(b) + 2 - REST_FINER_BITS;
+    const int down = 2 * b->turn_bits + 2 - REST_FINER_BITS;
     int32_t x = impulse[0], y = impulse[1], z = impulse[2];
 
     if (lever->share_q30 != CAROM_ONE_Q30) {

@@ -239,6 +239,19 @@ static int solve_impact(struct rest *r, struct contact *c)
     return result;
 }
 
+/* What impulses at the contacts change. */
+static void prepare_masses(struct rest *r)
+{
+    bool fit;
+
+    do {
+        fit = true;
+        for (uint32_t i = 0; i < r->count; i++) {
+            fit = rest_prepare_masses(rest_contact(r, i)) && fit;
+        }
+    } while (!fit);
+}
+
 /* Whether any contact is an impact; also fills in what the solvers need of each. */
 static bool prepare(struct rest *r, int32_t tau_q30)
 {
@@ -256,11 +269,11 @@ static bool prepare(struct rest *r, int32_t tau_q30)
         rest_relative_velocity(c, &c->velocity_q40);
         rest_share_normal(r, i);
         c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
-        rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
         r->impacts += c->impact;
     }
+    prepare_masses(r);
     return any;
 }
 
@@ -316,7 +329,9 @@ static int64_t loose_q40(const struct rest *r, bool start)
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    struct rest_sweep sw = {.residual = r->count > 8 ? REST_RESIDUAL_REST << 3 : REST_RESIDUAL_REST, .rolls = true};
+    bool few = r->count <= REST_FEW;
+    struct rest_sweep sw = {.residual = few ? REST_RESIDUAL_REST_FEW : REST_RESIDUAL_REST,
+                            .rolls = true};
     bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
     if (impacts && r->count == 1 && !lasting) {
@@ -328,7 +343,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.residual = REST_RESIDUAL_IMPACT;
+        sw.residual = few ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }
     for (uint32_t i = 0; i < r->count; i++) {

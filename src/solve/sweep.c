@@ -8,11 +8,8 @@
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
 
-/*
- * Contacts of a body or two that slide or roll settle over the frames; a heap that is left unsettled
- * slips, and then takes more sweeps than it was spared.
- */
-#define FEW 8
+/* So many contacts, or fewer, are swept without momentum. */
+#define UNHURRIED 3
 
 /*
  * Resting contacts that are slower than this part of the residual are left alone. With all of it they
@@ -198,7 +195,7 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     int up = 30 - in->fine_bits;
     int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
                                      (v[2] ^ (v[2] >> 31)))) +
-               in->fine_bits - 29;
+               in->fine_bits - 30;
     int32_t x, y, z;
     int64_t normal, tangent[3];
 
@@ -464,21 +461,24 @@ static void accelerate(struct rest *r, int *age)
     }
 }
 
-/* When sweeps run out, a contact's last visit may not have gone all its way. */
+/* The last visit of a contact may not have gone all its way, or found it as good as at rest out there. */
 static void into_cones(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
         c->work->normal_impulse = c->work->normal_impulse > 0 ? c->work->normal_impulse : 0;
-        rest_cut(c->work->tangent_impulse, friction_limit(c, c->work->normal_impulse));
+        if (!in_cone(c, c->work->normal_impulse, c->work->tangent_impulse)) {
+            rest_cut(c->work->tangent_impulse, friction_limit(c, c->work->normal_impulse));
+        }
     }
 }
 
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
-    int rounds = !sw->rolls        ? REST_SWEEPS_MAX
-                 : r->count <= FEW ? REST_SWEEPS_FEW
+    int rounds = sw->plastic || r->count <= UNHURRIED ? REST_SWEEPS_PLASTIC
+                 : !sw->rolls      ? REST_SWEEPS_MAX
+                 : r->count <= REST_FEW ? REST_SWEEPS_FEW
                                    : REST_SWEEPS_MANY;
 
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
@@ -499,9 +499,13 @@ static bool outgrown(const struct rest *r)
 static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     uint32_t n = r->count;
-    /* a contact by itself is solved in a visit or a few */
-    bool coupled = n > 1 || rest_contact(r, 0)->work->rolls;
+    /*
+     * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
+     * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
+     */
+    bool hurries = !sw->plastic && n > UNHURRIED;
     int rounds = most_rounds(r, sw);
+    bool ran_out = true;
     int age = 0;
 
     for (int round = 0; round < rounds; round++) {
@@ -517,18 +521,16 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
                 moved = m > moved ? m : moved;
             }
         }
-        if (outgrown(r)) {
-            return true;
+        ran_out = moved > sw->residual;
+        if (!ran_out || outgrown(r)) {
+            break;
         }
-        if (moved <= sw->residual) {
-            return false;
-        }
-        if (coupled && round < rounds - 1) {
+        if (hurries && round < rounds - 1) {
             accelerate(r, &age);
         }
     }
     into_cones(r);
-    return true;
+    return ran_out;
 }
 
 /* Impulses in solver units to momentum, one rounding a component. */

@@ -38,7 +38,7 @@ int step_check_pair(struct step *s, uint32_t number)
     if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
-    v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : s->now_q30 == 0 && step_is_touching(world_now(s->w), p) ? 20 : BODY_MARGIN_SKINS);
+    v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : BODY_MARGIN_SKINS);
     if (!m->kept && step_stay_apart(s, number,
                                     (int64_t)v.margin_q22 + 2 * skin_q22 +
                                         mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh))) {
