@@ -17,7 +17,7 @@ struct contact_side {
 
 /* What an impulse at a contact does to one of its bodies, in the solver's units (rest.h). */
 struct contact_lever {
-    int32_t share_q30; /* of an impulse: what the body's mass and units make of it, at most 1 */
+    int32_t share_q30;  /* the lighter body's mass over this one's, at most 1 */
     int32_t turn[3][3]; /* rows: the velocity of the place by du, below 2^30 */
 };
 
@@ -53,7 +53,7 @@ struct contact_work {
     bool rolls;                /* and it takes part in the sweeps at hand */
     bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
     bool slides;               /* drag_q28 and step are there: from the first time that it slides */
-    int8_t fine_bits;
+    int8_t fine_bits; /* of impulses, below the solver's unit */
     PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */

@@ -58,14 +58,12 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
         const struct contact_lever *lever = &c->work->lever[s];
         const struct body *b = c->side[s].body;
         int bits = b ? b->turn_bits : 0;
-        int32_t share_q30 =
-            (int32_t)fix_round_shift(lever->share_q30, c->work->fine_bits - 2 * bits - 2);
 
         for (int n = 0; b && n < 6; n++) {
             int64_t sum = carom_dot(lever->turn[row[n]], lever->turn[column[n]]);
 
             sum = carom_round(sum, 32 - 2 * bits) + (n < 3 ? CAROM_ONE_Q30 : 0);
-            k_q30[n] += share_q30 == CAROM_ONE_Q30 ? sum : fix_mul_q30(sum, share_q30);
+            k_q30[n] += lever->share_q30 == CAROM_ONE_Q30 ? sum : fix_mul_q30(sum, lever->share_q30);
         }
     }
 }
@@ -98,33 +96,14 @@ static void prepare_shares(struct contact *c)
     }
 }
 
-/* How many bits finer than velocities the impulses are that a side can take up without rounding. */
-static int side_bits(const struct contact_side *side, const struct contact_lever *lever)
-{
-    return side->body ? 2 * side->body->turn_bits + 2 +
-                            fix_bits32((uint32_t)lever->share_q30) - 31
-                      : 0;
-}
-
 /*
- * Impulses have as fine a unit as the finer side takes: what a place that turns easily needs is small.
- * Shares are from then on of impulses in that unit to a body's own.
+ * Impulses have a finer unit than velocities, by 5 bits and what K has above 1: what a place needs that
+ * gives way easily is small.
  */
-static void refine_unit(struct contact *c)
+static void refine_unit(struct contact *c, const int64_t k_q30[6])
 {
-    int a = side_bits(&c->side[0], &c->work->lever[0]),
-        b = side_bits(&c->side[1], &c->work->lever[1]), fine = a > b ? a : b;
-
-    c->work->fine_bits = (int8_t)fine;
-    c->work->mass_unit.e += fine;
-    for (int s = 0; s < 2; s++) {
-        const struct body *body = c->side[s].body;
-
-        if (body) {
-            c->work->lever[s].share_q30 = (int32_t)fix_round_shift(
-                c->work->lever[s].share_q30, 2 * body->turn_bits + 2 - fine);
-        }
-    }
+    c->work->fine_bits = (int8_t)(fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 31 + 5);
+    c->work->mass_unit.e += c->work->fine_bits;
 }
 
 /* The adjugate of K in 30 bits, and its determinant. */
@@ -170,13 +149,13 @@ bool rest_prepare_masses(struct contact *c)
     int shift;
 
     prepare_shares(c);
-    refine_unit(c);
     for (int s = 0; s < 2; s++) {
         if (c->side[s].body && !prepare_turn(&c->side[s], &c->work->lever[s])) {
             return false;
         }
     }
     find_k(c, k_q30);
+    refine_unit(c, k_q30);
     shift = shorten(k_q30, k);
     det = adjugate(adjoint, k);
     PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);

@@ -94,34 +94,34 @@ static inline uint32_t rest_add(int32_t *v, int32_t change)
     return (uint32_t)(*v ^ (*v >> 31));
 }
 
-static inline int32_t turn_by(const struct contact_lever *lever, int k, int32_t x, int32_t y,
-                              int32_t z)
+static inline int32_t turn_by(const struct contact_lever *lever, int k, const int32_t own[3], int s)
 {
-    return (int32_t)(((int64_t)lever->turn[0][k] * x + (int64_t)lever->turn[1][k] * y +
-                      (int64_t)lever->turn[2][k] * z + ((int64_t)1 << 31)) >>
-                     32);
+    return (int32_t)(((int64_t)lever->turn[0][k] * own[0] + (int64_t)lever->turn[1][k] * own[1] +
+                      (int64_t)lever->turn[2][k] * own[2] + ((int64_t)1 << s >> 1)) >>
+                     s);
 }
 
 /*
- * dv and du of a body by an impulse below 2^31. With t = turn_bits: an impulse is in units of
- * 2^-(2 t + 2) by now, turn of 2^(t - 31) and du of 2^-(t + 1).
+ * dv and du of a body by an impulse below 2^31 with so many fractional bits. `turn` has units of
+ * 2^(turn_bits - 31), du of 2^-(turn_bits + 1).
  */
 static inline void rest_push_side(struct body *b, const struct contact_lever *lever,
-                                  const int32_t impulse[3])
+                                  const int32_t impulse[3], int fine_bits)
 {
     struct body_path *in = body_solve(b);
-    const int down = 2 * b->turn_bits + 2 - REST_FINER_BITS;
-    int32_t x = impulse[0], y = impulse[1], z = impulse[2];
+    const int down = fine_bits - REST_FINER_BITS, s = 30 + fine_bits - 2 * b->turn_bits;
+    int32_t own[3] = {impulse[0], impulse[1], impulse[2]};
 
     if (lever->share_q30 != CAROM_ONE_Q30) {
-        x = carom_mul_q30(x, lever->share_q30);
-        y = carom_mul_q30(y, lever->share_q30);
-        z = carom_mul_q30(z, lever->share_q30);
+        own[0] = carom_mul_q30(own[0], lever->share_q30);
+        own[1] = carom_mul_q30(own[1], lever->share_q30);
+        own[2] = carom_mul_q30(own[2], lever->share_q30);
     }
-    in->used |= rest_add(&in->dv[0], x >> down) | rest_add(&in->dv[1], y >> down) |
-                rest_add(&in->dv[2], z >> down) | rest_add(&in->du[0], turn_by(lever, 0, x, y, z)) |
-                rest_add(&in->du[1], turn_by(lever, 1, x, y, z)) |
-                rest_add(&in->du[2], turn_by(lever, 2, x, y, z));
+    in->used |= rest_add(&in->dv[0], own[0] >> down) | rest_add(&in->dv[1], own[1] >> down) |
+                rest_add(&in->dv[2], own[2] >> down) |
+                rest_add(&in->du[0], turn_by(lever, 0, own, s)) |
+                rest_add(&in->du[1], turn_by(lever, 1, own, s)) |
+                rest_add(&in->du[2], turn_by(lever, 2, own, s));
 }
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */

@@ -307,7 +307,7 @@ static void note_unsettled(struct rest *r, bool unsettled)
 }
 
 #define LD 64
-#define LM 8
+#define LM 2
 static int64_t loose_q40(const struct rest *r, bool start)
 {
     int32_t skin_q22 = INT32_MAX;
@@ -321,7 +321,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
         for (int k = 0; k < 3; k++) {
             v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
         }
-        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) > carom_shl(b->skin_q22, 18) / LM;
+        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) > carom_shl(b->skin_q22, 18) * LM;
     }
     return moves ? carom_shl(skin_q22, 18) / LD : 0;
 }
@@ -350,7 +350,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = loose_q40(r, warm);
+    sw.loose_q40 = few ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {

@@ -143,7 +143,7 @@ static int64_t turning_q30(const struct contact *c, int s)
         }
         largest = sum > largest ? sum : largest;
     }
-    return fix_mul_q30(largest, c->work->lever[s].share_q30) >> (2 * b->turn_bits + 2);
+    return fix_mul_q30(largest, c->work->lever[s].share_q30) >> c->work->fine_bits;
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -203,7 +203,8 @@ static void twist(struct contact *c, const int32_t moment[3])
         for (int j = 0; j < 3; j++) {
             int64_t turn = carom_dot(body_solve(b)->columns[j], part);
 
-            turn = fix_round_shift(turn, -(b->turn_bits + 1) - column_bits(c, b, j));
+            turn = fix_round_shift(turn,
+                                   b->turn_bits + 1 - c->work->fine_bits - column_bits(c, b, j));
             body_solve(b)->du[j] += rest_within(turn, CAROM_ONE_Q30);
             body_solve(b)->used |= (uint32_t)(body_solve(b)->du[j] ^ (body_solve(b)->du[j] >> 31));
         }
