@@ -37,12 +37,13 @@ static void place(void)
 /* The contacts of all candidates, in an order that starts anywhere; false when they do not fit. */
 static bool find(int32_t margin_q22, uint32_t start)
 {
+    int32_t clear_q22 = INT32_MAX;
     bool fits = true;
 
     pool_clear(&pool);
     for (uint32_t n = 0; n < candidate_count; n++) {
-        fits = fits &&
-               contact_add(&list, &pair, &candidates[(start + n) % candidate_count], margin_q22);
+        fits = fits && contact_add(&list, &pair, &candidates[(start + n) % candidate_count],
+                                   margin_q22, &clear_q22);
     }
     return fits;
 }
@@ -268,6 +269,7 @@ static bool same_contacts(const struct contact *first, uint32_t count)
 static void test_order(void)
 {
     static struct contact first[CONTACTS];
+    int32_t clear_q22 = INT32_MAX;
     uint32_t count;
 
     shape_box(&shape_a, 12, 4096, 2400, 1200);
@@ -287,7 +289,7 @@ static void test_order(void)
         CHECK(same_contacts(first, count));
     }
     for (uint32_t n = 0; n < candidate_count; n++) {
-        CHECK(contact_add(&list, &pair, &candidates[n], 700));
+        CHECK(contact_add(&list, &pair, &candidates[n], 700, &clear_q22));
     }
     CHECK_EQ(pool.used, count);
     CHECK(same_contacts(first, count));

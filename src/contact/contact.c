@@ -112,18 +112,15 @@ static int64_t drifted_q22(const struct boyse_pair *pair, const struct candidate
 }
 
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22)
+                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22)
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
     int32_t most = mesh_drift_most(pair->b->mesh);
     struct boyse_touch touch;
     carom_v3_q40 arm[2];
 
-    if (!boyse_near(pair, c, deepest, margin_q22 + most)) {
-        return true;
-    }
-    boyse_touch(pair, c, 0, &touch);
-    if (!touch.valid || touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
+    if (!boyse_static(pair, c, deepest, margin_q22 + most, &touch, clear_q22) || !touch.valid ||
+        touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
         return true;
     }
     contact_flatten(pair, c, &touch.normal);

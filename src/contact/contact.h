@@ -217,10 +217,10 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 
 /*
  * Take in a candidate if its features touch within `margin` in the placed poses: as the visitor of
- * all candidates does. Returns false when the list is full.
+ * all candidates does. Returns false when the list is full. clear_q22: see boyse_static.
  */
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22);
+                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22);
 
 /*
  * Make sure that the pair of a hit is among the contacts, with the normal found at the root and the

@@ -9,7 +9,7 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 
     for (uint32_t i = 0; i < n && !v->error; i++) {
         boyse_pair_for(pair, &c[i]);
-        if (!contact_add(&v->step->w->rest.list, pair, &c[i], v->margin_q22)) {
+        if (!contact_add(&v->step->w->rest.list, pair, &c[i], v->margin_q22, &v->clear_q22)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }
     }
@@ -27,6 +27,14 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
            !step_is_touching(world_now(s->w), p);
 }
 
+/* How many 16ths of a skin are clear, as far as four bits hold. */
+static uint32_t clear_parts(int32_t clear_q22, int32_t skin_q22)
+{
+    int32_t parts = clear_q22 > 0 ? (int32_t)((int64_t)clear_q22 * 16 / skin_q22) : 0;
+
+    return parts < 15 ? (uint32_t)parts : 15;
+}
+
 int step_check_pair(struct step *s, uint32_t number)
 {
     struct pair_work *m = &s->w->meetings[number];
@@ -34,7 +42,9 @@ int step_check_pair(struct step *s, uint32_t number)
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
     struct step_visitor v;
+    int result;
 
+    m->clear = 0;
     if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
@@ -45,7 +55,12 @@ int step_check_pair(struct step *s, uint32_t number)
         return CAROM_OK;
     }
     v.from_q30 = v.to_q30 = s->now_q30;
-    return step_visit(s, number, &v, visit_contacts);
+    v.clear_q22 = skin_q22;
+    result = step_visit(s, number, &v, visit_contacts);
+    if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
+        m->clear = clear_parts(v.clear_q22, skin_q22) & 15;
+    }
+    return result;
 }
 
 int step_settle_contacts(struct step *s)
