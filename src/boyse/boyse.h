@@ -99,7 +99,7 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
  * or a vertex is deeper below a face than `deepest` (negative); `touch` is not set then.
  *
  *   clear_q22  in/out  lowered to how far points of the bodies must go towards each other, at least, before
- *                      the features meet; only when that is less than the margin and -deepest - skin / 2
+ *                      the features meet, as far as the margin tells
  */
 bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
                   int32_t margin_q22, struct boyse_touch *touch, int32_t *clear_q22);
