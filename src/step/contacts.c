@@ -155,25 +155,35 @@ static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
     return least_q22;
 }
 
+/* r w^2 / 8 of a body that spins so fast */
+static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30)
+{
+    int64_t turn_q30 = fix_mul(spin_q40, left_q30, 40);
+
+    turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
+    return fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
+}
+
 /*
- * Whether the path of a contact may be off the straight one by more than a small part of the skin:
- * r w^2 / 8 of both bodies. The spins are those of the last look at the contacts.
+ * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
+ * both bodies bend. The spins are those of the last look at the contacts; nearly all are slow by a bound of them.
  */
 static bool bends(const struct contact *c, int32_t left_q30)
 {
-    int64_t bend_q22 = 0;
+    int32_t most_q22 = c->skin_q22 / CHORD_BEND_DIVISOR;
+    int64_t bound_q22 = 0, all_q22 = 0;
 
     for (int k = 0; k < 2; k++) {
         const struct body *b = c->side[k].body;
 
-        if (b) {
-            int64_t turn_q30 = fix_mul(fix_length(b->spin.c), left_q30, 40);
-
-            turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
-            bend_q22 += fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
-        }
+        bound_q22 += b ? bend_q22(b, fix_length_bound(b->spin.c), left_q30) : 0;
     }
-    return bend_q22 > c->skin_q22 / CHORD_BEND_DIVISOR;
+    for (int k = 0; bound_q22 > most_q22 && k < 2; k++) {
+        const struct body *b = c->side[k].body;
+
+        all_q22 += b ? bend_q22(b, fix_length(b->spin.c), left_q30) : 0;
+    }
+    return all_q22 > most_q22;
 }
 
 /* The slice that both bodies of a pair are going to take, and straight paths for it. */
