@@ -43,14 +43,22 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
     return c;
 }
 
+static void set_arm(struct contact_side *side, const carom_v3_q40 *arm)
+{
+    int up = contact_arm_bits(side->body) - 40;
+    /* the half that rounds; bodies of a radius of less than 2^-10 units have none */
+    int64_t half = up < 0 ? (int64_t)1 << (-up - 1) : 0;
+
+    for (int k = 0; k < 3; k++) {
+        side->arm_q30[k] = (int32_t)fix_shift(arm->c[k] + half, up);
+    }
+}
+
 static void set_arms(struct contact *c, const carom_v3_q40 arm[2])
 {
     for (int s = 0; s < 2; s++) {
-        struct contact_side *side = &c->side[s];
-
-        for (int k = 0; side->body && k < 3; k++) {
-            side->arm_q30[k] =
-                (int32_t)fix_round_shift(arm[s].c[k], contact_arm_bits(side->body) - 40);
+        if (c->side[s].body) {
+            set_arm(&c->side[s], &arm[s]);
         }
     }
 }
