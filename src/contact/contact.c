@@ -7,6 +7,10 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
     uint32_t low = 0, high = list->pool->used;
 
     *same = false;
+    /* pairs come in their order where a frame begins */
+    if (high > 0 && candidate_compare(&list->contacts[high - 1].key, key) < 0) {
+        return high;
+    }
     while (low < high) {
         uint32_t middle = (low + high) / 2;
         int order = candidate_compare(&list->contacts[middle].key, key);
@@ -144,15 +148,13 @@ static int64_t cosine_q30(const carom_v3_q30 *a, const carom_v3_q30 *b)
     return carom_dot(a->c, b->c) >> 30;
 }
 
-static int64_t distance_q22(const struct contact *c, const carom_v3_q22 *place)
+/* Whether a contact is nearer to a place than a distance, along the axes of the world. */
+static bool is_within(const struct contact *c, const carom_v3_q22 *place, int64_t distance_q22)
 {
-    carom_v3_q22 arm = contact_arm(c);
-    int64_t sum = 0;
-
-    for (int k = 0; k < 3; k++) {
-        sum += carom_abs((int64_t)arm.c[k] - place->c[k]);
+    for (int k = 0; k < 3 && distance_q22 > 0; k++) {
+        distance_q22 -= carom_abs((int64_t)contact_arm_along(c, k) - place->c[k]);
     }
-    return sum;
+    return distance_q22 > 0;
 }
 
 /*
@@ -202,7 +204,7 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
             taken = true;
             continue;
         }
-        there = there || (same && distance_q22(c, &near) < 20 * (int64_t)pair->skin_q22);
+        there = there || (same && is_within(c, &near, 20 * (int64_t)pair->skin_q22));
         i++;
     }
     if (there && !taken) {
@@ -226,7 +228,7 @@ void contact_merge(struct contact_list *list)
         for (j = first; j < kept; j++) {
             struct contact *k = &list->contacts[j];
 
-            if (distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
+            if (is_within(k, &arm, 2 * (int64_t)c->skin_q22) &&
                 cosine_q30(&k->normal, &c->normal) > CONTACT_SAME_NORMAL_Q30) {
                 break;
             }

@@ -193,16 +193,17 @@ static inline int contact_arm_bits(const struct body *b)
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */
+static inline int32_t contact_arm_along(const struct contact *c, int k)
+{
+    int down = contact_arm_bits(c->side[0].body) - 22;
+
+    return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
+}
+
 static inline carom_v3_q22 contact_arm(const struct contact *c)
 {
-    const struct contact_side *side = &c->side[0];
-    int down = contact_arm_bits(side->body) - 22;
-    carom_v3_q22 arm;
-
-    for (int k = 0; k < 3; k++) {
-        arm.c[k] = (int32_t)(((int64_t)side->arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
-    }
-    return arm;
+    return (carom_v3_q22){
+        {contact_arm_along(c, 0), contact_arm_along(c, 1), contact_arm_along(c, 2)}};
 }
 
 carom_v3_q32 contact_point(const struct contact *c);

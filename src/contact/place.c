@@ -103,21 +103,21 @@ static int64_t on_both_q40(const carom_v3_q40 *d, const int32_t e[3], const int3
     return s_q40;
 }
 
-/* The point of a's edge; b's start is relative to b's centre. */
+/* The point of a's edge; b's start is relative to b's centre, which is `apart` from a's. */
 static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candidate *c,
-                               carom_v3_q40 *start_b)
+                               const carom_v3_q40 *apart, carom_v3_q40 *start_b)
 {
     const struct carom_edge *edge_a = &pair->a->mesh->edges[c->i];
     const struct carom_edge *edge_b = &pair->b->mesh->edges[c->j];
     carom_v3_q40 start_a = turned(pair->a, mesh_vertex(pair->a->mesh, edge_a->vertex[0]));
-    carom_v3_q40 d = between(pair);
+    carom_v3_q40 d;
     int32_t e[3], f[3];
 
     *start_b = turned(pair->b, mesh_vertex(pair->b->mesh, edge_b->vertex[0]));
     carom_rotate(e, &pair->a->path.start.r, edge_a->direction.c);
     carom_rotate(f, &pair->b->path.start.r, edge_b->direction.c);
     for (int k = 0; k < 3; k++) {
-        d.c[k] += start_a.c[k] - start_b->c[k];
+        d.c[k] = apart->c[k] + start_a.c[k] - start_b->c[k];
     }
     return along(start_a, on_both_q40(&d, e, f, edge_a->length_q22, edge_b->length_q22), e);
 }
@@ -129,7 +129,7 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
     int known = 0; /* the side whose point is known; of the other's, only the plane */
 
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        on[0] = edge_point(pair, c, &on[1]);
+        on[0] = edge_point(pair, c, &apart, &on[1]);
     } else {
         const struct body *of_vertex = c->kind == CANDIDATE_VERTEX_FACE ? pair->a : pair->b;
         const struct body *of_face = c->kind == CANDIDATE_VERTEX_FACE ? pair->b : pair->a;

@@ -96,8 +96,8 @@ static void shorten(struct step *s, uint32_t i)
     }
 }
 
-int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
-               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+/* A pair that is not kept. */
+static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
@@ -117,12 +117,6 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     }
     span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
                 : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
-    world_begin_gather(w);
-    v->base.visit = f;
-    v->step = s;
-    v->number = number;
-    v->found = false;
-    v->error = CAROM_OK;
     span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
     result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
     if (result == INTERFERE_TOO_MANY) {
@@ -130,6 +124,26 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
         shorten(s, p->b);
         span = span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30);
         result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+    }
+    return result;
+}
+
+int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+{
+    int result;
+
+    world_begin_gather(s->w);
+    v->base.visit = f;
+    v->step = s;
+    v->number = number;
+    v->found = false;
+    v->error = CAROM_OK;
+    if (s->w->meetings[number].kept) {
+        interfere_visit_kept(&s->w->interfere, number, &v->base);
+        result = CAROM_OK;
+    } else {
+        result = visit_anew(s, number, v);
     }
     return v->error ? v->error : result;
 }
