@@ -252,11 +252,11 @@ void contact_merge(struct contact_list *list)
 
 void contact_drop_pair(struct contact_list *list, uint16_t pair)
 {
-    uint32_t first = 0, end;
+    const struct candidate least = {pair, 0, 0, 0};
+    uint32_t first, end;
+    bool same;
 
-    while (first < list->pool->used && list->contacts[first].key.pair < pair) {
-        first++;
-    }
+    first = find_place(list, &least, &same);
     for (end = first; end < list->pool->used && list->contacts[end].key.pair == pair;) {
         end++;
     }
