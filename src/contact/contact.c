@@ -29,19 +29,24 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
 }
 
 /*
- * Make room at a place, in a list that is not full. What the solver does not set for each that it
- * takes up is cleared.
+ * Make room at a place, in a list that is not full: up to the next contact in doubt, whose room it takes. What
+ * the solver does not set for each that it takes up is cleared.
  */
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
-    struct contact *c = &list->contacts[place];
+    struct contact *c = &list->contacts[place], *to = c;
+    struct contact *end = &list->contacts[list->pool->used];
 
+    while (to < end && !to->doubted) {
+        to++;
+    }
+    list->pool->used += to == end;
     /* one by one: a memmove that overlaps upwards may go byte by byte */
-    for (struct contact *to = &list->contacts[list->pool->used++]; to > c; to--) {
+    for (; to > c; to--) {
         *to = to[-1];
     }
     c->work = NULL;
-    c->idle = c->resting = c->impact = c->lasting = false;
+    c->idle = c->resting = c->impact = c->lasting = c->doubted = false;
     PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
@@ -87,11 +92,14 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     uint32_t place = find_place(list, key, &same);
     struct contact *c;
 
-    if (same) {
+    if (same && !list->contacts[place].doubted) {
         return true;
     }
     if (full) {
-        contact_merge(list); /* most of a full list are the same place again */
+        contact_drop_doubted(list);
+        if (list->pool->used == list->pool->size) {
+            contact_merge(list); /* most of a full list are the same place again */
+        }
         if (list->pool->used == list->pool->size) {
             list->pool->refused++;
             return false;
@@ -250,17 +258,59 @@ void contact_merge(struct contact_list *list)
     }
 }
 
-void contact_drop_pair(struct contact_list *list, uint16_t pair)
+/* Where the contacts of a pair begin and end. */
+static uint32_t range_of(const struct contact_list *list, uint16_t pair, uint32_t *end)
 {
     const struct candidate least = {pair, 0, 0, 0};
-    uint32_t first, end;
     bool same;
+    uint32_t first = find_place(list, &least, &same);
 
-    first = find_place(list, &least, &same);
-    for (end = first; end < list->pool->used && list->contacts[end].key.pair == pair;) {
-        end++;
+    *end = first;
+    while (*end < list->pool->used && list->contacts[*end].key.pair == pair) {
+        ++*end;
     }
+    return first;
+}
+
+void contact_drop_pair(struct contact_list *list, uint16_t pair)
+{
+    uint32_t end, first = range_of(list, pair, &end);
+
     memmove(&list->contacts[first], &list->contacts[end],
             (list->pool->used - end) * sizeof *list->contacts);
     list->pool->used -= end - first;
+}
+
+void contact_doubt_pair(struct contact_list *list, uint16_t pair)
+{
+    uint32_t end, first = range_of(list, pair, &end);
+
+    for (uint32_t i = first; i < end; i++) {
+        list->contacts[i].doubted = true;
+    }
+}
+
+bool contact_has_pair(const struct contact_list *list, uint16_t pair)
+{
+    uint32_t end, first = range_of(list, pair, &end);
+
+    while (first < end && list->contacts[first].doubted) {
+        first++;
+    }
+    return first < end;
+}
+
+void contact_drop_doubted(struct contact_list *list)
+{
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        if (!list->contacts[i].doubted) {
+            if (kept < i) {
+                list->contacts[kept] = list->contacts[i];
+            }
+            kept++;
+        }
+    }
+    list->pool->used = kept;
 }

@@ -90,6 +90,7 @@ struct contact {
     bool resting; /* solved without any impact in its island */
     bool impact;
     bool lasting; /* by the step: its pair has hit again and again in the frame */
+    bool doubted; /* it was there, and is not found again yet */
     PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
@@ -255,5 +256,13 @@ void contact_merge(struct contact_list *list);
 
 /* Take out the contacts of a pair. */
 void contact_drop_pair(struct contact_list *list, uint16_t pair);
+
+/*
+ * Take out the contacts of many pairs that are looked for again: they are put in doubt pair by pair, those that
+ * are found take their room, and in the end all others are dropped. Whether a pair has any not in doubt.
+ */
+void contact_doubt_pair(struct contact_list *list, uint16_t pair);
+bool contact_has_pair(const struct contact_list *list, uint16_t pair);
+void contact_drop_doubted(struct contact_list *list);
 
 #endif
