@@ -249,8 +249,9 @@ static void find_chords(struct step *s)
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
     struct boyse_pair *pair = NULL;
-    uint32_t pair_number = UINT32_MAX;
+    uint32_t pair_number = UINT32_MAX, asked = UINT32_MAX;
     int32_t slice_q30 = 0;
+    bool bent = false;
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
@@ -258,7 +259,14 @@ static void find_chords(struct step *s)
 
         c->chord_q28 = INT32_MAX;
         note_lasting(s, c);
-        if (c->idle || !bends(c, CAROM_ONE_Q30 - s->now_q30)) {
+        if (c->idle) {
+            continue;
+        }
+        if (asked != c->key.pair) { /* the answer is that of all contacts of a pair */
+            asked = c->key.pair;
+            bent = bends(c, CAROM_ONE_Q30 - s->now_q30);
+        }
+        if (!bent) {
             continue;
         }
         if (pair_number != c->key.pair) {
