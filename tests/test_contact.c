@@ -6,12 +6,17 @@
 
 #define CONTACTS   64
 #define CANDIDATES 4096
+#ifdef TEST_LONG
+#define CLEAR_CASES 2000
+#else
+#define CLEAR_CASES 8
+#endif
 
 static struct shape shape_a, shape_b;
 static struct body bodies[2];
 static struct body_state states[2];
 static struct boyse_pair pair;
-static struct contact contacts[CONTACTS];
+static struct contact contacts[CONTACTS], first[CONTACTS];
 static struct candidate candidates[CANDIDATES];
 static uint32_t candidate_count;
 static struct pool pool;
@@ -37,12 +42,13 @@ static void place(void)
 /* The contacts of all candidates, in an order that starts anywhere; false when they do not fit. */
 static bool find(int32_t margin_q22, uint32_t start)
 {
+    int32_t clear_q22 = INT32_MAX;
     bool fits = true;
 
     pool_clear(&pool);
     for (uint32_t n = 0; n < candidate_count; n++) {
-        fits = fits &&
-               contact_add(&list, &pair, &candidates[(start + n) % candidate_count], margin_q22);
+        fits = fits && contact_add(&list, &pair, &candidates[(start + n) % candidate_count],
+                                   margin_q22, &clear_q22);
     }
     return fits;
 }
@@ -254,7 +260,8 @@ static bool same_contact(const struct contact *p, const struct contact *q)
     return same;
 }
 
-static bool same_contacts(const struct contact *first, uint32_t count)
+/* Those that were found first. */
+static bool same_contacts(uint32_t count)
 {
     bool same = true;
 
@@ -267,7 +274,7 @@ static bool same_contacts(const struct contact *first, uint32_t count)
 /* The list does not depend on the order in which candidates come, nor on how often. */
 static void test_order(void)
 {
-    static struct contact first[CONTACTS];
+    int32_t clear_q22 = INT32_MAX;
     uint32_t count;
 
     shape_box(&shape_a, 12, 4096, 2400, 1200);
@@ -284,13 +291,109 @@ static void test_order(void)
         memset(contacts, 0xa5, sizeof contacts);
         CHECK(find(700, start));
         CHECK_EQ(pool.used, count);
-        CHECK(same_contacts(first, count));
+        CHECK(same_contacts(count));
     }
     for (uint32_t n = 0; n < candidate_count; n++) {
-        CHECK(contact_add(&list, &pair, &candidates[n], 700));
+        CHECK(contact_add(&list, &pair, &candidates[n], 700, &clear_q22));
     }
     CHECK_EQ(pool.used, count);
-    CHECK(same_contacts(first, count));
+    CHECK(same_contacts(count));
+}
+
+/* Contacts in doubt that are found again are there once; those that are not are dropped. */
+static void test_doubt(void)
+{
+    int32_t clear_q22 = INT32_MAX;
+    uint32_t count;
+
+    box_over_plane(300);
+    CHECK(find(700, 0));
+    count = pool.used;
+    memcpy(first, contacts, sizeof first);
+    for (uint32_t start = 0; start < candidate_count; start += candidate_count / 5) {
+        contact_doubt_pair(&list, 0);
+        CHECK(!contact_has_pair(&list, 0));
+        for (uint32_t n = 0; n < candidate_count; n++) {
+            CHECK(contact_add(&list, &pair, &candidates[(start + n) % candidate_count], 700,
+                              &clear_q22));
+        }
+        CHECK(contact_has_pair(&list, 0) && !contact_has_pair(&list, 1));
+        contact_drop_doubted(&list);
+        CHECK_EQ(pool.used, count);
+        CHECK(in_order() && same_contacts(count));
+    }
+    contact_doubt_pair(&list, 0);
+    CHECK(contact_add(&list, &pair, &first[1].key, 700, &clear_q22));
+    contact_drop_doubted(&list);
+    CHECK_EQ(pool.used, 1);
+    CHECK(same_contact(&first[1], &contacts[0]));
+}
+
+/* A box over another, a little turned from it, its lower side nearly on the upper one. */
+static void box_over_box(struct test_random *r)
+{
+    shape_box(&shape_a, 12, 4096, 2400, 1200);
+    shape_box(&shape_b, 12, 4000, 2600, 1200);
+    begin();
+    for (int k = 0; k < 3; k++) {
+        int64_t more = k < 2 ? (int64_t)1 << 30 : (int64_t)1 << 19;
+
+        states[0].position.c[k] = test_random_range(r, -more, more);
+        states[0].rotation.c[1 + k] = (int32_t)test_random_range(r, -(1 << 18), 1 << 18);
+    }
+    states[0].rotation.c[3] *= 512;
+    body_normalise(&states[0].rotation);
+    states[0].position.c[2] += (int64_t)1200 << 20;
+    place();
+}
+
+/* Set a's path: it goes and turns so far, together. */
+static void set_path(struct test_random *r, int32_t way_q22)
+{
+    struct body_path *path = &bodies[0].path;
+    int32_t turn_q30 = (int32_t)(((int64_t)way_q22 << 28) / bodies[0].radius_q22);
+
+    for (int k = 0; k < 3; k++) {
+        path->v.c[k] = carom_shl(test_random_range(r, -way_q22 / 6, way_q22 / 6), 18);
+        path->u.c[k] = (int32_t)test_random_range(r, -turn_q30 / 3, turn_q30 / 3);
+    }
+    path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+    path->turns = true;
+    boyse_pair_init(&pair, &bodies[0], &bodies[1]);
+}
+
+static bool hits(uint32_t number)
+{
+    struct boyse_hit hit;
+    uint32_t roots = 0;
+
+    return boyse_first(&pair, &candidates[number], &hit, &roots);
+}
+
+/* What the static check leaves between features is no less than bodies must go to meet. */
+static void test_clear(void)
+{
+    struct test_random r = {5};
+    int clear = 0, hit = 0;
+
+    for (int n = 0; n < CLEAR_CASES; n++) {
+        box_over_box(&r);
+        for (uint32_t k = 0; k < candidate_count; k++) {
+            int32_t clear_q22 = INT32_MAX;
+
+            place();
+            pool_clear(&pool);
+            CHECK(contact_add(&list, &pair, &candidates[k], 2 * bodies[0].skin_q22, &clear_q22));
+            if (clear_q22 > 0) {
+                clear++;
+                set_path(&r, clear_q22);
+                CHECK(!hits(k));
+                set_path(&r, 8 * clear_q22);
+                hit += hits(k);
+            }
+        }
+    }
+    CHECK(clear > CLEAR_CASES && hit > 0);
 }
 
 /* A corner on a vertex of the ground meets six faces there: one contact, of the smallest gap. */
@@ -538,6 +641,8 @@ const struct test tests_contact[] = {
     {"contact/crossing_edges", test_crossing_edges},
     {"contact/margin", test_margin},
     {"contact/order", test_order},
+    {"contact/doubt", test_doubt},
+    {"contact/clear", test_clear},
     {"contact/merge", test_merge},
     {"contact/full", test_full},
     {"contact/force", test_force},

@@ -95,11 +95,14 @@ void boyse_touch(const struct boyse_pair *pair, const struct candidate *c, int32
                  struct boyse_touch *touch);
 
 /*
- * Whether the features may be within a margin of each other at the start, and a vertex no deeper
- * below a face than `deepest` (negative): a quick test before boyse_touch.
+ * The paper's static check: the same at the start. False when the features are farther apart than a margin,
+ * or a vertex is deeper below a face than `deepest` (negative); `touch` is not set then.
+ *
+ *   clear_q22  in/out  lowered to how far points of the bodies must go towards each other, at least, before
+ *                      the features meet, as far as the margin tells
  */
-bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
-                int32_t margin_q22);
+bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+                  int32_t margin_q22, struct boyse_touch *touch, int32_t *clear_q22);
 
 /*
  * The first time in [0, 1] at which the features meet while approaching.

@@ -54,25 +54,6 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
     boyse_complete_edges(p);
 }
 
-/* ------------------------------------------------------------- can they meet? */
-
-bool boyse_near(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
-                int32_t margin_q22)
-{
-    struct boyse_places p;
-    int64_t gap_q22;
-
-    boyse_place_start(pair, c, &p);
-    if (c->kind == CANDIDATE_EDGE_EDGE) {
-        /* |w|_1 >= |w| */
-        int64_t size = carom_abs(p.w[0]) + carom_abs(p.w[1]) + carom_abs(p.w[2]);
-
-        return carom_abs(carom_dot(p.w, p.d)) <= size * (margin_q22 + 1);
-    }
-    gap_q22 = boyse_plane_gap_q52(boyse_view(pair, c), c, &p) >> 30;
-    return gap_q22 <= margin_q22 && gap_q22 >= deepest_q22;
-}
-
 /* --------------------------------------------------------------- coefficients */
 
 /*

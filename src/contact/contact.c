@@ -7,6 +7,10 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
     uint32_t low = 0, high = list->pool->used;
 
     *same = false;
+    /* pairs come in their order where a frame begins */
+    if (high > 0 && candidate_compare(&list->contacts[high - 1].key, key) < 0) {
+        return high;
+    }
     while (low < high) {
         uint32_t middle = (low + high) / 2;
         int order = candidate_compare(&list->contacts[middle].key, key);
@@ -25,32 +29,45 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
 }
 
 /*
- * Make room at a place, in a list that is not full. What the solver does not set for each that it
- * takes up is cleared.
+ * Make room at a place, in a list that is not full: up to the next contact in doubt, whose room it takes. What
+ * the solver does not set for each that it takes up is cleared.
  */
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
-    struct contact *c = &list->contacts[place];
+    struct contact *c = &list->contacts[place], *to = c;
+    struct contact *end = &list->contacts[list->pool->used];
 
+    while (to < end && !to->doubted) {
+        to++;
+    }
+    list->pool->used += to == end;
     /* one by one: a memmove that overlaps upwards may go byte by byte */
-    for (struct contact *to = &list->contacts[list->pool->used++]; to > c; to--) {
+    for (; to > c; to--) {
         *to = to[-1];
     }
     c->work = NULL;
-    c->idle = c->resting = c->impact = c->lasting = false;
+    c->idle = c->resting = c->impact = c->lasting = c->doubted = false;
     PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
     c->impulse_q40 = (carom_v3_q40){{0, 0, 0}};
     return c;
 }
 
+static void set_arm(struct contact_side *side, const carom_v3_q40 *arm)
+{
+    int up = contact_arm_bits(side->body) - 40;
+    /* the half that rounds; bodies of a radius of less than 2^-10 units have none */
+    int64_t half = up < 0 ? (int64_t)1 << (-up - 1) : 0;
+
+    for (int k = 0; k < 3; k++) {
+        side->arm_q30[k] = (int32_t)fix_shift(arm->c[k] + half, up);
+    }
+}
+
 static void set_arms(struct contact *c, const carom_v3_q40 arm[2])
 {
     for (int s = 0; s < 2; s++) {
-        struct contact_side *side = &c->side[s];
-
-        for (int k = 0; side->body && k < 3; k++) {
-            side->arm_q30[k] =
-                (int32_t)fix_round_shift(arm[s].c[k], contact_arm_bits(side->body) - 40);
+        if (c->side[s].body) {
+            set_arm(&c->side[s], &arm[s]);
         }
     }
 }
@@ -75,11 +92,14 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     uint32_t place = find_place(list, key, &same);
     struct contact *c;
 
-    if (same) {
+    if (same && !list->contacts[place].doubted) {
         return true;
     }
     if (full) {
-        contact_merge(list); /* most of a full list are the same place again */
+        contact_drop_doubted(list);
+        if (list->pool->used == list->pool->size) {
+            contact_merge(list); /* most of a full list are the same place again */
+        }
         if (list->pool->used == list->pool->size) {
             list->pool->refused++;
             return false;
@@ -112,18 +132,15 @@ static int64_t drifted_q22(const struct boyse_pair *pair, const struct candidate
 }
 
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22)
+                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22)
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
     int32_t most = mesh_drift_most(pair->b->mesh);
     struct boyse_touch touch;
     carom_v3_q40 arm[2];
 
-    if (!boyse_near(pair, c, deepest, margin_q22 + most)) {
-        return true;
-    }
-    boyse_touch(pair, c, 0, &touch);
-    if (!touch.valid || touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
+    if (!boyse_static(pair, c, deepest, margin_q22 + most, &touch, clear_q22) || !touch.valid ||
+        touch.gap_q22 > margin_q22 + most || touch.gap_q22 < deepest) {
         return true;
     }
     contact_flatten(pair, c, &touch.normal);
@@ -139,15 +156,13 @@ static int64_t cosine_q30(const carom_v3_q30 *a, const carom_v3_q30 *b)
     return carom_dot(a->c, b->c) >> 30;
 }
 
-static int64_t distance_q22(const struct contact *c, const carom_v3_q22 *place)
+/* Whether a contact is nearer to a place than a distance, along the axes of the world. */
+static bool is_within(const struct contact *c, const carom_v3_q22 *place, int64_t distance_q22)
 {
-    carom_v3_q22 arm = contact_arm(c);
-    int64_t sum = 0;
-
-    for (int k = 0; k < 3; k++) {
-        sum += carom_abs((int64_t)arm.c[k] - place->c[k]);
+    for (int k = 0; k < 3 && distance_q22 > 0; k++) {
+        distance_q22 -= carom_abs((int64_t)contact_arm_along(c, k) - place->c[k]);
     }
-    return sum;
+    return distance_q22 > 0;
 }
 
 /*
@@ -197,7 +212,7 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
             taken = true;
             continue;
         }
-        there = there || (same && distance_q22(c, &near) < 20 * (int64_t)pair->skin_q22);
+        there = there || (same && is_within(c, &near, 20 * (int64_t)pair->skin_q22));
         i++;
     }
     if (there && !taken) {
@@ -221,7 +236,7 @@ void contact_merge(struct contact_list *list)
         for (j = first; j < kept; j++) {
             struct contact *k = &list->contacts[j];
 
-            if (distance_q22(k, &arm) < 2 * (int64_t)c->skin_q22 &&
+            if (is_within(k, &arm, 2 * (int64_t)c->skin_q22) &&
                 cosine_q30(&k->normal, &c->normal) > CONTACT_SAME_NORMAL_Q30) {
                 break;
             }
@@ -243,17 +258,59 @@ void contact_merge(struct contact_list *list)
     }
 }
 
+/* Where the contacts of a pair begin and end. */
+static uint32_t range_of(const struct contact_list *list, uint16_t pair, uint32_t *end)
+{
+    const struct candidate least = {pair, 0, 0, 0};
+    bool same;
+    uint32_t first = find_place(list, &least, &same);
+
+    *end = first;
+    while (*end < list->pool->used && list->contacts[*end].key.pair == pair) {
+        ++*end;
+    }
+    return first;
+}
+
 void contact_drop_pair(struct contact_list *list, uint16_t pair)
 {
-    uint32_t first = 0, end;
+    uint32_t end, first = range_of(list, pair, &end);
 
-    while (first < list->pool->used && list->contacts[first].key.pair < pair) {
-        first++;
-    }
-    for (end = first; end < list->pool->used && list->contacts[end].key.pair == pair;) {
-        end++;
-    }
     memmove(&list->contacts[first], &list->contacts[end],
             (list->pool->used - end) * sizeof *list->contacts);
     list->pool->used -= end - first;
+}
+
+void contact_doubt_pair(struct contact_list *list, uint16_t pair)
+{
+    uint32_t end, first = range_of(list, pair, &end);
+
+    for (uint32_t i = first; i < end; i++) {
+        list->contacts[i].doubted = true;
+    }
+}
+
+bool contact_has_pair(const struct contact_list *list, uint16_t pair)
+{
+    uint32_t end, first = range_of(list, pair, &end);
+
+    while (first < end && list->contacts[first].doubted) {
+        first++;
+    }
+    return first < end;
+}
+
+void contact_drop_doubted(struct contact_list *list)
+{
+    uint32_t kept = 0;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        if (!list->contacts[i].doubted) {
+            if (kept < i) {
+                list->contacts[kept] = list->contacts[i];
+            }
+            kept++;
+        }
+    }
+    list->pool->used = kept;
 }

@@ -90,6 +90,7 @@ struct contact {
     bool resting; /* solved without any impact in its island */
     bool impact;
     bool lasting; /* by the step: its pair has hit again and again in the frame */
+    bool doubted; /* it was there, and is not found again yet */
     PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
@@ -193,16 +194,17 @@ static inline int contact_arm_bits(const struct body *b)
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */
+static inline int32_t contact_arm_along(const struct contact *c, int k)
+{
+    int down = contact_arm_bits(c->side[0].body) - 22;
+
+    return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
+}
+
 static inline carom_v3_q22 contact_arm(const struct contact *c)
 {
-    const struct contact_side *side = &c->side[0];
-    int down = contact_arm_bits(side->body) - 22;
-    carom_v3_q22 arm;
-
-    for (int k = 0; k < 3; k++) {
-        arm.c[k] = (int32_t)(((int64_t)side->arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
-    }
-    return arm;
+    return (carom_v3_q22){
+        {contact_arm_along(c, 0), contact_arm_along(c, 1), contact_arm_along(c, 2)}};
 }
 
 carom_v3_q32 contact_point(const struct contact *c);
@@ -217,10 +219,10 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 
 /*
  * Take in a candidate if its features touch within `margin` in the placed poses: as the visitor of
- * all candidates does. Returns false when the list is full.
+ * all candidates does. Returns false when the list is full. clear_q22: see boyse_static.
  */
 bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
-                 const struct candidate *c, int32_t margin_q22);
+                 const struct candidate *c, int32_t margin_q22, int32_t *clear_q22);
 
 /*
  * Make sure that the pair of a hit is among the contacts, with the normal found at the root and the
@@ -254,5 +256,13 @@ void contact_merge(struct contact_list *list);
 
 /* Take out the contacts of a pair. */
 void contact_drop_pair(struct contact_list *list, uint16_t pair);
+
+/*
+ * Take out the contacts of many pairs that are looked for again: they are put in doubt pair by pair, those that
+ * are found take their room, and in the end all others are dropped. Whether a pair has any not in doubt.
+ */
+void contact_doubt_pair(struct contact_list *list, uint16_t pair);
+bool contact_has_pair(const struct contact_list *list, uint16_t pair);
+void contact_drop_doubted(struct contact_list *list);
 
 #endif

@@ -6,15 +6,10 @@
  */
 #include "contact.h"
 
-/* World normals of the faces at an edge; returns how many. */
-static int faces_at(const struct body *b, const struct carom_edge *edge, int32_t normal[2][3])
+/* The world normal of a face. */
+static void normal_of(const struct body *b, uint16_t face, int32_t normal[3])
 {
-    int count = edge->face[1] == CAROM_NO_FACE ? 1 : 2;
-
-    for (int i = 0; i < count; i++) {
-        carom_rotate(normal[i], &b->path.start.r, b->mesh->faces[edge->face[i]].normal.c);
-    }
-    return count;
+    carom_rotate(normal, &b->path.start.r, b->mesh->faces[face].normal.c);
 }
 
 static bool opposite(const int32_t a[3], const int32_t b[3])
@@ -27,21 +22,39 @@ static bool opposite(const int32_t a[3], const int32_t b[3])
     return true;
 }
 
+/* The world normals of b's faces at an edge that are nearly N; returns how many. */
+static int nearly_along(const struct body *b, const struct carom_edge *edge,
+                        const carom_v3_q30 *normal, int32_t along[2][3])
+{
+    int count = 0;
+
+    for (int side = 0; side < 2; side++) {
+        if (edge->face[side] != CAROM_NO_FACE) {
+            normal_of(b, edge->face[side], along[count]);
+            count += carom_dot(along[count], normal->c) >> 30 > CONTACT_SAME_NORMAL_Q30;
+        }
+    }
+    return count;
+}
+
 void contact_flatten(const struct boyse_pair *pair, const struct candidate *c, carom_v3_q30 *normal)
 {
-    const struct body *a = pair->a, *b = pair->b;
-    int32_t of_a[2][3], of_b[2][3];
-    int m, n;
+    const struct carom_edge *edge;
+    int32_t of_a[3], of_b[2][3];
+    int n;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
         return;
     }
-    m = faces_at(a, &a->mesh->edges[c->i], of_a);
-    n = faces_at(b, &b->mesh->edges[c->j], of_b);
-    for (int i = 0; i < m; i++) {
+    n = nearly_along(pair->b, &pair->b->mesh->edges[c->j], normal, of_b);
+    edge = &pair->a->mesh->edges[c->i];
+    for (int side = 0; n > 0 && side < 2; side++) {
+        if (edge->face[side] == CAROM_NO_FACE) {
+            continue;
+        }
+        normal_of(pair->a, edge->face[side], of_a);
         for (int j = 0; j < n; j++) {
-            if (opposite(of_a[i], of_b[j]) &&
-                carom_dot(of_b[j], normal->c) >> 30 > CONTACT_SAME_NORMAL_Q30) {
+            if (opposite(of_a, of_b[j])) {
                 memcpy(normal->c, of_b[j], sizeof normal->c);
                 return;
             }

@@ -13,12 +13,11 @@
 /* A point of a body's mesh about its centre, in world axes. */
 static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
 {
-    carom_v3_q40 p;
+    const carom_m3_q30 *r = &b->path.start.r;
 
-    for (int k = 0; k < 3; k++) {
-        p.c[k] = carom_round(carom_dot(b->path.start.r.c[k], local.c), 12);
-    }
-    return p;
+    return (carom_v3_q40){{carom_round(carom_dot(r->c[0], local.c), 12),
+                           carom_round(carom_dot(r->c[1], local.c), 12),
+                           carom_round(carom_dot(r->c[2], local.c), 12)}};
 }
 
 /* to + s d, s in q40 */
@@ -43,16 +42,17 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
     return d;
 }
 
-/* e x f, exact, and whether the edges are so parallel that it says little. */
-static bool cross_q60(int64_t w[3], const int32_t e[3], const int32_t f[3], int64_t sine_q30)
+/* Whether the edges with the product w are so parallel that it says little. */
+static bool is_small(const int64_t w_q60[3], int64_t sine_q30)
 {
-    bool small = true;
+    return carom_abs(w_q60[0]) >> 30 < sine_q30 && carom_abs(w_q60[1]) >> 30 < sine_q30 &&
+           carom_abs(w_q60[2]) >> 30 < sine_q30;
+}
 
-    fix_cross(w, e, f);
-    for (int k = 0; k < 3; k++) {
-        small = small && carom_abs(w[k]) >> 30 < sine_q30;
-    }
-    return small;
+/* A component of d x f, q40. */
+static int64_t cross_part(const carom_v3_q40 *d, const int32_t f[3], int i, int j)
+{
+    return fix_mul_q30(d->c[i], f[j]) - fix_mul_q30(d->c[j], f[i]);
 }
 
 /*
@@ -60,19 +60,15 @@ static bool cross_q60(int64_t w[3], const int32_t e[3], const int32_t f[3], int6
  * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits. Of edges that
  * are parallel but for rounding it is the middle of a's.
  */
-static int64_t nearest_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3],
+static int64_t nearest_q40(const carom_v3_q40 *d, const int64_t w_q60[3], const int32_t f[3],
                            int32_t length_q22)
 {
-    int64_t w_q60[3], df_q40[3];
+    const int64_t df_q40[3] = {cross_part(d, f, 1, 2), cross_part(d, f, 2, 0),
+                               cross_part(d, f, 0, 1)};
     struct fix_scaled ratio;
 
-    if (cross_q60(w_q60, e, f, ROUNDING_Q30)) {
+    if (is_small(w_q60, ROUNDING_Q30)) {
         return (int64_t)length_q22 << 17;
-    }
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        df_q40[k] = fix_mul_q30(d->c[i], f[j]) - fix_mul_q30(d->c[j], f[i]);
     }
     ratio = fix_wide_ratio(fix_wide_dot(df_q40, w_q60), fix_wide_dot(w_q60, w_q60));
     ratio.e -= 60; /* q100 over q120, to q40 */
@@ -87,15 +83,18 @@ static int64_t limited(int64_t s, int64_t one, int64_t other)
 }
 
 /*
- * Edges that are nearly parallel come nearest to each other far off the one or the other until they
- * lie over each other: what is on both is nearer to where they will meet, and in range.
+ * The same where it is on both. Edges that are nearly parallel come nearest to each other far off the one or
+ * the other until they lie over each other: what is on both is nearer to where they will meet, and in range.
  */
-static int64_t on_both_q40(int64_t s_q40, const carom_v3_q40 *d, const int32_t e[3],
-                           const int32_t f[3], int32_t length_a_q22, int32_t length_b_q22)
+static int64_t on_both_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3],
+                           int32_t length_a_q22, int32_t length_b_q22)
 {
-    int64_t w_q60[3], from_q40 = -fix_dot_q30(d->c, e);
+    int64_t w_q60[3], s_q40;
 
-    if (cross_q60(w_q60, e, f, PARALLEL_Q30)) {
+    fix_cross(w_q60, e, f);
+    s_q40 = nearest_q40(d, w_q60, f, length_a_q22);
+    if (is_small(w_q60, PARALLEL_Q30)) {
+        int64_t from_q40 = -fix_dot_q30(d->c, e);
         int64_t along_b_q40 = (carom_dot(e, f) >> 30) * length_b_q22 >> 12;
 
         s_q40 = limited(s_q40, from_q40, from_q40 + along_b_q40);
@@ -104,26 +103,23 @@ static int64_t on_both_q40(int64_t s_q40, const carom_v3_q40 *d, const int32_t e
     return s_q40;
 }
 
-/* The point of a's edge; b's start is relative to b's centre. */
+/* The point of a's edge; b's start is relative to b's centre, which is `apart` from a's. */
 static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candidate *c,
-                               carom_v3_q40 *start_b)
+                               const carom_v3_q40 *apart, carom_v3_q40 *start_b)
 {
     const struct carom_edge *edge_a = &pair->a->mesh->edges[c->i];
     const struct carom_edge *edge_b = &pair->b->mesh->edges[c->j];
     carom_v3_q40 start_a = turned(pair->a, mesh_vertex(pair->a->mesh, edge_a->vertex[0]));
-    carom_v3_q40 d = between(pair);
+    carom_v3_q40 d;
     int32_t e[3], f[3];
 
     *start_b = turned(pair->b, mesh_vertex(pair->b->mesh, edge_b->vertex[0]));
     carom_rotate(e, &pair->a->path.start.r, edge_a->direction.c);
     carom_rotate(f, &pair->b->path.start.r, edge_b->direction.c);
     for (int k = 0; k < 3; k++) {
-        d.c[k] += start_a.c[k] - start_b->c[k];
+        d.c[k] = apart->c[k] + start_a.c[k] - start_b->c[k];
     }
-    return along(start_a,
-                 on_both_q40(nearest_q40(&d, e, f, edge_a->length_q22), &d, e, f,
-                             edge_a->length_q22, edge_b->length_q22),
-                 e);
+    return along(start_a, on_both_q40(&d, e, f, edge_a->length_q22, edge_b->length_q22), e);
 }
 
 void contact_place(const struct boyse_pair *pair, const struct candidate *c,
@@ -133,7 +129,7 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
     int known = 0; /* the side whose point is known; of the other's, only the plane */
 
     if (c->kind == CANDIDATE_EDGE_EDGE) {
-        on[0] = edge_point(pair, c, &on[1]);
+        on[0] = edge_point(pair, c, &apart, &on[1]);
     } else {
         const struct body *of_vertex = c->kind == CANDIDATE_VERTEX_FACE ? pair->a : pair->b;
         const struct body *of_face = c->kind == CANDIDATE_VERTEX_FACE ? pair->b : pair->a;

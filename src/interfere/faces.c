@@ -2,6 +2,9 @@
 /* The list of interfering faces, and the order of candidates. */
 #include "narrow.h"
 
+/* A face that was listed so short a while ago is not listed again. */
+#define LAST_FACES 8
+
 int candidate_compare(const struct candidate *a, const struct candidate *b)
 {
     if (a->pair != b->pair) {
@@ -83,11 +86,27 @@ static bool has_face(const struct interfere *w, struct carom_face_ref face)
     return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
 }
 
+/* Whether a face is among the last of the list: those of one pair repeat each other. */
+static bool is_among_last(const struct interfere *w, struct carom_face_ref face)
+{
+    uint32_t used = w->face_pool->used, first = used > LAST_FACES ? used - LAST_FACES : 0;
+
+    for (uint32_t i = used; i-- > first;) {
+        if (face_key(w->faces[i]) == face_key(face)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void add_face(struct interfere *w, uint16_t body, uint16_t face)
 {
     struct carom_face_ref ref = {body, face};
     struct pool *pool = w->face_pool;
 
+    if (is_among_last(w, ref)) {
+        return;
+    }
     if (pool->used == pool->size) {
         interfere_finish(w); /* most of a full list are repetitions */
         if (has_face(w, ref)) {

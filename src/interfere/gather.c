@@ -108,26 +108,31 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
 
-    if (m->kept) {
-        interfere_number(w, number);
-    } else {
-        w->own_first = pool->used;
-        w->span = *span;
-        w->by_paths = !keep;
-        gather(w, all, number, visitor);
-        m->first = w->own_first;
-        m->count = pool->used - w->own_first;
-        m->kept = keep && w->whole && !w->error;
-        m->found = m->count > 0 || !w->whole;
-        if (!m->kept) {
-            pool->used = w->own_first;
-        }
-        if (w->error) {
-            return w->error;
-        }
+    w->own_first = pool->used;
+    w->span = *span;
+    w->by_paths = !keep;
+    gather(w, all, number, visitor);
+    m->first = w->own_first;
+    m->count = pool->used - w->own_first;
+    m->kept = keep && w->whole && !w->error;
+    m->found = m->count > 0 || !w->whole;
+    m->clear = 0;
+    if (!m->kept) {
+        pool->used = w->own_first;
+    }
+    if (w->error) {
+        return w->error;
     }
     visitor->visit(visitor, &w->candidates[m->first], m->count);
     return CAROM_OK;
+}
+
+void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate_visitor *visitor)
+{
+    const struct pair_work *m = &w->meetings[number];
+
+    interfere_number(w, number);
+    visitor->visit(visitor, &w->candidates[m->first], m->count);
 }
 
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,

@@ -143,10 +143,12 @@ struct interfere {
     struct interfere_area area;      /* where they hold all of it */
 };
 
+/* Hand every candidate of a pair to the visitor that the pool keeps. */
+void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate_visitor *visitor);
+
 /*
- * Hand every candidate of a pair to the visitor: at once when the pool keeps them, or gathered anew, to be
- * kept for a span of both regions, or for the paths at hand alone; in chunks when the pool has not room for
- * all of them.
+ * The same of a pair whose candidates are gathered anew, to be kept for a span of both regions, or for the
+ * paths at hand alone; in chunks when the pool has not room for all of them.
  * Returns CAROM_OK, INTERFERE_TOO_MANY, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,

@@ -48,6 +48,8 @@ struct pair_work {
     uint8_t late : 1;  /* nothing can be solved where the window begins: the hit comes later */
     uint8_t kept : 1;  /* first and count are set */
     uint8_t found : 1; /* the last gather found some */
+    /* by the static check that a frame begins with: candidates are clear by so many 16ths of the skin */
+    uint8_t clear : 4;
     /* by the answer to hits */
     uint8_t checked : 1;  /* its contacts are those of the hit at hand */
     uint8_t repeats;      /* how often, without any time between */

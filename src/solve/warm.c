@@ -27,11 +27,28 @@ static uint32_t first_warm(const struct rest *r, const struct pair *p)
     return low;
 }
 
+/* The largest difference of two places along an axis, or `enough` when one is as large as that. */
+static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int32_t enough)
+{
+    int32_t distance = 0;
+
+    for (int k = 0; k < 3; k++) {
+        int32_t d = fix_abs32(a->c[k] - b->c[k]);
+
+        if (d >= enough) {
+            return enough;
+        }
+        distance = fix_larger(distance, d);
+    }
+    return distance;
+}
+
 /*
  * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
- * within a part of a's radius.
+ * within a part of a's radius. The impulses of its pair begin at `first`.
  */
-static struct rest_warm *find_warm(struct rest *r, const struct contact *c, int32_t divisor)
+static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint32_t first,
+                                   int32_t divisor)
 {
     const struct pair *p = &r->pairs[c->key.pair];
     const struct body *a = rest_body(r, c, 0);
@@ -40,23 +57,12 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, int3
     carom_v3_q22 arm = contact_arm(c);
 
     carom_rotate_back(arm.c, &a->path.start.r, arm.c);
-    for (uint32_t i = first_warm(r, p); i < r->warm_count; i++) {
-        struct rest_warm *w = &r->warm[i];
-        int32_t distance = 0;
+    for (struct rest_warm *w = &r->warm[first], *end = &r->warm[r->warm_count];
+         w < end && w->a == p->a && w->b == p->b; w++) {
+        int32_t distance = distance_below(&w->arm, &arm, nearest);
 
-        if (w->a != p->a || w->b != p->b) {
-            break;
-        }
-        if (w->normal_q40 == 0 ||
-            carom_dot(w->normal.c, c->normal.c) >> 30 < CAROM_ONE_Q30 / 10 * 9) {
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            int32_t d = (int32_t)carom_abs(w->arm.c[k] - arm.c[k]);
-
-            distance = d > distance ? d : distance;
-        }
-        if (distance < nearest) {
+        if (distance < nearest && w->normal_q40 != 0 &&
+            carom_dot(w->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
             nearest = distance;
             best = w;
         }
@@ -101,15 +107,17 @@ static int64_t units(int64_t v_q40, struct fix_scaled inverse)
     return fix_mul_scaled(v_q40, inverse);
 }
 
-static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, int32_t divisor)
+static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,
+                 int32_t divisor)
 {
-    struct rest_warm *w = find_warm(r, c, divisor);
-    struct fix_scaled inverse = fix_scaled_inverse(c->work->mass_unit);
+    struct rest_warm *w = find_warm(r, c, first, divisor);
+    struct fix_scaled inverse;
     int64_t along;
 
     if (!w) {
         return;
     }
+    inverse = fix_scaled_inverse(c->work->mass_unit);
     inverse.e += sw->unit;
     along = rest_along_q40(&w->tangent_q40, &c->normal);
     c->work->normal_impulse = units(w->normal_q40, inverse);
@@ -121,17 +129,30 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     w->normal_q40 = 0; /* used */
 }
 
+/* Contacts that have no impulse yet, from what is no farther than a part of a radius. */
+static void load_all(struct rest *r, const struct rest_sweep *sw, int32_t divisor)
+{
+    uint32_t pair = UINT32_MAX, first = 0;
+
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        if (c->work->normal_impulse != 0) {
+            continue;
+        }
+        if (c->key.pair != pair) {
+            pair = c->key.pair;
+            first = first_warm(r, &r->pairs[pair]);
+        }
+        load(r, c, sw, first, divisor);
+    }
+}
+
 /* What stayed where it was first: on small faces others are near it. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
 {
-    for (uint32_t i = 0; i < r->count; i++) {
-        load(r, rest_contact(r, i), sw, STAYED_DIVISOR);
-    }
-    for (uint32_t i = 0; i < r->count; i++) {
-        if (rest_contact(r, i)->work->normal_impulse == 0) {
-            load(r, rest_contact(r, i), sw, MOVED_DIVISOR);
-        }
-    }
+    load_all(r, sw, STAYED_DIVISOR);
+    load_all(r, sw, MOVED_DIVISOR);
 }
 
 void rest_store_warm(struct rest *r)

@@ -62,15 +62,14 @@ static int check_with(struct step *s, uint32_t number)
 {
     const struct carom_world *w = s->w;
     const struct pair *p = &w->pairs[number];
-    uint32_t other = w->bodies[p->a].member ? p->b : p->a, before;
+    uint32_t other = w->bodies[p->a].member ? p->b : p->a;
     int result;
 
     step_look_at(s, other, s->now_q30);
-    contact_drop_pair(&s->w->rest.list, (uint16_t)number);
-    before = w->rest.list.pool->used;
+    contact_doubt_pair(&s->w->rest.list, (uint16_t)number);
     result = step_check_pair(s, number);
-    if (result == CAROM_OK && w->rest.list.pool->used > before && step_active(s, other) &&
-        !w->bodies[other].member) {
+    if (result == CAROM_OK && step_active(s, other) && !w->bodies[other].member &&
+        contact_has_pair(&w->rest.list, (uint16_t)number)) {
         join(s, other);
         return 1;
     }
@@ -99,6 +98,7 @@ static int grow(struct step *s)
             }
         }
     }
+    contact_drop_doubted(&w->rest.list);
     return result;
 }
 

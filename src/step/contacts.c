@@ -9,7 +9,7 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 
     for (uint32_t i = 0; i < n && !v->error; i++) {
         boyse_pair_for(pair, &c[i]);
-        if (!contact_add(&v->step->w->rest.list, pair, &c[i], v->margin_q22)) {
+        if (!contact_add(&v->step->w->rest.list, pair, &c[i], v->margin_q22, &v->clear_q22)) {
             v->error = CAROM_ERR_CONTACTS_FULL;
         }
     }
@@ -27,6 +27,14 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
            !step_is_touching(world_now(s->w), p);
 }
 
+/* How many 16ths of a skin are clear, as far as four bits hold. */
+static uint32_t clear_parts(int32_t clear_q22, int32_t skin_q22)
+{
+    int32_t parts = clear_q22 > 0 ? (int32_t)((int64_t)clear_q22 * 16 / skin_q22) : 0;
+
+    return parts < 15 ? (uint32_t)parts : 15;
+}
+
 int step_check_pair(struct step *s, uint32_t number)
 {
     struct pair_work *m = &s->w->meetings[number];
@@ -34,7 +42,9 @@ int step_check_pair(struct step *s, uint32_t number)
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
     struct step_visitor v;
+    int result;
 
+    m->clear = 0;
     if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
@@ -45,7 +55,12 @@ int step_check_pair(struct step *s, uint32_t number)
         return CAROM_OK;
     }
     v.from_q30 = v.to_q30 = s->now_q30;
-    return step_visit(s, number, &v, visit_contacts);
+    v.clear_q22 = skin_q22;
+    result = step_visit(s, number, &v, visit_contacts);
+    if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
+        m->clear = clear_parts(v.clear_q22, skin_q22) & 15;
+    }
+    return result;
 }
 
 int step_settle_contacts(struct step *s)
@@ -140,25 +155,35 @@ static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
     return least_q22;
 }
 
+/* r w^2 / 8 of a body that spins so fast */
+static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30)
+{
+    int64_t turn_q30 = fix_mul(spin_q40, left_q30, 40);
+
+    turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
+    return fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
+}
+
 /*
- * Whether the path of a contact may be off the straight one by more than a small part of the skin:
- * r w^2 / 8 of both bodies. The spins are those of the last look at the contacts.
+ * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
+ * both bodies bend. The spins are those of the last look at the contacts; nearly all are slow by a bound of them.
  */
 static bool bends(const struct contact *c, int32_t left_q30)
 {
-    int64_t bend_q22 = 0;
+    int32_t most_q22 = c->skin_q22 / CHORD_BEND_DIVISOR;
+    int64_t bound_q22 = 0, all_q22 = 0;
 
     for (int k = 0; k < 2; k++) {
         const struct body *b = c->side[k].body;
 
-        if (b) {
-            int64_t turn_q30 = fix_mul(fix_length(b->spin.c), left_q30, 40);
-
-            turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
-            bend_q22 += fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
-        }
+        bound_q22 += b ? bend_q22(b, fix_length_bound(b->spin.c), left_q30) : 0;
     }
-    return bend_q22 > c->skin_q22 / CHORD_BEND_DIVISOR;
+    for (int k = 0; bound_q22 > most_q22 && k < 2; k++) {
+        const struct body *b = c->side[k].body;
+
+        all_q22 += b ? bend_q22(b, fix_length(b->spin.c), left_q30) : 0;
+    }
+    return all_q22 > most_q22;
 }
 
 /* The slice that both bodies of a pair are going to take, and straight paths for it. */
@@ -224,8 +249,9 @@ static void find_chords(struct step *s)
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
     struct boyse_pair *pair = NULL;
-    uint32_t pair_number = UINT32_MAX;
+    uint32_t pair_number = UINT32_MAX, asked = UINT32_MAX;
     int32_t slice_q30 = 0;
+    bool bent = false;
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
@@ -233,7 +259,14 @@ static void find_chords(struct step *s)
 
         c->chord_q28 = INT32_MAX;
         note_lasting(s, c);
-        if (c->idle || !bends(c, CAROM_ONE_Q30 - s->now_q30)) {
+        if (c->idle) {
+            continue;
+        }
+        if (asked != c->key.pair) { /* the answer is that of all contacts of a pair */
+            asked = c->key.pair;
+            bent = bends(c, CAROM_ONE_Q30 - s->now_q30);
+        }
+        if (!bent) {
             continue;
         }
         if (pair_number != c->key.pair) {

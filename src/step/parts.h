@@ -95,6 +95,7 @@ struct step_visitor {
     struct boyse_hit hit; /* its times are those of the paths at hand */
     int32_t hit_q30;      /* and that in the frame */
     int32_t margin_q22;   /* of contacts */
+    int32_t clear_q22;    /* what they have left, see boyse_static */
     int error;
 };
 

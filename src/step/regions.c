@@ -307,7 +307,7 @@ int step_begin_regions(struct step *s)
         for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
             w->meetings[n].hit_q30 = PAIRS_NEVER;
             w->meetings[n].answered_q30 = -1;
-            w->meetings[n].hits = 0;
+            w->meetings[n].hits = w->meetings[n].clear = 0;
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
             result = w->bodies[i].mesh ? begin_one(s, i) : CAROM_OK;

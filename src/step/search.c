@@ -96,8 +96,8 @@ static void shorten(struct step *s, uint32_t i)
     }
 }
 
-int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
-               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+/* A pair that is not kept. */
+static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
@@ -117,12 +117,6 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     }
     span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
                 : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
-    world_begin_gather(w);
-    v->base.visit = f;
-    v->step = s;
-    v->number = number;
-    v->found = false;
-    v->error = CAROM_OK;
     span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
     result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
     if (result == INTERFERE_TOO_MANY) {
@@ -130,6 +124,26 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
         shorten(s, p->b);
         span = span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30);
         result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+    }
+    return result;
+}
+
+int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+{
+    int result;
+
+    world_begin_gather(s->w);
+    v->base.visit = f;
+    v->step = s;
+    v->number = number;
+    v->found = false;
+    v->error = CAROM_OK;
+    if (s->w->meetings[number].kept) {
+        interfere_visit_kept(&s->w->interfere, number, &v->base);
+        result = CAROM_OK;
+    } else {
+        result = visit_anew(s, number, v);
     }
     return v->error ? v->error : result;
 }
@@ -303,6 +317,36 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
     return result;
 }
 
+/* How far points of two bodies go towards each other on their paths, at most. */
+static int64_t way_together_q22(const struct body *a, const struct body *b)
+{
+    const struct body_path *path_a = body_path(a), *path_b = body_path(b);
+    int64_t way_q40 = 0, turn_a_q30 = 0, turn_b_q30 = 0;
+
+    for (int k = 0; k < 3; k++) {
+        way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]) + carom_abs(path_a->g.c[k]) +
+                   carom_abs(path_b->g.c[k]);
+        turn_a_q30 += carom_abs(path_a->u.c[k]);
+        turn_b_q30 += carom_abs(path_b->u.c[k]);
+    }
+    return (way_q40 >> 18) + (turn_a_q30 * a->radius_q22 >> 29) +
+           (turn_b_q30 * b->radius_q22 >> 29) + 3;
+}
+
+/*
+ * Whether a pair's candidates cannot meet on paths that begin with the frame: what the static check there left
+ * between them is more than the bodies go.
+ */
+static bool stays_clear(const struct step *s, uint32_t number)
+{
+    const struct pair_work *m = &s->w->meetings[number];
+    const struct body *a = &s->w->bodies[s->w->pairs[number].a];
+    const struct body *b = &s->w->bodies[s->w->pairs[number].b];
+
+    return m->kept && m->clear > 0 &&
+           way_together_q22(a, b) * 16 < (int64_t)m->clear * fix_larger(a->skin_q22, b->skin_q22);
+}
+
 int step_search(struct step *s, uint32_t number)
 {
     struct pair_work *m = &s->w->meetings[number];
@@ -311,7 +355,8 @@ int step_search(struct step *s, uint32_t number)
     int result = CAROM_OK;
 
     m->hit_q30 = PAIRS_NEVER;
-    if (!step_window(s, number, &v.from_q30, &v.to_q30) || (m->kept && m->count == 0)) {
+    if (!step_window(s, number, &v.from_q30, &v.to_q30) || (m->kept && m->count == 0) ||
+        (v.from_q30 == 0 && stays_clear(s, number))) {
         return CAROM_OK;
     }
     step_open_window(s, number, v.from_q30, v.to_q30);
