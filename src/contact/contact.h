@@ -32,7 +32,7 @@ struct contact_roll {
     PHASE_TAG(phase)
     int32_t arm_q30;  /* the patch over which contacts press, in that unit */
     int32_t mass_q24; /* change of spin by a unit moment, at most */
-    int32_t step_q30; /* its inverse */
+    int32_t step_q24; /* its inverse */
     union {           /* by PHASE_TAG phase; contact_rolling, contact_moment */
         struct {
             int32_t spin[3]; /* relative, before the solve, in solver units */

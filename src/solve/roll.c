@@ -181,7 +181,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         roll->moment[k] = roll->gain[k] = roll->way[k] = 0;
     }
     roll->mass_q24 = rest_clamp(mass_q30 >> 6);
-    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (mass_q30 | 1));
+    roll->step_q24 = rest_clamp(((int64_t)1 << 54) / (mass_q30 | 1));
     return true;
 }
 
@@ -249,7 +249,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     limit = rest_clamp(fix_mul_q30(pressure, roll->arm_q30));
     limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
     for (int k = 0; k < 3; k++) {
-        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q30) >> 30);
+        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q24) >> 24);
     }
     rest_cut(next, limit > 0 ? limit : 0);
     for (int k = 0; k < 3; k++) {
