@@ -54,12 +54,14 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
 
 static void set_arm(struct contact_side *side, const carom_v3_q40 *arm)
 {
-    int up = contact_arm_bits(side->body) - 40;
-    /* the half that rounds; bodies of a radius of less than 2^-10 units have none */
-    int64_t half = up < 0 ? (int64_t)1 << (-up - 1) : 0;
+    int down = 40 - contact_arm_bits(side->body);
 
-    for (int k = 0; k < 3; k++) {
-        side->arm_q30[k] = (int32_t)fix_shift(arm->c[k] + half, up);
+    for (int k = 0; down > 0 && k < 3; k++) {
+        side->arm_q30[k] = (int32_t)carom_round(arm->c[k], down);
+    }
+    /* a body of a radius of less than 2^-10 units */
+    for (int k = 0; down <= 0 && k < 3; k++) {
+        side->arm_q30[k] = (int32_t)carom_shl(arm->c[k], -down);
     }
 }
 
