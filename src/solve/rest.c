@@ -343,14 +343,14 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.residual = few ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
+        sw.residual = r->count <= 3 ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = few ? 0 : loose_q40(r, warm);
+    sw.loose_q40 = r->count <= 3 ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
