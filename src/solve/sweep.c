@@ -221,30 +221,50 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     return in_cone(c, normal, tangent);
 }
 
-/* Along N first, never pulling; then across towards no slip, within the friction cone. */
-static void slide(struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
+/*
+ * How much longer a step along N is when friction at its limit follows it: N.K N over N.K (N + mu t),
+ * t being the unit vector along v. Where a contact nearly wedges, 8.
+ */
+static int32_t following_q15(const struct contact *c, const int64_t v[3])
+{
+    int64_t t[4] = {v[0], v[1], v[2], 0};
+    uint32_t square = 1;
+    int64_t drag = 0;
+    int32_t mass_q11;
+
+    /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
+    rest_shrink(t, 15);
+    for (int k = 0; k < 3; k++) {
+        int32_t part = (int32_t)t[k];
+
+        square += (uint32_t)(part * part);
+        drag += (int64_t)part * c->work->drag_q28[k];
+    }
+    mass_q11 = (int32_t)(drag >> 17) / (int32_t)fix_sqrt(square);
+    mass_q11 = 2048 + (int32_t)(((int64_t)mass_q11 * c->work->friction_q16) >> 16);
+    return (1 << 26) / (mass_q11 > 256 ? mass_q11 : 256);
+}
+
+/*
+ * Change V.N by dvn, never pulling, and end what that leaves of the slip, as far as friction does.
+ * Returns whether it does not.
+ */
+static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
     const struct contact_work *in = c->work;
     const int down = 30 - in->fine_bits;
-    int64_t change[4];
+    int64_t change[4] = {0, 0, 0, carom_round((int64_t)dvn * in->step[0], down)};
+    bool limited = true;
 
-    if (!in->slides) {
-        rest_prepare_slide(c);
-    }
-    change[3] = -carom_round((int64_t)error * in->step[0], down);
     if (change[3] <= -in->normal_impulse) {
         change[3] = -in->normal_impulse;
-        change[0] = change[1] = change[2] = 0;
     } else {
         for (int k = 0; k < 3; k++) {
-            /* the slip that the step along N leaves */
-            int64_t slip = v[k] - carom_mul_q30(error, c->normal.c[k]) -
-                           (((int64_t)in->drag_q28[k] * error) >> 28);
+            int32_t after = rest_clamp(slip[k] + (((int64_t)in->drag_q28[k] * dvn) >> 28));
 
-            change[k] =
-                in->tangent_impulse[k] - (((int64_t)rest_clamp(slip) * in->step[1]) >> down);
+            change[k] = in->tangent_impulse[k] - (((int64_t)after * in->step[1]) >> down);
         }
-        rest_cut(change, friction_limit(c, in->normal_impulse + change[3]));
+        limited = rest_cut(change, friction_limit(c, in->normal_impulse + change[3]));
     }
     for (int k = 0; k < 3; k++) {
         change[k] -= in->tangent_impulse[k];
@@ -255,6 +275,31 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct g
     for (int k = 0; k < 3; k++) {
         g->across[k] = (int32_t)change[k];
         g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
+    }
+    return limited;
+}
+
+/*
+ * Along N first; then across towards no slip, within the friction cone. Without momentum steps along N
+ * reckon with the friction that follows them: it would take many more.
+ */
+static void slide(struct contact *c, int32_t error, const int32_t v[3], bool hurries,
+                  struct gain *g)
+{
+    int64_t pushed[3];
+    int32_t slip[3];
+
+    if (!c->work->slides) {
+        rest_prepare_slide(c);
+    }
+    for (int k = 0; k < 3; k++) {
+        slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
+        pushed[k] = c->work->tangent_impulse[k] -
+                    (((int64_t)slip[k] * c->work->step[1]) >> (30 - c->work->fine_bits));
+    }
+    if (hurries || c->work->friction_q16 == 0 ||
+        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, pushed)) >> 15), slip, g)) {
+        slide_by(c, -error, slip, g);
     }
 }
 
@@ -281,7 +326,7 @@ static int32_t add(struct contact *c, const struct gain *g)
  * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
  * power of 2, is at rest.
  */
-static int64_t visit(struct contact *c, int32_t quiet)
+static int64_t visit(struct contact *c, int32_t quiet, bool hurries)
 {
     int32_t v[3], error;
     struct gain g;
@@ -300,7 +345,7 @@ static int64_t visit(struct contact *c, int32_t quiet)
         return 0;
     }
     if (c->work->friction_q16 == 0 || !c->work->inverted || !stick(c, v, &g)) {
-        slide(c, error, v, &g);
+        slide(c, error, v, hurries, &g);
     }
     return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
 }
@@ -472,7 +517,8 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
-            int64_t m = visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
+            int64_t m =
+                visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0, hurries);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, i)->work->rolls) {
