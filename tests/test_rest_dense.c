@@ -351,8 +351,8 @@ static void frictionless(void)
 
 static void sticking(void)
 {
-    agree(3, &(struct agreement){1, false, false, 0.3, 0.8, 10000, 1e-6});
-    agree(4, &(struct agreement){2, false, false, 0.3, 0.8, 10000, 1e-6});
+    agree(3, &(struct agreement){1, false, false, 0.3, 0.8, 10000, 5e-6});
+    agree(4, &(struct agreement){2, false, false, 0.3, 0.8, 10000, 5e-6});
 }
 
 static void sliding(void)
