@@ -133,6 +133,13 @@ static inline uint64_t rest_square32(const int32_t v[3])
            (uint64_t)((int64_t)v[2] * v[2]);
 }
 
+/* Bits that four numbers use, signs apart. */
+static inline uint64_t rest_used(const int64_t v[4])
+{
+    return (uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63)) |
+                      (v[3] ^ (v[3] >> 63)));
+}
+
 /* Shift four numbers down until each has at most so many bits; returns how far. */
 int rest_shrink(int64_t v[4], int bits);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */

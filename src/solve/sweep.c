@@ -172,8 +172,7 @@ static bool in_cone(const struct contact *c, int64_t normal, const int64_t tange
     int64_t all[4] = {tangent[0], tangent[1], tangent[2], normal}, limit;
     int32_t across[3];
 
-    if ((uint64_t)((all[0] ^ (all[0] >> 63)) | (all[1] ^ (all[1] >> 63)) |
-                   (all[2] ^ (all[2] >> 63)) | all[3]) >> 29) {
+    if (rest_used(all) >> 29) {
         rest_shrink(all, 29);
     }
     across[0] = (int32_t)all[0];
@@ -270,7 +269,9 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
         change[k] -= in->tangent_impulse[k];
     }
     /* if that is too large for one push a part of all of it: from one place in the cone to another */
-    rest_shrink(change, 29);
+    if (rest_used(change) >> 29) {
+        rest_shrink(change, 29);
+    }
     g->along = (int32_t)change[3];
     for (int k = 0; k < 3; k++) {
         g->across[k] = (int32_t)change[k];
