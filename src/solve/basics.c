@@ -22,6 +22,32 @@ uint32_t rest_friction(const struct body *a, const struct body *b)
     return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
 }
 
+/* round(v / 2^bits) of a product below 2^63 */
+static inline int64_t short_product(int64_t v, int32_t arm, int bits)
+{
+    return carom_round(v * arm, bits);
+}
+
+/* v x arm, each product to nearest. Those of a v below 2^31 fit 62 bits: at rest nearly all are. */
+static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_side *side)
+{
+    const int32_t *arm = side->arm_q30;
+    int bits = contact_arm_bits(side->body);
+
+    if (((uint64_t)(v[0] ^ (v[0] >> 63)) | (uint64_t)(v[1] ^ (v[1] >> 63)) |
+         (uint64_t)(v[2] ^ (v[2] >> 63))) >> 31 == 0) {
+        out[0] = short_product(v[1], arm[2], bits) - short_product(v[2], arm[1], bits);
+        out[1] = short_product(v[2], arm[0], bits) - short_product(v[0], arm[2], bits);
+        out[2] = short_product(v[0], arm[1], bits) - short_product(v[1], arm[0], bits);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        out[k] = fix_mul(v[i], arm[j], bits) - fix_mul(v[j], arm[i], bits);
+    }
+}
+
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
@@ -30,12 +56,14 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
+        int64_t turn[3];
 
-        for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], bits) -
-                         fix_mul(b->spin.c[j], arm[i], bits);
+        if (!b) {
+            continue;
+        }
+        cross_arm(turn, b->spin.c, &c->side[s]);
+        for (int k = 0; k < 3; k++) {
+            int64_t at = b->velocity.c[k] + turn[k];
 
             v->c[k] += s == 0 ? at : -at;
         }
@@ -63,13 +91,14 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
 {
     for (int s = 0; s < 2; s++) {
         struct body_state *state = rest_state(r, c, s);
-        const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
+        int64_t back[3];
 
-        for (int k = 0; b && k < 3; k++) {
-            int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t moment =
-                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
+        if (!c->side[s].body) {
+            continue;
+        }
+        cross_arm(back, p, &c->side[s]);
+        for (int k = 0; k < 3; k++) {
+            int64_t moment = moment_q40[k] - back[k];
 
             state->momentum.c[k] += s == 0 ? p[k] : -p[k];
             state->angular.c[k] += s == 0 ? moment : -moment;

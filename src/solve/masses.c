@@ -167,9 +167,10 @@ bool rest_prepare_masses(struct contact *c)
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
+        /* up is at most 20 for a determinant of 10 bits, shift at least 2 */
         for (int i = 0; i < 6; i++) {
             contact_inverse(c)[i] =
-                (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+                (int32_t)carom_round((int64_t)adjoint[i] * inverse, 29 + shift - up);
         }
     }
     return true;
