@@ -247,7 +247,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(824, 832)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(832, 832)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(116, 116)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4
