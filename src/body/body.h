@@ -56,8 +56,15 @@ struct body_path {
         struct {
             carom_v3_q40 saved_angular; /* before it, for the energy rule */
             /* what it changes velocities by, in its units: v by dv, and the spin by R H du */
-            int32_t dv[3], du[3];
-            int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
+            union {
+                struct {
+                    int32_t dv[3], du[3];
+                    int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
+                };
+                struct {
+                    int64_t wide_dv[3], wide_du[3]; /* while the impulses that a solve begins with are summed up */
+                };
+            };
             uint32_t used;                  /* bits of dv and du so far */
             int32_t columns[3][3];          /* of R H, see carom_spread */
         };

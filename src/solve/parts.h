@@ -101,6 +101,12 @@ static inline int32_t turn_by(const struct contact_lever *lever, int k, const in
                      s);
 }
 
+/* By how many bits products of turn and an impulse with so many fractional bits are finer than du. */
+static inline int rest_turn_shift(const struct body *b, int fine_bits)
+{
+    return 30 + fine_bits - 2 * b->turn_bits;
+}
+
 /*
  * dv and du of a body by an impulse below 2^31 with so many fractional bits. `turn` has units of
  * 2^(turn_bits - 31), du of 2^-(turn_bits + 1).
@@ -109,7 +115,7 @@ static inline void rest_push_side(struct body *b, const struct contact_lever *le
                                   const int32_t impulse[3], int fine_bits)
 {
     struct body_path *in = body_solve(b);
-    const int down = fine_bits - REST_FINER_BITS, s = 30 + fine_bits - 2 * b->turn_bits;
+    const int down = fine_bits - REST_FINER_BITS, s = rest_turn_shift(b, fine_bits);
     int32_t own[3] = {impulse[0], impulse[1], impulse[2]};
 
     if (lever->share_q30 != CAROM_ONE_Q30) {

@@ -75,17 +75,95 @@ static void begin(struct rest *r, const struct rest_sweep *sw)
         c->work->friction_q16 =
             sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
         begin_contact(c, sw);
-        for (int s = 0; s < 2; s++) {
-            struct body *b = c->side[s].body;
+    }
+}
 
-            if (b) {
-                for (int k = 0; k < 3; k++) {
-                    body_solve(b)->dv[k] = body_solve(b)->du[k] = 0;
-                }
-                body_solve(b)->used = 0;
+/* Take up a unit that is larger by LARGER_BITS. */
+static void enlarge(struct rest *r, struct rest_sweep *sw)
+{
+    sw->unit += LARGER_BITS;
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = contact_gain(rest_contact(r, i));
+
+        for (int k = 0; k < 3; k++) {
+            c->work->before[k] >>= LARGER_BITS;
+            c->work->tangent_impulse[k] /= 1 << LARGER_BITS;
+            c->gain[k] = c->way[k] = 0;
+        }
+        c->work->band >>= LARGER_BITS;
+        c->work->normal_impulse /= 1 << LARGER_BITS;
+    }
+}
+
+/* What a body gets of the impulse of a contact that a solve begins with; 1 for a, -1 for b. */
+static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
+{
+    const struct contact_lever *lever = &c->work->lever[s];
+    struct body *b = c->side[s].body;
+    struct body_path *in = body_solve(b);
+    int64_t own[3];
+
+    for (int k = 0; k < 3; k++) {
+        own[k] = fix_mul_q30(s == 0 ? impulse[k] : -impulse[k], lever->share_q30);
+        in->wide_dv[k] += own[k] >> (c->work->fine_bits - REST_FINER_BITS);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int m = 0; m < 3; m++) {
+            in->wide_du[k] += fix_mul(own[m], lever->turn[m][k], rest_turn_shift(b, c->work->fine_bits));
+        }
+    }
+}
+
+/* Sums of several bodies' weights on a light one may be long, though what is left of them is short. */
+static bool narrow(struct body *b)
+{
+    struct body_path *in = body_solve(b);
+    const int64_t most = (int64_t)1 << REST_USED_BITS;
+    int64_t all[6];
+    bool fits = true;
+
+    memcpy(all, in->wide_dv, sizeof in->wide_dv);
+    memcpy(all + 3, in->wide_du, sizeof in->wide_du);
+    for (int k = 0; k < 3; k++) {
+        fits = fits && carom_abs(all[k]) < most && carom_abs(all[3 + k]) < most;
+        in->dv[k] = in->last_dv[k] = (int32_t)all[k];
+        in->du[k] = in->last_du[k] = (int32_t)all[3 + k];
+    }
+    in->used = 0;
+    return fits;
+}
+
+/* What the impulses so far change velocities by. Returns whether that fits. */
+static bool sum_up(struct rest *r)
+{
+    bool fits = true;
+
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        memset(body_solve(&r->bodies[i])->wide_dv, 0, sizeof body_solve(&r->bodies[i])->wide_dv);
+        memset(body_solve(&r->bodies[i])->wide_du, 0, sizeof body_solve(&r->bodies[i])->wide_du);
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+        const struct contact_work *in = c->work;
+        int64_t impulse[3];
+
+        if ((in->normal_impulse | in->tangent_impulse[0] | in->tangent_impulse[1] |
+             in->tangent_impulse[2]) == 0) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            impulse[k] = fix_mul_q30(in->normal_impulse, c->normal.c[k]) + in->tangent_impulse[k];
+        }
+        for (int s = 0; s < 2; s++) {
+            if (c->side[s].body) {
+                add_wide(c, s, impulse);
             }
         }
     }
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        fits = narrow(&r->bodies[i]) && fits;
+    }
+    return fits;
 }
 
 /* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
@@ -563,12 +641,14 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {
     choose_unit(r, sw);
+    begin(r, sw);
+    if (warm) {
+        rest_load_warm(r, sw);
+    }
     for (;;) {
-        begin(r, sw);
-        if (warm) {
-            rest_load_warm(r, sw);
+        while (!sum_up(r)) {
+            enlarge(r, sw);
         }
-        bodies_beyond(r, 0);
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }
@@ -576,8 +656,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         if (!outgrown(r)) {
             break;
         }
-        sw->unit += LARGER_BITS;
-        warm = false; /* what was kept is used up */
+        enlarge(r, sw);
     }
     finish(r, sw);
 }

@@ -70,32 +70,9 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
     return best;
 }
 
-/* Large impulses in several pushes. */
-static void push_all(struct contact *c)
-{
-    int64_t left[3];
-    bool more = true;
-
-    for (int k = 0; k < 3; k++) {
-        left[k] =
-            fix_mul_q30(c->work->normal_impulse, c->normal.c[k]) + c->work->tangent_impulse[k];
-    }
-    while (more) {
-        int32_t part[3];
-
-        more = false;
-        for (int k = 0; k < 3; k++) {
-            part[k] = rest_clamp(left[k]);
-            left[k] -= part[k];
-            more |= left[k] != 0;
-        }
-        rest_push(c, part);
-    }
-}
-
 /*
  * A kept impulse in units, cut to 2^40: the unit may be far smaller than a frame ago, and what is kept
- * is handed on in pushes of 2^31.
+ * must leave room for sums.
  */
 static int64_t units(int64_t v_q40, struct fix_scaled inverse)
 {
@@ -125,7 +102,6 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
         c->work->tangent_impulse[k] =
             units(w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]), inverse);
     }
-    push_all(c);
     w->normal_q40 = 0; /* used */
 }
 
