@@ -358,12 +358,8 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
     return limited;
 }
 
-/*
- * Along N first; then across towards no slip, within the friction cone. Without momentum steps along N
- * reckon with the friction that follows them: it would take many more.
- */
-static void slide(struct contact *c, int32_t error, const int32_t v[3], bool hurries,
-                  struct gain *g)
+/* Along N first; then across towards no slip, within the friction cone. */
+static void slide(struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
     int64_t pushed[3];
     int32_t slip[3];
@@ -376,7 +372,7 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], bool hur
         pushed[k] = c->work->tangent_impulse[k] -
                     (((int64_t)slip[k] * c->work->step[1]) >> (30 - c->work->fine_bits));
     }
-    if (hurries || c->work->friction_q16 == 0 ||
+    if (c->work->friction_q16 == 0 ||
         !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, pushed)) >> 15), slip, g)) {
         slide_by(c, -error, slip, g);
     }
@@ -405,7 +401,7 @@ static int32_t add(struct contact *c, const struct gain *g)
  * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
  * power of 2, is at rest.
  */
-static int64_t visit(struct contact *c, int32_t quiet, bool hurries)
+static int64_t visit(struct contact *c, int32_t quiet)
 {
     int32_t v[3], error;
     struct gain g;
@@ -424,7 +420,7 @@ static int64_t visit(struct contact *c, int32_t quiet, bool hurries)
         return 0;
     }
     if (c->work->friction_q16 == 0 || !c->work->inverted || !stick(c, v, &g)) {
-        slide(c, error, v, hurries, &g);
+        slide(c, error, v, &g);
     }
     return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
 }
@@ -597,7 +593,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
             int64_t m =
-                visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0, hurries);
+                visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, i)->work->rolls) {
