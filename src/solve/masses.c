@@ -21,6 +21,11 @@ void rest_prepare_body(struct body *b)
     }
 }
 
+static inline bool too_long(int64_t turn)
+{
+    return turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30;
+}
+
 /* How du turns the place of a contact on one side. Returns false when that takes more turn_bits. */
 static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
@@ -32,10 +37,16 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
         int64_t turn[3];
 
         fix_cross(turn, body_solved(b)->columns[j], side->arm_q30);
-        for (int i = 0; i < 3; i++) {
-            turn[i] = down > 0 ? carom_round(turn[i], down) : carom_shl(turn[i], -down);
+        if (down > 0) {
+            turn[0] = carom_round(turn[0], down);
+            turn[1] = carom_round(turn[1], down);
+            turn[2] = carom_round(turn[2], down);
+        } else {
+            turn[0] = carom_shl(turn[0], -down);
+            turn[1] = carom_shl(turn[1], -down);
+            turn[2] = carom_shl(turn[2], -down);
         }
-        if ((uint64_t)(carom_abs(turn[0]) | carom_abs(turn[1]) | carom_abs(turn[2])) >> 30 != 0) {
+        if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
             if (b->turn_bits < TURN_BITS_MAX) {
                 b->turn_bits++;
                 return false;
