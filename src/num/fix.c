@@ -232,6 +232,15 @@ int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
     return fix_mul(v, s.m, s.e);
 }
 
+void fix_mul_scaled3(int64_t out[3], const int64_t v[3], struct fix_scaled s)
+{
+    const bool plain = s.e >= 1 && s.e <= 62;
+
+    for (int k = 0; k < 3; k++) {
+        out[k] = plain ? fix_mul(v[k], s.m, s.e) : fix_mul_scaled(v[k], s);
+    }
+}
+
 int fix_bits3(const int64_t v[3])
 {
     return fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2])));

@@ -551,11 +551,10 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
         for (int k = 0; k < 3; k++) {
-            int64_t j = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
-                        carom_shl(c->work->tangent_impulse[k], 8);
-
-            c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
+            c->impulse_q40.c[k] = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
+                                  carom_shl(c->work->tangent_impulse[k], 8);
         }
+        fix_mul_scaled3(c->impulse_q40.c, c->impulse_q40.c, unit);
         if (sw->rolls) {
             rest_roll_finish(c, sw);
         }

@@ -100,12 +100,15 @@ static void to_units(int64_t v[4], struct fix_scaled inverse)
     bool fits = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]) |
                                     carom_abs(v[3]))) <= bits;
 
+    if (fits) {
+        fix_mul_scaled3(v, v, inverse);
+        v[3] = fix_mul_scaled(v[3], inverse);
+        return;
+    }
     for (int k = 0; k < 4; k++) {
-        if (fits || fix_bits((uint64_t)carom_abs(v[k])) <= bits) {
-            v[k] = fix_mul_scaled(v[k], inverse);
-        } else {
-            v[k] = v[k] < 0 ? -most : most;
-        }
+        v[k] = fix_bits((uint64_t)carom_abs(v[k])) <= bits ? fix_mul_scaled(v[k], inverse)
+               : v[k] < 0                                  ? -most
+                                                           : most;
     }
 }
 
