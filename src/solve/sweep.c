@@ -5,7 +5,7 @@
 
 /* Sweeps follow a slip of 13 V*. */
 #define SLIP_MAX ((int64_t)13 << REST_BITS)
-/* When no part of a slip has more bits than this, a power of 2, it is none that is cut. */
+/* A slip is not cut when each part of it is below this, a power of 2. */
 #define SLIP_SURE ((int64_t)4 << REST_BITS)
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
