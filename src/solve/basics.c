@@ -22,7 +22,7 @@ uint32_t rest_friction(const struct body *a, const struct body *b)
     return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
 }
 
-/* round(v / 2^bits) of a product below 2^63 */
+/* v times an arm to nearest, where the product is below 2^62 */
 static inline int64_t short_product(int64_t v, int32_t arm, int bits)
 {
     return carom_round(v * arm, bits);
@@ -32,10 +32,10 @@ static inline int64_t short_product(int64_t v, int32_t arm, int bits)
 static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_side *side)
 {
     const int32_t *arm = side->arm_q30;
+    int64_t all = (v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63));
     int bits = contact_arm_bits(side->body);
 
-    if (((uint64_t)(v[0] ^ (v[0] >> 63)) | (uint64_t)(v[1] ^ (v[1] >> 63)) |
-         (uint64_t)(v[2] ^ (v[2] >> 63))) >> 31 == 0) {
+    if (all >> 31 == 0) {
         out[0] = short_product(v[1], arm[2], bits) - short_product(v[2], arm[1], bits);
         out[1] = short_product(v[2], arm[0], bits) - short_product(v[0], arm[2], bits);
         out[2] = short_product(v[0], arm[1], bits) - short_product(v[1], arm[0], bits);

@@ -21,6 +21,11 @@ void rest_prepare_body(struct body *b)
     }
 }
 
+static inline bool too_long(int64_t turn)
+{
+    return turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30;
+}
+
 /* How du turns the place of a contact on one side. Returns false when that takes more turn_bits. */
 static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
@@ -29,41 +34,63 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
 
     for (int j = 0; j < 3; j++) {
         int down = more + b->mesh->spread.e[j];
-        int64_t column[3];
+        int64_t turn[3];
 
-        fix_cross(column, body_solved(b)->columns[j], side->arm_q30);
-        for (int i = 0; i < 3; i++) {
-            int64_t turn = down > 0 ? carom_round(column[i], down) : fix_round_shift(column[i], -down);
-
-            if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
-                if (b->turn_bits < TURN_BITS_MAX) {
-                    b->turn_bits++;
-                    return false;
-                }
-                turn = turn > 0 ? CAROM_ONE_Q30 - 1 : 1 - CAROM_ONE_Q30;
-            }
-            lever->turn[i][j] = (int32_t)turn;
+        fix_cross(turn, body_solved(b)->columns[j], side->arm_q30);
+        if (down > 0) {
+            turn[0] = carom_round(turn[0], down);
+            turn[1] = carom_round(turn[1], down);
+            turn[2] = carom_round(turn[2], down);
+        } else {
+            turn[0] = carom_shl(turn[0], -down);
+            turn[1] = carom_shl(turn[1], -down);
+            turn[2] = carom_shl(turn[2], -down);
         }
+        if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
+            if (b->turn_bits < TURN_BITS_MAX) {
+                b->turn_bits++;
+                return false;
+            }
+            for (int i = 0; i < 3; i++) {
+                turn[i] = rest_within(turn[i], CAROM_ONE_Q30 - 1);
+            }
+        }
+        lever->turn[0][j] = (int32_t)turn[0];
+        lever->turn[1][j] = (int32_t)turn[1];
+        lever->turn[2][j] = (int32_t)turn[2];
     }
     return true;
+}
+
+/* 1 + turn turn^T */
+static void find_own_k(int64_t k_q30[6], const int32_t turn[3][3], int turn_bits)
+{
+    int down = 32 - 2 * turn_bits;
+
+    k_q30[0] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[0], turn[0]), down);
+    k_q30[1] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[1], turn[1]), down);
+    k_q30[2] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[2], turn[2]), down);
+    k_q30[3] = carom_round(carom_dot(turn[0], turn[1]), down);
+    k_q30[4] = carom_round(carom_dot(turn[1], turn[2]), down);
+    k_q30[5] = carom_round(carom_dot(turn[2], turn[0]), down);
 }
 
 /* K: the sum over the sides of share (1 + turn turn^T). */
 static void find_k(const struct contact *c, int64_t k_q30[6])
 {
-    static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
-
     memset(k_q30, 0, 6 * sizeof k_q30[0]);
     for (int s = 0; s < 2; s++) {
         const struct contact_lever *lever = &c->work->lever[s];
-        const struct body *b = c->side[s].body;
-        int bits = b ? b->turn_bits : 0;
+        int64_t own_q30[6];
 
-        for (int n = 0; b && n < 6; n++) {
-            int64_t sum = carom_dot(lever->turn[row[n]], lever->turn[column[n]]);
-
-            sum = carom_round(sum, 32 - 2 * bits) + (n < 3 ? CAROM_ONE_Q30 : 0);
-            k_q30[n] += lever->share_q30 == CAROM_ONE_Q30 ? sum : fix_mul_q30(sum, lever->share_q30);
+        if (!c->side[s].body) {
+            continue;
+        }
+        find_own_k(own_q30, lever->turn, c->side[s].body->turn_bits);
+        for (int n = 0; n < 6; n++) {
+            k_q30[n] += lever->share_q30 == CAROM_ONE_Q30
+                            ? own_q30[n]
+                            : fix_mul_q30(own_q30[n], lever->share_q30);
         }
     }
 }
@@ -106,18 +133,21 @@ static void refine_unit(struct contact *c, const int64_t k_q30[6])
     c->work->mass_unit.e += c->work->fine_bits;
 }
 
+/* a b - c d in q30 */
+static inline int32_t minor_q30(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    return (int32_t)carom_round((int64_t)a * b - (int64_t)c * d, 30);
+}
+
 /* The adjugate of K in 30 bits, and its determinant. */
 static int32_t adjugate(int32_t out_q30[6], const int32_t k[6])
 {
-    static const uint8_t minor[6][4] = {{1, 2, 4, 4}, {2, 0, 5, 5}, {0, 1, 3, 3},
-                                        {5, 4, 3, 2}, {3, 5, 4, 0}, {3, 4, 5, 1}};
-
-    for (int i = 0; i < 6; i++) {
-        const uint8_t *m = minor[i];
-
-        out_q30[i] =
-            (int32_t)carom_round((int64_t)k[m[0]] * k[m[1]] - (int64_t)k[m[2]] * k[m[3]], 30);
-    }
+    out_q30[0] = minor_q30(k[1], k[2], k[4], k[4]);
+    out_q30[1] = minor_q30(k[2], k[0], k[5], k[5]);
+    out_q30[2] = minor_q30(k[0], k[1], k[3], k[3]);
+    out_q30[3] = minor_q30(k[5], k[4], k[3], k[2]);
+    out_q30[4] = minor_q30(k[3], k[5], k[4], k[0]);
+    out_q30[5] = minor_q30(k[3], k[4], k[5], k[1]);
     return (int32_t)carom_round(
         (int64_t)k[0] * out_q30[0] + (int64_t)k[3] * out_q30[3] + (int64_t)k[5] * out_q30[5], 30);
 }

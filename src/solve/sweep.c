@@ -5,6 +5,8 @@
 
 /* Sweeps follow a slip of 13 V*. */
 #define SLIP_MAX ((int64_t)13 << REST_BITS)
+/* A slip is not cut when each part of it is below this, a power of 2. */
+#define SLIP_SURE ((int64_t)4 << REST_BITS)
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
 
@@ -45,25 +47,33 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
     if (loose > sw->residual) sw->residual = (int32_t)(loose < (1 << REST_BITS) ? loose : 1 << REST_BITS);
 }
 
+/* A velocity to solver units, of 2^-4 to 2^41 */
+static inline int64_t in_units(int64_t v_q40, int unit)
+{
+    return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
+}
+
 /* Velocities to solver units; no impulses yet. */
 static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
-    int32_t error = (int32_t)fix_round_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
+    int32_t error = (int32_t)in_units(c->speed_q40 - wanted, sw->unit); /* within V* */
 
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
-        slip[k] = fix_round_shift(contact_velocity(c)->c[k] - along, -sw->unit);
+        slip[k] = in_units(contact_velocity(c)->c[k] - along, sw->unit);
     }
-    rest_cut(slip, SLIP_MAX);
+    if ((carom_abs(slip[0]) | carom_abs(slip[1]) | carom_abs(slip[2])) >= SLIP_SURE) {
+        rest_cut(slip, SLIP_MAX);
+    }
     PHASE_BEGIN(c->phase, CONTACT_GAIN);
     for (int k = 0; k < 3; k++) {
         c->work->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
         c->work->tangent_impulse[k] = 0;
         c->gain[k] = c->way[k] = 0;
     }
-    c->work->band = rest_clamp(fix_round_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
+    c->work->band = rest_clamp(in_units(carom_shl(c->work->band_q30, 10), sw->unit));
     c->work->normal_impulse = 0;
 }
 
@@ -623,11 +633,10 @@ static void finish(struct rest *r, const struct rest_sweep *sw)
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
         for (int k = 0; k < 3; k++) {
-            int64_t j = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
-                        carom_shl(c->work->tangent_impulse[k], 8);
-
-            c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
+            c->impulse_q40.c[k] = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
+                                  carom_shl(c->work->tangent_impulse[k], 8);
         }
+        fix_mul_scaled3(c->impulse_q40.c, c->impulse_q40.c, unit);
         if (sw->rolls) {
             rest_roll_finish(c, sw);
         }
