@@ -124,12 +124,9 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     for (int k = 0; k < 3; k++) {
         impulse[k] = w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
-<<<<<<< HEAD
-=======
     to_units(impulse, inverse);
     memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
     c->work->normal_impulse = impulse[3];
->>>>>>> setup
     w->normal_q40 = 0; /* used */
 }
 
