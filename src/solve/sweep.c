@@ -111,16 +111,22 @@ static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
     const struct contact_lever *lever = &c->work->lever[s];
     struct body *b = c->side[s].body;
     struct body_path *in = body_solve(b);
+    const int shift = rest_turn_shift(b, c->work->fine_bits);
     int64_t own[3];
 
     for (int k = 0; k < 3; k++) {
-        own[k] = fix_mul_q30(s == 0 ? impulse[k] : -impulse[k], lever->share_q30);
+        own[k] = s == 0 ? impulse[k] : -impulse[k];
+        own[k] = lever->share_q30 == CAROM_ONE_Q30 ? own[k] : fix_mul_q30(own[k], lever->share_q30);
         in->wide_dv[k] += own[k] >> (c->work->fine_bits - REST_FINER_BITS);
     }
     for (int k = 0; k < 3; k++) {
-        for (int m = 0; m < 3; m++) {
-            in->wide_du[k] += fix_mul(own[m], lever->turn[m][k], rest_turn_shift(b, c->work->fine_bits));
-        }
+        const int32_t turn[3] = {lever->turn[0][k], lever->turn[1][k], lever->turn[2][k]};
+
+        /* products of 30 and 31 bits */
+        in->wide_du[k] += (fix_sum(own) >> 31) == 0
+                              ? carom_round(own[0] * turn[0] + own[1] * turn[1] + own[2] * turn[2], shift)
+                              : fix_mul(own[0], turn[0], shift) + fix_mul(own[1], turn[1], shift) +
+                                    fix_mul(own[2], turn[2], shift);
     }
 }
 
