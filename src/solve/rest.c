@@ -12,8 +12,8 @@
 #define LIFT_DIVISOR 64
 /* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
-/* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
-#define TOO_NEAR_DIVISOR 16
+/* An impact at a gap below a quarter of a skin opens it again: hits stop at half of one. */
+#define TOO_NEAR_DIVISOR 4
 /* In lasting contact an approach by less than this part of a skin a frame is no impact. */
 #define LASTING_DIVISOR 4
 /* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
