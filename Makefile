@@ -334,7 +334,8 @@ build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 
-build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)) $(B)/libcarom.a
+build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)) $(SCENES_BUILT) \
+                         $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletDynamics -lBulletCollision -lLinearMath -lm
 
