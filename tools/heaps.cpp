@@ -137,6 +137,10 @@ int main(int argc, char **argv)
         return 0;
     }
     const heaps::Made heap = what == "head" ? make_head(name) : make_heap(name, starts);
+    if (!heap && name == "asleep" && boxes > 0) {
+        std::fprintf(stderr, "the heap does not sleep\n");
+        return 1;
+    }
     if (!heap) {
         std::fprintf(stderr, "usage: carom-heaps carom|ode|bullet|asleep BOXES SEED\n"
                              "       carom-heaps carom|ode|bullet head\n"
