@@ -113,6 +113,7 @@ build_boards = ready= broken=; for board in $(1); do \
 all_built = if [ "$$broken" ]; then echo "cannot be built:$$broken"; false; fi
 NEED_THIS := $(or $(NEED),$(NEED_HOST))
 NEED_COMPARE := ode bullet fcl valgrind
+NEED_WASM := clang lld node npm
 
 # Scenes of the comparison: what moves, what stands still.
 mesh_pair = $(1)=build/gen/$(2).crm,build/gen/$(3).crm
@@ -212,7 +213,7 @@ ifneq ($(SHORT),)
 	@tools/compare.py --short build/tools/carom-heaps
 	@tools/check_compare
 else
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE) clang lld node npm
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE) $(NEED_WASM)
 	@tools/need npm:tools/compare_wasm
 	@$(SUBMAKE) BOARD=host build/tools/carom-compare build/tools/carom-heaps $(COMPARE_WASM) \
 	    $(COMPARE_MESHES)
@@ -350,7 +351,8 @@ build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletDynamics -lBulletCollision -lLinearMath -lm
 
-build/tools/heap.wasm: tools/compare_wasm/heap.c port/nolibc/string.c $(filter-out src/draw/%,$(wildcard src/*/*.c)) \
+build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/string.c \
+                       $(filter-out src/draw/%,$(wildcard src/*/*.c)) \
                        $(wildcard include/*.h src/*/*.h)
 	@mkdir -p $(@D)
 	@echo '  wasm  $@'

@@ -100,8 +100,8 @@ void print_layout(const std::vector<heaps::Start> &boxes)
     for (const heaps::Start &start : boxes) {
         const double *x = start.position, *q = start.quaternion;
 
-        std::printf("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", x[0], x[1], x[2], q[0], q[1], q[2],
-                    q[3]);
+        std::printf("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", x[0], x[1], x[2], q[0], q[1],
+                    q[2], q[3]);
     }
 }
 

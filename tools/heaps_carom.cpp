@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "carom.h"
 #include "heaps.hpp"
+#include "heaps_box.h"
 
 namespace
 {
@@ -12,15 +12,6 @@ namespace
 using namespace heaps;
 
 constexpr int ASLEEP_BY = 1200; /* steps */
-constexpr int16_t H = 2048, G = 32 * 256;
-const int16_t box_vertices[8][3] = {{-H, -H, -H}, {H, -H, -H}, {H, H, -H}, {-H, H, -H},
-                                    {-H, -H, H},  {H, -H, H},  {H, H, H},  {-H, H, H}};
-const uint16_t box_faces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-                                   {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
-const int16_t plane_vertices[4][3] = {{-G, -G, 0}, {G, -G, 0}, {G, G, 0}, {-G, G, 0}};
-const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
-const carom_mesh_raw box_raw = {box_vertices, box_faces, 8, 12, 12, CAROM_SOLID};
-const carom_mesh_raw plane_raw = {plane_vertices, plane_faces, 4, 2, 8, CAROM_SURFACE};
 
 int expect(int result)
 {

@@ -101,8 +101,14 @@ heaps::Scene heaps::head_scene()
 {
     const carom_body_def &body = loaded().body;
     const carom_sym3 &inertia = body.mesh->mass.inertia;
-    Scene scene = {mesh_of(*body.mesh), mesh_of(*loaded().ground.mesh), {{}, {1, 0, 0, 0}}, {}, {}, {},
-                   std::ldexp(body.friction_q16, -16), std::ldexp(body.restitution_q30, -30)};
+    Scene scene = {mesh_of(*body.mesh),
+                   mesh_of(*loaded().ground.mesh),
+                   {{}, {1, 0, 0, 0}},
+                   {},
+                   {},
+                   {},
+                   std::ldexp(body.friction_q16, -16),
+                   std::ldexp(body.restitution_q30, -30)};
 
     for (int k = 0; k < 3; k++) {
         scene.start.position[k] = std::ldexp(static_cast<double>(body.position.c[k]), -32);

@@ -1,22 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Carom's heap of boxes for WebAssembly, as tools/heaps_carom.cpp makes it. */
-#include "carom.h"
+#include "../heaps_box.h"
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
 
-enum { BOXES = 128, H = 2048, G = 32 * 256 };
+enum { BOXES = 128 };
 #define CAPS BOXES + 1, 16 * BOXES, 24 * BOXES, 65535, 1, 65535
-
-static const int16_t box_vertices[8][3] = {{-H, -H, -H}, {H, -H, -H}, {H, H, -H}, {-H, H, -H},
-                                           {-H, -H, H},  {H, -H, H},  {H, H, H},  {-H, H, H}};
-static const uint16_t box_faces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
-                                          {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
-                                          {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
-static const int16_t plane_vertices[4][3] = {{-G, -G, 0}, {G, -G, 0}, {G, G, 0}, {-G, G, 0}};
-static const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
-static const struct carom_mesh_raw box_raw = {box_vertices, box_faces, 8, 12, 12, CAROM_SOLID},
-                                   plane_raw = {plane_vertices, plane_faces, 4, 2, 8,
-                                                CAROM_SURFACE};
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], box_block[CAROM_MESH_BYTES(8, 12)],
     plane_block[CAROM_MESH_BYTES(4, 2)];
@@ -26,8 +15,10 @@ static struct carom_world *world;
 /* An empty world over the plane; an error is below zero. */
 int EXPORT(begin)(void)
 {
-    const struct carom_config config = {{CAPS}, {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}};
-    const struct carom_body_def ground = {.mesh = &plane, .stationary = true, .friction_q16 = 32768};
+    const struct carom_config config = {
+        {CAPS}, {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}, .sleep = false};
+    const struct carom_body_def ground = {
+        .mesh = &plane, .stationary = true, .friction_q16 = 32768};
     int result = carom_mesh_build(&plane, &plane_raw, plane_block, sizeof plane_block);
 
     result = result < 0 ? result : carom_mesh_build(&box, &box_raw, box_block, sizeof box_block);
