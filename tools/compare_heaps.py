@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 CONTENDERS = ["carom", "ode", "bullet"]
+PHASES = ["falling", "settling", "resting", "asleep"]
 SEEDS = {8: 4, 16: 4, 32: 3, 64: 2, 128: 2, 256: 1}  # by boxes: so many heaps, the mean of them
 ASLEEP = 32  # boxes: Carom's heap that sleeps
 SHORT = 32  # boxes: the heap of seed 1 that CI counts
@@ -55,7 +56,8 @@ def counted(command, *options):
 def steps(program, *arguments):
     """{phase: instructions a step} of a run of carom-heaps."""
     found = counted([program, *arguments], "--instr-atstart=no")
-    return {phase: total / int(count) for (phase, count), total in found.items()}
+    a_step = {phase: total / int(count) for (phase, count), total in found.items()}
+    return {phase: a_step[phase] for phase in PHASES if phase in a_step}
 
 
 def all_steps(program, tasks):

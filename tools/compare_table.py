@@ -48,8 +48,8 @@ def value_text(value, unit):
         return "%.2f ms" % value
     for size, name in [(1e6, " M"), (1e3, " k")]:
         if value >= size:
-            return "%#.3g" % (value / size) + name if value < 1000 * size else \
-                "%d" % (value / size) + name
+            scaled = value / size
+            return "%.*f" % (2 if scaled < 10 else 1 if scaled < 100 else 0, scaled) + name
     return "%d" % value
 
 
