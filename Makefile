@@ -113,12 +113,14 @@ build_boards = ready= broken=; for board in $(1); do \
 all_built = if [ "$$broken" ]; then echo "cannot be built:$$broken"; false; fi
 NEED_THIS := $(or $(NEED),$(NEED_HOST))
 NEED_COMPARE := ode bullet fcl valgrind
+NEED_WASM := clang lld node npm
 
 # Scenes of the comparison: what moves, what stands still.
 mesh_pair = $(1)=build/gen/$(2).crm,build/gen/$(3).crm
 COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
                   $(call mesh_pair,head450,head450,field386) \
                   $(call mesh_pair,head836,head836,field512)
+COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
 .PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards build need clean force
@@ -204,10 +206,20 @@ figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@test -e out/bench.csv || $(MAKE) bench
 	@tools/figures.py out/figures
 
-compare: ## ODE, Bullet and FCL beside Carom on the same meshes and poses, to out/compare.csv
+compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
+ifneq ($(SHORT),)
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
-	@$(SUBMAKE) BOARD=host build/tools/carom-compare $(COMPARE_MESHES)
-	@tools/compare.py build/tools/carom-compare $(COMPARE_SCENES)
+	@$(SUBMAKE) BOARD=host build/tools/carom-heaps
+	@tools/compare.py --short build/tools/carom-heaps
+	@tools/check_compare
+else
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE) $(NEED_WASM)
+	@tools/need npm:tools/compare_wasm
+	@$(SUBMAKE) BOARD=host build/tools/carom-compare build/tools/carom-heaps $(COMPARE_WASM) \
+	    $(COMPARE_MESHES)
+	@tools/compare.py build/tools/carom-compare build/tools/carom-heaps $(COMPARE_WASM) \
+	    $(COMPARE_SCENES)
+endif
 
 check: ## the gates: format, layers, symbols, sizes, stack
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
@@ -334,9 +346,18 @@ build/tools/carom-compare: $(patsubst %.cpp,build/%.o,$(wildcard tools/compare*.
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletCollision -lLinearMath -lfcl -lccd -lm
 
-build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)) $(B)/libcarom.a
+build/tools/carom-heaps: $(patsubst %.cpp,build/%.o,$(wildcard tools/heaps*.cpp)) $(SCENES_BUILT) \
+                         $(B)/libcarom.a
 	@echo '  link  $@'
 	$(CXX) -o $@ $^ -lode -lBulletDynamics -lBulletCollision -lLinearMath -lm
+
+build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/string.c \
+                       $(filter-out src/draw/%,$(wildcard src/*/*.c)) \
+                       $(wildcard include/*.h src/*/*.h)
+	@mkdir -p $(@D)
+	@echo '  wasm  $@'
+	clang --target=wasm32 -std=c11 -O3 -ffreestanding -Iport/nolibc -Iinclude -nostdlib \
+	    -Wl,--no-entry,-z,stack-size=262144 -o $@ $(filter %.c,$^)
 
 # The part of the engine that indexes meshes, and the scenes, for tools.
 build/tools/%.o: %.c

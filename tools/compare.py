@@ -1,62 +1,45 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Carom beside the paper's way and Debian's ODE, Bullet and FCL: same meshes, same poses.
+"""Carom beside the paper's way and other engines: queries, whole steps, heaps of boxes.
 
-usage: compare.py PROGRAM SCENE=MOVING,STILL ...
+usage: compare.py QUERIES HEAPS WASM SCENE=MOVING,STILL ...
+       compare.py --short HEAPS
 
-Every query of build/tools/carom-compare: instructions are counted by callgrind, times are the best
-of several in one run; means of a phase go to out/compare.csv. Phases: apart, the boxes of the
-bodies do not overlap; near, they do but no faces cross; contact, faces cross. How many of the
+QUERIES is build/tools/carom-compare, the same meshes at the same poses: instructions are counted by
+callgrind, times are the best of several in one run; means of a phase. Phases: apart, the boxes of
+the bodies do not overlap; near, they do but no faces cross; contact, faces cross. How many of the
 crossing face pairs are found goes to out/recall.csv. Carom and the paper's way find face pairs, FCL
-pairs and points, ODE and Bullet points. Fails when Carom takes more than half of ODE's
-instructions, misses a crossing pair, or finds contact where FCL does not, or the other way.
+pairs and points, ODE and Bullet points. HEAPS is build/tools/carom-heaps, WASM Carom's heap as
+WebAssembly (tools/compare_heaps.py). All figures go to out/compare.csv, those that are shown to
+docs/compare.csv, docs/compare.md and the table in README.md. With --short one heap is counted and
+held against the committed figures.
+
+Fails when a query of Carom takes more than half of ODE's instructions, misses a crossing pair, or
+finds contact where FCL does not, or the other way; and when a heap takes more than its bound.
 """
 import csv
-import glob
 import os
-import re
-import subprocess
 import sys
-import tempfile
+
+import compare_heaps
+import compare_table
 
 OUT = "out/compare.csv"
-COLUMNS = ["scene", "phase", "contender", "instructions", "microseconds"]
 RECALL = "out/recall.csv"
 RECALL_COLUMNS = ["scene", "contender", "crossing", "found", "frames", "frames_missed"]
 BAR = 0.5  # of ODE's instructions
 AIM = 0.7  # of its time
-TIMEOUT = 1800  # seconds a run
-
-
-def run(command, **others):
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
-                          timeout=TIMEOUT, **others)
-    if done.returncode:
-        sys.exit("%s: status %d" % (" ".join(command), done.returncode))
-    return [line.split(",") for line in done.stdout.splitlines()]
 
 
 def instructions(program, meshes):
-    """{(phase, contender): instructions of a query}, by callgrind."""
-    found = {}
-    with tempfile.TemporaryDirectory() as folder:
-        run(["valgrind", "--quiet", "--tool=callgrind", "--collect-atstart=no",
-             "--callgrind-out-file=%s/out" % folder, program, "count", *meshes],
-            # else the first call of a function includes the linker's search for it
-            env=dict(os.environ, LD_BIND_NOW="1"))
-        for path in glob.glob(folder + "/out.*"):
-            with open(path) as file:
-                text = file.read()
-            label = re.search(r"^desc: Trigger: Client Request: (\w+),(\w+),(\d+)$", text, re.M)
-            if label:
-                total = re.search(r"^totals: (\d+)$", text, re.M)
-                found[label[1], label[2]] = int(total[1]) / int(label[3])
-    return found
+    """{(phase, contender): instructions of a query}."""
+    found = compare_heaps.counted([program, "count", *meshes])
+    return {(phase, who): total / int(count) for (phase, who, count), total in found.items()}
 
 
 def scene_rows(program, scene, meshes):
-    """The rows of OUT and RECALL, and what is wrong."""
-    said = run([program, "time", *meshes])
+    """The queries and the rows of RECALL, and what is wrong."""
+    said = compare_heaps.run([program, "time", *meshes])
     counted = instructions(program, meshes)
     frames = {row[1]: row[2] for row in said if row[0] == "phase"}
     print("%s: %s" % (scene, ", ".join("%s %s" % (name, n) for name, n in frames.items())))
@@ -104,7 +87,15 @@ def write(path, columns, rows):
     print("%d rows in %s" % (len(rows), path))
 
 
-def main(program, *scenes):
+def query_figures(rows):
+    """As the other figures are."""
+    for scene, phase, who, count, time in rows:
+        yield ["query", scene, phase, who, count, compare_heaps.UNIT]
+        yield ["query", scene, phase, who, time, "us"]
+
+
+def queries(program, scenes):
+    """The figures of all queries, and what is wrong."""
     rows, recall, wrong = [], [], []
     for each in scenes:
         scene, meshes = each.split("=")
@@ -112,12 +103,31 @@ def main(program, *scenes):
                                scene_rows(program, scene, meshes.split(","))):
             whole += part
     wrong += ratios(rows)
-    write(OUT, COLUMNS, rows)
     write(RECALL, RECALL_COLUMNS, recall)
+    return list(query_figures(rows)), wrong
+
+
+def verdict(wrong):
     for text in wrong:
         print("not met: " + text)
     return 1 if wrong else 0
 
 
+def short(heaps):
+    return verdict(compare_heaps.complaints(compare_heaps.short(heaps), compare_table.read()))
+
+
+def main(program, heaps, image, *scenes):
+    figures, wrong = queries(program, scenes)
+    figures += compare_heaps.long(heaps) + compare_heaps.wasm(heaps, image)
+    write(OUT, compare_table.COLUMNS, figures)
+    wrong += compare_heaps.complaints(figures, [])
+    # times of queries differ from run to run, and nothing is to be had from bodies that are apart
+    shown = [row for row in figures if row[-1] != "us" and row[2] != "apart"]
+    compare_table.write(shown)
+    print(compare_table.table(compare_table.read(), False), end="")
+    return verdict(wrong)
+
+
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(short(*sys.argv[2:]) if sys.argv[1:2] == ["--short"] else main(*sys.argv[1:]))

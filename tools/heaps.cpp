@@ -3,15 +3,19 @@
  * carom-heaps - boxes that fall on each other through Carom, ODE and Bullet, step by step.
  *
  * usage: carom-heaps CONTENDER BOXES SEED
+ *        carom-heaps CONTENDER head
+ *        carom-heaps layout BOXES SEED
  *
- * Under callgrind: instructions are counted in two phases, FALLING and RESTING, which are labelled
- * PHASE,STEPS. To the console: how high the boxes lie on average, how many lie under the plane, and how
- * many steps went wrong by the library's own report.
+ * `head` is the scene of that name, whole steps of it. `layout` prints where the boxes begin, a box a
+ * line. Under callgrind with --instr-atstart=no --collect-atstart=no instructions are counted in phases
+ * of 60 steps, which are labelled PHASE,STEPS: falling, settling, resting; or asleep, of a heap of
+ * Carom's that sleeps. To the console: how high the bodies lie on average, how many lie under z = 0,
+ * and how many steps went wrong by the library's own report.
  */
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string>
 
 #include <valgrind/callgrind.h>
 
@@ -19,12 +23,6 @@
 
 namespace
 {
-
-struct Phase {
-    const char *label;
-    int first, last; /* steps from 1 */
-};
-constexpr Phase phases[] = {{"falling", 1, 60}, {"settling", 61, 120}, {"resting", 121, 180}};
 
 /* Uniform in +-1: the same everywhere. */
 double chance(unsigned &state)
@@ -67,36 +65,94 @@ std::vector<heaps::Start> heaps::layout(int boxes, unsigned seed)
     return all;
 }
 
+namespace
+{
+
+const struct {
+    const char *name;
+    heaps::Made (*make)(const std::vector<heaps::Start> &);
+} contenders[] = {{"carom", heaps::make_carom},
+                  {"asleep", heaps::make_asleep},
+                  {"ode", heaps::make_ode},
+                  {"bullet", heaps::make_bullet}};
+
+heaps::Made make_head(const std::string &name)
+{
+    return name == "carom"    ? heaps::make_carom_head()
+           : name == "ode"    ? heaps::make_ode_head(heaps::head_scene())
+           : name == "bullet" ? heaps::make_bullet_head(heaps::head_scene())
+                              : nullptr;
+}
+
+heaps::Made make_heap(const std::string &name, const std::vector<heaps::Start> &boxes)
+{
+    for (const auto &c : contenders) {
+        if (name == c.name && !boxes.empty()) {
+            return c.make(boxes);
+        }
+    }
+    return nullptr;
+}
+
+/* Positions, then quaternions, for programs that make the same heap. */
+void print_layout(const std::vector<heaps::Start> &boxes)
+{
+    for (const heaps::Start &start : boxes) {
+        const double *x = start.position, *q = start.quaternion;
+
+        std::printf("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", x[0], x[1], x[2], q[0], q[1],
+                    q[2], q[3]);
+    }
+}
+
+/* Only what is measured is instrumented: the rest runs many times faster. */
+void measure(heaps::Heap &heap, const char *label, int steps)
+{
+    char text[64];
+
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_TOGGLE_COLLECT;
+    for (int i = 0; i < steps; i++) {
+        heap.step();
+    }
+    CALLGRIND_TOGGLE_COLLECT;
+    std::snprintf(text, sizeof text, "%s,%d", label, steps);
+    CALLGRIND_DUMP_STATS_AT(text);
+    CALLGRIND_STOP_INSTRUMENTATION;
+}
+
+} // namespace
+
 int main(int argc, char **argv)
 {
-    static const struct {
-        const char *name;
-        heaps::Made (*make)(const std::vector<heaps::Start> &);
-    } contenders[] = {
-        {"carom", heaps::make_carom}, {"ode", heaps::make_ode}, {"bullet", heaps::make_bullet}};
-    heaps::Made heap;
-    int boxes = argc == 4 ? std::atoi(argv[2]) : 0, step = 0, under = 0;
+    const std::string name = argc > 1 ? argv[1] : "", what = argc > 2 ? argv[2] : "";
+    const int boxes = what == "head" ? 1 : std::atoi(what.c_str());
+    const auto seed = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
+    const std::vector<heaps::Start> starts = heaps::layout(boxes, seed);
+    int under = 0;
     double sum = 0;
 
-    for (const auto &c : contenders) {
-        if (boxes > 0 && std::strcmp(argv[1], c.name) == 0) {
-            heap = c.make(heaps::layout(boxes, static_cast<unsigned>(std::atoi(argv[3]))));
-        }
+    if (name == "layout" && boxes > 0) {
+        print_layout(starts);
+        return 0;
+    }
+    const heaps::Made heap = what == "head" ? make_head(name) : make_heap(name, starts);
+    if (!heap && name == "asleep" && boxes > 0) {
+        std::fprintf(stderr, "the heap does not sleep\n");
+        return 1;
     }
     if (!heap) {
-        std::fprintf(stderr, "usage: carom-heaps carom|ode|bullet BOXES SEED\n");
+        std::fprintf(stderr, "usage: carom-heaps carom|ode|bullet|asleep BOXES SEED\n"
+                             "       carom-heaps carom|ode|bullet head\n"
+                             "       carom-heaps layout BOXES SEED\n");
         return 2;
     }
-    for (const Phase &phase : phases) {
-        CALLGRIND_TOGGLE_COLLECT;
-        while (step < phase.last) {
-            heap->step();
-            step++;
+    if (name == "asleep") {
+        measure(*heap, "asleep", 60);
+    } else {
+        for (const char *phase : {"falling", "settling", "resting"}) {
+            measure(*heap, phase, 60);
         }
-        CALLGRIND_TOGGLE_COLLECT;
-        char label[64];
-        std::snprintf(label, sizeof label, "%s,%d", phase.label, phase.last - phase.first + 1);
-        CALLGRIND_DUMP_STATS_AT(label);
     }
     for (int i = 0; i < boxes; i++) {
         under += heap->height(i) < 0;

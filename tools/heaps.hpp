@@ -4,11 +4,13 @@
  *
  * Unit boxes of mass 1 in layers over a plane at z = 0, a little turned and beside their places; gravity
  * 9.81 m/s^2, 60 steps a second, friction 0.5, no restitution, nobody sleeps. Each library with the
- * settings that it comes with.
+ * settings that it comes with. And the scene `head` of Carom's examples, nobody asleep either.
  */
 #ifndef CAROM_TOOLS_HEAPS_HPP
 #define CAROM_TOOLS_HEAPS_HPP
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -43,8 +45,31 @@ class Heap
 using Made = std::unique_ptr<Heap>;
 
 Made make_carom(const std::vector<Start> &boxes);
+/* Carom's with sleep, when all boxes are asleep; null when they are not after a while. */
+Made make_asleep(const std::vector<Start> &boxes);
 Made make_ode(const std::vector<Start> &boxes);
 Made make_bullet(const std::vector<Start> &boxes);
+
+/* A mesh about its centre of mass, in units. */
+struct Mesh {
+    std::vector<std::array<float, 3>> vertices;
+    std::vector<std::array<int, 3>> faces;
+};
+
+/* The scene `head`: a head of mass 1 that falls on a field. */
+struct Scene {
+    Mesh head, field;
+    Start start;
+    double velocity[3], spin[3]; /* units and radians a second */
+    double inertia[6];           /* xx, yy, zz, xy, yz, zx */
+    double friction, restitution;
+};
+
+Made make_carom_head();
+Made make_ode_head(const Scene &scene);
+Made make_bullet_head(const Scene &scene);
+/* As Carom's examples have it. */
+Scene head_scene();
 
 } // namespace heaps
 

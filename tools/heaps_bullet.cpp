@@ -28,8 +28,9 @@ class Bullet : public Heap
                                     static_cast<btScalar>(q[3]), static_cast<btScalar>(q[0]));
 
             add(1, &box_, inertia,
-                btTransform(turn, btVector3(static_cast<btScalar>(x[0]), static_cast<btScalar>(x[1]),
-                                            static_cast<btScalar>(x[2]))));
+                btTransform(turn,
+                            btVector3(static_cast<btScalar>(x[0]), static_cast<btScalar>(x[1]),
+                                      static_cast<btScalar>(x[2]))));
         }
     }
     ~Bullet() override

@@ -3,23 +3,15 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "carom.h"
 #include "heaps.hpp"
+#include "heaps_box.h"
 
 namespace
 {
 
 using namespace heaps;
 
-constexpr int16_t H = 2048, G = 32 * 256;
-const int16_t box_vertices[8][3] = {{-H, -H, -H}, {H, -H, -H}, {H, H, -H}, {-H, H, -H},
-                                    {-H, -H, H},  {H, -H, H},  {H, H, H},  {-H, H, H}};
-const uint16_t box_faces[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-                                   {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
-const int16_t plane_vertices[4][3] = {{-G, -G, 0}, {G, -G, 0}, {G, G, 0}, {-G, G, 0}};
-const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
-const carom_mesh_raw box_raw = {box_vertices, box_faces, 8, 12, 12, CAROM_SOLID};
-const carom_mesh_raw plane_raw = {plane_vertices, plane_faces, 4, 2, 8, CAROM_SURFACE};
+constexpr int ASLEEP_BY = 1200; /* steps */
 
 int expect(int result)
 {
@@ -33,7 +25,7 @@ int expect(int result)
 class Carom : public Heap
 {
   public:
-    explicit Carom(const std::vector<Start> &boxes)
+    explicit Carom(const std::vector<Start> &boxes, bool sleep = false)
     {
         const auto n = static_cast<uint32_t>(boxes.size());
         const carom_caps caps = {n + 1, 16 * n, 24 * n < 4096 ? 24 * n : 4096, 65535, 1, 65535};
@@ -44,6 +36,7 @@ class Carom : public Heap
                                         caps.entries, caps.candidates) /
                       sizeof block_[0]);
         config.caps = caps;
+        config.sleep = sleep;
         config.gravity.c[2] = CAROM_GRAVITY_MM_S2(-9810, 60);
         expect(carom_mesh_build(&plane_, &plane_raw, plane_block_, sizeof plane_block_));
         expect(carom_mesh_build(&box_, &box_raw, box_block_, sizeof box_block_));
@@ -84,6 +77,13 @@ class Carom : public Heap
     {
         return troubled_;
     }
+    bool asleep(int box) const
+    {
+        carom_body_state state;
+
+        expect(carom_body_get(world_, box + 1, &state));
+        return state.asleep;
+    }
 
   private:
     std::vector<uint64_t> block_;
@@ -99,4 +99,19 @@ class Carom : public Heap
 heaps::Made heaps::make_carom(const std::vector<Start> &boxes)
 {
     return std::make_unique<Carom>(boxes);
+}
+
+heaps::Made heaps::make_asleep(const std::vector<Start> &boxes)
+{
+    auto heap = std::make_unique<Carom>(boxes, true);
+    int asleep = 0, step = 0;
+
+    while (asleep < static_cast<int>(boxes.size()) && step++ < ASLEEP_BY) {
+        heap->step();
+        asleep = 0;
+        for (int i = 0; i < static_cast<int>(boxes.size()); i++) {
+            asleep += heap->asleep(i);
+        }
+    }
+    return step <= ASLEEP_BY ? std::move(heap) : nullptr;
 }

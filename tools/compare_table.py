@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""The table of the comparison, in README.md and in docs/compare.md, from docs/compare.csv.
+
+`make compare` writes all three. tools/check_compare asks whether the tables are those of the figures.
+"""
+import csv
+import os
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FIGURES, DOCS, README = [os.path.join(ROOT, path)
+                         for path in ("docs/compare.csv", "docs/compare.md", "README.md")]
+COLUMNS = ["what", "size", "phase", "contender", "value", "unit"]
+BEGIN, END = "<!-- compare -->\n", "<!-- end of compare -->\n"
+CONTENDERS = {"carom": "Carom", "ode": "ODE", "bullet": "Bullet", "fcl": "FCL", "rapier": "Rapier",
+              "jolt": "Jolt"}
+BESIDE = ["ode", "rapier"]  # Carom's figure is divided by that of the first one there
+TITLES = {"query": "query, %s", "step": "step, %s", "heap": "step, %s boxes",
+          "wasm": "step, %s boxes, WebAssembly"}
+# what README.md shows of all that
+SHOWN = {"query": ["head"], "step": ["head"], "heap": ["8", "32", "128"], "wasm": ["100"]}
+NOT_SHOWN = ["settling"]
+
+DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
+# Carom beside others
+
+`make compare` measures this and writes this file, the table in README.md and docs/compare.csv. A query
+asks for all contacts of the moving mesh with the one that stands still, their boxes overlapping
+(near) or faces crossing (contact). A step is a whole step of a world: of the scene `head`, or of a
+heap of boxes that fall in layers; steps 1 to 60 are falling, 61 to 120 settling, 121 to 180 resting,
+nobody asleep; asleep is a heap of Carom's whose boxes all sleep. Figures are x86-64 instructions,
+counted by callgrind, the means of a phase and of some heaps; for WebAssembly, in one node, medians of
+milliseconds. Each library has the settings that it comes with.
+
+"""
+
+
+def read():
+    """The committed figures; none when there are none."""
+    if not os.path.exists(FIGURES):
+        return []
+    with open(FIGURES, newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
+def value_text(value, unit):
+    """As a person says it: 94.2 k, 1.23 M, 0.45 ms."""
+    if unit == "ms":
+        return "%.2f ms" % value
+    for size, name in [(1e6, " M"), (1e3, " k")]:
+        if value >= size:
+            scaled = value / size
+            return "%.*f" % (2 if scaled < 10 else 1 if scaled < 100 else 0, scaled) + name
+    return "%d" % value
+
+
+def ratio_text(costs):
+    """Carom's figure by that of another."""
+    for who in BESIDE:
+        if who in costs:
+            return "%.2g of %s's" % (costs["carom"] / costs[who], CONTENDERS[who])
+    return ""
+
+
+def table(figures, short):
+    """The lines of a table; those that README.md shows when short."""
+    rows, units = {}, {}
+    for what, size, phase, who, value, unit in figures:
+        shown = size in SHOWN.get(what, []) and phase not in NOT_SHOWN
+        if what in TITLES and who in CONTENDERS and (shown or not short):
+            rows.setdefault((what, size, phase), {})[who] = float(value)
+            units[what, size, phase] = unit
+    cells = [["", "phase", *CONTENDERS.values(), "Carom's part"]]
+    for (what, size, phase), costs in rows.items():
+        texts = [value_text(costs[who], units[what, size, phase]) if who in costs else ""
+                 for who in CONTENDERS]
+        cells.append([TITLES[what] % size, phase, *texts, ratio_text(costs)])
+    lines = ["| " + " | ".join(row) + " |\n" for row in cells]
+    lines.insert(1, "|---" * len(cells[0]) + "|\n")
+    return "".join(lines)
+
+
+def expected(figures):
+    """{path: the text that it is to have}."""
+    with open(README) as file:
+        before, _, rest = file.read().partition(BEGIN)
+    return {README: before + BEGIN + table(figures, True) + END + rest.partition(END)[2],
+            DOCS: DOCS_HEAD + table(figures, False)}
+
+
+def write(figures):
+    """The committed figures, and the tables from them."""
+    with open(FIGURES, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([COLUMNS] + figures)
+    for path, text in expected(read()).items():
+        with open(path, "w") as file:
+            file.write(text)
