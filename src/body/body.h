@@ -62,11 +62,12 @@ struct body_path {
                     int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
                 };
                 struct {
-                    int64_t wide_dv[3], wide_du[3]; /* while the impulses that a solve begins with are summed up */
+                    int64_t wide_dv[3],
+                        wide_du[3]; /* while the impulses that a solve begins with are summed up */
                 };
             };
-            uint32_t used;                  /* bits of dv and du so far */
-            int32_t columns[3][3];          /* of R H, see carom_spread */
+            uint32_t used;         /* bits of dv and du so far */
+            int32_t columns[3][3]; /* of R H, see carom_spread */
         };
     };
     struct {
@@ -132,13 +133,13 @@ struct body {
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
     /* of a step, 11 bytes and the tag */
-    bool active;     /* region: was to move when its region was set */
-    bool free;       /* region: there were no candidates then */
-    bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
-    bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
-    bool entering;   /* rest: in_contact is new */
-    bool solving;    /* rest: has a contact in the solve at hand */
-    bool unsettled;  /* rest: its island's last solve left places that approach */
+    bool active;      /* region: was to move when its region was set */
+    bool free;        /* region: there were no candidates then */
+    bool boxed;       /* broad: its box is around its mesh's; else around its sphere */
+    bool in_contact;  /* rest: took the frame's acceleration at once; moves straight */
+    bool entering;    /* rest: in_contact is new */
+    bool solving;     /* rest: has a contact in the solve at hand */
+    bool unsettled;   /* rest: its island's last solve left places that approach */
     int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
     bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
     bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */

@@ -50,10 +50,10 @@ struct contact_roll {
 struct contact_work {
     struct contact_lever lever[2];
     struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
-    bool rolls;                /* and it takes part in the sweeps at hand */
-    bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
-    bool slides;               /* drag_q28 and step are there: from the first time that it slides */
-    int8_t fine_bits; /* of impulses, below the solver's unit */
+    bool rolls : 1;            /* and it takes part in the sweeps at hand */
+    bool inverted : 1;         /* false: K is too uneven for an inverse in 30 bits */
+    bool slides : 1;           /* drag_q28 and step are there: from the first time that it slides */
+    int8_t fine_bits;          /* of impulses, below the solver's unit */
     PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */

@@ -191,8 +191,7 @@ bool rest_prepare_masses(struct contact *c)
     PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
     c->work->slides = false;
     c->work->inverted = det >= 1 << 9;
-    c->work->mass_q24 =
-        rest_clamp(carom_shl(fix_largest(k), shift) >> (6 + c->work->fine_bits));
+    c->work->mass_q24 = rest_clamp(carom_shl(fix_largest(k), shift) >> (6 + c->work->fine_bits));
     if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */

@@ -21,11 +21,12 @@
  * Sweeps end when no velocity changes by more than this, in solver units. Contacts of a body or two that
  * slide or roll settle over the frames, and creep by what is left: so few have a residual of their own.
  */
-#define REST_FEW                  8
-#define REST_RESIDUAL_IMPACT      (1 << (REST_BITS - 20))
-#define REST_RESIDUAL_IMPACT_FEW  1
-#define REST_RESIDUAL_REST        (1 << (REST_BITS - 13))
-#define REST_RESIDUAL_REST_FEW    (1 << (REST_BITS - 16))
+#define REST_UNHURRIED           3 /* so many, or fewer, are swept without momentum */
+#define REST_FEW                 8
+#define REST_RESIDUAL_IMPACT     (1 << (REST_BITS - 20))
+#define REST_RESIDUAL_IMPACT_FEW 1
+#define REST_RESIDUAL_REST       (1 << (REST_BITS - 13))
+#define REST_RESIDUAL_REST_FEW   (1 << (REST_BITS - 16))
 
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
@@ -33,8 +34,8 @@ struct rest_sweep {
     bool frictionless;
     int32_t residual;
     int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
-    bool rolls;   /* resting contact, with rolling friction: no contact is an impact */
-    bool ran_out; /* out: they ended before the residual was reached */
+    bool rolls;        /* resting contact, with rolling friction: no contact is an impact */
+    bool ran_out;      /* out: they ended before the residual was reached */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */

@@ -18,6 +18,10 @@
 #define LASTING_DIVISOR 4
 /* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
 #define CALM_DIVISOR 8
+/* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
+#define MOVES_SKINS 2
+/* and then a change of velocity by this part of a skin a frame is as good as none. */
+#define LOOSE_DIVISOR 64
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
@@ -306,8 +310,10 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
-#define LD 64
-#define LM 2
+/*
+ * A change of velocity that is as good as none where bodies move: so many of them move nothing by a skin.
+ * 0 for an island that is all but still where the frame starts: what is left of it there it creeps by.
+ */
 static int64_t loose_q40(const struct rest *r, bool start)
 {
     int32_t skin_q22 = INT32_MAX;
@@ -321,9 +327,10 @@ static int64_t loose_q40(const struct rest *r, bool start)
         for (int k = 0; k < 3; k++) {
             v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
         }
-        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) > carom_shl(b->skin_q22, 18) * LM;
+        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) >
+                 carom_shl(b->skin_q22, 18) * MOVES_SKINS;
     }
-    return moves ? carom_shl(skin_q22, 18) / LD : 0;
+    return moves ? carom_shl(skin_q22, 18) / LOOSE_DIVISOR : 0;
 }
 
 /* The island at hand. */
@@ -343,14 +350,14 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.residual = r->count <= 3 ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
+        sw.residual = r->count <= REST_UNHURRIED ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = r->count <= 3 ? 0 : loose_q40(r, warm);
+    sw.loose_q40 = r->count <= REST_UNHURRIED ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {

@@ -16,11 +16,11 @@
 #include "../pairs/island.h"
 #include "impact.h"
 
-#define REST_BITS        23
-#define REST_SWEEPS_MAX  16 /* of an impact */
+#define REST_BITS           23
+#define REST_SWEEPS_MAX     16 /* of an impact */
 #define REST_SWEEPS_PLASTIC 60 /* without momentum */
-#define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
-#define REST_SWEEPS_MANY 48 /* and at many */
+#define REST_SWEEPS_FEW     40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY    48 /* and at many */
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 

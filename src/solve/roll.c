@@ -136,8 +136,8 @@ static int64_t turning_q30(const struct contact *c, int s)
             for (int j = 0; j < 3; j++) {
                 const int32_t *column = body_solved(b)->columns[j];
 
-                entry += fix_round_shift((int64_t)column[i] * column[k],
-                                         30 - 2 * column_bits(c, b, j));
+                entry +=
+                    fix_round_shift((int64_t)column[i] * column[k], 30 - 2 * column_bits(c, b, j));
             }
             sum += carom_abs(entry);
         }
@@ -203,8 +203,8 @@ static void twist(struct contact *c, const int32_t moment[3])
         for (int j = 0; j < 3; j++) {
             int64_t turn = carom_dot(body_solve(b)->columns[j], part);
 
-            turn = fix_round_shift(turn,
-                                   b->turn_bits + 1 - c->work->fine_bits - column_bits(c, b, j));
+            turn =
+                fix_round_shift(turn, b->turn_bits + 1 - c->work->fine_bits - column_bits(c, b, j));
             body_solve(b)->du[j] += rest_within(turn, CAROM_ONE_Q30);
             body_solve(b)->used |= (uint32_t)(body_solve(b)->du[j] ^ (body_solve(b)->du[j] >> 31));
         }

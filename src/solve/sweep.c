@@ -10,9 +10,6 @@
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
 
-/* So many contacts, or fewer, are swept without momentum. */
-#define UNHURRIED 3
-
 /*
  * Resting contacts that are slower than this part of the residual are left alone. With all of it they
  * would never get below it, and sweeps would run on.
@@ -26,7 +23,7 @@ static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 
 static void choose_unit(const struct rest *r, struct rest_sweep *sw)
 {
-    int64_t largest = 1;
+    int64_t largest = 1, loose;
 
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
@@ -43,8 +40,10 @@ static void choose_unit(const struct rest *r, struct rest_sweep *sw)
     if (sw->unit < -4) {
         sw->unit = -4;
     }
-    int64_t loose = sw->loose_q40 >> (sw->unit > 0 ? sw->unit : 0);
-    if (loose > sw->residual) sw->residual = (int32_t)(loose < (1 << REST_BITS) ? loose : 1 << REST_BITS);
+    loose = sw->loose_q40 >> (sw->unit > 0 ? sw->unit : 0);
+    if (loose > sw->residual) {
+        sw->residual = rest_within(loose, 1 << REST_BITS);
+    }
 }
 
 /* A velocity to solver units, of 2^-4 to 2^41 */
@@ -123,10 +122,11 @@ static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
         const int32_t turn[3] = {lever->turn[0][k], lever->turn[1][k], lever->turn[2][k]};
 
         /* products of 30 and 31 bits */
-        in->wide_du[k] += (fix_sum(own) >> 31) == 0
-                              ? carom_round(own[0] * turn[0] + own[1] * turn[1] + own[2] * turn[2], shift)
-                              : fix_mul(own[0], turn[0], shift) + fix_mul(own[1], turn[1], shift) +
-                                    fix_mul(own[2], turn[2], shift);
+        in->wide_du[k] +=
+            (fix_sum(own) >> 31) == 0
+                ? carom_round(own[0] * turn[0] + own[1] * turn[1] + own[2] * turn[2], shift)
+                : fix_mul(own[0], turn[0], shift) + fix_mul(own[1], turn[1], shift) +
+                      fix_mul(own[2], turn[2], shift);
     }
 }
 
@@ -571,10 +571,10 @@ static void into_cones(struct rest *r)
 
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
-    int rounds = sw->plastic || r->count <= UNHURRIED ? REST_SWEEPS_PLASTIC
-                 : !sw->rolls      ? REST_SWEEPS_MAX
-                 : r->count <= REST_FEW ? REST_SWEEPS_FEW
-                                   : REST_SWEEPS_MANY;
+    int rounds = sw->plastic || r->count <= REST_UNHURRIED ? REST_SWEEPS_PLASTIC
+                 : !sw->rolls                              ? REST_SWEEPS_MAX
+                 : r->count <= REST_FEW                    ? REST_SWEEPS_FEW
+                                                           : REST_SWEEPS_MANY;
 
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
@@ -598,7 +598,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
      * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
      * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = !sw->plastic && n > UNHURRIED;
+    bool hurries = !sw->plastic && n > REST_UNHURRIED;
     int rounds = most_rounds(r, sw);
     bool ran_out = true;
     int age = 0;
@@ -608,8 +608,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
-            int64_t m =
-                visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
+            int64_t m = visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
             if (rest_contact(r, i)->work->rolls) {
