@@ -152,6 +152,17 @@ int rest_shrink(int64_t v[4], int bits);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
 
+/*
+ * Sweeps in the island at hand begin with a unit and with velocities in it, perhaps with kept impulses; then with
+ * what these change velocities by. That may not fit, as later velocities may not: then the unit is enlarged,
+ * and sums are formed anew. They end with the impulses of the contacts, to the last place of q40.
+ */
+void rest_choose_unit(const struct rest *r, struct rest_sweep *sw);
+void rest_begin_sweeps(struct rest *r, const struct rest_sweep *sw);
+bool rest_sum_up(struct rest *r);
+void rest_enlarge_unit(struct rest *r, struct rest_sweep *sw);
+void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw);
+
 /* Start from the impulses of the last frame. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw);
 
