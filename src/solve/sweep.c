@@ -3,6 +3,10 @@
 #include "rows.h"
 #include "parts.h"
 
+/* So often sweeps may outgrow their unit; with momentum, and from the impulses that they had. */
+#define OUTGREW_MAX     6
+#define OUTGREW_HURRIED 2
+
 /*
  * Resting contacts that are slower than this part of the residual are left alone. With all of it they
  * would never get below it, and sweeps would run on.
@@ -418,14 +422,14 @@ static bool outgrown(const struct rest *r)
 }
 
 /* Returns whether they ran out before the residual was reached, or a body has outgrown its bits. */
-static bool sweeps(struct rest *r, const struct rest_sweep *sw)
+static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 {
     uint32_t n = r->count;
     /*
      * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
      * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = !sw->plastic && n > REST_UNHURRIED;
+    bool hurries = may_hurry && !sw->plastic && n > REST_UNHURRIED;
     int rounds = most_rounds(r, sw);
     bool ran_out = true;
     int age = 0;
@@ -455,6 +459,26 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw)
     return ran_out;
 }
 
+/* Forget impulses that led nowhere. */
+static void drop(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        struct contact *c = rest_contact(r, i);
+
+        c->work->normal_impulse = 0;
+        for (int k = 0; k < 3; k++) {
+            c->work->tangent_impulse[k] = 0;
+            if (c->work->rolls) {
+                contact_rolling(c)->moment[k] = 0;
+            }
+        }
+    }
+}
+
+/*
+ * Where velocities outgrow their unit sweeps go on in a larger one. With friction and momentum they may grow
+ * without end: so from then on it is without momentum, from no impulses, and in the end without any.
+ */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {
     rest_choose_unit(r, sw);
@@ -462,18 +486,21 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
     if (warm) {
         rest_load_warm(r, sw);
     }
-    for (;;) {
+    for (int outgrew = 0; outgrew < OUTGREW_MAX; outgrew++) {
         while (!rest_sum_up(r)) {
             rest_enlarge_unit(r, sw);
         }
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }
-        sw->ran_out = sweeps(r, sw);
+        sw->ran_out = sweeps(r, sw, outgrew < OUTGREW_HURRIED);
         if (!outgrown(r)) {
             break;
         }
         rest_enlarge_unit(r, sw);
+        if (outgrew + 1 >= OUTGREW_HURRIED) {
+            drop(r);
+        }
     }
     rest_end_sweeps(r, sw);
 }
