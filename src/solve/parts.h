@@ -21,7 +21,7 @@
  * Sweeps end when no velocity changes by more than this, in solver units. Contacts of a body or two that
  * slide or roll settle over the frames, and creep by what is left: so few have a residual of their own.
  */
-#define REST_UNHURRIED           3 /* so many, or fewer, are swept without momentum */
+#define REST_UNHURRIED           8 /* so many, or fewer, are swept without momentum */
 #define REST_FEW                 8
 #define REST_RESIDUAL_IMPACT     (1 << (REST_BITS - 20))
 #define REST_RESIDUAL_IMPACT_FEW 1
