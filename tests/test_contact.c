@@ -370,7 +370,7 @@ static bool hits(uint32_t number)
     return boyse_first(&pair, &candidates[number], &hit, &roots);
 }
 
-/* What the static check leaves between features is no less than bodies must go to meet. */
+/* Bodies that go by no more than the static check left between two features do not make them meet. */
 static void test_clear(void)
 {
     struct test_random r = {5};

@@ -84,4 +84,8 @@ int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *st
 int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
                    const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch);
 
+/* boyse_touch at the start, where the places are at hand. */
+void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
+                       const struct boyse_places *start, struct boyse_touch *touch);
+
 #endif

@@ -2,7 +2,7 @@
 /* The list of interfering faces, and the order of candidates. */
 #include "narrow.h"
 
-/* A face that was listed so short a while ago is not listed again. */
+/* A face that is among so many of the last that were listed is not listed again. */
 #define LAST_FACES 8
 
 int candidate_compare(const struct candidate *a, const struct candidate *b)

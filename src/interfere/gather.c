@@ -116,7 +116,6 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     m->count = pool->used - w->own_first;
     m->kept = keep && w->whole && !w->error;
     m->found = m->count > 0 || !w->whole;
-    m->clear = 0;
     if (!m->kept) {
         pool->used = w->own_first;
     }

@@ -24,9 +24,13 @@ void interfere_number(struct interfere *w, uint32_t number)
 static uint32_t kept_at(const struct interfere *w, uint32_t place)
 {
     uint16_t number = w->candidates[place].pair;
-    const struct pair_work *m = &w->meetings[number];
+    const struct pair_work *m;
 
-    return number < w->pair_count && m->kept && m->first == place ? m->count : 0;
+    if (number >= w->pair_count) {
+        return 0;
+    }
+    m = &w->meetings[number];
+    return m->kept && m->first == place ? m->count : 0;
 }
 
 /*

@@ -148,7 +148,7 @@ static void load_all(struct rest *r, const struct rest_sweep *sw, int32_t diviso
     }
 }
 
-/* What stayed where it was first: on small faces others are near it. */
+/* Contacts that stayed where they were come first: on small faces others are near them. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
 {
     load_all(r, sw, STAYED_DIVISOR);

@@ -117,6 +117,7 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
     }
     span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
                 : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
+    w->meetings[number].clear = 0; /* the static check measured other candidates */
     span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
     result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
     if (result == INTERFERE_TOO_MANY) {

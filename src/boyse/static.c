@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* The paper's static check of a candidate: whether its features touch in the placed poses, and how far they are from it. */
+#include "place.h"
+
+/* Units that places at a root may be off by, and the nearer surface that is looked for there. */
+#define CLEAR_NOISE_Q22 96
+/* Edges for which w needs more digits than these may meet far from both. */
+#define CLEAR_UP_MAX 5
+
+static bool is_near(const struct boyse_view *view, const struct candidate *c,
+                    const struct boyse_places *p, int32_t deepest_q22, int32_t margin_q22)
+{
+    int64_t gap_q22;
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        /* |w|_1 >= |w| */
+        int64_t size = carom_abs(p->w[0]) + carom_abs(p->w[1]) + carom_abs(p->w[2]);
+
+        return carom_abs(carom_dot(p->w, p->d)) <= size * (margin_q22 + 1);
+    }
+    gap_q22 = boyse_plane_gap_q52(view, c, p) >> 30;
+    return gap_q22 <= margin_q22 && gap_q22 >= deepest_q22;
+}
+
+/*
+ * The distance that two features still have. Where they meet, two points of them do, and at the start these were
+ * no nearer to each other than the plane or the lines. Edges that do not overlap have their lines' distance. A
+ * vertex that is not yet half a skin below a face may come to touch it there.
+ */
+static int32_t left_between(const struct boyse_pair *pair, const struct candidate *c,
+                            const struct boyse_touch *touch)
+{
+    int32_t gap_q22 = touch->gap_q22;
+
+    if (c->kind == CANDIDATE_EDGE_EDGE) {
+        return touch->valid ? gap_q22 : fix_abs32(gap_q22);
+    }
+    return gap_q22 < 0 ? -gap_q22 - pair->skin_q22 / 2 : gap_q22;
+}
+
+/* The same less noise, which is over the sine of edges; features that are not near have `left`. */
+static int32_t clear_of(const struct candidate *c, const struct boyse_places *p, int32_t left_q22)
+{
+    int up = c->kind == CANDIDATE_EDGE_EDGE ? p->up : 0;
+
+    if (up > CLEAR_UP_MAX) {
+        return 0;
+    }
+    return left_q22 - (up > 0 ? CLEAR_NOISE_Q22 << (up - 2) : CLEAR_NOISE_Q22);
+}
+
+bool boyse_static(const struct boyse_pair *pair, const struct candidate *c, int32_t deepest_q22,
+                  int32_t margin_q22, struct boyse_touch *touch, int32_t *clear_q22)
+{
+    int32_t left_q22 = fix_smaller(margin_q22, -deepest_q22 - pair->skin_q22 / 2);
+    struct boyse_places p;
+    bool near;
+
+    boyse_place_start(pair, c, &p);
+    near = is_near(boyse_view(pair, c), c, &p, deepest_q22, margin_q22);
+    if (near) {
+        boyse_touch_start(pair, c, &p, touch);
+        left_q22 = left_between(pair, c, touch);
+    }
+    *clear_q22 = fix_smaller(*clear_q22, clear_of(c, &p, left_q22));
+    return near;
+}
