@@ -28,6 +28,7 @@
 #include <valgrind/callgrind.h>
 
 #include "compare.hpp"
+#include "expect.hpp"
 
 extern "C" {
 #include "oracle.h"
@@ -42,15 +43,6 @@ using namespace compare;
 constexpr int FRAMES = 240, ROUNDS = 9;
 /* A piercing of a billionth of a unit is one: 2^-30 is what rotations are rounded to. */
 constexpr double TOLERANCE = 1e-9;
-
-int expect(int result, const char *what)
-{
-    if (result < 0) {
-        std::fprintf(stderr, "%s: %s\n", what, carom_result_text(result));
-        std::exit(1);
-    }
-    return result;
-}
 
 /* Memory that starts at a multiple of 8. */
 using Block = std::vector<uint64_t>;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Carom: two bodies of a world, and which of their faces interfere where they are. */
-#include <cstdio>
-#include <cstdlib>
 
 #include "compare.hpp"
+#include "expect.hpp"
 
 namespace
 {
@@ -13,15 +12,6 @@ using namespace compare;
 /* A face or two of the head cross each of the ground's in the worst pose: there is room for all. */
 #define CAPS 2, 1, 64, 8192, 1, 1024
 constexpr uint32_t PAIRS = 65535;
-
-int expect(int result)
-{
-    if (result < 0) {
-        std::fprintf(stderr, "carom: %s\n", carom_result_text(result));
-        std::exit(1);
-    }
-    return result;
-}
 
 class Carom : public Contender
 {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* ODE: two trimesh geoms, through its test of boxes to contact points. */
-#include <ode/ode.h>
-
 #include "compare.hpp"
+#include "ode.hpp"
 
 namespace
 {
@@ -41,17 +40,7 @@ struct Trimesh {
     Trimesh &operator=(const Trimesh &) = delete;
 };
 
-/* The library is there before the first mesh. */
-struct Library {
-    Library()
-    {
-        static const int once = dInitODE2(0);
-
-        (void)once;
-    }
-};
-
-class Ode : private Library, public Contender
+class Ode : private ode::Library, public Contender
 {
   public:
     Ode(const Mesh &moving, const Mesh &still) : moving_(moving), still_(still)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+/* Carom: a world of boxes over a plane, awake or until all of them sleep. */
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
+#include "expect.hpp"
 #include "heaps.hpp"
 #include "heaps_box.h"
 
@@ -12,15 +12,6 @@ namespace
 using namespace heaps;
 
 constexpr int ASLEEP_BY = 1200; /* steps */
-
-int expect(int result)
-{
-    if (result < 0) {
-        std::fprintf(stderr, "carom: %s\n", carom_result_text(result));
-        std::exit(1);
-    }
-    return result;
-}
 
 class Carom : public Heap
 {

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The scene `head`: Carom's world of it, and what other libraries make theirs of. */
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
+#include "expect.hpp"
 #include "heaps.hpp"
 
 extern "C" {
@@ -16,15 +15,6 @@ namespace
 using namespace heaps;
 
 constexpr int FPS = 60;
-
-int expect(int result)
-{
-    if (result < 0) {
-        std::fprintf(stderr, "head: %s\n", carom_result_text(result));
-        std::exit(1);
-    }
-    return result;
-}
 
 const scene &loaded()
 {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* ODE: its quick stepper with the settings it comes with. */
-#include <ode/ode.h>
-
 #include "heaps.hpp"
+#include "ode.hpp"
 
 namespace
 {
@@ -11,29 +10,29 @@ using namespace heaps;
 
 constexpr int POINTS = 8;
 
-struct Library {
-    Library()
-    {
-        static const int once = dInitODE2(0);
+dSurfaceParameters rough()
+{
+    dSurfaceParameters surface = {};
 
-        (void)once;
-    }
-};
+    surface.mode = dContactApprox1;
+    surface.mu = FRICTION;
+    return surface;
+}
 
-class Ode : private Library, public Heap
+class Ode : private ode::Library, public Heap
 {
   public:
     explicit Ode(const std::vector<Start> &boxes)
-        : world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)), joints_(dJointGroupCreate(0))
+        : world_(dHashSpaceCreate(nullptr), POINTS, rough())
     {
         dMass mass;
 
         dMassSetBox(&mass, 1, 1, 1, 1);
-        dWorldSetGravity(world_, 0, 0, GRAVITY);
-        dCreatePlane(space_, 0, 0, 1, 0);
+        dWorldSetGravity(world_.world(), 0, 0, GRAVITY);
+        dCreatePlane(world_.space(), 0, 0, 1, 0);
         for (const Start &start : boxes) {
-            const dBodyID body = dBodyCreate(world_);
-            const dGeomID geom = dCreateBox(space_, 1, 1, 1);
+            const dBodyID body = dBodyCreate(world_.world());
+            const dGeomID geom = dCreateBox(world_.space(), 1, 1, 1);
 
             dBodySetMass(body, &mass);
             dGeomSetBody(geom, body);
@@ -42,23 +41,13 @@ class Ode : private Library, public Heap
             bodies_.push_back(body);
         }
     }
-    ~Ode() override
-    {
-        dJointGroupDestroy(joints_);
-        dSpaceDestroy(space_);
-        dWorldDestroy(world_);
-    }
-    Ode(const Ode &) = delete;
-    Ode &operator=(const Ode &) = delete;
     const char *name() const override
     {
         return "ode";
     }
     void step() override
     {
-        dSpaceCollide(space_, this, near);
-        dWorldQuickStep(world_, STEP);
-        dJointGroupEmpty(joints_);
+        world_.step(STEP);
     }
     double height(int box) const override
     {
@@ -66,24 +55,8 @@ class Ode : private Library, public Heap
     }
 
   private:
-    dWorldID world_;
-    dSpaceID space_;
-    dJointGroupID joints_;
+    ode::World world_;
     std::vector<dBodyID> bodies_;
-
-    static void near(void *self, dGeomID a, dGeomID b)
-    {
-        Ode *ode = static_cast<Ode *>(self);
-        dContact contacts[POINTS] = {};
-        const int n = dCollide(a, b, POINTS, &contacts[0].geom, sizeof contacts[0]);
-
-        for (int i = 0; i < n; i++) {
-            contacts[i].surface.mode = dContactApprox1;
-            contacts[i].surface.mu = FRICTION;
-            dJointAttach(dJointCreateContact(ode->world_, ode->joints_, &contacts[i]),
-                         dGeomGetBody(a), dGeomGetBody(b));
-        }
-    }
 };
 
 } // namespace
