@@ -93,6 +93,15 @@ struct carom_mass {
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
 };
 
+/*
+ * H with H H^T = J^-1, J being the inertia over the mass: three columns, each times its 2^-e, in 1 / units.
+ * No place of the mesh, nor one within some skins of it, has a component of H_k x place above 2^reach_bits.
+ */
+struct carom_spread {
+    int32_t column[3][3];
+    int8_t e[3], reach_bits;
+};
+
 /* What follows up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
 struct carom_edge {
     uint16_t vertex[2];
@@ -136,6 +145,7 @@ struct carom_mesh {
     struct carom_mesh_raw raw;
     struct carom_mass mass;                  /* SOLID; zero for a SURFACE */
     struct carom_sym3 inverse, inverse_rest; /* their sum: of mass.inertia; zero if it has none */
+    struct carom_spread spread;              /* zero as well then */
     uint32_t edge_count, leaf_count, zref_count;
     int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
     int16_t box[2][3];        /* quanta: lowest and highest corner */
@@ -237,7 +247,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(816, 824)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(832, 832)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(116, 116)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
 #define CAROM_FACE_BYTES           4
@@ -247,7 +257,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
 /* What stages work in one after the other: so much, or for each contact and pair that is solved. */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
-#define CAROM_WORK_BYTES    CAROM_BYTES_(224, 224)
+#define CAROM_WORK_BYTES    CAROM_BYTES_(216, 216)
 #define CAROM_ROLL_BYTES    64
 
 enum carom_pool {

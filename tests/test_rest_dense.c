@@ -312,7 +312,7 @@ struct agreement {
     int movers;
     bool planar, slides;
     double least_mu, most_mu;
-    uint32_t coarse; /* one in so many may be off by more than 2e-7 */
+    uint32_t coarse; /* one in so many may be off by more than 4e-6 */
     double worst;
 };
 
@@ -330,12 +330,12 @@ static void agree(uint64_t seed, const struct agreement *want)
             make_shapes(&r);
         }
         random_contact(&r, want->movers, want->planar, mu);
-        solve_both(&out, mu, c % 2 ? REST_RESIDUAL_IMPACT : REST_RESIDUAL_REST);
+        solve_both(&out, mu, c % 2 ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_REST_FEW);
         if (!out.same || out.slid != want->slides || out.fast > FASTEST) {
             continue;
         }
         compared++;
-        coarse += out.error > 2e-7;
+        coarse += out.error > 4e-6;
         worst = out.error > worst ? out.error : worst;
     }
     CHECK(compared > CASES / 16);
@@ -351,8 +351,8 @@ static void frictionless(void)
 
 static void sticking(void)
 {
-    agree(3, &(struct agreement){1, false, false, 0.3, 0.8, 10000, 1e-6});
-    agree(4, &(struct agreement){2, false, false, 0.3, 0.8, 10000, 1e-6});
+    agree(3, &(struct agreement){1, false, false, 0.3, 0.8, 10000, 5e-6});
+    agree(4, &(struct agreement){2, false, false, 0.3, 0.8, 10000, 5e-6});
 }
 
 static void sliding(void)
@@ -468,8 +468,8 @@ static void two(void)
         error = real_sqrt(error);
         compared++;
         one += p[0] == 0 || p[1] == 0;
-        coarse += error > 2e-7 * length + real_power2(-39);
-        CHECK(error <= 1e-6 * length + real_power2(-39));
+        coarse += error > 4e-6 * length + real_power2(-39);
+        CHECK(error <= 1e-5 * length + real_power2(-39));
     }
     CHECK(compared > CASES / 16 && one > compared / 100 && one < compared);
     CHECK(coarse <= compared / 1000);

@@ -105,8 +105,8 @@ static void check_cones(void)
         double across, along = hand_pressure(&hand.contacts[i], &across);
 
         largest = along > largest ? along : largest;
-        /* 1e-8 is five units of the last place in which the fastest impulses are counted */
-        CHECK(across <= mu * along + 1e-6 * largest + 1e-8);
+        /* 2e-7 is five units of the last place in which the fastest impulses are counted */
+        CHECK(across <= mu * along + 1e-6 * largest + 2e-7);
     }
 }
 

@@ -21,6 +21,16 @@ std::string sym3(const carom_sym3 &m)
     return "{" + list(m.m, 6) + ", " + std::to_string(m.e) + "}";
 }
 
+std::string spread(const carom_spread &s)
+{
+    std::string all = "{{";
+
+    for (const auto &column : s.column) {
+        all += list(column, 3) + ", ";
+    }
+    return all + "}, " + list(s.e, 3) + ", " + std::to_string(s.reach_bits) + "}";
+}
+
 /* An array of `count` elements, each written by `element`. */
 template <typename Element>
 void array(std::ostream &out, const std::string &declaration, size_t count, Element element)
@@ -128,6 +138,7 @@ std::string rom::c_source(const carom_mesh &mesh, const std::string &name, bool 
         << sym3(mass.inertia) << "},\n"
         << "    .inverse = " << sym3(mesh.inverse) << ",\n"
         << "    .inverse_rest = " << sym3(mesh.inverse_rest) << ",\n"
+        << "    .spread = " << spread(mesh.spread) << ",\n"
         << "    .edge_count = " << mesh.edge_count << ",\n"
         << "    .leaf_count = " << mesh.leaf_count << ",\n"
         << "    .zref_count = " << mesh.zref_count << ",\n"

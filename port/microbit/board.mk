@@ -3,7 +3,7 @@
 CPU := Cortex-M0
 DISPLAY := none
 CLOCK_MHZ := 16
-SCENES := boxes3:5
+SCENES := boxes3:6
 FAMILY := arm
 ARCH := -mcpu=cortex-m0 -mthumb
 PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S

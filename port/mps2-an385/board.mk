@@ -10,5 +10,5 @@ OPT := -O2 -funroll-loops
 CPU := Cortex-M3
 CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
-SCENES := head:10 head450:25 sheet:8 box:20
+SCENES := head:15 head450:25 sheet:8 box:20
 PICTURES := 0

@@ -83,17 +83,16 @@ void body_set_mass(struct body *b, struct fix_scaled mass)
 
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
 {
-    for (int k = 0; k < 3; k++) {
-        v->c[k] = b->moving ? fix_mul_scaled(s->momentum.c[k], b->inverse_mass) : 0;
+    *v = (carom_v3_q40){{0, 0, 0}};
+    if (b->moving) {
+        fix_mul_scaled3(v->c, s->momentum.c, b->inverse_mass);
     }
 }
 
 void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                   int64_t out[3])
 {
-    for (int k = 0; k < 3; k++) {
-        out[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
-    }
+    fix_mul_scaled3(out, s->angular.c, b->inverse_mass);
     fix_rotate_back(out, r, out);
 }
 

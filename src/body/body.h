@@ -55,8 +55,19 @@ struct body_path {
         /* a solve's, from whose end on a body has no path until one is set */
         struct {
             carom_v3_q40 saved_angular; /* before it, for the energy rule */
-            int64_t dv[3], dw[3];       /* what it changes velocities by, in its units */
-            struct carom_sym3 turning;  /* R J^-1 R^T by the solver's unit of length squared */
+            /* what it changes velocities by, in its units: v by dv, and the spin by R H du */
+            union {
+                struct {
+                    int32_t dv[3], du[3];
+                    int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
+                };
+                struct {
+                    int64_t wide_dv[3],
+                        wide_du[3]; /* while the impulses that a solve begins with are summed up */
+                };
+            };
+            uint32_t used;         /* bits of dv and du so far */
+            int32_t columns[3][3]; /* of R H, see carom_spread */
         };
     };
     struct {
@@ -122,13 +133,14 @@ struct body {
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
     /* of a step, 11 bytes and the tag */
-    bool active;     /* region: was to move when its region was set */
-    bool free;       /* region: there were no candidates then */
-    bool boxed;      /* broad: its box is around its mesh's; else around its sphere */
-    bool in_contact; /* rest: took the frame's acceleration at once; moves straight */
-    bool entering;   /* rest: in_contact is new */
-    bool solving;    /* rest: has a contact in the solve at hand */
-    bool unsettled;  /* rest: its island's last solve left places that approach */
+    bool active;      /* region: was to move when its region was set */
+    bool free;        /* region: there were no candidates then */
+    bool boxed;       /* broad: its box is around its mesh's; else around its sphere */
+    bool in_contact;  /* rest: took the frame's acceleration at once; moves straight */
+    bool entering;    /* rest: in_contact is new */
+    bool solving;     /* rest: has a contact in the solve at hand */
+    bool unsettled;   /* rest: its island's last solve left places that approach */
+    int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
     bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
     bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
     bool rewound;  /* energy: is back where the frame found it */

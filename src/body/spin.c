@@ -22,9 +22,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
 {
     int64_t l[3];
 
-    for (int k = 0; k < 3; k++) {
-        l[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
-    }
+    fix_mul_scaled3(l, s->angular.c, b->inverse_mass);
     fix_rotate_back(l, r, l);
     for (int i = 0; i < 3; i++) {
         struct fix_wide sum = {0, 0};

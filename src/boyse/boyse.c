@@ -224,10 +224,16 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         if (found && first_hit(pair, c, start, &curve, shift_q40, hit, &far)) {
             return true;
         }
+        a[0] += shift_q40;
+        if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && a[0] < 0) {
+            /* it touches from behind, beside the face: it may come out and go in again on the way */
+            shift_q40 = level_q40(pair, c, start);
+            touching = 0;
+            continue;
+        }
         if (shift_q40 == 0 || touching != 0) {
             return false;
         }
-        a[0] += shift_q40;
         shift_q40 = far && tries < LEVELS ? shift_q40 / 4 : 0;
     }
 }

@@ -17,9 +17,8 @@ struct contact_side {
 
 /* What an impulse at a contact does to one of its bodies, in the solver's units (rest.h). */
 struct contact_lever {
-    int32_t share_q30;  /* the contact's mass unit over the body's mass, at most 1 */
-    int32_t turn[3][3]; /* change of spin by an impulse, times 2^-turn_bits */
-    int32_t turn_bits;
+    int32_t share_q30;  /* the lighter body's mass over this one's, at most 1 */
+    int32_t turn[3][3]; /* rows: the velocity of the place by du, below 2^30 */
 };
 
 /* What the shared memory of a contact, of its work and of a pair's rolling holds. */
@@ -33,7 +32,7 @@ struct contact_roll {
     PHASE_TAG(phase)
     int32_t arm_q30;  /* the patch over which contacts press, in that unit */
     int32_t mass_q24; /* change of spin by a unit moment, at most */
-    int32_t step_q30; /* its inverse */
+    int32_t step_q24; /* its inverse */
     union {           /* by PHASE_TAG phase; contact_rolling, contact_moment */
         struct {
             int32_t spin[3]; /* relative, before the solve, in solver units */
@@ -51,14 +50,15 @@ struct contact_roll {
 struct contact_work {
     struct contact_lever lever[2];
     struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
-    bool rolls;                /* and it takes part in the sweeps at hand */
-    bool inverted;             /* false: K is too uneven for an inverse in 30 bits */
-    int8_t fine_bits;
+    bool rolls : 1;            /* and it takes part in the sweeps at hand */
+    bool inverted : 1;         /* false: K is too uneven for an inverse in 30 bits */
+    bool slides : 1;           /* drag_q28 and step are there: from the first time that it slides */
+    int8_t fine_bits;          /* of impulses, below the solver's unit */
     PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */
     struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
-    int32_t mass_q24;            /* velocity by a unit impulse: the larger of along N and across */
+    int32_t mass_q24;            /* velocity by a unit impulse: the largest along an axis */
     int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
     int32_t step[2];        /* of a sweep when it slides, so too: along N, and one scalar across */
     union {                 /* by PHASE_TAG phase; contact_inverse, contact_wanted */

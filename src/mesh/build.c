@@ -115,6 +115,34 @@ static void find_offsets(struct mesh_builder *b)
     }
 }
 
+/* Contacts lie some skins off the mesh: this part of the radius covers that. */
+#define REACH_DIVISOR 256
+
+/* See carom_spread. */
+static int reach_bits(const struct carom_mesh *mesh)
+{
+    int most = 0;
+
+    for (int k = 0; k < 3; k++) {
+        const int32_t *column = mesh->spread.column[k];
+        const int64_t all[3] = {column[0], column[1], column[2]};
+        int64_t off = fix_length_bound(all) * (mesh->radius_q22 / REACH_DIVISOR + 1), longest = 0;
+        int bits;
+
+        for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
+            carom_v3_q22 at = mesh_vertex(mesh, v);
+            int64_t across[3], length;
+
+            fix_cross(across, column, at.c);
+            length = fix_length_bound(across);
+            longest = length > longest ? length : longest;
+        }
+        bits = fix_bits((uint64_t)(longest + off)) - 22 - mesh->spread.e[k];
+        most = bits > most ? bits : most;
+    }
+    return most;
+}
+
 /*
  * Every stage of the build, in order. The block holds CAROM_MESH_BYTES, so that no carve fails.
  * Orientation is judged after the edges, because it means nothing while a mesh is not closed.
@@ -147,10 +175,13 @@ static int build(struct mesh_builder *b)
     if (orientation) {
         return orientation;
     }
-    /* one that is too thin for an inverse may still stand still */
-    mass_invert(&mesh->mass.inertia, &mesh->inverse, &mesh->inverse_rest);
     find_offsets(b);
     mesh->radius_q22 = find_radius(mesh);
+    /* one that is too thin for an inverse may still stand still */
+    if (mass_invert(&mesh->mass.inertia, &mesh->inverse, &mesh->inverse_rest) == 0) {
+        mass_spread(&mesh->mass.inertia, &mesh->spread);
+        mesh->spread.reach_bits = (int8_t)reach_bits(mesh);
+    }
     mesh_build_leaves(b);
     return mesh_build_zlists(b);
 }

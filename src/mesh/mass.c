@@ -280,3 +280,39 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
     rest->e = out->e + 29;
     return 0;
 }
+
+/* v / sqrt(x y 2^-e) as 30 bits and an exponent; x and y above 0. */
+static void root_column(int32_t out[3], int8_t *out_e, const int64_t v[3], struct fix_scaled x,
+                        struct fix_scaled y, int e)
+{
+    int bits = fix_bits3(v), both = x.e + y.e + e + 2, odd = both & 1;
+    uint32_t root = fix_sqrt((uint64_t)((int64_t)x.m * y.m) << (2 + odd)); /* at least 2^30 */
+
+    for (int k = 0; k < 3; k++) {
+        out[k] = (int32_t)(fix_round_shift(v[k], 30 - bits) * CAROM_ONE_Q30 / root);
+    }
+    *out_e = (int8_t)(60 - bits - (both + odd) / 2);
+}
+
+/*
+ * With a = xx, b = yy, d = xy and so on the columns are (1, 0, 0) / sqrt(a), (-d, a, 0) / sqrt(a (a b - d d)),
+ * and the third column of the adjugate over sqrt((a b - d d) det).
+ */
+void mass_spread(const struct carom_sym3 *in, struct carom_spread *out)
+{
+    const int64_t a = in->m[0], b = in->m[1], c = in->m[2], d = in->m[3], e = in->m[4],
+                  f = in->m[5];
+    const int64_t first[3] = {1, 0, 0}, second[3] = {-d, a, 0},
+                  third[3] = {d * e - b * f, d * f - a * e, a * b - d * d};
+    const struct fix_scaled one = fix_scale(1, 0), corner = fix_scale(a, 0),
+                            minor = fix_scale(third[2], 0);
+    struct fix_wide det = {0, 0};
+
+    fix_wide_add_product(&det, f, third[0]);
+    fix_wide_add_product(&det, e, third[1]);
+    fix_wide_add_product(&det, c, third[2]);
+    root_column(out->column[0], &out->e[0], first, corner, one, in->e);
+    root_column(out->column[1], &out->e[1], second, corner, minor, in->e);
+    root_column(out->column[2], &out->e[2], third, minor,
+                fix_wide_ratio(det, (struct fix_wide){0, 1}), in->e);
+}

@@ -32,4 +32,11 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
  */
 int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest);
 
+/*
+ * H with H H^T = in^-1, for a matrix that has an inverse.
+ *   out  its columns; not reach_bits
+ * Error  2^-27 of a column, whatever the others are: minors are exact, so nothing cancels
+ */
+void mass_spread(const struct carom_sym3 *in, struct carom_spread *out);
+
 #endif

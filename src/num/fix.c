@@ -100,18 +100,17 @@ struct fix_wide fix_wide_neg(struct fix_wide a)
 
 struct fix_wide fix_wide_mul(int64_t a, int64_t b)
 {
-    uint64_t ua = a < 0 ? 0 - (uint64_t)a : (uint64_t)a;
-    uint64_t ub = b < 0 ? 0 - (uint64_t)b : (uint64_t)b;
-    uint64_t a1 = ua >> 32, a0 = ua & 0xffffffffu;
-    uint64_t b1 = ub >> 32, b0 = ub & 0xffffffffu;
-    uint64_t low = a0 * b0;
-    uint64_t mid = a1 * b0 + (low >> 32); /* <= (2^32 - 1)^2 + 2^32 - 1: no carry out */
-    uint64_t mid2 = a0 * b1 + (mid & 0xffffffffu);
+    /* the high halves are signed: |a1|, |b1| <= 2^31, and so no sum below carries out */
+    int32_t a1 = (int32_t)(a >> 32), b1 = (int32_t)(b >> 32);
+    uint32_t a0 = (uint32_t)a, b0 = (uint32_t)b;
+    uint64_t low = (uint64_t)a0 * b0;
+    int64_t mid = (int64_t)a1 * b0 + (int64_t)(low >> 32);
+    int64_t mid2 = (int64_t)b1 * a0 + (int64_t)(uint32_t)mid;
     struct fix_wide p;
 
-    p.lo = (mid2 << 32) | (low & 0xffffffffu);
-    p.hi = (int64_t)(a1 * b1 + (mid >> 32) + (mid2 >> 32));
-    return (a < 0) != (b < 0) ? fix_wide_neg(p) : p;
+    p.lo = (uint64_t)mid2 << 32 | (uint32_t)low;
+    p.hi = (int64_t)a1 * b1 + (mid >> 32) + (mid2 >> 32);
+    return p;
 }
 
 void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b)
@@ -231,6 +230,15 @@ int64_t fix_mul_scaled(int64_t v, struct fix_scaled s)
         return carom_shl(v * s.m, -s.e);
     }
     return fix_mul(v, s.m, s.e);
+}
+
+void fix_mul_scaled3(int64_t out[3], const int64_t v[3], struct fix_scaled s)
+{
+    const bool plain = s.e >= 1 && s.e <= 62;
+
+    for (int k = 0; k < 3; k++) {
+        out[k] = plain ? fix_mul(v[k], s.m, s.e) : fix_mul_scaled(v[k], s);
+    }
 }
 
 int fix_bits3(const int64_t v[3])

@@ -192,6 +192,8 @@ struct fix_scaled fix_scaled_inverse(struct fix_scaled s);
 
 /* v * s in the format of v, to nearest; the result must fit. */
 int64_t fix_mul_scaled(int64_t v, struct fix_scaled s);
+/* And those of a vector; out may be v. */
+void fix_mul_scaled3(int64_t out[3], const int64_t v[3], struct fix_scaled s);
 
 /* Length of a vector of int64 components, rounded up by at most one part in 2^26; exact for 0. */
 int64_t fix_length(const int64_t v[3]);

@@ -4,8 +4,11 @@
 
 int32_t rest_clamp(int64_t v)
 {
-    const int64_t most = INT32_MAX;
+    return rest_within(v, INT32_MAX);
+}
 
+int32_t rest_within(int64_t v, int32_t most)
+{
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
@@ -19,6 +22,32 @@ uint32_t rest_friction(const struct body *a, const struct body *b)
     return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
 }
 
+/* v times an arm to nearest, where the product is below 2^62 */
+static inline int64_t short_product(int64_t v, int32_t arm, int bits)
+{
+    return carom_round(v * arm, bits);
+}
+
+/* v x arm, each product to nearest. Those of a v below 2^31 fit 62 bits: at rest nearly all are. */
+static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_side *side)
+{
+    const int32_t *arm = side->arm_q30;
+    int64_t all = (v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63));
+    int bits = contact_arm_bits(side->body);
+
+    if (all >> 31 == 0) {
+        out[0] = short_product(v[1], arm[2], bits) - short_product(v[2], arm[1], bits);
+        out[1] = short_product(v[2], arm[0], bits) - short_product(v[0], arm[2], bits);
+        out[2] = short_product(v[0], arm[1], bits) - short_product(v[1], arm[0], bits);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        out[k] = fix_mul(v[i], arm[j], bits) - fix_mul(v[j], arm[i], bits);
+    }
+}
+
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
@@ -27,12 +56,14 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
+        int64_t turn[3];
 
-        for (int k = 0; b && k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t at = b->velocity.c[k] + fix_mul(b->spin.c[i], arm[j], bits) -
-                         fix_mul(b->spin.c[j], arm[i], bits);
+        if (!b) {
+            continue;
+        }
+        cross_arm(turn, b->spin.c, &c->side[s]);
+        for (int k = 0; k < 3; k++) {
+            int64_t at = b->velocity.c[k] + turn[k];
 
             v->c[k] += s == 0 ? at : -at;
         }
@@ -60,27 +91,18 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
 {
     for (int s = 0; s < 2; s++) {
         struct body_state *state = rest_state(r, c, s);
-        const struct body *b = c->side[s].body;
-        const int32_t *arm = c->side[s].arm_q30;
+        int64_t back[3];
 
-        for (int k = 0; b && k < 3; k++) {
-            int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
-            int64_t moment =
-                fix_mul(p[n], arm[m], bits) - fix_mul(p[m], arm[n], bits) + moment_q40[k];
+        if (!c->side[s].body) {
+            continue;
+        }
+        cross_arm(back, p, &c->side[s]);
+        for (int k = 0; k < 3; k++) {
+            int64_t moment = moment_q40[k] - back[k];
 
             state->momentum.c[k] += s == 0 ? p[k] : -p[k];
             state->angular.c[k] += s == 0 ? moment : -moment;
         }
-    }
-}
-
-static void push_side(struct body *b, const struct contact_lever *lever, const int32_t impulse[3])
-{
-    int down = lever->turn_bits - REST_FINER_BITS;
-
-    for (int k = 0; k < 3; k++) {
-        body_solve(b)->dv[k] += ((int64_t)impulse[k] * lever->share_q30) >> (30 - REST_FINER_BITS);
-        body_solve(b)->dw[k] += carom_dot(lever->turn[k], impulse) >> down;
     }
 }
 
@@ -89,25 +111,22 @@ void rest_push(struct contact *c, const int32_t impulse[3])
     const int32_t opposite[3] = {-impulse[0], -impulse[1], -impulse[2]};
 
     if (c->side[0].body) {
-        push_side(c->side[0].body, &c->work->lever[0], impulse);
+        rest_push_side(c->side[0].body, &c->work->lever[0], impulse, c->work->fine_bits);
     }
     if (c->side[1].body) {
-        push_side(c->side[1].body, &c->work->lever[1], opposite);
+        rest_push_side(c->side[1].body, &c->work->lever[1], opposite, c->work->fine_bits);
     }
 }
 
 int rest_shrink(int64_t v[4], int bits)
 {
-    uint64_t all = 0;
+    uint64_t all = rest_used(v);
     int down;
 
-    for (int k = 0; k < 4; k++) {
-        all |= (uint64_t)(v[k] ^ (v[k] >> 63));
-    }
-    down = fix_bits(all) - bits;
-    if (down <= 0) {
+    if (all >> bits == 0) {
         return 0;
     }
+    down = fix_bits(all) - bits;
     for (int k = 0; k < 4; k++) {
         v[k] >>= down;
     }
@@ -117,7 +136,7 @@ int rest_shrink(int64_t v[4], int bits)
 bool rest_cut(int64_t v[3], int64_t limit)
 {
     int64_t part[4] = {v[0], v[1], v[2], limit};
-    int down = rest_shrink(part, 31);
+    int down = rest_used(part) >> 31 ? rest_shrink(part, 31) : 0;
     const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
     uint64_t most = (uint64_t)part[3], square = rest_square32(v32);
     int32_t ratio_q30;

@@ -3,76 +3,95 @@
 #include "rows.h"
 #include "parts.h"
 
-/*
- * R J^-1 R^T over the unit of length squared. Its largest entry is on the diagonal and at most the
- * trace, three times as large as before: two bits are given away.
- */
+/* So K fits: what would reach farther counts as reaching so far. */
+#define TURN_BITS_MAX 14
+
 void rest_prepare_body(struct body *b)
 {
     const carom_m3_q30 *r = &b->path.start.r;
-    int32_t half[3][3];
 
     PHASE_BEGIN(b->path.phase, BODY_SOLVE);
-    for (int i = 0; i < 3; i++) {
+    b->turn_bits = (int8_t)(b->mesh->spread.reach_bits + 1);
+    /* a column is below sqrt(3) 2^30 */
+    for (int j = 0; j < 3; j++) {
         for (int k = 0; k < 3; k++) {
-            int32_t column[3];
-
-            for (int j = 0; j < 3; j++) {
-                column[j] = b->mesh->inverse.m[fix_sym3_at[j][k]];
-            }
-            half[i][k] = (int32_t)carom_round(carom_dot(r->c[i], column), 30);
+            body_solve(b)->columns[j][k] =
+                (int32_t)carom_round(carom_dot(r->c[k], b->mesh->spread.column[j]), 30);
         }
     }
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k <= i; k++) {
-            body_solve(b)->turning.m[fix_sym3_at[i][k]] =
-                (int32_t)carom_round(carom_dot(half[i], r->c[k]), 32);
-        }
-    }
-    body_solve(b)->turning.e = b->mesh->inverse.e - 2 - 2 * (b->unit_bits - 22);
 }
 
-/* The turn by an impulse on one side, and what it adds to K. */
-static void prepare_side(const struct contact_side *side, struct contact_lever *lever,
-                         int64_t k_q30[6])
+static inline bool too_long(int64_t turn)
 {
-    const struct carom_sym3 *turning = &body_solve(side->body)->turning;
-    int64_t turn[3][3], part[3];
-    const bool whole = lever->share_q30 == CAROM_ONE_Q30;
-    uint64_t all = 0;
-    int down;
+    return turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30;
+}
 
-    /* row i of T (arm x P) is P.(T_i x arm) */
-    for (int i = 0; i < 3; i++) {
-        const uint8_t *at = fix_sym3_at[i];
-        const int32_t row[3] = {turning->m[at[0]], turning->m[at[1]], turning->m[at[2]]};
+/* How du turns the place of a contact on one side. Returns false when that takes more turn_bits. */
+static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
+{
+    struct body *b = side->body;
+    int more = b->turn_bits + contact_arm_bits(b) - 31;
 
-        fix_cross(turn[i], row, side->arm_q30);
-        for (int k = 0; k < 3; k++) {
-            all |= (uint64_t)(turn[i][k] ^ (turn[i][k] >> 63));
+    for (int j = 0; j < 3; j++) {
+        int down = more + b->mesh->spread.e[j];
+        int64_t turn[3];
+
+        fix_cross(turn, body_solved(b)->columns[j], side->arm_q30);
+        if (down > 0) {
+            turn[0] = carom_round(turn[0], down);
+            turn[1] = carom_round(turn[1], down);
+            turn[2] = carom_round(turn[2], down);
+        } else {
+            turn[0] = carom_shl(turn[0], -down);
+            turn[1] = carom_shl(turn[1], -down);
+            turn[2] = carom_shl(turn[2], -down);
         }
+        if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
+            if (b->turn_bits < TURN_BITS_MAX) {
+                b->turn_bits++;
+                return false;
+            }
+            for (int i = 0; i < 3; i++) {
+                turn[i] = rest_within(turn[i], CAROM_ONE_Q30 - 1);
+            }
+        }
+        lever->turn[0][j] = (int32_t)turn[0];
+        lever->turn[1][j] = (int32_t)turn[1];
+        lever->turn[2][j] = (int32_t)turn[2];
     }
-    /* a thin body turns fast about its axis: 30 bits whatever the size, but no more than 50 below */
-    down = fix_bits(all) - 30;
-    down = down > turning->e - 20 ? down : turning->e - 20;
-    lever->turn_bits = 30 + turning->e - down;
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) {
-            int64_t t = turn[i][k];
-            int32_t entry = (int32_t)fix_round_shift(t, -down);
+    return true;
+}
 
-            lever->turn[i][k] = whole ? entry : carom_mul_q30(entry, lever->share_q30);
-        }
-    }
-    /* what an impulse along axis i changes the velocity by */
-    for (int i = 0; i < 3; i++) {
-        const int32_t spin[3] = {lever->turn[0][i], lever->turn[1][i], lever->turn[2][i]};
+/* 1 + turn turn^T */
+static void find_own_k(int64_t k_q30[6], const int32_t turn[3][3], int turn_bits)
+{
+    int down = 32 - 2 * turn_bits;
 
-        fix_cross(part, spin, side->arm_q30);
-        for (int k = 0; k <= i; k++) {
-            k_q30[fix_sym3_at[i][k]] += carom_round(part[k], lever->turn_bits);
+    k_q30[0] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[0], turn[0]), down);
+    k_q30[1] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[1], turn[1]), down);
+    k_q30[2] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[2], turn[2]), down);
+    k_q30[3] = carom_round(carom_dot(turn[0], turn[1]), down);
+    k_q30[4] = carom_round(carom_dot(turn[1], turn[2]), down);
+    k_q30[5] = carom_round(carom_dot(turn[2], turn[0]), down);
+}
+
+/* K: the sum over the sides of share (1 + turn turn^T). */
+static void find_k(const struct contact *c, int64_t k_q30[6])
+{
+    memset(k_q30, 0, 6 * sizeof k_q30[0]);
+    for (int s = 0; s < 2; s++) {
+        const struct contact_lever *lever = &c->work->lever[s];
+        int64_t own_q30[6];
+
+        if (!c->side[s].body) {
+            continue;
         }
-        k_q30[fix_sym3_at[i][i]] += lever->share_q30;
+        find_own_k(own_q30, lever->turn, c->side[s].body->turn_bits);
+        for (int n = 0; n < 6; n++) {
+            k_q30[n] += lever->share_q30 == CAROM_ONE_Q30
+                            ? own_q30[n]
+                            : fix_mul_q30(own_q30[n], lever->share_q30);
+        }
     }
 }
 
@@ -82,7 +101,8 @@ static void prepare_shares(struct contact *c)
     const struct body *a = c->side[0].body, *b = c->side[1].body;
 
     c->work->mass_unit = a ? a->mass : b->mass;
-    if (a && b && fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
+    if (a && b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
+        fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
         c->work->mass_unit = b->mass;
     }
     for (int s = 0; s < 2; s++) {
@@ -103,18 +123,31 @@ static void prepare_shares(struct contact *c)
     }
 }
 
+/*
+ * Impulses have a finer unit than velocities, by 5 bits and what K has above 1: what a place needs that
+ * gives way easily is small.
+ */
+static void refine_unit(struct contact *c, const int64_t k_q30[6])
+{
+    c->work->fine_bits = (int8_t)(fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 31 + 5);
+    c->work->mass_unit.e += c->work->fine_bits;
+}
+
+/* a b - c d in q30 */
+static inline int32_t minor_q30(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    return (int32_t)carom_round((int64_t)a * b - (int64_t)c * d, 30);
+}
+
 /* The adjugate of K in 30 bits, and its determinant. */
 static int32_t adjugate(int32_t out_q30[6], const int32_t k[6])
 {
-    static const uint8_t minor[6][4] = {{1, 2, 4, 4}, {2, 0, 5, 5}, {0, 1, 3, 3},
-                                        {5, 4, 3, 2}, {3, 5, 4, 0}, {3, 4, 5, 1}};
-
-    for (int i = 0; i < 6; i++) {
-        const uint8_t *m = minor[i];
-
-        out_q30[i] =
-            (int32_t)carom_round((int64_t)k[m[0]] * k[m[1]] - (int64_t)k[m[2]] * k[m[3]], 30);
-    }
+    out_q30[0] = minor_q30(k[1], k[2], k[4], k[4]);
+    out_q30[1] = minor_q30(k[2], k[0], k[5], k[5]);
+    out_q30[2] = minor_q30(k[0], k[1], k[3], k[3]);
+    out_q30[3] = minor_q30(k[5], k[4], k[3], k[2]);
+    out_q30[4] = minor_q30(k[3], k[5], k[4], k[0]);
+    out_q30[5] = minor_q30(k[3], k[4], k[5], k[1]);
     return (int32_t)carom_round(
         (int64_t)k[0] * out_q30[0] + (int64_t)k[3] * out_q30[3] + (int64_t)k[5] * out_q30[5], 30);
 }
@@ -127,49 +160,64 @@ static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
     }
 }
 
-/*
- * Where K is large impulses are small: their unit is made smaller in turn. Matrices and steps that
- * are inverse to K keep their numbers and lose fractional bits.
- */
-static void refine_unit(struct contact *c, int64_t along_q30)
+/* K with 29 bits, so that minors fit; returns by how many bits it was cut. */
+static int shorten(const int64_t k_q30[6], int32_t k[6])
 {
-    int bits = fix_bits((uint64_t)along_q30) - 30;
-
-    c->work->fine_bits = (int8_t)(bits > 0 ? bits : 0);
-    c->work->mass_unit.e += c->work->fine_bits;
-    for (int s = 0; s < 2; s++) {
-        c->work->lever[s].share_q30 >>= c->work->fine_bits;
-        c->work->lever[s].turn_bits += c->work->fine_bits;
-    }
-}
-
-/*
- * K^-1 for a contact that sticks; for one that slides, steps along N and across. The larger
- * eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
- * T/2 + sqrt(T^2/4 - D).
- */
-static void prepare_steps(struct contact *c, const int64_t k_q30[6])
-{
-    /* 29 bits, so that minors fit; K is at least 1, the lighter body alone gives that */
+    /* K is at least 1, the lighter body alone gives that */
     int shift = fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 29;
-    int32_t k[6], adjoint[6], n[3], det, half, product, root;
-    int64_t along_q30, across_q30, most;
 
     for (int i = 0; i < 6; i++) {
         k[i] = (int32_t)(k_q30[i] >> shift);
     }
+    return shift;
+}
+
+bool rest_prepare_masses(struct contact *c)
+{
+    int64_t k_q30[6];
+    int32_t k[6], adjoint[6], det;
+    int shift;
+
+    prepare_shares(c);
+    for (int s = 0; s < 2; s++) {
+        if (c->side[s].body && !prepare_turn(&c->side[s], &c->work->lever[s])) {
+            return false;
+        }
+    }
+    find_k(c, k_q30);
+    refine_unit(c, k_q30);
+    shift = shorten(k_q30, k);
     det = adjugate(adjoint, k);
     PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
+    c->work->slides = false;
     c->work->inverted = det >= 1 << 9;
+    c->work->mass_q24 = rest_clamp(carom_shl(fix_largest(k), shift) >> (6 + c->work->fine_bits));
     if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
+        /* up is at most 20 for a determinant of 10 bits, shift at least 2 */
         for (int i = 0; i < 6; i++) {
             contact_inverse(c)[i] =
-                (int32_t)fix_round_shift((int64_t)adjoint[i] * inverse, up - 29 - shift);
+                (int32_t)carom_round((int64_t)adjoint[i] * inverse, 29 + shift - up);
         }
     }
+    return true;
+}
+
+/*
+ * The larger eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
+ * T/2 + sqrt(T^2/4 - D).
+ */
+void rest_prepare_slide(struct contact *c)
+{
+    int64_t k_q30[6], along_q30, across_q30;
+    int32_t k[6], adjoint[6], n[3], half, product, root;
+    int shift;
+
+    find_k(c, k_q30);
+    shift = shorten(k_q30, k);
+    adjugate(adjoint, k);
     multiply(n, k, c->normal.c);
     product = (int32_t)carom_round(carom_dot(n, c->normal.c), 30);
     along_q30 = carom_shl(product, shift);
@@ -186,20 +234,5 @@ static void prepare_steps(struct contact *c, const int64_t k_q30[6])
     root = root > 0 ? (int32_t)fix_sqrt((uint64_t)root << 30) : 0;
     across_q30 = carom_shl((int64_t)half + root, shift);
     c->work->step[1] = (int32_t)(((int64_t)1 << 60) / across_q30);
-    refine_unit(c, along_q30);
-    most = across_q30 > along_q30 ? across_q30 : along_q30;
-    c->work->mass_q24 = rest_clamp(most >> (6 + c->work->fine_bits));
-}
-
-void rest_prepare_masses(struct contact *c)
-{
-    int64_t k_q30[6] = {0};
-
-    prepare_shares(c);
-    for (int s = 0; s < 2; s++) {
-        if (c->side[s].body) {
-            prepare_side(&c->side[s], &c->work->lever[s], k_q30);
-        }
-    }
-    prepare_steps(c, k_q30);
+    c->work->slides = true;
 }

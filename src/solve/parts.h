@@ -9,22 +9,33 @@
 #include "rest.h"
 
 /*
- * dv and dw have this many bits below the solver's unit: a share of 1/2 makes every other change of it a
- * tie, and ties go upward.
+ * dv has this many bits below the solver's unit: a share of 1/2 makes every other change of it a tie,
+ * and ties go upward. du has turn_bits + 1, for a place may move by so much less than du.
  */
-#define REST_FINER_BITS 8
+#define REST_FINER_BITS 3
 
-/* Sweeps end when no velocity changes by more than this, in solver units of 2^-27 V*. */
-#define REST_RESIDUAL_IMPACT (1 << (REST_BITS - 26))
-#define REST_RESIDUAL_REST   (1 << (REST_BITS - 16))
+/* When dv or du use more than these the unit is too small, and there is a larger one. */
+#define REST_USED_BITS 29
+
+/*
+ * Sweeps end when no velocity changes by more than this, in solver units. Contacts of a body or two that
+ * slide or roll settle over the frames, and creep by what is left: so few have a residual of their own.
+ */
+#define REST_UNHURRIED           8 /* so many, or fewer, are swept without momentum */
+#define REST_FEW                 8
+#define REST_RESIDUAL_IMPACT     (1 << (REST_BITS - 20))
+#define REST_RESIDUAL_IMPACT_FEW 1
+#define REST_RESIDUAL_REST       (1 << (REST_BITS - 13))
+#define REST_RESIDUAL_REST_FEW   (1 << (REST_BITS - 16))
 
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     int32_t residual;
-    bool rolls;   /* resting contact, with rolling friction: no contact is an impact */
-    bool ran_out; /* out: they ended before the residual was reached */
+    int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
+    bool rolls;        /* resting contact, with rolling friction: no contact is an impact */
+    bool ran_out;      /* out: they ended before the residual was reached */
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */
@@ -70,9 +81,55 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
     return carom_dot(row, v);
 }
 
-/* A body's turning; then K of its contacts and the steps of a sweep. */
+/* A body's R H; then K of its contacts and the steps of a sweep. */
 void rest_prepare_body(struct body *b);
-void rest_prepare_masses(struct contact *c);
+/* Returns false when a body's turn_bits had to be raised: then all of its contacts must be prepared anew. */
+bool rest_prepare_masses(struct contact *c);
+/* What a contact that slides needs besides. */
+void rest_prepare_slide(struct contact *c);
+
+/* Add to a velocity; returns which bits it uses. The sum wraps: what outgrows its bits begins anew. */
+static inline uint32_t rest_add(int32_t *v, int32_t change)
+{
+    *v = (int32_t)((uint32_t)*v + (uint32_t)change);
+    return (uint32_t)(*v ^ (*v >> 31));
+}
+
+static inline int32_t turn_by(const struct contact_lever *lever, int k, const int32_t own[3], int s)
+{
+    return (int32_t)(((int64_t)lever->turn[0][k] * own[0] + (int64_t)lever->turn[1][k] * own[1] +
+                      (int64_t)lever->turn[2][k] * own[2] + ((int64_t)1 << s >> 1)) >>
+                     s);
+}
+
+/* By how many bits products of turn and an impulse with so many fractional bits are finer than du. */
+static inline int rest_turn_shift(const struct body *b, int fine_bits)
+{
+    return 30 + fine_bits - 2 * b->turn_bits;
+}
+
+/*
+ * dv and du of a body by an impulse below 2^31 with so many fractional bits. `turn` has units of
+ * 2^(turn_bits - 31), du of 2^-(turn_bits + 1).
+ */
+static inline void rest_push_side(struct body *b, const struct contact_lever *lever,
+                                  const int32_t impulse[3], int fine_bits)
+{
+    struct body_path *in = body_solve(b);
+    const int down = fine_bits - REST_FINER_BITS, s = rest_turn_shift(b, fine_bits);
+    int32_t own[3] = {impulse[0], impulse[1], impulse[2]};
+
+    if (lever->share_q30 != CAROM_ONE_Q30) {
+        own[0] = carom_mul_q30(own[0], lever->share_q30);
+        own[1] = carom_mul_q30(own[1], lever->share_q30);
+        own[2] = carom_mul_q30(own[2], lever->share_q30);
+    }
+    in->used |= rest_add(&in->dv[0], own[0] >> down) | rest_add(&in->dv[1], own[1] >> down) |
+                rest_add(&in->dv[2], own[2] >> down) |
+                rest_add(&in->du[0], turn_by(lever, 0, own, s)) |
+                rest_add(&in->du[1], turn_by(lever, 1, own, s)) |
+                rest_add(&in->du[2], turn_by(lever, 2, own, s));
+}
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
 void rest_push(struct contact *c, const int32_t impulse[3]);
@@ -83,10 +140,28 @@ static inline uint64_t rest_square32(const int32_t v[3])
            (uint64_t)((int64_t)v[2] * v[2]);
 }
 
+/* Bits that four numbers use, signs apart. */
+static inline uint64_t rest_used(const int64_t v[4])
+{
+    return (uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63)) |
+                      (v[3] ^ (v[3] >> 63)));
+}
+
 /* Shift four numbers down until each has at most so many bits; returns how far. */
 int rest_shrink(int64_t v[4], int bits);
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
+
+/*
+ * Sweeps in the island at hand begin with a unit and with velocities in it, perhaps with kept impulses; then with
+ * what these change velocities by. That may not fit, as later velocities may not: then the unit is enlarged,
+ * and sums are formed anew. They end with the impulses of the contacts, to the last place of q40.
+ */
+void rest_choose_unit(const struct rest *r, struct rest_sweep *sw);
+void rest_begin_sweeps(struct rest *r, const struct rest_sweep *sw);
+bool rest_sum_up(struct rest *r);
+void rest_enlarge_unit(struct rest *r, struct rest_sweep *sw);
+void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw);
 
 /* Start from the impulses of the last frame. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw);

@@ -12,12 +12,16 @@
 #define LIFT_DIVISOR 64
 /* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
-/* An impact at a gap below 1/16 of a skin opens it again: hits stop at half of one. */
+/* An impact at a gap below a quarter of a skin opens it again: hits stop at half of one. */
 #define TOO_NEAR_DIVISOR 16
 /* In lasting contact an approach by less than this part of a skin a frame is no impact. */
 #define LASTING_DIVISOR 4
 /* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
 #define CALM_DIVISOR 8
+/* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
+#define MOVES_SKINS 2
+/* and then a change of velocity by this part of a skin a frame is as good as none. */
+#define LOOSE_DIVISOR 64
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
@@ -239,6 +243,19 @@ static int solve_impact(struct rest *r, struct contact *c)
     return result;
 }
 
+/* What impulses at the contacts change. */
+static void prepare_masses(struct rest *r)
+{
+    bool fit;
+
+    do {
+        fit = true;
+        for (uint32_t i = 0; i < r->count; i++) {
+            fit = rest_prepare_masses(rest_contact(r, i)) && fit;
+        }
+    } while (!fit);
+}
+
 /* Whether any contact is an impact; also fills in what the solvers need of each. */
 static bool prepare(struct rest *r, int32_t tau_q30)
 {
@@ -256,11 +273,11 @@ static bool prepare(struct rest *r, int32_t tau_q30)
         rest_relative_velocity(c, &c->velocity_q40);
         rest_share_normal(r, i);
         c->speed_q40 = rest_along_q40(contact_velocity(c), &c->normal);
-        rest_prepare_masses(c);
         prepare_target(r, c, tau_q30);
         any |= c->impact;
         r->impacts += c->impact;
     }
+    prepare_masses(r);
     return any;
 }
 
@@ -293,10 +310,35 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
+/*
+ * A change of velocity that is as good as none where bodies move: so many of them move nothing by a skin.
+ * 0 for an island that is all but still where the frame starts: what is left of it there it creeps by.
+ */
+static int64_t loose_q40(const struct rest *r, bool start)
+{
+    int32_t skin_q22 = INT32_MAX;
+    bool moves = !start;
+
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+        int64_t v[3];
+
+        skin_q22 = b->skin_q22 < skin_q22 ? b->skin_q22 : skin_q22;
+        for (int k = 0; k < 3; k++) {
+            v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
+        }
+        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) >
+                 carom_shl(b->skin_q22, 18) * MOVES_SKINS;
+    }
+    return moves ? carom_shl(skin_q22, 18) / LOOSE_DIVISOR : 0;
+}
+
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    struct rest_sweep sw = {.residual = REST_RESIDUAL_REST, .rolls = true};
+    bool few = r->count <= REST_FEW;
+    struct rest_sweep sw = {.residual = few ? REST_RESIDUAL_REST_FEW : REST_RESIDUAL_REST,
+                            .rolls = true};
     bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
     if (impacts && r->count == 1 && !lasting) {
@@ -308,13 +350,14 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.residual = REST_RESIDUAL_IMPACT;
+        sw.residual = few ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
+    sw.loose_q40 = few || impacts ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * rest - several contacts at once: continuous contact, and impacts at more than one place.
- * Symmetric sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
+ * Sweeps of the impact equations over accumulated, clamped impulses, warm-started; and
  * sleep.
  *
  * Solver units. A solve picks a power of two V* above every wanted change of normal velocity and
@@ -16,10 +16,11 @@
 #include "../pairs/island.h"
 #include "impact.h"
 
-#define REST_BITS        27
-#define REST_SWEEPS_MAX  60 /* of an impact */
-#define REST_SWEEPS_FEW  40 /* of resting contact at a few places, which goes on in the next frame */
-#define REST_SWEEPS_MANY 70 /* and at many */
+#define REST_BITS           23
+#define REST_SWEEPS_MAX     16 /* of an impact */
+#define REST_SWEEPS_PLASTIC 60 /* without momentum */
+#define REST_SWEEPS_FEW     40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY    48 /* and at many */
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 
@@ -74,7 +75,8 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
  */
 bool rest_enter_contact(struct rest *r, int32_t tau_q30);
 
-/* v, or +-(2^31 - 1). */
+/* v, or +-most; v, or +-(2^31 - 1). */
+int32_t rest_within(int64_t v, int32_t most);
 int32_t rest_clamp(int64_t v);
 
 /* The moment of rolling friction that a contact was given with its impulse; on a. */

@@ -112,27 +112,38 @@ static int64_t arm_q22(const struct rest *r, uint32_t i)
     return ROLL_SKINS_DOWN * (int64_t)c->skin_q22 + grown;
 }
 
-/* How many bits shorter the unit of length is than the body's. */
-static int finer(const struct contact *c, const struct body *b)
+/* What fractional bits a column of R H has by the pair's unit of length. */
+static int column_bits(const struct contact *c, const struct body *b, int j)
 {
-    return b->unit_bits - c->work->roll->unit_bits;
+    return b->mesh->spread.e[j] + 22 - c->work->roll->unit_bits;
 }
 
-/* The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue. */
-static int64_t turning_q30(const struct body *b, int32_t share_q30)
+/*
+ * The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue; by the share of an impulse
+ * that the body takes.
+ */
+static int64_t turning_q30(const struct contact *c, int s)
 {
-    const struct carom_sym3 *t = &body_solved(b)->turning;
+    const struct body *b = c->side[s].body;
     int64_t largest = 0;
 
     for (int i = 0; i < 3; i++) {
         int64_t sum = 0;
 
         for (int k = 0; k < 3; k++) {
-            sum += carom_abs(t->m[fix_sym3_at[i][k]]);
+            int64_t entry = 0;
+
+            for (int j = 0; j < 3; j++) {
+                const int32_t *column = body_solved(b)->columns[j];
+
+                entry +=
+                    fix_round_shift((int64_t)column[i] * column[k], 30 - 2 * column_bits(c, b, j));
+            }
+            sum += carom_abs(entry);
         }
         largest = sum > largest ? sum : largest;
     }
-    return fix_round_shift(fix_mul_q30(largest, share_q30), 30 - t->e);
+    return fix_mul_q30(largest, c->work->lever[s].share_q30) >> c->work->fine_bits;
 }
 
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
@@ -157,8 +168,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         if (!side->body) {
             continue;
         }
-        mass_q30 +=
-            turning_q30(side->body, c->work->lever[s].share_q30) >> (2 * finer(c, side->body));
+        mass_q30 += turning_q30(c, s);
         for (int k = 0; k < 3; k++) {
             int64_t w = fix_round_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
 
@@ -171,7 +181,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         roll->moment[k] = roll->gain[k] = roll->way[k] = 0;
     }
     roll->mass_q24 = rest_clamp(mass_q30 >> 6);
-    roll->step_q30 = (int32_t)(((int64_t)1 << 60) / (mass_q30 | 1));
+    roll->step_q24 = rest_clamp(((int64_t)1 << 54) / (mass_q30 | 1));
     return true;
 }
 
@@ -179,22 +189,38 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 static void twist(struct contact *c, const int32_t moment[3])
 {
     for (int s = 0; s < 2; s++) {
-        const struct contact_side *side = &c->side[s];
-        const struct carom_sym3 *t;
+        struct body *b = c->side[s].body;
         int32_t part[3];
 
-        if (!side->body) {
+        if (!b) {
             continue;
         }
-        t = &body_solve(side->body)->turning;
         for (int k = 0; k < 3; k++) {
-            int64_t m = carom_round((int64_t)moment[k] * c->work->lever[s].share_q30, 30);
+            int32_t own = carom_mul_q30(moment[k], c->work->lever[s].share_q30);
 
-            part[k] = (int32_t)(s == 0 ? m : -m) >> finer(c, side->body);
+            part[k] = s == 0 ? own : -own;
         }
+        for (int j = 0; j < 3; j++) {
+            int64_t turn = carom_dot(body_solve(b)->columns[j], part);
+
+            turn =
+                fix_round_shift(turn, b->turn_bits + 1 - c->work->fine_bits - column_bits(c, b, j));
+            body_solve(b)->du[j] += rest_within(turn, CAROM_ONE_Q30);
+            body_solve(b)->used |= (uint32_t)(body_solve(b)->du[j] ^ (body_solve(b)->du[j] >> 31));
+        }
+    }
+}
+
+/* The spin of a body by now, beyond the one before the solve. */
+static void spin_by_now(const struct contact *c, const struct body *b, int64_t out[3])
+{
+    out[0] = out[1] = out[2] = 0;
+    for (int j = 0; j < 3; j++) {
+        const int32_t *column = body_solved(b)->columns[j];
+        int down = b->turn_bits + 1 + column_bits(c, b, j);
+
         for (int k = 0; k < 3; k++) {
-            body_solve(side->body)->dw[k] +=
-                fix_round_shift(rest_row(t->m, k, part), REST_FINER_BITS - t->e);
+            out[k] += fix_round_shift((int64_t)column[k] * body_solved(b)->du[j], -down);
         }
     }
 }
@@ -210,19 +236,20 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
         pressure += rest_contact(r, n)->work->normal_impulse;
     }
     for (int s = 0; s < 2; s++) {
-        const struct body *b = c->side[s].body;
+        int64_t dw[3];
 
-        for (int k = 0; b && k < 3; k++) {
-            int64_t dw = body_solved(b)->dw[k] >> (REST_FINER_BITS + finer(c, b));
-
-            spin[k] += s == 0 ? dw : -dw;
+        if (c->side[s].body) {
+            spin_by_now(c, c->side[s].body, dw);
+            for (int k = 0; k < 3; k++) {
+                spin[k] += s == 0 ? dw[k] : -dw[k];
+            }
         }
     }
     /* so a component of the moment stays within 2^30 */
     limit = rest_clamp(fix_mul_q30(pressure, roll->arm_q30));
     limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
     for (int k = 0; k < 3; k++) {
-        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q30) >> 30);
+        next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q24) >> 24);
     }
     rest_cut(next, limit > 0 ? limit : 0);
     for (int k = 0; k < 3; k++) {
@@ -262,23 +289,22 @@ void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
     }
 }
 
-/* A component of a moment: at most 2^30. */
-static int32_t within(int64_t v)
-{
-    return (int32_t)(v > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : v < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : v);
-}
-
 void rest_roll_accelerate(struct contact *c, int32_t part_q30)
 {
     struct contact_roll *roll = contact_rolling(c);
-    int32_t gain[3];
+    int32_t gain[3], any = 0;
 
     for (int k = 0; k < 3; k++) {
-        gain[k] = carom_mul_q30(roll->way[k], part_q30);
-        roll->way[k] = rest_clamp((int64_t)gain[k] + roll->gain[k]);
+        int32_t way = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
+
+        /* a component of a moment is at most 2^30; the bodies have gone all the way */
+        roll->way[k] = rest_within((int64_t)roll->moment[k] + way, CAROM_ONE_Q30) - roll->moment[k];
+        gain[k] = roll->way[k] - way;
+        roll->moment[k] += roll->way[k];
         roll->gain[k] = 0;
-        gain[k] = within((int64_t)roll->moment[k] + gain[k]) - roll->moment[k];
-        roll->moment[k] += gain[k];
+        any |= gain[k];
     }
-    twist(c, gain);
+    if (any) {
+        twist(c, gain);
+    }
 }

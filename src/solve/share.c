@@ -16,7 +16,7 @@ static bool on_face(const struct rest *r, uint32_t i)
     uint16_t pair = rest_contact(r, i)->key.pair;
     uint32_t first = i;
 
-    while (first > 0 && rest_contact(r, first - 1)->key.pair == pair) {
+    while (first > 0 && first + 2 > i && rest_contact(r, first - 1)->key.pair == pair) {
         first--;
     }
     return first + 2 < r->count && rest_contact(r, first + 2)->key.pair == pair;
@@ -42,7 +42,10 @@ void rest_share_normal(struct rest *r, uint32_t i)
 {
     struct contact *c = rest_contact(r, i);
 
-    for (uint32_t j = 0; j < i && on_face(r, i); j++) {
+    if (i == 0 || !on_face(r, i)) {
+        return;
+    }
+    for (uint32_t j = 0; j < i; j++) {
         const carom_v3_q30 *other = &rest_contact(r, j)->normal;
 
         for (int32_t sign = 1; sign >= -1; sign -= 2) {

@@ -1,21 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Symmetric sweeps over accumulated, clamped impulses. */
+/* Sweeps over accumulated, clamped impulses, with momentum. */
 #include "rows.h"
 #include "parts.h"
 
-/*
- * Sweeps follow a slip of 13 V* and velocities below 16 V*, of which a vector of components up to
- * 9 V* is one. So a velocity is below 2^31 in length, and so are its parts along N and across.
- */
-#define SLIP_MAX  ((int64_t)13 << REST_BITS)
-#define PART_MAX  ((int64_t)9 << REST_BITS)
-#define SPEED_MAX (((int64_t)16 << REST_BITS) - 64)
-
-/*
- * Contacts of a body or two that slide or roll settle over the frames; a heap that is left unsettled
- * slips, and then takes more sweeps than it was spared.
- */
-#define FEW 8
+/* So often sweeps may outgrow their unit; with momentum, and from the impulses that they had. */
+#define OUTGREW_MAX     6
+#define OUTGREW_HURRIED 2
 
 /*
  * Resting contacts that are slower than this part of the residual are left alone. With all of it they
@@ -23,140 +13,47 @@
  */
 #define DEAD_DIVISOR 8
 
-static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
+/* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
+static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
-    return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
+    return (uint64_t)((int64_t)turn[0] * du[0]) + (uint64_t)((int64_t)turn[1] * du[1]) +
+           (uint64_t)((int64_t)turn[2] * du[2]);
 }
 
-static void choose_unit(const struct rest *r, struct rest_sweep *sw)
-{
-    int64_t largest = 1;
-
-    for (uint32_t i = 0; i < r->count; i++) {
-        const struct contact *c = rest_contact(r, i);
-        int64_t change = carom_abs(c->speed_q40 - wanted_q40(c, sw));
-
-        largest = change > largest ? change : largest;
-        for (int s = 0; s < 2; s++) {
-            if (c->side[s].body && c->side[s].body->acceleration_q40 > largest) {
-                largest = c->side[s].body->acceleration_q40;
-            }
-        }
-    }
-    sw->unit = fix_bits((uint64_t)largest) - REST_BITS;
-    if (sw->unit < -4) {
-        sw->unit = -4;
-    }
-}
-
-/* Velocities to solver units; no impulses yet. */
-static void begin_contact(struct contact *c, const struct rest_sweep *sw)
-{
-    int64_t wanted = wanted_q40(c, sw), slip[3];
-    int32_t error = (int32_t)fix_round_shift(c->speed_q40 - wanted, -sw->unit); /* within V* */
-
-    for (int k = 0; k < 3; k++) {
-        int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
-
-        slip[k] = fix_round_shift(contact_velocity(c)->c[k] - along, -sw->unit);
-    }
-    rest_cut(slip, SLIP_MAX);
-    PHASE_BEGIN(c->phase, CONTACT_GAIN);
-    for (int k = 0; k < 3; k++) {
-        c->work->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
-        c->work->tangent_impulse[k] = 0;
-        c->gain[k] = c->way[k] = 0;
-    }
-    c->work->band = rest_clamp(fix_round_shift(carom_shl(c->work->band_q30, 10), -sw->unit));
-    c->work->normal_impulse = 0;
-}
-
-static void begin(struct rest *r, const struct rest_sweep *sw)
-{
-    for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-
-        c->work->friction_q16 =
-            sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
-        begin_contact(c, sw);
-        for (int s = 0; s < 2; s++) {
-            struct body *b = c->side[s].body;
-
-            if (b) {
-                body_solve(b)->dv[0] = body_solve(b)->dv[1] = body_solve(b)->dv[2] = 0;
-                body_solve(b)->dw[0] = body_solve(b)->dw[1] = body_solve(b)->dw[2] = 0;
-            }
-        }
-    }
-}
-
-/* v s - w r modulo 2^64. */
-static int64_t wrapping_minor(int32_t v, int32_t v_high, int32_t s, int32_t w, int32_t w_high,
-                              int32_t r)
-{
-    uint32_t high = (uint32_t)v_high * (uint32_t)s - (uint32_t)w_high * (uint32_t)r;
-
-    return (int64_t)((uint64_t)((int64_t)v * s) - (uint64_t)((int64_t)w * r) +
-                     ((uint64_t)high << 32));
-}
-
-/*
- * out = v x r modulo 2^64, in two halves: the low one signed, and what that leaves.
- */
-static void wrapping_cross(int64_t out[3], const int64_t v[3], const int32_t r[3])
-{
-    int32_t low[3], high[3];
-
-    for (int k = 0; k < 3; k++) {
-        low[k] = (int32_t)v[k];
-        high[k] = (int32_t)((v[k] - low[k]) >> 32);
-    }
-    out[0] = wrapping_minor(low[1], high[1], r[2], low[2], high[2], r[1]);
-    out[1] = wrapping_minor(low[2], high[2], r[0], low[0], high[0], r[2]);
-    out[2] = wrapping_minor(low[0], high[0], r[1], low[1], high[1], r[0]);
-}
-
-/* What the solve so far changed the velocity of a body's place of contact by, in finer units. */
-static void change_at(const struct contact_side *side, int64_t out[3])
-{
-    const struct body *b = side->body;
-    int64_t dw[3];
-
-    for (int k = 0; k < 3; k++) {
-        dw[k] = body_solved(b)->dw[k] >> (REST_FINER_BITS - 2);
-    }
-    wrapping_cross(out, dw, side->arm_q30);
-    for (int k = 0; k < 3; k++) {
-        out[k] = body_solved(b)->dv[k] + (out[k] >> (32 - REST_FINER_BITS));
-    }
-}
-
-/*
- * V - wanted N by now. A thin body's spin may fill 40 bits while the sum stays small, so products
- * wrap: modulo 2^64 the sum is right.
- */
+/* V - wanted N by now. */
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
-    int64_t sum[3] = {0, 0, 0}, other[3] = {0, 0, 0};
-    bool fast = false;
+    const struct body *a = c->side[0].body, *b = c->side[1].body;
+    const int32_t *before = c->work->before;
+    uint64_t turn[3] = {(uint64_t)1 << 31, (uint64_t)1 << 31, (uint64_t)1 << 31};
+    int32_t way[3] = {1 << (REST_FINER_BITS - 1), 1 << (REST_FINER_BITS - 1),
+                      1 << (REST_FINER_BITS - 1)};
 
-    if (c->side[0].body) {
-        change_at(&c->side[0], sum);
+    if (a) {
+        const struct body_path *in = body_solved(a);
+        const struct contact_lever *lever = &c->work->lever[0];
+
+        turn[0] += turned(lever->turn[0], in->du);
+        turn[1] += turned(lever->turn[1], in->du);
+        turn[2] += turned(lever->turn[2], in->du);
+        way[0] += in->dv[0];
+        way[1] += in->dv[1];
+        way[2] += in->dv[2];
     }
-    if (c->side[1].body) {
-        change_at(&c->side[1], other);
+    if (b) {
+        const struct body_path *in = body_solved(b);
+        const struct contact_lever *lever = &c->work->lever[1];
+
+        turn[0] -= turned(lever->turn[0], in->du);
+        turn[1] -= turned(lever->turn[1], in->du);
+        turn[2] -= turned(lever->turn[2], in->du);
+        way[0] -= in->dv[0];
+        way[1] -= in->dv[1];
+        way[2] -= in->dv[2];
     }
-    for (int k = 0; k < 3; k++) {
-        sum[k] = c->work->before[k] + carom_round(sum[k] - other[k], REST_FINER_BITS);
-        v[k] = (int32_t)sum[k];
-        fast |= sum[k] > PART_MAX || sum[k] < -PART_MAX;
-    }
-    if (fast) {
-        rest_cut(sum, SPEED_MAX);
-        for (int k = 0; k < 3; k++) {
-            v[k] = (int32_t)sum[k];
-        }
-    }
+    v[0] = before[0] + (way[0] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[0] >> 32);
+    v[1] = before[1] + (way[1] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[1] >> 32);
+    v[2] = before[2] + (way[2] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[2] >> 32);
 }
 
 /* Friction is not against slip that closing a gap asks for. */
@@ -182,10 +79,33 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->work->friction_q16, 16);
 }
 
-/* A change of impulse, each part below 2^30: along N, and with what is across it. */
+/* A change of impulse, each part below 2^30: along N, across it, and both. */
 struct gain {
-    int32_t along, whole[3];
+    int32_t along, across[3], whole[3];
 };
+
+static inline void across(struct gain *g, const int32_t n[3])
+{
+    g->across[0] = g->whole[0] - carom_mul_q30(g->along, n[0]);
+    g->across[1] = g->whole[1] - carom_mul_q30(g->along, n[1]);
+    g->across[2] = g->whole[2] - carom_mul_q30(g->along, n[2]);
+}
+
+/* Whether an impulse is within the friction cone; mu is at most 4. */
+static bool in_cone(const struct contact *c, int64_t normal, const int64_t tangent[3])
+{
+    int64_t all[4] = {tangent[0], tangent[1], tangent[2], normal}, limit;
+    int32_t across[3];
+
+    if (rest_used(all) >> 29) {
+        rest_shrink(all, 29);
+    }
+    across[0] = (int32_t)all[0];
+    across[1] = (int32_t)all[1];
+    across[2] = (int32_t)all[2];
+    limit = (all[3] * (int32_t)c->work->friction_q16) >> 16;
+    return rest_square32(across) <= (uint64_t)(limit * limit);
+}
 
 /*
  * What ends all motion of the contact; false when that lies outside of the friction cone. Large
@@ -194,36 +114,35 @@ struct gain {
  */
 static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
 {
+    const int32_t *m = contact_inverse(c), *n = c->normal.c;
+    const struct contact_work *in = c->work;
+    int up = 30 - in->fine_bits;
     int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
                                      (v[2] ^ (v[2] >> 31)))) +
-               c->work->fine_bits - 29;
-    int64_t after[4], limit;
-    int32_t part[3], across[3];
+               in->fine_bits - 30;
+    int32_t x, y, z;
+    int64_t normal, tangent[3];
 
     down = down > 0 ? down : 0;
-    for (int k = 0; k < 3; k++) {
-        part[k] = v[k] >> down;
-    }
-    for (int k = 0; k < 3; k++) {
-        g->whole[k] =
-            -(int32_t)carom_round(rest_row(contact_inverse(c), k, part), 30 - c->work->fine_bits);
-    }
-    g->along = (int32_t)carom_round(carom_dot(c->normal.c, g->whole), 30);
-    after[3] = c->work->normal_impulse + carom_shl(g->along, down);
-    if (after[3] <= 0) {
+    x = v[0] >> down;
+    y = v[1] >> down;
+    z = v[2] >> down;
+    g->whole[0] =
+        -(int32_t)carom_round((int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z, up);
+    g->whole[1] =
+        -(int32_t)carom_round((int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z, up);
+    g->whole[2] =
+        -(int32_t)carom_round((int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z, up);
+    g->along = (int32_t)carom_round(carom_dot(n, g->whole), 30);
+    normal = in->normal_impulse + carom_shl(g->along, down);
+    if (normal <= 0) {
         return false;
     }
-    for (int k = 0; k < 3; k++) {
-        after[k] = c->work->tangent_impulse[k] +
-                   carom_shl(g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]), down);
-    }
-    /* mu is at most 4: the limit has 31 bits */
-    rest_shrink(after, 29);
-    for (int k = 0; k < 3; k++) {
-        across[k] = (int32_t)after[k];
-    }
-    limit = (after[3] * (int32_t)c->work->friction_q16) >> 16;
-    return rest_square32(across) <= (uint64_t)(limit * limit);
+    across(g, n);
+    tangent[0] = in->tangent_impulse[0] + carom_shl(g->across[0], down);
+    tangent[1] = in->tangent_impulse[1] + carom_shl(g->across[1], down);
+    tangent[2] = in->tangent_impulse[2] + carom_shl(g->across[2], down);
+    return in_cone(c, normal, tangent);
 }
 
 /*
@@ -256,46 +175,52 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
  */
 static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
 {
-    int64_t change[4] = {0, 0, 0,
-                         carom_round((int64_t)dvn * c->work->step[0], 30 - c->work->fine_bits)};
+    const struct contact_work *in = c->work;
+    const int down = 30 - in->fine_bits;
+    int64_t change[4] = {0, 0, 0, carom_round((int64_t)dvn * in->step[0], down)};
     bool limited = true;
 
-    if (change[3] <= -c->work->normal_impulse) {
-        change[3] = -c->work->normal_impulse;
+    if (change[3] <= -in->normal_impulse) {
+        change[3] = -in->normal_impulse;
     } else {
         for (int k = 0; k < 3; k++) {
-            int32_t after = rest_clamp(slip[k] + (((int64_t)c->work->drag_q28[k] * dvn) >> 28));
+            int32_t after = rest_clamp(slip[k] + (((int64_t)in->drag_q28[k] * dvn) >> 28));
 
-            change[k] = c->work->tangent_impulse[k] -
-                        (((int64_t)after * c->work->step[1]) >> (30 - c->work->fine_bits));
+            change[k] = in->tangent_impulse[k] - (((int64_t)after * in->step[1]) >> down);
         }
-        limited = rest_cut(change, friction_limit(c, c->work->normal_impulse + change[3]));
+        limited = rest_cut(change, friction_limit(c, in->normal_impulse + change[3]));
     }
     for (int k = 0; k < 3; k++) {
-        change[k] -= c->work->tangent_impulse[k];
+        change[k] -= in->tangent_impulse[k];
     }
     /* if that is too large for one push a part of all of it: from one place in the cone to another */
-    rest_shrink(change, 29);
+    if (rest_used(change) >> 29) {
+        rest_shrink(change, 29);
+    }
     g->along = (int32_t)change[3];
     for (int k = 0; k < 3; k++) {
+        g->across[k] = (int32_t)change[k];
         g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
     }
     return limited;
 }
 
 /* Along N first; then across towards no slip, within the friction cone. */
-static void slide(const struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
+static void slide(struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
 {
-    int64_t across[3];
+    int64_t pushed[3];
     int32_t slip[3];
 
+    if (!c->work->slides) {
+        rest_prepare_slide(c);
+    }
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
-        across[k] = c->work->tangent_impulse[k] -
+        pushed[k] = c->work->tangent_impulse[k] -
                     (((int64_t)slip[k] * c->work->step[1]) >> (30 - c->work->fine_bits));
     }
     if (c->work->friction_q16 == 0 ||
-        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, across)) >> 15), slip, g)) {
+        !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, pushed)) >> 15), slip, g)) {
         slide_by(c, -error, slip, g);
     }
 }
@@ -303,18 +228,19 @@ static void slide(const struct contact *c, int32_t error, const int32_t v[3], st
 /* Take up a change; returns its largest component, the last place apart. */
 static int32_t add(struct contact *c, const struct gain *g)
 {
-    int32_t most = 0;
+    struct contact_work *in = c->work;
+    int32_t *gain = contact_gain(c)->gain, most;
 
-    c->work->normal_impulse += g->along;
-    for (int k = 0; k < 3; k++) {
-        int32_t size = g->whole[k] < 0 ? -g->whole[k] : g->whole[k];
-
-        c->work->tangent_impulse[k] += g->whole[k] - carom_mul_q30(g->along, c->normal.c[k]);
-        /* of two sweeps: below 2^31; a contact by itself, of which nobody asks, may wrap */
-        contact_gain(c)->gain[k] = (int32_t)((uint32_t)c->gain[k] + (uint32_t)g->whole[k]);
-        most = size > most ? size : most;
-    }
+    in->normal_impulse += g->along;
+    in->tangent_impulse[0] += g->across[0];
+    in->tangent_impulse[1] += g->across[1];
+    in->tangent_impulse[2] += g->across[2];
+    /* a contact by itself, of which nobody asks, may wrap */
+    gain[0] = (int32_t)((uint32_t)gain[0] + (uint32_t)g->whole[0]);
+    gain[1] = (int32_t)((uint32_t)gain[1] + (uint32_t)g->whole[1]);
+    gain[2] = (int32_t)((uint32_t)gain[2] + (uint32_t)g->whole[2]);
     rest_push(c, g->whole);
+    most = fix_largest(g->whole);
     return most > 1 ? most : 0;
 }
 
@@ -346,42 +272,114 @@ static int64_t visit(struct contact *c, int32_t quiet)
     return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
 }
 
-/* A component of the way: three of them make up a vector below 2^30. */
-static int32_t way_of(int64_t v)
-{
-    const int64_t most = CAROM_ONE_Q30 / 2;
+/* The last sweep and the step beyond the one before it, together, stay below this. */
+#define WAY_MAX (CAROM_ONE_Q30 / 2)
 
-    return (int32_t)(v > most ? most : v < -most ? -most : v);
+/* Whether the last sweep went on in the way that the last step beyond a sweep had gone. */
+static bool agrees(const struct rest *r)
+{
+    int64_t sum = 0;
+
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = contact_gain(rest_contact(r, i));
+        int64_t x = (int64_t)c->gain[0] + c->way[0], y = (int64_t)c->gain[1] + c->way[1],
+                z = (int64_t)c->gain[2] + c->way[2];
+
+        if (x > WAY_MAX || x < -WAY_MAX || y > WAY_MAX || y < -WAY_MAX || z > WAY_MAX ||
+            z < -WAY_MAX) {
+            return false;
+        }
+        /* up to 2^48, of at most 4096 contacts */
+        sum += (c->gain[0] * x >> 13) + (c->gain[1] * y >> 13) + (c->gain[2] * z >> 13);
+    }
+    return sum >= 0;
+}
+
+/* v += part (v - last), and last = v. */
+static uint32_t go_on(int32_t *v, int32_t *last, int32_t part_q30)
+{
+    int32_t now = *v, change = (int32_t)((uint32_t)now - (uint32_t)*last);
+
+    *last = now;
+    return rest_add(v, carom_mul_q30(change, part_q30));
+}
+
+/* Bodies go beyond as their contacts do: velocities are linear in impulses. */
+static void bodies_beyond(struct rest *r, int32_t part_q30)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        struct body_path *in = body_solve(&r->bodies[i]);
+
+        for (int k = 0; k < 3; k++) {
+            in->used |= go_on(&in->dv[k], &in->last_dv[k], part_q30) |
+                        go_on(&in->du[k], &in->last_du[k], part_q30);
+        }
+    }
+}
+
+/* Where a contact would pull it has no impulse. */
+static void let_go(struct contact *c)
+{
+    struct gain g;
+
+    g.along = rest_within(-c->work->normal_impulse, WAY_MAX);
+    for (int k = 0; k < 3; k++) {
+        g.across[k] = rest_within(-c->work->tangent_impulse[k], WAY_MAX);
+        g.whole[k] = g.across[k] + carom_mul_q30(g.along, c->normal.c[k]);
+        c->way[k] += g.whole[k];
+    }
+    add(c, &g);
+    c->gain[0] = c->gain[1] = c->gain[2] = 0;
+}
+
+/* Go beyond the last sweep by a part of the way it came. */
+static void go_beyond(struct contact *c, int32_t part_q30)
+{
+    struct contact_work *in = c->work;
+    struct gain g;
+
+    for (int k = 0; k < 3; k++) {
+        g.whole[k] = carom_mul_q30(c->way[k] + c->gain[k], part_q30);
+        c->way[k] = g.whole[k];
+        c->gain[k] = 0;
+    }
+    g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
+    across(&g, c->normal.c);
+    in->normal_impulse += g.along;
+    in->tangent_impulse[0] += g.across[0];
+    in->tangent_impulse[1] += g.across[1];
+    in->tangent_impulse[2] += g.across[2];
+    if (in->normal_impulse < 0) {
+        let_go(c);
+    }
+}
+
+/* Begin the steps beyond sweeps anew. */
+static void stay(struct contact *c)
+{
+    for (int k = 0; k < 3; k++) {
+        c->way[k] = c->gain[k] = 0;
+    }
 }
 
 /*
- * Two sweeps, forwards and backwards, are one step of a symmetric iteration; its steps are
- * conjugated (Fletcher-Reeves), which takes the root of the number of sweeps. When they grow, it
- * begins anew.
+ * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
+ * the root of the number of sweeps. When they turn back it begins anew. `age` counts the sweeps that agree.
  */
-static void accelerate(struct rest *r, int64_t moved, int64_t before)
+static void accelerate(struct rest *r, int *age)
 {
-    int32_t part_q30 = moved < before ? (int32_t)(moved * CAROM_ONE_Q30 / before) : 0;
+    int32_t part_q30;
 
-    part_q30 = carom_mul_q30(part_q30, part_q30);
+    *age = agrees(r) ? *age + 1 : 0;
+    part_q30 = (int32_t)(((int64_t)*age << 30) / (*age + 3));
+    bodies_beyond(r, part_q30);
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        int32_t all = 0;
-        struct gain g;
 
-        for (int k = 0; k < 3; k++) {
-            g.whole[k] = carom_mul_q30(contact_gain(c)->way[k], part_q30);
-            all |= c->gain[k] | g.whole[k];
-            c->way[k] = way_of((int64_t)g.whole[k] + c->gain[k]);
-            c->gain[k] = 0;
-        }
-        if (all != 0) {
-            g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
-            for (int k = 0; c->work->friction_q16 == 0 && k < 3; k++) {
-                g.whole[k] = carom_mul_q30(g.along, c->normal.c[k]);
-            }
-            add(c, &g);
-            c->gain[0] = c->gain[1] = c->gain[2] = 0;
+        if (part_q30 == 0) {
+            stay(c);
+        } else {
+            go_beyond(c, part_q30);
         }
         if (c->work->rolls) {
             rest_roll_accelerate(c, part_q30);
@@ -389,94 +387,120 @@ static void accelerate(struct rest *r, int64_t moved, int64_t before)
     }
 }
 
-/* When sweeps run out, a contact's last visit may not have gone all its way. */
+/* The last visit of a contact may not have gone all its way, or found it as good as at rest out there. */
 static void into_cones(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
         c->work->normal_impulse = c->work->normal_impulse > 0 ? c->work->normal_impulse : 0;
-        rest_cut(c->work->tangent_impulse, friction_limit(c, c->work->normal_impulse));
+        if (!in_cone(c, c->work->normal_impulse, c->work->tangent_impulse)) {
+            rest_cut(c->work->tangent_impulse, friction_limit(c, c->work->normal_impulse));
+        }
     }
 }
 
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
-    int rounds = !sw->rolls        ? REST_SWEEPS_MAX
-                 : r->count <= FEW ? REST_SWEEPS_FEW
-                                   : REST_SWEEPS_MANY;
+    int rounds = sw->plastic || r->count <= REST_UNHURRIED ? REST_SWEEPS_PLASTIC
+                 : !sw->rolls                              ? REST_SWEEPS_MAX
+                 : r->count <= REST_FEW                    ? REST_SWEEPS_FEW
+                                                           : REST_SWEEPS_MANY;
 
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
-/* Returns whether they ran out before the residual was reached. */
-static bool sweeps(struct rest *r, const struct rest_sweep *sw)
+/* Whether a body's velocities have outgrown their bits. */
+static bool outgrown(const struct rest *r)
+{
+    uint32_t used = 0;
+
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        used |= body_solved(&r->bodies[i])->used;
+    }
+    return used >> REST_USED_BITS;
+}
+
+/* Returns whether they ran out before the residual was reached, or a body has outgrown its bits. */
+static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 {
     uint32_t n = r->count;
-    /* a contact by itself is solved in a visit or a few */
-    bool coupled = n > 1 || rest_contact(r, 0)->work->rolls;
+    /*
+     * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
+     * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
+     */
+    bool hurries = may_hurry && !sw->plastic && n > REST_UNHURRIED;
     int rounds = most_rounds(r, sw);
-    int64_t before = 0;
+    bool ran_out = true;
+    int age = 0;
 
     for (int round = 0; round < rounds; round++) {
         int64_t moved = 0;
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
-            /* forwards and backwards in turn, so that no end of a stack is favoured */
-            uint32_t at = round & 1 ? n - 1 - i : i;
-            int64_t m = visit(rest_contact(r, at), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
+            int64_t m = visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
 
             moved = m > moved ? m : moved;
-            if (rest_contact(r, at)->work->rolls) {
-                m = rest_roll_sweep(r, at, sw->residual);
+            if (rest_contact(r, i)->work->rolls) {
+                m = rest_roll_sweep(r, i, sw->residual);
                 moved = m > moved ? m : moved;
             }
         }
-        if (moved <= sw->residual) {
-            return false;
+        ran_out = moved > sw->residual;
+        if (!ran_out || outgrown(r)) {
+            break;
         }
-        if (coupled && round & 1 && round < rounds - 1) {
-            moved = moved < (int64_t)1 << 32 ? moved : (int64_t)1 << 32;
-            accelerate(r, moved, before);
-            before = moved;
+        if (hurries && round < rounds - 1) {
+            accelerate(r, &age);
         }
     }
     into_cones(r);
-    return true;
+    return ran_out;
 }
 
-/* Impulses in solver units to momentum, one rounding a component. */
-static void finish(struct rest *r, const struct rest_sweep *sw)
+/* Forget impulses that led nowhere. */
+static void drop(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        struct fix_scaled unit = c->work->mass_unit;
 
-        PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
-        unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
+        c->work->normal_impulse = 0;
         for (int k = 0; k < 3; k++) {
-            int64_t j = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
-                        carom_shl(c->work->tangent_impulse[k], 8);
-
-            c->impulse_q40.c[k] = fix_mul_scaled(j, unit);
-        }
-        if (sw->rolls) {
-            rest_roll_finish(c, sw);
+            c->work->tangent_impulse[k] = 0;
+            if (c->work->rolls) {
+                contact_rolling(c)->moment[k] = 0;
+            }
         }
     }
 }
 
+/*
+ * Where velocities outgrow their unit sweeps go on in a larger one. With friction and momentum they may grow
+ * without end: so from then on it is without momentum, from no impulses, and in the end without any.
+ */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {
-    choose_unit(r, sw);
-    begin(r, sw);
+    rest_choose_unit(r, sw);
+    rest_begin_sweeps(r, sw);
     if (warm) {
         rest_load_warm(r, sw);
     }
-    for (uint32_t i = 0; i < r->count; i++) {
-        rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
+    for (int outgrew = 0; outgrew < OUTGREW_MAX; outgrew++) {
+        while (!rest_sum_up(r)) {
+            rest_enlarge_unit(r, sw);
+        }
+        for (uint32_t i = 0; i < r->count; i++) {
+            rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
+        }
+        sw->ran_out = sweeps(r, sw, outgrew < OUTGREW_HURRIED);
+        if (!outgrown(r)) {
+            break;
+        }
+        rest_enlarge_unit(r, sw);
+        if (outgrew + 1 >= OUTGREW_HURRIED) {
+            drop(r);
+        }
     }
-    sw->ran_out = sweeps(r, sw);
-    finish(r, sw);
+    rest_end_sweeps(r, sw);
 }

@@ -70,41 +70,41 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
     return best;
 }
 
-/* Large impulses in several pushes. */
-static void push_all(struct contact *c)
+/*
+ * A kept impulse to units, cut to 2^40: the unit may be far smaller than a frame ago, and what is kept
+ * must leave room for sums.
+ */
+static void to_units(int64_t v[4], struct fix_scaled inverse)
 {
-    int64_t left[3];
-    bool more = true;
+    const int64_t most = (int64_t)1 << 40;
+    const int bits = 10 + inverse.e;
+    bool fits = fix_bits((uint64_t)(carom_abs(v[0]) | carom_abs(v[1]) | carom_abs(v[2]) |
+                                    carom_abs(v[3]))) <= bits;
 
-    for (int k = 0; k < 3; k++) {
-        left[k] =
-            fix_mul_q30(c->work->normal_impulse, c->normal.c[k]) + c->work->tangent_impulse[k];
+    if (fits) {
+        fix_mul_scaled3(v, v, inverse);
+        v[3] = fix_mul_scaled(v[3], inverse);
+        return;
     }
-    while (more) {
-        int32_t part[3];
-
-        more = false;
-        for (int k = 0; k < 3; k++) {
-            part[k] = rest_clamp(left[k]);
-            left[k] -= part[k];
-            more |= left[k] != 0;
-        }
-        rest_push(c, part);
+    for (int k = 0; k < 4; k++) {
+        v[k] = fix_bits((uint64_t)carom_abs(v[k])) <= bits ? fix_mul_scaled(v[k], inverse)
+               : v[k] < 0                                  ? -most
+                                                           : most;
     }
 }
 
-/*
- * A kept impulse in units, cut to 2^40: the unit may be far smaller than a frame ago, and what is kept
- * is handed on in pushes of 2^31.
- */
-static int64_t units(int64_t v_q40, struct fix_scaled inverse)
+/* One over a contact's unit of impulses, which is 2^n of the mass of one of its bodies. */
+static struct fix_scaled inverse_unit(const struct contact *c)
 {
-    const int64_t most = (int64_t)1 << 40;
+    struct fix_scaled unit = c->work->mass_unit, inverse;
+    const struct body *b = c->side[0].body;
 
-    if (fix_bits((uint64_t)carom_abs(v_q40)) + 30 - inverse.e > 40) {
-        return v_q40 < 0 ? -most : most;
+    if (b->mass.m != unit.m) {
+        b = c->side[1].body;
     }
-    return fix_mul_scaled(v_q40, inverse);
+    inverse = b->inverse_mass;
+    inverse.e += b->mass.e - unit.e;
+    return inverse;
 }
 
 static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,
@@ -112,20 +112,21 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
 {
     struct rest_warm *w = find_warm(r, c, first, divisor);
     struct fix_scaled inverse;
-    int64_t along;
+    int64_t along, impulse[4];
 
     if (!w) {
         return;
     }
-    inverse = fix_scaled_inverse(c->work->mass_unit);
+    inverse = inverse_unit(c);
     inverse.e += sw->unit;
     along = rest_along_q40(&w->tangent_q40, &c->normal);
-    c->work->normal_impulse = units(w->normal_q40, inverse);
+    impulse[3] = w->normal_q40;
     for (int k = 0; k < 3; k++) {
-        c->work->tangent_impulse[k] =
-            units(w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]), inverse);
+        impulse[k] = w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
-    push_all(c);
+    to_units(impulse, inverse);
+    memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
+    c->work->normal_impulse = impulse[3];
     w->normal_q40 = 0; /* used */
 }
 
