@@ -330,7 +330,7 @@ static void agree(uint64_t seed, const struct agreement *want)
             make_shapes(&r);
         }
         random_contact(&r, want->movers, want->planar, mu);
-        solve_both(&out, mu, c % 2 ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_REST_FEW);
+        solve_both(&out, mu, c % 2 ? REST_RESIDUAL_EXACT : REST_RESIDUAL_REST_FEW);
         if (!out.same || out.slid != want->slides || out.fast > FASTEST) {
             continue;
         }

@@ -21,17 +21,17 @@
  * Sweeps end when no velocity changes by more than this, in solver units. Contacts of a body or two that
  * slide or roll settle over the frames, and creep by what is left: so few have a residual of their own.
  */
-#define REST_UNHURRIED           8 /* so many, or fewer, are swept without momentum */
-#define REST_FEW                 8
-#define REST_RESIDUAL_IMPACT     (1 << (REST_BITS - 20))
-#define REST_RESIDUAL_IMPACT_FEW 1
-#define REST_RESIDUAL_REST       (1 << (REST_BITS - 13))
-#define REST_RESIDUAL_REST_FEW   (1 << (REST_BITS - 16))
+#define REST_FEW               8
+#define REST_RESIDUAL_EXACT    1
+#define REST_RESIDUAL_IMPACT   (1 << (REST_BITS - 20))
+#define REST_RESIDUAL_REST     (1 << (REST_BITS - 13))
+#define REST_RESIDUAL_REST_FEW (1 << (REST_BITS - 16))
 
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
+    bool exact; /* an impact of a body or two: without momentum, to the last place */
     int32_t residual;
     int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
     bool rolls;        /* resting contact, with rolling friction: no contact is an impact */
@@ -62,6 +62,14 @@ bool rest_take_island(struct rest *r);
 static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 {
     return &r->list.contacts[r->list.contacts[r->first + i].order];
+}
+
+/* Whether one body moves in the island, or two. */
+static inline bool rest_up_to_two(const struct rest *r)
+{
+    uint16_t next = r->bodies[r->island].next_in_island;
+
+    return next == ISLAND_END || r->bodies[next].next_in_island == ISLAND_END;
 }
 
 /* Twice what a surface that moves does by a contact's impulse, q80. */

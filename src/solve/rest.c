@@ -13,7 +13,7 @@
 /* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
 /* An impact at a gap below a quarter of a skin opens it again: hits stop at half of one. */
-#define TOO_NEAR_DIVISOR 16
+#define TOO_NEAR_DIVISOR 4
 /* In lasting contact an approach by less than this part of a skin a frame is no impact. */
 #define LASTING_DIVISOR 4
 /* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
@@ -350,7 +350,8 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.residual = few ? REST_RESIDUAL_IMPACT_FEW : REST_RESIDUAL_IMPACT;
+        sw.exact = rest_up_to_two(r);
+        sw.residual = sw.exact ? REST_RESIDUAL_EXACT : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }
     for (uint32_t i = 0; i < r->count; i++) {

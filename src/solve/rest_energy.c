@@ -105,8 +105,11 @@ static bool may_rise(const struct rest *r, struct fix_wide allowed)
 
 void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
 {
-    struct rest_sweep plastic = {
-        .plastic = true, .frictionless = true, .residual = REST_RESIDUAL_IMPACT};
+    bool exact = rest_up_to_two(r);
+    struct rest_sweep plastic = {.plastic = true,
+                                 .frictionless = true,
+                                 .exact = exact,
+                                 .residual = exact ? REST_RESIDUAL_EXACT : REST_RESIDUAL_IMPACT};
     int bits = lasting ? LASTING_BITS : ROUNDING_BITS;
     int32_t low = 0, high = CAROM_ONE_Q30;
     struct fix_wide before;

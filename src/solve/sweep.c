@@ -13,6 +13,9 @@
  */
 #define DEAD_DIVISOR 8
 
+/* Each push rounds dv and du: so often an exact solve forms them anew from the impulses, and goes on. */
+#define EXACT_SUMS 2
+
 /* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
 static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
@@ -402,10 +405,11 @@ static void into_cones(struct rest *r)
 
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
-    int rounds = sw->plastic || r->count <= REST_UNHURRIED ? REST_SWEEPS_PLASTIC
-                 : !sw->rolls                              ? REST_SWEEPS_MAX
-                 : r->count <= REST_FEW                    ? REST_SWEEPS_FEW
-                                                           : REST_SWEEPS_MANY;
+    int rounds = sw->exact                             ? REST_SWEEPS_EXACT
+                 : sw->plastic || r->count <= REST_FEW ? REST_SWEEPS_PLASTIC
+                 : !sw->rolls                          ? REST_SWEEPS_MAX
+                 : r->count <= REST_FEW                ? REST_SWEEPS_FEW
+                                                       : REST_SWEEPS_MANY;
 
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
@@ -429,8 +433,8 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
      * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->plastic && n > REST_UNHURRIED;
-    int rounds = most_rounds(r, sw);
+    bool hurries = may_hurry && !sw->plastic && !sw->exact && n > REST_FEW;
+    int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
 
@@ -448,8 +452,12 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
             }
         }
         ran_out = moved > sw->residual;
-        if (!ran_out || outgrown(r)) {
+        if ((!ran_out && sums == 0) || outgrown(r)) {
             break;
+        }
+        if (!ran_out) {
+            rest_sum_up(r);
+            sums--;
         }
         if (hurries && round < rounds - 1) {
             accelerate(r, &age);
