@@ -155,11 +155,18 @@ static void trace_close(void)
     trace.open = false;
 }
 
+/* The same for two numbers of 32 bits, of which a machine has the first in the upper half or the lower. */
+static uint64_t halves(int64_t v)
+{
+    return (uint64_t)(uint32_t)v + ((uint64_t)v >> 32);
+}
+
+/* After a solve, and until a path is set, its numbers are where v and g were. */
 static uint64_t fold_path(const struct body_path *path, uint64_t digest)
 {
     for (int k = 0; k < 3; k++) {
-        digest = play_fold(digest, (uint64_t)path->v.c[k]);
-        digest = play_fold(digest, (uint64_t)path->g.c[k]);
+        digest = play_fold(digest, halves(path->v.c[k]));
+        digest = play_fold(digest, halves(path->g.c[k]));
         digest = play_fold(digest, (uint64_t)(int64_t)path->u.c[k]);
     }
     return digest;

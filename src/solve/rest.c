@@ -21,7 +21,7 @@
 /* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
 #define MOVES_SKINS 2
 /* and then a change of velocity by this part of a skin a frame is as good as none. */
-#define LOOSE_DIVISOR 64
+#define LOOSE_DIVISOR 16
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 

@@ -13,6 +13,10 @@
  */
 #define DEAD_DIVISOR 8
 
+/* So many contacts, or fewer, are swept without momentum. */
+#define UNHURRIED_REST   3
+#define UNHURRIED_IMPACT 3
+
 /* Each push rounds dv and du: so often an exact solve forms them anew from the impulses, and goes on. */
 #define EXACT_SUMS 2
 
@@ -405,11 +409,11 @@ static void into_cones(struct rest *r)
 
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
-    int rounds = sw->exact                             ? REST_SWEEPS_EXACT
-                 : sw->plastic || r->count <= REST_FEW ? REST_SWEEPS_PLASTIC
-                 : !sw->rolls                          ? REST_SWEEPS_MAX
-                 : r->count <= REST_FEW                ? REST_SWEEPS_FEW
-                                                       : REST_SWEEPS_MANY;
+    int rounds = sw->exact              ? REST_SWEEPS_EXACT
+                 : sw->plastic          ? REST_SWEEPS_PLASTIC
+                 : !sw->rolls           ? REST_SWEEPS_MAX
+                 : r->count <= REST_FEW ? REST_SWEEPS_FEW
+                                        : REST_SWEEPS_MANY;
 
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
@@ -430,10 +434,11 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 {
     uint32_t n = r->count;
     /*
-     * Up to three contacts settle as soon without momentum. From no impulses on, sweeps without it take
-     * energy away one by one, wherever they end: so the rule about energy has its plastic solution.
+     * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
+     * away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->plastic && !sw->exact && n > REST_FEW;
+    bool hurries = may_hurry && !sw->plastic && !sw->exact &&
+                   n > (sw->rolls ? UNHURRIED_REST : UNHURRIED_IMPACT);
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
