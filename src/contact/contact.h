@@ -177,6 +177,11 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
 /* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
 #define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
 
+static inline int64_t contact_cosine_q30(const struct contact *a, const struct contact *b)
+{
+    return carom_dot(a->normal.c, b->normal.c) >> 30;
+}
+
 /* Faces lie on each other when no part of their normals differs by more. */
 #define CONTACT_LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
 
@@ -253,6 +258,12 @@ static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3
  * answers to every face normal in its cone, and what coincides becomes one.
  */
 void contact_merge(struct contact_list *list);
+
+/*
+ * Drop contacts among the n of a pair that carry nothing: those on one plane that hardly stand out between two
+ * others. Returns how many are left, at the beginning.
+ */
+uint32_t contact_thin(struct contact *contacts, uint32_t n);
 
 /* Take out the contacts of a pair. */
 void contact_drop_pair(struct contact_list *list, uint16_t pair);

@@ -21,7 +21,7 @@
 /* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
 #define MOVES_SKINS 2
 /* and then a change of velocity by this part of a skin a frame is as good as none. */
-#define LOOSE_DIVISOR 16
+#define LOOSE_DIVISOR 8
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
@@ -358,7 +358,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = few || impacts ? 0 : loose_q40(r, warm);
+    sw.loose_q40 = few || impacts || rest_up_to_two(r) ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {

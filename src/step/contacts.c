@@ -63,6 +63,28 @@ int step_check_pair(struct step *s, uint32_t number)
     return result;
 }
 
+/* A pair that has hit in the frame keeps all of its contacts: one of them may be where it does. */
+static void thin_out(struct step *s)
+{
+    struct contact_list *list = &s->w->rest.list;
+    uint32_t kept = 0, end;
+
+    for (uint32_t i = 0; i < list->pool->used; i = end) {
+        uint16_t pair = list->contacts[i].key.pair;
+        uint32_t n;
+
+        for (end = i; end < list->pool->used && list->contacts[end].key.pair == pair;) {
+            end++;
+        }
+        n = s->w->meetings[pair].hits > 0 ? end - i : contact_thin(&list->contacts[i], end - i);
+        if (kept < i) {
+            memmove(&list->contacts[kept], &list->contacts[i], n * sizeof *list->contacts);
+        }
+        kept += n;
+    }
+    list->pool->used = kept;
+}
+
 int step_settle_contacts(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -70,6 +92,7 @@ int step_settle_contacts(struct step *s)
     int result = CAROM_OK;
 
     contact_merge(list);
+    thin_out(s);
     w->stats.contacts = list->pool->used;
     for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK; i++) {
         uint16_t pair = list->contacts[i].key.pair;
