@@ -6,8 +6,8 @@
  */
 #include "contact.h"
 
-/* A corner hardly stands out when it does so by less than this part of the smaller body's radius. */
-#define STANDS_OUT_DIVISOR 16
+/* A corner hardly stands out when it does so by less than this part of the way between the two. */
+#define STANDS_OUT_DIVISOR 32
 /* So many contacts hold a face: none of them is dispensable. */
 #define ENOUGH 4
 /* Nor are any of more than so many. */
@@ -27,12 +27,12 @@ static int64_t dot(const int32_t a[3], const int32_t b[3])
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
-/* Whether a place lies between two others, nearer than `most` to the line through them. */
+/* Whether a place lies between two others, and hardly stands out. */
 static bool is_between(const carom_v3_q22 *place, const carom_v3_q22 *one,
-                       const carom_v3_q22 *other, int32_t most_q22)
+                       const carom_v3_q22 *other)
 {
     int32_t d[3], e[3];
-    int64_t along, square, off = 0, most;
+    int64_t along, square, off = 0;
     int down;
 
     way(one, other, d);
@@ -42,7 +42,6 @@ static bool is_between(const carom_v3_q22 *place, const carom_v3_q22 *one,
         d[k] >>= down;
         e[k] >>= down;
     }
-    most = down > 0 ? most_q22 >> down : most_q22;
     along = dot(d, e);
     square = dot(d, d);
     if (along <= 0 || along >= square) {
@@ -53,13 +52,19 @@ static bool is_between(const carom_v3_q22 *place, const carom_v3_q22 *one,
 
         off += cross * cross;
     }
-    return off < most * most * square;
+    square /= STANDS_OUT_DIVISOR;
+    return off < square * square;
 }
 
 /* Whether two contacts are of the same two faces. */
 static bool on_one_plane(const struct contact *a, const struct contact *b)
 {
-    return contact_cosine_q30(a, b) > CONTACT_SAME_NORMAL_Q30;
+    for (int k = 0; k < 3; k++) {
+        if (carom_abs((int64_t)a->normal.c[k] - b->normal.c[k]) > CONTACT_LEAN_MAX_Q30) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* The nearest of n places to the i-th. */
@@ -84,18 +89,19 @@ static uint32_t nearest(const carom_v3_q22 *places, uint32_t n, uint32_t i)
 
 /* Whether the i-th hardly stands out between the one nearest to it and any other. */
 static bool is_dispensable(const struct contact *contacts, const carom_v3_q22 *places, uint32_t n,
-                           uint32_t i, int32_t most_q22)
+                           uint32_t i)
 {
     const struct contact *c = &contacts[i];
     uint32_t j = nearest(places, n, i);
 
-    if (!on_one_plane(c, &contacts[j]) || (c->drift.c[0] | c->drift.c[1] | c->drift.c[2]) != 0) {
+    if (c->key.kind != CANDIDATE_EDGE_EDGE || !on_one_plane(c, &contacts[j]) ||
+        (c->drift.c[0] | c->drift.c[1] | c->drift.c[2]) != 0) {
         return false;
     }
     for (uint32_t k = 0; k < n; k++) {
         const struct contact *other = &contacts[k];
 
-        if (k != i && k != j && is_between(&places[i], &places[j], &places[k], most_q22) &&
+        if (k != i && k != j && is_between(&places[i], &places[j], &places[k]) &&
             on_one_plane(c, other) &&
             (c->gap_q22 >= contacts[j].gap_q22 || c->gap_q22 >= other->gap_q22)) {
             return true;
@@ -106,21 +112,17 @@ static bool is_dispensable(const struct contact *contacts, const carom_v3_q22 *p
 
 uint32_t contact_thin(struct contact *contacts, uint32_t n)
 {
-    int32_t radius_q22 = contacts->side[0].body->radius_q22;
     carom_v3_q22 places[MOST];
 
     if (n <= ENOUGH || n > MOST) {
         return n;
-    }
-    if (contacts->side[1].body && contacts->side[1].body->radius_q22 < radius_q22) {
-        radius_q22 = contacts->side[1].body->radius_q22;
     }
     for (uint32_t i = 0; i < n; i++) {
         places[i] = contact_arm(&contacts[i]);
     }
     /* from the last on, for there the crossings of edges are, which come and go */
     for (uint32_t i = n; i > 0 && n > ENOUGH; i--) {
-        if (is_dispensable(contacts, places, n, i - 1, radius_q22 / STANDS_OUT_DIVISOR)) {
+        if (is_dispensable(contacts, places, n, i - 1)) {
             n--;
             memmove(&contacts[i - 1], &contacts[i], (n - (i - 1)) * sizeof *contacts);
             memmove(&places[i - 1], &places[i], (n - (i - 1)) * sizeof *places);

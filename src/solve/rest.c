@@ -336,7 +336,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
 /* The island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
-    bool few = r->count <= REST_FEW;
+    bool few = r->count <= REST_FEW || rest_up_to_two(r);
     struct rest_sweep sw = {.residual = few ? REST_RESIDUAL_REST_FEW : REST_RESIDUAL_REST,
                             .rolls = true};
     bool impacts = prepare(r, tau_q30), lasting = lasts(r);
@@ -358,7 +358,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = few || impacts || rest_up_to_two(r) ? 0 : loose_q40(r, warm);
+    sw.loose_q40 = few || impacts ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
