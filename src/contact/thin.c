@@ -13,47 +13,62 @@
 /* Nor are any of more than so many. */
 #define MOST 16
 /* Lengths are compared with so many bits. */
-#define LENGTH_BITS 14
+#define LENGTH_BITS 13
 
-static void way(const carom_v3_q22 *from, const carom_v3_q22 *to, int32_t way_q22[3])
-{
-    for (int k = 0; k < 3; k++) {
-        way_q22[k] = to->c[k] - from->c[k];
-    }
-}
+/* Where a contact is from the first of them, in units of which none is more than 2^13 away along an axis. */
+struct place {
+    int32_t c[3];
+};
 
 static int64_t dot(const int32_t a[3], const int32_t b[3])
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
-/* Whether a place lies between two others, and hardly stands out. */
-static bool is_between(const carom_v3_q22 *place, const carom_v3_q22 *one,
-                       const carom_v3_q22 *other)
+static inline void subtract(const int32_t a[3], const int32_t b[3], int32_t d[3])
 {
-    int32_t d[3], e[3];
-    int64_t along, square, off = 0;
+    d[0] = a[0] - b[0];
+    d[1] = a[1] - b[1];
+    d[2] = a[2] - b[2];
+}
+
+static void find_places(const struct contact *contacts, uint32_t n, struct place *places)
+{
+    carom_v3_q22 first = contact_arm(&contacts[0]);
+    uint32_t used = 0;
     int down;
 
-    way(one, other, d);
-    way(one, place, e);
-    down = fix_bits32((uint32_t)(fix_largest(d) | fix_largest(e))) - LENGTH_BITS;
-    for (int k = 0; down > 0 && k < 3; k++) {
-        d[k] >>= down;
-        e[k] >>= down;
+    for (uint32_t i = 0; i < n; i++) {
+        carom_v3_q22 arm = contact_arm(&contacts[i]);
+
+        subtract(arm.c, first.c, places[i].c);
+        used |= (uint32_t)fix_largest(places[i].c);
     }
+    down = fix_bits32(used) - LENGTH_BITS;
+    for (uint32_t i = 0; down > 0 && i < n; i++) {
+        for (int k = 0; k < 3; k++) {
+            places[i].c[k] >>= down;
+        }
+    }
+}
+
+/* Whether a place lies between two others, and hardly stands out. */
+static bool is_between(const struct place *at, const struct place *one, const struct place *other)
+{
+    int32_t d[3], e[3];
+    int64_t along, square, off2;
+
+    subtract(at->c, one->c, e);
+    subtract(other->c, one->c, d);
     along = dot(d, e);
-    square = dot(d, d);
-    if (along <= 0 || along >= square) {
+    if (along <= 0) {
         return false;
     }
-    for (int k = 0; k < 3; k++) {
-        int64_t cross = (int64_t)d[k] * e[(k + 1) % 3] - (int64_t)d[(k + 1) % 3] * e[k];
-
-        off += cross * cross;
-    }
+    square = dot(d, d);
+    /* along an axis it is 2^14 at most, so all of this is below 2^60 */
+    off2 = dot(e, e) * square - along * along;
     square /= STANDS_OUT_DIVISOR;
-    return off < square * square;
+    return along < square * STANDS_OUT_DIVISOR && off2 < square * square;
 }
 
 /* Whether two contacts are of the same two faces. */
@@ -68,19 +83,17 @@ static bool on_one_plane(const struct contact *a, const struct contact *b)
 }
 
 /* The nearest of n places to the i-th. */
-static uint32_t nearest(const carom_v3_q22 *places, uint32_t n, uint32_t i)
+static uint32_t nearest(const struct place *places, uint32_t n, uint32_t i)
 {
-    int64_t least_q22 = INT64_MAX;
+    int64_t least = INT64_MAX;
     uint32_t best = i;
 
     for (uint32_t j = 0; j < n; j++) {
-        int64_t off_q22 = 0;
+        int32_t d[3];
 
-        for (int k = 0; k < 3; k++) {
-            off_q22 += carom_abs((int64_t)places[j].c[k] - places[i].c[k]);
-        }
-        if (j != i && off_q22 < least_q22) {
-            least_q22 = off_q22;
+        subtract(places[j].c, places[i].c, d);
+        if (j != i && dot(d, d) < least) {
+            least = dot(d, d);
             best = j;
         }
     }
@@ -88,14 +101,13 @@ static uint32_t nearest(const carom_v3_q22 *places, uint32_t n, uint32_t i)
 }
 
 /* Whether the i-th hardly stands out between the one nearest to it and any other. */
-static bool is_dispensable(const struct contact *contacts, const carom_v3_q22 *places, uint32_t n,
+static bool is_dispensable(const struct contact *contacts, const struct place *places, uint32_t n,
                            uint32_t i)
 {
     const struct contact *c = &contacts[i];
     uint32_t j = nearest(places, n, i);
 
-    if (c->key.kind != CANDIDATE_EDGE_EDGE || !on_one_plane(c, &contacts[j]) ||
-        (c->drift.c[0] | c->drift.c[1] | c->drift.c[2]) != 0) {
+    if ((c->drift.c[0] | c->drift.c[1] | c->drift.c[2]) != 0 || !on_one_plane(c, &contacts[j])) {
         return false;
     }
     for (uint32_t k = 0; k < n; k++) {
@@ -112,16 +124,15 @@ static bool is_dispensable(const struct contact *contacts, const carom_v3_q22 *p
 
 uint32_t contact_thin(struct contact *contacts, uint32_t n)
 {
-    carom_v3_q22 places[MOST];
+    struct place places[MOST];
 
     if (n <= ENOUGH || n > MOST) {
         return n;
     }
-    for (uint32_t i = 0; i < n; i++) {
-        places[i] = contact_arm(&contacts[i]);
-    }
-    /* from the last on, for there the crossings of edges are, which come and go */
-    for (uint32_t i = n; i > 0 && n > ENOUGH; i--) {
+    find_places(contacts, n, places);
+    /* the crossings of edges, which come and go; they are the last ones */
+    for (uint32_t i = n; i > 0 && n > ENOUGH && contacts[i - 1].key.kind == CANDIDATE_EDGE_EDGE;
+         i--) {
         if (is_dispensable(contacts, places, n, i - 1)) {
             n--;
             memmove(&contacts[i - 1], &contacts[i], (n - (i - 1)) * sizeof *contacts);

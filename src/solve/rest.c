@@ -25,9 +25,13 @@
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
-/* Velocities of the bodies that have contacts, each once. */
+/* Velocities of the bodies that have contacts, each once; but for those that rest_enter_contact has left. */
 static void load_velocities(struct rest *r)
 {
+    if (r->loaded) {
+        r->loaded = false;
+        return;
+    }
     for (uint32_t i = 0; i < r->body_count; i++) {
         r->bodies[i].solving = r->bodies[i].entering = false;
     }
@@ -455,12 +459,16 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
         r->list.contacts[i].idle = !enters(&r->list.contacts[i]);
     }
     for (uint32_t i = 0; any && i < r->body_count; i++) {
-        const struct body *b = &r->bodies[i];
+        struct body *b = &r->bodies[i];
 
-        for (int k = 0; b->entering && k < 3; k++) {
-            r->states[i].momentum.c[k] +=
-                fix_mul_scaled(fix_mul(b->acceleration.c[k], tau_q30, 30), b->mass);
+        if (b->entering) {
+            for (int k = 0; k < 3; k++) {
+                r->states[i].momentum.c[k] +=
+                    fix_mul_scaled(fix_mul(b->acceleration.c[k], tau_q30, 30), b->mass);
+            }
+            body_velocity(b, &r->states[i], &b->velocity);
         }
     }
+    r->loaded = any;
     return any;
 }

@@ -51,6 +51,8 @@ struct rest {
     /* the island being solved: its first body, and its contacts in the order of islands */
     uint16_t island;
     uint8_t sweep_cap; /* 0: none but those above */
+    bool
+        loaded; /* the bodies' velocities are those of the states: only their paths changed since */
     uint32_t first, count;
 
     uint32_t sweeps, impacts, energy_rules; /* for the statistics */

@@ -439,6 +439,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      */
     bool hurries = may_hurry && !sw->plastic && !sw->exact &&
                    n > (sw->rolls ? UNHURRIED_REST : UNHURRIED_IMPACT);
+    const int32_t quiet = sw->rolls ? sw->residual / DEAD_DIVISOR : 0;
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
@@ -448,10 +449,11 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 
         r->sweeps++;
         for (uint32_t i = 0; i < n; i++) {
-            int64_t m = visit(rest_contact(r, i), sw->rolls ? sw->residual / DEAD_DIVISOR : 0);
+            struct contact *c = rest_contact(r, i);
+            int64_t m = visit(c, quiet);
 
             moved = m > moved ? m : moved;
-            if (rest_contact(r, i)->work->rolls) {
+            if (c->work->rolls) {
                 m = rest_roll_sweep(r, i, sw->residual);
                 moved = m > moved ? m : moved;
             }
