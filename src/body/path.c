@@ -154,6 +154,7 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
         return;
     }
     body_velocity(b, s, &v);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         path->v.c[k] = fix_mul_q30(v.c[k], tau_q30);
         if (gravity && gravity->c[k] != 0) {

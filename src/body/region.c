@@ -184,6 +184,7 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
     }
     part_q30 = part_of(region, time_q30);
     carom_rotate(turn, &path->start.r, path->u.c);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         d[k] = 2 * (int64_t)turn[k] - carom_mul_q30(region->turn.c[k], part_q30);
         turn[k] = (int32_t)carom_abs(turn[k]);

@@ -131,6 +131,7 @@ void boyse_pair_begin(struct boyse_pair *pair, struct body *a, struct body *b)
     pair->a = a;
     pair->b = b;
     pair->skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         pair->offset_q22[k] = (int32_t)(body_path(b)->origin_q22[k] - body_path(a)->origin_q22[k]);
     }

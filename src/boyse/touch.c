@@ -112,6 +112,7 @@ static void direction_to(const struct moment *m, const int32_t start[3], int32_t
 
 static void direction_back(const struct moment *m, const int32_t n[3], int32_t out[3])
 {
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         out[k] = n[k];
     }

@@ -23,6 +23,7 @@ static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
 /* to + s d, s in q40 */
 static carom_v3_q40 along(carom_v3_q40 to, int64_t s_q40, const int32_t d_q30[3])
 {
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         to.c[k] += fix_mul_q30(s_q40, d_q30[k]);
     }
@@ -35,6 +36,7 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
     const struct body_path *a = &pair->a->path, *b = &pair->b->path;
     carom_v3_q40 d;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         d.c[k] =
             carom_shl(a->start.x.c[k] - b->start.x.c[k], 8) - carom_shl(pair->offset_q22[k], 18);
@@ -138,11 +140,13 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
         on[known] = turned(of_vertex, mesh_vertex(of_vertex->mesh, c->i));
         on[1 - known] = turned(of_face, mesh_corner(of_face->mesh, c->j, 0));
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         gap.c[k] = on[0].c[k] + apart.c[k] - on[1].c[k];
     }
     arm[known] =
         along(on[known], (known == 0 ? -1 : 1) * fix_dot_q30(gap.c, normal->c) / 2, normal->c);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         arm[1 - known].c[k] = arm[known].c[k] + (known == 0 ? apart.c[k] : -apart.c[k]);
     }

@@ -75,6 +75,7 @@ bool interfere_set_motion(struct interfere *w)
     margin_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22;
     margin_q22 += sweep_body(w, w->a, w->span.from_a_q30, a);
     margin_q22 += sweep_body(w, w->b, w->span.from_b_q30, b);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         start[k] = a->at.c[k] - b->at.c[k];
         end[k] = start[k] + ((a->way.c[k] - b->way.c[k]) >> 8);
@@ -83,6 +84,7 @@ bool interfere_set_motion(struct interfere *w)
         fix_rotate_back(start, &b->start, start);
         fix_rotate_back(end, &b->end, end);
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         if (carom_abs(start[k]) > (int64_t)400 << 32) {
             return false;

@@ -236,6 +236,7 @@ void fix_mul_scaled3(int64_t out[3], const int64_t v[3], struct fix_scaled s)
 {
     const bool plain = s.e >= 1 && s.e <= 62;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         out[k] = plain ? fix_mul(v[k], s.m, s.e) : fix_mul_scaled(v[k], s);
     }
@@ -333,6 +334,7 @@ void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
 {
     int64_t r[3];
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         r[k] = fix_mul_q30(v[0], m->c[0][k]) + fix_mul_q30(v[1], m->c[1][k]) +
                fix_mul_q30(v[2], m->c[2][k]);

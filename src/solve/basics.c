@@ -41,6 +41,7 @@ static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_s
         out[2] = short_product(v[0], arm[1], bits) - short_product(v[1], arm[0], bits);
         return;
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
 
@@ -51,6 +52,7 @@ static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_s
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b), less the drift of a surface */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         v->c[k] = -c->drift.c[k];
     }
@@ -62,6 +64,7 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
             continue;
         }
         cross_arm(turn, b->spin.c, &c->side[s]);
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             int64_t at = b->velocity.c[k] + turn[k];
 
@@ -97,6 +100,7 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t p[3],
             continue;
         }
         cross_arm(back, p, &c->side[s]);
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             int64_t moment = moment_q40[k] - back[k];
 
@@ -145,6 +149,7 @@ bool rest_cut(int64_t v[3], int64_t limit)
         return false;
     }
     ratio_q30 = (int32_t)((most << 30) / fix_sqrt(square));
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         v[k] = carom_shl(((int64_t)v32[k] * ratio_q30) >> 30, down);
     }

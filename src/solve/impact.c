@@ -29,6 +29,7 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
         if (impact_slide(p, 0, out)) {
             return -1;
         }
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             after[k] = fix_round_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
         }

@@ -14,6 +14,7 @@ void rest_prepare_body(struct body *b)
     b->turn_bits = (int8_t)(b->mesh->spread.reach_bits + 1);
     /* a column is below sqrt(3) 2^30 */
     for (int j = 0; j < 3; j++) {
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             body_solve(b)->columns[j][k] =
                 (int32_t)carom_round(carom_dot(r->c[k], b->mesh->spread.column[j]), 30);

@@ -328,6 +328,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
         int64_t v[3];
 
         skin_q22 = b->skin_q22 < skin_q22 ? b->skin_q22 : skin_q22;
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
         }

@@ -240,6 +240,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
 
         if (c->side[s].body) {
             spin_by_now(c, c->side[s].body, dw);
+            FIX_UNROLL
             for (int k = 0; k < 3; k++) {
                 spin[k] += s == 0 ? dw[k] : -dw[k];
             }
@@ -248,10 +249,12 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     /* so a component of the moment stays within 2^30 */
     limit = rest_clamp(fix_mul_q30(pressure, roll->arm_q30));
     limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         next[k] = roll->moment[k] - (((int64_t)rest_clamp(spin[k]) * roll->step_q24) >> 24);
     }
     rest_cut(next, limit > 0 ? limit : 0);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         change[k] = (int32_t)next[k] - roll->moment[k];
     }
@@ -259,6 +262,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     if (moved < quiet) {
         return 0;
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         roll->moment[k] += change[k];
         roll->gain[k] = rest_clamp((int64_t)roll->gain[k] + change[k]);
@@ -294,6 +298,7 @@ void rest_roll_accelerate(struct contact *c, int32_t part_q30)
     struct contact_roll *roll = contact_rolling(c);
     int32_t gain[3], any = 0;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int32_t way = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
 

@@ -69,6 +69,7 @@ static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
     int32_t slip[3], ratio_q30 = CAROM_ONE_Q30;
     uint64_t square;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
     }
@@ -76,6 +77,7 @@ static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
     if (square > (uint64_t)((int64_t)c->work->band * c->work->band)) {
         ratio_q30 = (int32_t)(((uint64_t)(uint32_t)c->work->band << 30) / fix_sqrt(square));
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         v[k] -= carom_mul_q30(slip[k], ratio_q30);
     }
@@ -165,6 +167,7 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
 
     /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
     rest_shrink(t, 15);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int32_t part = (int32_t)t[k];
 
@@ -190,6 +193,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
     if (change[3] <= -in->normal_impulse) {
         change[3] = -in->normal_impulse;
     } else {
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             int32_t after = rest_clamp(slip[k] + (((int64_t)in->drag_q28[k] * dvn) >> 28));
 
@@ -197,6 +201,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
         }
         limited = rest_cut(change, friction_limit(c, in->normal_impulse + change[3]));
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         change[k] -= in->tangent_impulse[k];
     }
@@ -205,6 +210,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
         rest_shrink(change, 29);
     }
     g->along = (int32_t)change[3];
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         g->across[k] = (int32_t)change[k];
         g->whole[k] = (int32_t)change[k] + carom_mul_q30(g->along, c->normal.c[k]);
@@ -221,6 +227,7 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct g
     if (!c->work->slides) {
         rest_prepare_slide(c);
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         slip[k] = v[k] - carom_mul_q30(error, c->normal.c[k]);
         pushed[k] = c->work->tangent_impulse[k] -
@@ -317,6 +324,7 @@ static void bodies_beyond(struct rest *r, int32_t part_q30)
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         struct body_path *in = body_solve(&r->bodies[i]);
 
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             in->used |= go_on(&in->dv[k], &in->last_dv[k], part_q30) |
                         go_on(&in->du[k], &in->last_du[k], part_q30);
@@ -330,6 +338,7 @@ static void let_go(struct contact *c)
     struct gain g;
 
     g.along = rest_within(-c->work->normal_impulse, WAY_MAX);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         g.across[k] = rest_within(-c->work->tangent_impulse[k], WAY_MAX);
         g.whole[k] = g.across[k] + carom_mul_q30(g.along, c->normal.c[k]);
@@ -345,6 +354,7 @@ static void go_beyond(struct contact *c, int32_t part_q30)
     struct contact_work *in = c->work;
     struct gain g;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         g.whole[k] = carom_mul_q30(c->way[k] + c->gain[k], part_q30);
         c->way[k] = g.whole[k];
@@ -364,6 +374,7 @@ static void go_beyond(struct contact *c, int32_t part_q30)
 /* Begin the steps beyond sweeps anew. */
 static void stay(struct contact *c)
 {
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         c->way[k] = c->gain[k] = 0;
     }

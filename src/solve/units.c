@@ -52,6 +52,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
     int64_t wanted = wanted_q40(c, sw), slip[3];
     int32_t error = (int32_t)in_units(c->speed_q40 - wanted, sw->unit); /* within V* */
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int64_t along = fix_mul(c->speed_q40, c->normal.c[k], 30);
 
@@ -61,6 +62,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
         rest_cut(slip, SLIP_MAX);
     }
     PHASE_BEGIN(c->phase, CONTACT_GAIN);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         c->work->before[k] = (int32_t)slip[k] + carom_mul_q30(error, c->normal.c[k]);
         c->work->tangent_impulse[k] = 0;
@@ -107,11 +109,13 @@ static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
     const int shift = rest_turn_shift(b, c->work->fine_bits);
     int64_t own[3];
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         own[k] = s == 0 ? impulse[k] : -impulse[k];
         own[k] = lever->share_q30 == CAROM_ONE_Q30 ? own[k] : fix_mul_q30(own[k], lever->share_q30);
         in->wide_dv[k] += own[k] >> (c->work->fine_bits - REST_FINER_BITS);
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         const int32_t turn[3] = {lever->turn[0][k], lever->turn[1][k], lever->turn[2][k]};
 
@@ -134,6 +138,7 @@ static bool narrow(struct body *b)
 
     memcpy(all, in->wide_dv, sizeof in->wide_dv);
     memcpy(all + 3, in->wide_du, sizeof in->wide_du);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         fits = fits && carom_abs(all[k]) < most && carom_abs(all[3 + k]) < most;
         in->dv[k] = in->last_dv[k] = (int32_t)all[k];
@@ -161,6 +166,7 @@ bool rest_sum_up(struct rest *r)
              in->tangent_impulse[2]) == 0) {
             continue;
         }
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             impulse[k] = fix_mul_q30(in->normal_impulse, c->normal.c[k]) + in->tangent_impulse[k];
         }
@@ -185,6 +191,7 @@ void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw)
 
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             c->impulse_q40.c[k] = fix_mul(c->work->normal_impulse, c->normal.c[k], 22) +
                                   carom_shl(c->work->tangent_impulse[k], 8);

@@ -121,6 +121,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     inverse.e += sw->unit;
     along = rest_along_q40(&w->tangent_q40, &c->normal);
     impulse[3] = w->normal_q40;
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         impulse[k] = w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
@@ -174,6 +175,7 @@ void rest_store_warm(struct rest *r)
         arm = contact_arm(c);
         carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
         w->normal_q40 = rest_along_q40(contact_impulse(c), &c->normal);
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             w->tangent_q40.c[k] =
                 contact_impulse(c)->c[k] - fix_mul_q30(w->normal_q40, w->normal.c[k]);
