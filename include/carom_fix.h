@@ -152,14 +152,16 @@ inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[
 /* out = (m transposed) a / 2^30 to nearest. out may be a. */
 inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3])
 {
-    int64_t r[3];
+    int64_t x =
+        (int64_t)m->c[0][0] * a[0] + (int64_t)m->c[1][0] * a[1] + (int64_t)m->c[2][0] * a[2];
+    int64_t y =
+        (int64_t)m->c[0][1] * a[0] + (int64_t)m->c[1][1] * a[1] + (int64_t)m->c[2][1] * a[2];
+    int64_t z =
+        (int64_t)m->c[0][2] * a[0] + (int64_t)m->c[1][2] * a[1] + (int64_t)m->c[2][2] * a[2];
 
-    for (int k = 0; k < 3; k++) {
-        r[k] = (int64_t)m->c[0][k] * a[0] + (int64_t)m->c[1][k] * a[1] + (int64_t)m->c[2][k] * a[2];
-    }
-    for (int k = 0; k < 3; k++) {
-        out[k] = (int32_t)carom_round(r[k], 30);
-    }
+    out[0] = (int32_t)carom_round(x, 30);
+    out[1] = (int32_t)carom_round(y, 30);
+    out[2] = (int32_t)carom_round(z, 30);
 }
 
 #endif

@@ -24,6 +24,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
 
     fix_mul_scaled3(l, s->angular.c, b->inverse_mass);
     fix_rotate_back(l, r, l);
+    FIX_UNROLL
     for (int i = 0; i < 3; i++) {
         struct fix_wide sum = {0, 0};
 

@@ -117,6 +117,7 @@ static void set_axes(struct boyse_pair *pair)
     const carom_m3_q30 *a = &pair->a->path.start.r, *b = &pair->b->path.start.r;
 
     for (int k = 0; k < 3; k++) {
+        FIX_UNROLL
         for (int i = 0; i < 3; i++) {
             int64_t sum = (int64_t)b->c[0][k] * a->c[0][i] + (int64_t)b->c[1][k] * a->c[1][i] +
                           (int64_t)b->c[2][k] * a->c[2][i];

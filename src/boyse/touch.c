@@ -41,6 +41,7 @@ static void turn_at(struct turn *turn, const struct body_path *path, const carom
     t_q30 = carom_mul_q30(k_q29, t_q30);
     t_q30 += carom_mul_q30(t_q30, w_q30);
     t2_q30 = carom_mul_q30(k_q29, t2_q30);
+    FIX_UNROLL
     for (int i = 0; i < 3; i++) {
         once[i] = (int32_t)carom_round((int64_t)t_q30 * u->c[i], 29);
         twice[i] = (int32_t)carom_round((int64_t)t2_q30 * u->c[i], 29);

@@ -7,6 +7,7 @@
 
 void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
 {
+    FIX_UNROLL
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             out->c[i][j] = (int32_t)carom_round((int64_t)b->c[0][i] * a->c[0][j] +

@@ -13,6 +13,7 @@ void rest_prepare_body(struct body *b)
     PHASE_BEGIN(b->path.phase, BODY_SOLVE);
     b->turn_bits = (int8_t)(b->mesh->spread.reach_bits + 1);
     /* a column is below sqrt(3) 2^30 */
+    FIX_UNROLL
     for (int j = 0; j < 3; j++) {
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
@@ -33,6 +34,7 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
     struct body *b = side->body;
     int more = b->turn_bits + contact_arm_bits(b) - 31;
 
+    FIX_UNROLL
     for (int j = 0; j < 3; j++) {
         int down = more + b->mesh->spread.e[j];
         int64_t turn[3];
