@@ -424,6 +424,123 @@ static void test_merge(void)
     CHECK_EQ(pool.used, 4);
 }
 
+/* How far a place is from the line between two others, and how long that is; from its ends beside it. */
+static double off_line(const struct contact *c, const struct contact *one,
+                       const struct contact *other, double *length)
+{
+    double d[3], e[3], part;
+
+    for (int k = 0; k < 3; k++) {
+        double from = real(contact_arm(one).c[k], 22);
+
+        d[k] = real(contact_arm(other).c[k], 22) - from;
+        e[k] = real(contact_arm(c).c[k], 22) - from;
+    }
+    *length = real_length(d);
+    part = real_dot(d, e) / real_dot(d, d);
+    part = part < 0 ? 0 : part > 1 ? 1 : part;
+    for (int k = 0; k < 3; k++) {
+        e[k] -= part * d[k];
+    }
+    return real_length(e);
+}
+
+/* Whether a place is within so many 32nds of a line between two of n others. */
+static bool hardly_stands_out(const struct contact *c, uint32_t n, double parts)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        for (uint32_t j = 0; j < i; j++) {
+            double length, off = off_line(c, &contacts[i], &contacts[j], &length);
+
+            if (off <= parts / 32 * length) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* Of two boxes on each other the corners of their common part that hardly stand out are dropped. */
+static void test_thin(void)
+{
+    struct test_random r = {11};
+    uint32_t dropped = 0, kept = 0, most = 0;
+
+    for (uint32_t n = 0; n < 10 * CLEAR_CASES; n++) {
+        uint32_t found, left, at = 0;
+
+        box_over_box(&r);
+        place();
+        CHECK(find(2 * bodies[0].skin_q22, 0));
+        contact_merge(&list);
+        found = pool.used;
+        memcpy(first, contacts, found * sizeof *contacts);
+        left = found > 0 ? contact_thin(contacts, found) : 0;
+        CHECK(left <= found && left >= (found < 4 ? found : 4));
+        most = left > most ? left : most;
+        kept += left;
+        for (uint32_t i = 0; i < found; i++) {
+            if (at < left && candidate_compare(&first[i].key, &contacts[at].key) == 0) {
+                at++;
+            } else {
+                dropped++;
+                CHECK(first[i].key.kind == CANDIDATE_EDGE_EDGE);
+                CHECK(hardly_stands_out(&first[i], left,
+                                        2)); /* one that it stood between may be gone, too */
+            }
+        }
+        CHECK_EQ(at, left);
+    }
+    CHECK(dropped > CLEAR_CASES && kept > dropped && most > 4);
+}
+
+/* Four corners of a square, and a crossing in the middle of a side. */
+static void square(int32_t out_q22)
+{
+    static const int32_t side = 1 << 21;
+    const int32_t at[5][2] = {
+        {-side, -side}, {side, -side}, {side, side}, {-side, side}, {0, -side - out_q22}};
+
+    box_over_plane(300);
+    CHECK(find(700, 0));
+    CHECK_EQ(pool.used, 4);
+    contacts[4] = contacts[3];
+    contacts[4].key.kind = CANDIDATE_EDGE_EDGE;
+    for (int i = 0; i < 5; i++) {
+        int shift = contact_arm_bits(&bodies[0]) - 22;
+
+        contacts[i].side[0].arm_q30[0] = (int32_t)carom_shl(at[i][0], shift);
+        contacts[i].side[0].arm_q30[1] = (int32_t)carom_shl(at[i][1], shift);
+    }
+}
+
+static void test_thin_keeps(void)
+{
+    const int32_t side = 1 << 22;
+
+    square(side / 40);
+    CHECK_EQ(contact_thin(contacts, 5), 4);
+    square(0);
+    CHECK_EQ(contact_thin(contacts, 5), 4);
+    square(side / 25); /* it stands out */
+    CHECK_EQ(contact_thin(contacts, 5), 5);
+    square(side / 40); /* it is nearer than both */
+    contacts[4].gap_q22 -= 100;
+    CHECK_EQ(contact_thin(contacts, 5), 5);
+    square(side / 40); /* of a vertex */
+    contacts[4].key.kind = contacts[3].key.kind;
+    CHECK_EQ(contact_thin(contacts, 5), 5);
+    square(side / 40); /* of another face */
+    contacts[4].normal.c[0] += 1 << 21;
+    CHECK_EQ(contact_thin(contacts, 5), 5);
+    square(side / 40); /* the surface moves */
+    contacts[4].drift.c[2] = 1;
+    CHECK_EQ(contact_thin(contacts, 5), 5);
+    square(side / 40); /* four hold a face */
+    contacts[3] = contacts[4];
+    CHECK_EQ(contact_thin(contacts, 4), 4);
+}
+
 static void test_full(void)
 {
     box_over_plane(300);
@@ -644,6 +761,8 @@ const struct test tests_contact[] = {
     {"contact/doubt", test_doubt},
     {"contact/clear", test_clear},
     {"contact/merge", test_merge},
+    {"contact/thin", test_thin},
+    {"contact/thin_keeps", test_thin_keeps},
     {"contact/full", test_full},
     {"contact/force", test_force},
     {"contact/vertex_on_vertex", test_vertex_on_vertex},
