@@ -9,11 +9,16 @@
 
 #include "carom_fix.h"
 
-/* Before a loop of three: GCC counts it at -O2, which takes as long as the loop has to do. */
+/*
+ * Before a loop of three: GCC counts it at -O2, which takes as long as the loop has to do. A board where room
+ * for code is short has it empty.
+ */
+#ifndef FIX_UNROLL
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
 #define FIX_UNROLL _Pragma("GCC unroll 3")
 #else
 #define FIX_UNROLL
+#endif
 #endif
 
 /* The four library functions that the engine may call; <string.h> is not freestanding. */
