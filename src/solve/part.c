@@ -41,8 +41,10 @@ bool rest_approaches(struct rest *r)
 
 void rest_part(struct rest *r)
 {
-    struct rest_sweep sw = {
-        .plastic = true, .frictionless = true, .residual = REST_RESIDUAL_IMPACT};
+    struct rest_sweep sw = {.plastic = true,
+                            .frictionless = true,
+                            .calm = rest_up_to_two(r),
+                            .residual = REST_RESIDUAL_IMPACT};
 
     load(r, false);
     for (uint32_t i = 0; i < r->count; i++) {

@@ -31,7 +31,8 @@ struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
-    bool exact; /* an impact of a body or two: without momentum, to the last place */
+    bool calm;  /* without momentum, each sweep takes energy away */
+    bool exact; /* an impact of a body or two: calm, and to the last place */
     int32_t residual;
     int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
     bool rolls;        /* resting contact, with rolling friction: no contact is an impact */

@@ -16,12 +16,12 @@
 #include "../pairs/island.h"
 #include "impact.h"
 
-#define REST_BITS           23
-#define REST_SWEEPS_MAX     16  /* of an impact */
-#define REST_SWEEPS_PLASTIC 60  /* without momentum */
-#define REST_SWEEPS_EXACT   120 /* of an impact of a body or two, without momentum */
-#define REST_SWEEPS_FEW     40 /* of resting contact at a few places, which goes on in the next frame */
-#define REST_SWEEPS_MANY    48 /* and at many */
+#define REST_BITS         23
+#define REST_SWEEPS_MAX   16  /* of an impact */
+#define REST_SWEEPS_CALM  60  /* without momentum */
+#define REST_SWEEPS_EXACT 120 /* of an impact of a body or two, without momentum */
+#define REST_SWEEPS_FEW   40 /* of resting contact at a few places, which goes on in the next frame */
+#define REST_SWEEPS_MANY  48 /* and at many */
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 

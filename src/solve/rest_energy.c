@@ -108,6 +108,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
     bool exact = rest_up_to_two(r);
     struct rest_sweep plastic = {.plastic = true,
                                  .frictionless = true,
+                                 .calm = true,
                                  .exact = exact,
                                  .residual = exact ? REST_RESIDUAL_EXACT : REST_RESIDUAL_IMPACT};
     int bits = lasting ? LASTING_BITS : ROUNDING_BITS;

@@ -8,14 +8,13 @@
 #define OUTGREW_HURRIED 2
 
 /*
- * Resting contacts that are slower than this part of the residual are left alone. With all of it they
+ * Contacts that are slower than this part of the residual are left alone. With all of it they
  * would never get below it, and sweeps would run on.
  */
 #define DEAD_DIVISOR 8
 
 /* So many contacts, or fewer, are swept without momentum. */
-#define UNHURRIED_REST   3
-#define UNHURRIED_IMPACT 3
+#define UNHURRIED 3
 
 /* Each push rounds dv and du: so often an exact solve forms them anew from the impulses, and goes on. */
 #define EXACT_SUMS 2
@@ -421,7 +420,7 @@ static void into_cones(struct rest *r)
 static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
     int rounds = sw->exact              ? REST_SWEEPS_EXACT
-                 : sw->plastic          ? REST_SWEEPS_PLASTIC
+                 : sw->calm             ? REST_SWEEPS_CALM
                  : !sw->rolls           ? REST_SWEEPS_MAX
                  : r->count <= REST_FEW ? REST_SWEEPS_FEW
                                         : REST_SWEEPS_MANY;
@@ -448,9 +447,8 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
      * away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->plastic && !sw->exact &&
-                   n > (sw->rolls ? UNHURRIED_REST : UNHURRIED_IMPACT);
-    const int32_t quiet = sw->rolls ? sw->residual / DEAD_DIVISOR : 0;
+    bool calm = sw->calm || sw->exact, hurries = may_hurry && !calm && n > UNHURRIED;
+    const int32_t quiet = calm ? 0 : sw->residual / DEAD_DIVISOR;
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
