@@ -28,6 +28,7 @@ static inline struct parts parts_of(const int64_t v[3], int bits)
 {
     struct parts p;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         p.high[k] = (int32_t)(v[k] >> bits);
         p.low[k] = (int32_t)(v[k] & (((int64_t)1 << bits) - 1));
@@ -52,6 +53,7 @@ static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct
     fix_sym3_dot(high, inverse->m, m->high);
     fix_sym3_dot(low, inverse->m, m->low);
     fix_sym3_dot(rest, of_rest->m, m->high);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         rest[k] += low[k] >> 2;
         out[k] = half != 0 ? (high[k] + (rest[k] >> 29) + half) >> more
@@ -83,11 +85,13 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
     uint64_t all = 0;
     int up;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         all |= (uint64_t)carom_abs(l_q40[k]);
     }
     up = 60 - fix_bits(all);
     up = up < 0 ? 0 : up;
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         m[k] = start[k] = fix_mul(carom_shl(l_q40[k], up), tau_q30, 31);
     }
@@ -96,6 +100,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         struct parts of_m = parts_of(m, 31), of_u;
 
         inverse_mul_parts(b, next, &of_m, b->mesh->inverse.e + 40 + up - 60);
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             int64_t d = next[k] - u_q60[k];
 
@@ -110,6 +115,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         m[1] = start[1] + cross_part(&of_m, &of_u, 2, 0);
         m[2] = start[2] + cross_part(&of_m, &of_u, 0, 1);
     }
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         u->c[k] = (int32_t)carom_round(u_q60[k], 30);
     }
@@ -119,6 +125,7 @@ void body_place_origin(struct body *b, const struct body_state *s)
 {
     struct body_path *path = &b->path;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
         path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
@@ -131,6 +138,7 @@ void body_place(struct body *b, const struct body_state *s)
     struct body_path *path = &b->path;
 
     body_place_origin(b, s);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         path->v.c[k] = path->g.c[k] = 0;
         path->u.c[k] = 0;
@@ -181,6 +189,7 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
     int32_t part_q30 = to_q30 - from_q30, cut_q30;
 
     start.rotation = body_rotation_at(b, from_q30);
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int64_t v = path->v.c[k] + 2 * fix_mul_q30(path->g.c[k], from_q30);
 
@@ -198,6 +207,7 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
         /* w / d, d < 1.1 */
         cut_q30 = carom_mul_q30(u2_q30, carom_mul_q30(from_q30, from_q30));
         cut_q30 = (int32_t)(((int64_t)part_q30 << 30) / (CAROM_ONE_Q30 + cut_q30));
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             path->u.c[k] = carom_mul_q30(path->u.c[k], cut_q30);
         }
@@ -239,6 +249,7 @@ carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30)
     const struct body_path *path = body_path(b);
     carom_v3_q32 way;
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         int64_t way_q40 = path->v.c[k] + path->g.c[k];
 
@@ -257,6 +268,7 @@ carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30)
     int32_t u[3];
 
     if (path->turns && t_q30 > 0) {
+        FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             u[k] = carom_mul_q30(path->u.c[k], t_q30);
         }
@@ -270,6 +282,7 @@ void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int
 {
     carom_v3_q32 way = body_way_at(b, t_q30);
 
+    FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         s->position.c[k] += way.c[k];
         if (gravity && gravity->c[k] != 0) {
