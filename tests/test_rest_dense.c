@@ -267,7 +267,7 @@ static void impulse(double p[3])
 
 static void solve_both(struct outcome *out, double mu, int32_t residual)
 {
-    struct rest_sweep sweep = {.residual = residual, .exact = true};
+    struct rest_sweep sweep = {.residual = residual, .calm = true, .exact = true};
     double before[3], after[3], dense[3], swept[3], push, across[3], speed, slip;
 
     velocity(&contacts[0], before);

@@ -177,11 +177,6 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
 /* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
 #define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
 
-static inline int64_t contact_cosine_q30(const struct contact *a, const struct contact *b)
-{
-    return carom_dot(a->normal.c, b->normal.c) >> 30;
-}
-
 /* Faces lie on each other when no part of their normals differs by more. */
 #define CONTACT_LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
 

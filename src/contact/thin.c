@@ -20,11 +20,6 @@ struct place {
     int32_t c[3];
 };
 
-static int64_t dot(const int32_t a[3], const int32_t b[3])
-{
-    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
-}
-
 static inline void subtract(const int32_t a[3], const int32_t b[3], int32_t d[3])
 {
     d[0] = a[0] - b[0];
@@ -60,13 +55,13 @@ static bool is_between(const struct place *at, const struct place *one, const st
 
     subtract(at->c, one->c, e);
     subtract(other->c, one->c, d);
-    along = dot(d, e);
+    along = carom_dot(d, e);
     if (along <= 0) {
         return false;
     }
-    square = dot(d, d);
+    square = carom_dot(d, d);
     /* along an axis it is 2^14 at most, so all of this is below 2^60 */
-    off2 = dot(e, e) * square - along * along;
+    off2 = carom_dot(e, e) * square - along * along;
     square /= STANDS_OUT_DIVISOR;
     return along < square * STANDS_OUT_DIVISOR && off2 < square * square;
 }
@@ -92,8 +87,8 @@ static uint32_t nearest(const struct place *places, uint32_t n, uint32_t i)
         int32_t d[3];
 
         subtract(places[j].c, places[i].c, d);
-        if (j != i && dot(d, d) < least) {
-            least = dot(d, d);
+        if (j != i && carom_dot(d, d) < least) {
+            least = carom_dot(d, d);
             best = j;
         }
     }

@@ -32,7 +32,7 @@ struct rest_sweep {
     bool plastic; /* impacts end at 0: the frictionless solution of the energy rule */
     bool frictionless;
     bool calm;  /* without momentum, each sweep takes energy away */
-    bool exact; /* an impact of a body or two: calm, and to the last place */
+    bool exact; /* to the last place, calm as well: an impact of a body or two */
     int32_t residual;
     int64_t loose_q40; /* a change of velocity that is as good as none; 0: none is */
     bool rolls;        /* resting contact, with rolling friction: no contact is an impact */

@@ -355,7 +355,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         return result;
     }
     if (impacts) {
-        sw.exact = rest_up_to_two(r);
+        sw.calm = sw.exact = rest_up_to_two(r);
         sw.residual = sw.exact ? REST_RESIDUAL_EXACT : REST_RESIDUAL_IMPACT;
         sw.rolls = false;
     }

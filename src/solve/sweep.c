@@ -447,8 +447,8 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
      * away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool calm = sw->calm || sw->exact, hurries = may_hurry && !calm && n > UNHURRIED;
-    const int32_t quiet = calm ? 0 : sw->residual / DEAD_DIVISOR;
+    bool hurries = may_hurry && !sw->calm && n > UNHURRIED;
+    const int32_t quiet = sw->calm ? 0 : sw->residual / DEAD_DIVISOR;
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
@@ -468,13 +468,10 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
             }
         }
         ran_out = moved > sw->residual;
-        if ((!ran_out && sums == 0) || outgrown(r)) {
+        if (outgrown(r) || (!ran_out && (sums == 0 || !rest_sum_up(r)))) {
             break;
         }
-        if (!ran_out) {
-            rest_sum_up(r);
-            sums--;
-        }
+        sums -= !ran_out;
         if (hurries && round < rounds - 1) {
             accelerate(r, &age);
         }
