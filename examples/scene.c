@@ -158,6 +158,15 @@ static void lay(int i, struct carom_body_def *def)
     def->velocity = def->spin;
 }
 
+/* On each other on the plane, each a little aside of the one below. */
+static void stack(int i, struct carom_body_def *def)
+{
+    lay(0, def);
+    def->position.c[0] = CAROM_POSITION_MM(i % 3 * 10);
+    def->position.c[1] = CAROM_POSITION_MM(i % 2 * 10);
+    def->position.c[2] = CAROM_POSITION_MM(252 + 502 * i);
+}
+
 /* How a scene's bodies start; their meshes are scene_meshes' business. */
 static const struct scene_recipe {
     const char *name;
@@ -182,6 +191,7 @@ static const struct scene_recipe {
     {"brick", &box_start, NULL, 0, 3, 10},
     {"boxes3", &dull_start, one_by_one, 2, 2, 6},
     {"boxes10", &box_start, lay, 9, 0, 0},
+    {"stack10", &box_start, stack, 9, 0, 0},
     {"pile", &head_start, pile, 15, 0, 0},
     {"pile32", &head_start, wide_pile, 31, 0, 0},
     {"flight32", &head_start, fly, 31, 0, 0},

@@ -15,6 +15,7 @@
  *   brick       the box on the plane, with fewer hits of a body and fewer sweeps
  *   boxes3      three boxes that fall on the field of 128 faces one after the other
  *   boxes10     ten of them, put on the plane
+ *   stack10     ten of them on each other
  *   pile        16 boxes, tetrahedra and L-shapes, poured on the field
  *   pile32      32 bodies of 12 to 80 faces, poured on the field
  *   flight32    the same, thrown up from just above the field

@@ -149,6 +149,7 @@ static const struct materials {
     {"brick", &plane_mesh, {&box_mesh}, 0},
     {"boxes3", &field128_mesh, {&box_mesh}, 13},
     {"boxes10", &plane_mesh, {&box_mesh}, 0},
+    {"stack10", &plane_mesh, {&box_mesh}, 0},
     {"pile", &field_mesh, {&box_mesh, &tetrahedron_mesh, &l_mesh}, 13},
     {"pile32", &field_mesh, {SMALL_BODIES}, 13},
     {"flight32", &field_mesh, {SMALL_BODIES}, 13},
