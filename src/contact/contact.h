@@ -51,9 +51,11 @@ struct contact_work {
     struct contact_lever lever[2];
     struct contact_roll *roll; /* of the pair, if this is the contact that has it; else NULL */
     bool rolls : 1;            /* and it takes part in the sweeps at hand */
+    bool waits : 1;            /* K, in place of its inverse: until the contact pushes */
     bool inverted : 1;         /* false: K is too uneven for an inverse in 30 bits */
     bool slides : 1;           /* drag_q28 and step are there: from the first time that it slides */
     int8_t fine_bits;          /* of impulses, below the solver's unit */
+    int8_t k_shift;            /* K that waits has 30 - k_shift fractional bits */
     PHASE_TAG(phase)
     int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
     int64_t target_q40; /* wanted V'.N */

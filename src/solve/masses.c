@@ -178,8 +178,7 @@ static int shorten(const int64_t k_q30[6], int32_t k[6])
 bool rest_prepare_masses(struct contact *c)
 {
     int64_t k_q30[6];
-    int32_t k[6], adjoint[6], det;
-    int shift;
+    int32_t *k;
 
     prepare_shares(c);
     for (int s = 0; s < 2; s++) {
@@ -189,23 +188,31 @@ bool rest_prepare_masses(struct contact *c)
     }
     find_k(c, k_q30);
     refine_unit(c, k_q30);
-    shift = shorten(k_q30, k);
-    det = adjugate(adjoint, k);
     PHASE_BEGIN(c->work->phase, CONTACT_INVERSE);
+    k = contact_inverse(c);
+    c->work->k_shift = (int8_t)shorten(k_q30, k);
+    c->work->waits = true;
     c->work->slides = false;
+    c->work->mass_q24 =
+        rest_clamp(carom_shl(fix_largest(k), c->work->k_shift) >> (6 + c->work->fine_bits));
+    return true;
+}
+
+void rest_invert(struct contact *c)
+{
+    int32_t *k = contact_inverse(c), adjoint[6], det = adjugate(adjoint, k);
+
+    c->work->waits = false;
     c->work->inverted = det >= 1 << 9;
-    c->work->mass_q24 = rest_clamp(carom_shl(fix_largest(k), shift) >> (6 + c->work->fine_bits));
     if (c->work->inverted) {
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
-        /* up is at most 20 for a determinant of 10 bits, shift at least 2 */
+        /* up is at most 20 for a determinant of 10 bits, k_shift at least 2 */
         for (int i = 0; i < 6; i++) {
-            contact_inverse(c)[i] =
-                (int32_t)carom_round((int64_t)adjoint[i] * inverse, 29 + shift - up);
+            k[i] = (int32_t)carom_round((int64_t)adjoint[i] * inverse, 29 + c->work->k_shift - up);
         }
     }
-    return true;
 }
 
 /*

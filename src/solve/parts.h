@@ -94,6 +94,8 @@ static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
 void rest_prepare_body(struct body *b);
 /* Returns false when a body's turn_bits had to be raised: then all of its contacts must be prepared anew. */
 bool rest_prepare_masses(struct contact *c);
+/* K^-1, which a contact needs when it pushes; many that rest do not. */
+void rest_invert(struct contact *c);
 /* What a contact that slides needs besides. */
 void rest_prepare_slide(struct contact *c);
 

@@ -279,6 +279,9 @@ static int64_t visit(struct contact *c, int32_t quiet)
     if (((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) | (v[2] ^ (v[2] >> 31))) < quiet) {
         return 0;
     }
+    if (c->work->friction_q16 > 0 && c->work->waits) {
+        rest_invert(c);
+    }
     if (c->work->friction_q16 == 0 || !c->work->inverted || !stick(c, v, &g)) {
         slide(c, error, v, &g);
     }
