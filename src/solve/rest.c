@@ -19,7 +19,7 @@
 /* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
 #define CALM_DIVISOR 8
 /* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
-#define MOVES_SKINS 2
+#define MOVES_SKINS 8
 /* and then a change of velocity by this part of a skin a frame is as good as none. */
 #define LOOSE_DIVISOR 8
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
