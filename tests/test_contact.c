@@ -460,7 +460,7 @@ static bool hardly_stands_out(const struct contact *c, uint32_t n, double parts)
     return false;
 }
 
-/* Of two boxes on each other the corners of their common part that hardly stand out are dropped. */
+/* Two boxes lie on each other: only corners of their common part that hardly stand out are dropped. */
 static void test_thin(void)
 {
     struct test_random r = {11};

@@ -373,9 +373,25 @@ static void turned_inertia(struct test_random *r, const double side[3], struct c
     }
 }
 
+/* That of the n-th box, turned, from cubes to needles of 500:1, with any exponent. */
+static void some_inertia(struct test_random *r, int n, struct carom_sym3 *a)
+{
+    double side[3];
+
+    for (int k = 0; k < 3; k++) {
+        side[k] = power(2, (int)test_random_range(r, 0, n % 2 ? 5 : 1)) +
+                  (double)test_random_range(r, 0, 100) / 200;
+    }
+    if (n % 4 == 0) {
+        side[n % 3] = 500 * side[(n + 1) % 3];
+    }
+    turned_inertia(r, side, a);
+    a->e += (int32_t)test_random_range(r, -20, 60);
+}
+
 /*
- * Boxes from cubes to needles of 500:1, turned, with any exponent. Digits that both words leave, 2^-59
- * of the largest entry, count as often as the moments of inertia differ, up to 2^18 times.
+ * Digits that both words leave, 2^-59 of the largest entry, count as often as the moments of inertia
+ * differ, up to 2^18 times.
  */
 static void test_invert(void)
 {
@@ -383,17 +399,8 @@ static void test_invert(void)
 
     for (int n = 0; n < CASES; n++) {
         struct carom_sym3 a, b, rest;
-        double side[3];
 
-        for (int k = 0; k < 3; k++) {
-            side[k] = power(2, (int)test_random_range(&r, 0, n % 2 ? 5 : 1)) +
-                      (double)test_random_range(&r, 0, 100) / 200;
-        }
-        if (n % 4 == 0) {
-            side[n % 3] = 500 * side[(n + 1) % 3];
-        }
-        turned_inertia(&r, side, &a);
-        a.e += (int32_t)test_random_range(&r, -20, 60);
+        some_inertia(&r, n, &a);
         CHECK_EQ(mass_invert(&a, &b, &rest), 0);
         CHECK(inverse_error(&a, &b, &rest) < 1e-10);
     }
@@ -424,17 +431,8 @@ static void test_spread(void)
     for (int n = 0; n < CASES; n++) {
         struct carom_sym3 a;
         struct carom_spread s;
-        double side[3];
 
-        for (int k = 0; k < 3; k++) {
-            side[k] = power(2, (int)test_random_range(&r, 0, n % 2 ? 5 : 1)) +
-                      (double)test_random_range(&r, 0, 100) / 200;
-        }
-        if (n % 4 == 0) {
-            side[n % 3] = 500 * side[(n + 1) % 3];
-        }
-        turned_inertia(&r, side, &a);
-        a.e += (int32_t)test_random_range(&r, -20, 60);
+        some_inertia(&r, n, &a);
         mass_spread(&a, &s);
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j <= i; j++) {
