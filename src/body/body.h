@@ -220,17 +220,17 @@ static inline const struct body_path *body_solved(const struct body *b)
     return &b->path;
 }
 
-/* What surfaces did on a body in a step; they did more. By what they lift an island between steps. */
-static inline struct fix_wide body_work2(const struct body *b)
+/* What surfaces did on a body in a step; and to read it. By what they lift an island between steps. */
+static inline struct fix_wide *body_work2(struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return b->work2;
+    return &b->work2;
 }
 
-static inline void body_add_work2(struct body *b, struct fix_wide work2)
+static inline const struct fix_wide *body_worked2(const struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    b->work2 = fix_wide_add(b->work2, work2);
+    return &b->work2;
 }
 
 static inline int64_t *body_lift_q32(struct body *b)
@@ -262,18 +262,19 @@ void body_spin_most(const struct body_state *s, carom_v3_q40 *w);
 /* The momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);
-/* p.v + L.w, twice the kinetic energy, 80 fractional bits. */
-struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
-                              const carom_m3_q30 *r);
+/* Add p.v + L.w, twice the kinetic energy, 80 fractional bits. */
+void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
+                       const carom_m3_q30 *r);
 
 /* No less than that, and sooner: for bodies that hardly move. */
-struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s);
+void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b,
+                            const struct body_state *s);
 
 /*
- * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
- * is lifted by a part of its skin gains that much; anything above is not lifting.
+ * Add sign times what closing an overlap of skins may add to twice the kinetic energy in a frame:
+ * 0.3 m |g| skin. A body that is lifted by a part of its skin gains that much; anything above is not lifting.
  */
-struct fix_wide body_lift2(const struct body *b);
+void body_add_lift2(struct fix_wide *sum, const struct body *b, int sign);
 
 /* out = m v for a symmetric m within 2^30; |v| < 2^62; out may be v. */
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);

@@ -176,25 +176,31 @@ inline uint64_t fix_sum(const int64_t v[3])
 
 /* a * b as a 128-bit number, exact. */
 struct fix_wide fix_wide_mul(int64_t a, int64_t b);
-struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);
-struct fix_wide fix_wide_neg(struct fix_wide a);
-/* sum += a * b; a * 2^s for 0 <= s < 64. */
+/* Sums are formed in place: sum += v, sum -= v, sum += a b, sum += a . b; sum 2^s, 0 <= s < 64. */
+void fix_wide_add(struct fix_wide *sum, const struct fix_wide *v);
+void fix_wide_subtract(struct fix_wide *sum, const struct fix_wide *v);
 void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b);
-struct fix_wide fix_wide_up(struct fix_wide a, int s);
-/* a . b of two vectors, exact. */
-struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3]);
+void fix_wide_add_dot(struct fix_wide *sum, const int64_t a[3], const int64_t b[3]);
+void fix_wide_shift_up(struct fix_wide *sum, int s);
 /* -1, 0 or 1. */
-int fix_wide_sign(struct fix_wide a);
+int fix_wide_sign(const struct fix_wide *a);
 /* Bits of |a|. */
-int fix_wide_bits(struct fix_wide a);
+int fix_wide_bits(const struct fix_wide *a);
 /* floor(a / 2^s) truncated to 64 bits; 0 <= s <= 127. */
-int64_t fix_wide_shift(struct fix_wide a, int s);
+int64_t fix_wide_shift(const struct fix_wide *a, int s);
+/* floor(a / 2^s); 0 < s < 64. */
+struct fix_wide fix_wide_down(const struct fix_wide *a, int s);
+/* The bits of the largest of three. */
+int fix_wide_bits3(const struct fix_wide a[3]);
 
 /*
  * a / b as mantissa and exponent, accurate to 2^-29 of the quotient. b != 0 (0 gives 0).
  * Used once a mesh or an impact, never in an inner loop.
  */
-struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b);
+struct fix_scaled fix_wide_ratio(const struct fix_wide *a, const struct fix_wide *b);
+/* The same over a number of 64 bits, and of two of them. */
+struct fix_scaled fix_wide_over(const struct fix_wide *a, int64_t b);
+struct fix_scaled fix_ratio(int64_t a, int64_t b);
 
 /* v as mantissa and exponent: value = v * 2^-q. Truncates below 30 bits, to nearest. */
 struct fix_scaled fix_scale(int64_t v, int q);

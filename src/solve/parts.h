@@ -73,14 +73,8 @@ static inline bool rest_up_to_two(const struct rest *r)
     return next == ISLAND_END || r->bodies[next].next_in_island == ISLAND_END;
 }
 
-/* Twice what a surface that moves does by a contact's impulse, q80. */
-static inline struct fix_wide rest_work2(const struct contact *c)
-{
-    const int64_t *drift = c->drift.c, twice[3] = {2 * drift[0], 2 * drift[1], 2 * drift[2]};
-
-    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(contact_impulse(c)->c, twice)
-                                                 : (struct fix_wide){0, 0};
-}
+/* Add `times` twice what a surface that moves does by a contact's impulse, q80; 1 or -1 times. */
+void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times);
 
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
 static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
@@ -218,10 +212,11 @@ void rest_save_momenta(struct rest *r);
 
 /*
  * The energy rule for several contacts, after the impulses were applied: if energy rose above what
- * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as
- * far as needed. In lasting contact it may rise by a 256th: the frame gives that back in the end.
+ * it was before, and where contact `lifts` above what that may add, go back towards the frictionless
+ * plastic solution as far as needed. In lasting contact it may rise by a 256th: the frame gives that back
+ * in the end.
  */
-void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting);
+void rest_energy_rule(struct rest *r, bool lifts, bool lasting);
 
 /*
  * After sweeps that ran out: take out without friction what places still approach by, where they do.

@@ -296,17 +296,6 @@ static bool lasts(const struct rest *r)
     return false;
 }
 
-/* What resting contacts may add to twice the energy of the bodies at hand. */
-static struct fix_wide lift2(const struct rest *r)
-{
-    struct fix_wide sum = {0, 0};
-
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
-    }
-    return sum;
-}
-
 static void note_unsettled(struct rest *r, bool unsettled)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
@@ -369,7 +358,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
-    rest_energy_rule(r, impacts && !lasting ? (struct fix_wide){0, 0} : lift2(r), lasting);
+    rest_energy_rule(r, !impacts || lasting, lasting);
     note_unsettled(r, sw.ran_out && rest_approaches(r));
     return CAROM_OK;
 }
@@ -387,9 +376,8 @@ static void book_work(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
-        struct body *b = c->side[0].body;
 
-        body_add_work2(b, rest_work2(c));
+        rest_add_work2(body_work2(c->side[0].body), c, 1);
     }
 }
 

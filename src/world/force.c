@@ -59,11 +59,11 @@ static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q4
     struct fix_wide sum = fix_wide_mul(a_q32, b_q40);
 
     fix_wide_add_product(&sum, -c_q32, d_q40);
-    if (fix_wide_bits(sum) > 32 + 61) {
+    if (fix_wide_bits(&sum) > 32 + 61) {
         return false;
     }
     fix_wide_add_product(&sum, (int64_t)1 << 31, 1);
-    *out = fix_wide_shift(sum, 32);
+    *out = fix_wide_shift(&sum, 32);
     return true;
 }
 
