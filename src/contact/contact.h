@@ -190,13 +190,13 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
                      carom_v3_q30 *normal);
 
 /* Fractional bits of arm_q30 taken as a length. */
-static inline int contact_arm_bits(const struct body *b)
+inline int contact_arm_bits(const struct body *b)
 {
     return 30 + 22 - b->unit_bits;
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */
-static inline int32_t contact_arm_along(const struct contact *c, int k)
+inline int32_t contact_arm_along(const struct contact *c, int k)
 {
     int down = contact_arm_bits(c->side[0].body) - 22;
 

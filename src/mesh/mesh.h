@@ -10,7 +10,7 @@
 #include "zlist.h"
 
 /* Vertex v relative to the centre of mass, exact. */
-static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
+inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
 {
     const int16_t *quanta = mesh->raw.vertices[v];
     const int32_t *centre = mesh->mass.centre.c, one = (int32_t)1 << (22 - mesh->raw.quantum_bits);

@@ -86,7 +86,7 @@ int64_t fix_sqrt_above(uint64_t v);
  * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
  * bits: a = high 2^32 + low with low unsigned. Quick where s is a constant.
  */
-#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_PRODUCTS
 int64_t fix_mul(int64_t a, int32_t b, int s);
 int64_t fix_mul_q30(int64_t a, int32_t b);
 int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
@@ -233,7 +233,7 @@ void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 
 /* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
-static inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
 {
     const int32_t x = v[0], y = v[1], z = v[2];
 

@@ -60,7 +60,7 @@ void rest_list_islands(struct rest *r);
 bool rest_take_island(struct rest *r);
 
 /* Contact i, below r->count, of the island at hand. */
-static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
+inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 {
     return &r->list.contacts[r->list.contacts[r->first + i].order];
 }
