@@ -410,7 +410,7 @@ static void test_mul_scaled(void)
 static struct fix_wide square_sum(const int64_t v[3])
 {
     return wide_sum(fix_wide_mul(v[0], v[0]),
-                        wide_sum(fix_wide_mul(v[1], v[1]), fix_wide_mul(v[2], v[2])));
+                    wide_sum(fix_wide_mul(v[1], v[1]), fix_wide_mul(v[2], v[2])));
 }
 
 static int compare_square(int64_t a, struct fix_wide b)

@@ -143,8 +143,7 @@ void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct 
  * p.v + L.w is at most |p| |v| + |L| |w|. |v| is |p| / m, and an L of no more than 2^-n of the calm
  * one turns by less than 2^-n half radians: see calm_angular_q40, which also leaves room for roundings.
  */
-void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b,
-                            const struct body_state *s)
+void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s)
 {
     uint64_t p_q40 = fix_sum(s->momentum.c), l_q40 = fix_sum(s->angular.c);
     int64_t speed_q40;

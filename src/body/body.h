@@ -267,8 +267,7 @@ void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct 
                        const carom_m3_q30 *r);
 
 /* No less than that, and sooner: for bodies that hardly move. */
-void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b,
-                            const struct body_state *s);
+void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s);
 
 /*
  * Add sign times what closing an overlap of skins may add to twice the kinetic energy in a frame:

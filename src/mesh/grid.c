@@ -81,6 +81,33 @@ struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face)
     return z;
 }
 
+bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
+                    uint32_t *cells)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+    struct zface z = mesh_zface(mesh, face);
+    struct scan_cells scan;
+    struct scan_run run;
+    uint32_t cell = 0;
+
+    mesh_scan_face(&scan, mesh, face);
+    while (scan_cells_next(&scan, &run)) {
+        for (int32_t col = run.x0; col < run.x1; col++) {
+            int16_t z0, z1;
+
+            if (cell++ < *cells) {
+                continue;
+            }
+            zface_interval(&z, &grid, col, run.y, &z0, &z1);
+            if (!zlist_enter(lists, (uint32_t)(run.y * grid.nx + col), z0, z1, (uint16_t)face)) {
+                return false;
+            }
+            ++*cells;
+        }
+    }
+    return true;
+}
+
 /*
  * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is
  * left with where it starts, and a cell's faces stand in rising order.

@@ -320,6 +320,5 @@ void mass_spread(const struct carom_sym3 *in, struct carom_spread *out)
     fix_wide_add_product(&det, c, third[2]);
     root_column(out->column[0], &out->e[0], first, corner, one, in->e);
     root_column(out->column[1], &out->e[1], second, corner, minor, in->e);
-    root_column(out->column[2], &out->e[2], third, minor,
-                fix_wide_over(&det, 1), in->e);
+    root_column(out->column[2], &out->e[2], third, minor, fix_wide_over(&det, 1), in->e);
 }

@@ -2,6 +2,8 @@
 /* Velocities and impulses at a contact, and vectors cut to a length: every solver uses them. */
 #include "parts.h"
 
+extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
+
 int32_t rest_clamp(int64_t v)
 {
     return rest_within(v, INT32_MAX);

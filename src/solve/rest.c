@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "parts.h"
 
-extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
-
 /*
  * A gap from half a skin to this much more than a skin is as good as closed. A rigid body cannot
  * follow targets that differ by a hair at each of its contacts: nothing is asked for there, or the

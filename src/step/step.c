@@ -10,8 +10,6 @@
  */
 #include "parts.h"
 
-extern inline bool step_active(const struct step *s, uint32_t i);
-
 /* Hits of a body in a frame, unless the caller says otherwise. */
 #define EVENTS_OF_A_BODY 32
 
