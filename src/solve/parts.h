@@ -125,15 +125,16 @@ static inline void rest_push_side(struct body *b, const struct contact_lever *le
     int32_t own[3] = {impulse[0], impulse[1], impulse[2]};
 
     if (lever->share_q30 != CAROM_ONE_Q30) {
-        own[0] = carom_mul_q30(own[0], lever->share_q30);
-        own[1] = carom_mul_q30(own[1], lever->share_q30);
-        own[2] = carom_mul_q30(own[2], lever->share_q30);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            own[k] = carom_mul_q30(own[k], lever->share_q30);
+        }
     }
-    in->used |= rest_add(&in->dv[0], own[0] >> down) | rest_add(&in->dv[1], own[1] >> down) |
-                rest_add(&in->dv[2], own[2] >> down) |
-                rest_add(&in->du[0], turn_by(lever, 0, own, s)) |
-                rest_add(&in->du[1], turn_by(lever, 1, own, s)) |
-                rest_add(&in->du[2], turn_by(lever, 2, own, s));
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        in->used |= rest_add(&in->dv[k], own[k] >> down) |
+                    rest_add(&in->du[k], turn_by(lever, k, own, s));
+    }
 }
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */

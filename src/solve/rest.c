@@ -114,8 +114,9 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 /* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
 static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 {
-    return way_q22 < 1 << 22 ? (way_q22 << 40) / (time_q30 >> 8)
-                             : ((way_q22 << 30) / (time_q30 >> 8)) << 10;
+    int more = way_q22 < 1 << 22 ? 10 : 0;
+
+    return ((way_q22 << (30 + more)) / (time_q30 >> 8)) << (10 - more);
 }
 
 /*
