@@ -82,14 +82,9 @@ static inline int64_t cross_part(const struct parts *m, const struct parts *u, i
 static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30, carom_v3_q30 *u)
 {
     int64_t start[3], m[3], u_q60[3] = {0, 0, 0};
-    uint64_t all = 0;
     int up;
 
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        all |= (uint64_t)carom_abs(l_q40[k]);
-    }
-    up = 60 - fix_bits(all);
+    up = 60 - fix_bits3(l_q40);
     up = up < 0 ? 0 : up;
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -111,9 +106,10 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
             break;
         }
         of_u = parts_of(u_q60, 30);
-        m[0] = start[0] + cross_part(&of_m, &of_u, 1, 2);
-        m[1] = start[1] + cross_part(&of_m, &of_u, 2, 0);
-        m[2] = start[2] + cross_part(&of_m, &of_u, 0, 1);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            m[k] = start[k] + cross_part(&of_m, &of_u, (k + 1) % 3, (k + 2) % 3);
+        }
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {

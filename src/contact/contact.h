@@ -203,7 +203,7 @@ inline int32_t contact_arm_along(const struct contact *c, int k)
     return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
 }
 
-static inline carom_v3_q22 contact_arm(const struct contact *c)
+inline carom_v3_q22 contact_arm(const struct contact *c)
 {
     return (carom_v3_q22){
         {contact_arm_along(c, 0), contact_arm_along(c, 1), contact_arm_along(c, 2)}};

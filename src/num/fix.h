@@ -161,7 +161,7 @@ static inline int32_t fix_largest(const int32_t v[3])
 }
 
 /* a x b, exact; each component of both above INT32_MIN: two products are below 2^63. */
-static inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
+inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
     out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];

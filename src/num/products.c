@@ -10,3 +10,4 @@ extern inline void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, cons
 extern inline int64_t fix_mul(int64_t a, int32_t b, int s);
 extern inline int64_t fix_mul_q30(int64_t a, int32_t b);
 extern inline int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
+extern inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3]);

@@ -3,6 +3,7 @@
 #include "parts.h"
 
 extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
+extern inline uint64_t rest_used(const int64_t v[4]);
 
 int32_t rest_clamp(int64_t v)
 {

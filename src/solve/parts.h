@@ -147,10 +147,15 @@ static inline uint64_t rest_square32(const int32_t v[3])
 }
 
 /* Bits that four numbers use, signs apart. */
-static inline uint64_t rest_used(const int64_t v[4])
+inline uint64_t rest_used(const int64_t v[4])
 {
-    return (uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63)) |
-                      (v[3] ^ (v[3] >> 63)));
+    int64_t used = v[3] ^ (v[3] >> 63);
+
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        used |= v[k] ^ (v[k] >> 63);
+    }
+    return (uint64_t)used;
 }
 
 /* Shift four numbers down until each has at most so many bits; returns how far. */
