@@ -62,7 +62,7 @@ static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct
 }
 
 /* Component m_i u_j - m_j u_i of m x u in the format of m; m has 31 bits in its low parts, u 30. */
-static inline int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
+FIX_APART static int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
 {
     int64_t low = (int64_t)m->high[i] * u->low[j] - (int64_t)m->high[j] * u->low[i];
 

@@ -43,8 +43,8 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
 }
 
 /* The sweep of a body; returns how far it may be off that. */
-static int32_t sweep_body(const struct interfere *w, const struct body *b, int64_t from_q30,
-                          struct body_sweep *sweep)
+FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body *b,
+                                    int64_t from_q30, struct body_sweep *sweep)
 {
     if (w->by_paths) {
         body_path_sweep(b, sweep);

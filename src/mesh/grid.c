@@ -7,7 +7,7 @@
  * both ends, so that vertices on a regular grid do not fall on the sides of cells; where a cell too
  * many would be needed for that, an extent of whole cells has no overhang.
  */
-static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
+FIX_APART static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
 {
     int32_t side = (int32_t)1 << shift;
     int32_t n = (high - low) / side + 1;

@@ -21,6 +21,13 @@
 #endif
 #endif
 
+/* Before a function that GCC would copy into its callers where that takes more room than calls of it. */
+#if defined __GNUC__ && defined __OPTIMIZE_SIZE__
+#define FIX_APART __attribute__((noinline))
+#else
+#define FIX_APART
+#endif
+
 /* The four library functions that the engine may call; <string.h> is not freestanding. */
 void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
 void *memmove(void *to, const void *from, size_t bytes);

@@ -64,7 +64,7 @@ static bool may_rest(const struct contact *c, int32_t e_q30)
 }
 
 /* What gravity gives in a frame. */
-static int64_t pull_q40(const struct contact *c)
+FIX_APART static int64_t pull_q40(const struct contact *c)
 {
     int64_t largest_q40 = 0;
 
@@ -112,7 +112,7 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 }
 
 /* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
-static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 {
     int more = way_q22 < 1 << 22 ? 10 : 0;
 
@@ -409,7 +409,7 @@ static bool may_enter(const struct contact *c)
 }
 
 /* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
-static bool lies(const struct rest *r, const struct contact *c)
+FIX_APART static bool lies(const struct rest *r, const struct contact *c)
 {
     int64_t pull = pull_q40(c);
     carom_v3_q40 v;

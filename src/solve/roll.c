@@ -87,7 +87,7 @@ static bool rolls_up(const struct rest *r, uint32_t i)
 }
 
 /* The arm of the pair of contact i. */
-static int64_t arm_q22(const struct rest *r, uint32_t i)
+FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
 {
     const struct contact *c = rest_contact(r, i);
     int64_t spin_q40[3] = {0, 0, 0}, speed_q40, whole_q40 = 1, grown;

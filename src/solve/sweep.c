@@ -228,7 +228,7 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct g
 }
 
 /* Take up a change into the impulses. */
-static inline void accumulate(struct contact_work *in, const struct gain *g)
+FIX_APART static void accumulate(struct contact_work *in, const struct gain *g)
 {
     in->normal_impulse += g->along;
     FIX_UNROLL
@@ -414,7 +414,7 @@ static void into_cones(struct rest *r)
     }
 }
 
-static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
+FIX_APART static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
     int rounds = sw->exact              ? REST_SWEEPS_EXACT
                  : sw->calm             ? REST_SWEEPS_CALM

@@ -10,7 +10,7 @@
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
 
-static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
+FIX_APART static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
     return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
 }

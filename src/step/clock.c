@@ -101,7 +101,7 @@ static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 }
 
 /* What is left of a frame is not to be a sliver. */
-static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
+FIX_APART static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
 {
     return left_q30 > slice_q30 && left_q30 - slice_q30 < STEP_SLICE_MIN_Q30 &&
                    slice_q30 > 2 * STEP_SLICE_MIN_Q30

@@ -25,7 +25,7 @@ static uint32_t count_active(const struct carom_world *w)
 }
 
 /* What the last step found is gone. */
-static void forget(struct carom_world *w)
+FIX_APART static void forget(struct carom_world *w)
 {
     w->event_count = 0;
     w->interfere.stale = true;

@@ -150,7 +150,7 @@ static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
     return count;
 }
 
-static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
+FIX_APART static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
 {
     for (uint32_t i = 0; i < 3 * count; i++) {
         uint16_t c = (uint16_t)v[i / 3][i % 3];
