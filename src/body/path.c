@@ -5,17 +5,21 @@
 /* out = q (1, u), normalised: q turned by Cayley(u) in the body's axes. */
 static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3])
 {
-    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
+    const int32_t *v = &q->c[1];
 
     /*
      * A slice turns by half a radian at the spin of its start; the midpoint's may be more, but
      * |u| <= 0.25 + |u|^2 / sqrt 3 by the triangle inequality of inertias, so |u| <= 0.31 and the
      * length of the product is at most 1.05.
      */
-    out->c[0] = q->c[0] + (int32_t)carom_round(-x * u[0] - y * u[1] - z * u[2], 30);
-    out->c[1] = q->c[1] + (int32_t)carom_round(w * u[0] + y * u[2] - z * u[1], 30);
-    out->c[2] = q->c[2] + (int32_t)carom_round(w * u[1] + z * u[0] - x * u[2], 30);
-    out->c[3] = q->c[3] + (int32_t)carom_round(w * u[2] + x * u[1] - y * u[0], 30);
+    out->c[0] = q->c[0] + (int32_t)carom_round(-carom_dot(v, u), 30);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int64_t part = (int64_t)q->c[0] * u[k] + (int64_t)v[i] * u[j] - (int64_t)v[j] * u[i];
+
+        out->c[1 + k] = v[k] + (int32_t)carom_round(part, 30);
+    }
     body_normalise(out);
 }
 

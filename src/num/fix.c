@@ -341,18 +341,16 @@ int64_t fix_length_bound(const int64_t v[3])
 
 void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
 {
-    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
-
     /* twice each product: a shift of 29 in place of 30 */
-    m->c[0][0] = (int32_t)(CAROM_ONE_Q30 - carom_round(y * y + z * z, 29));
-    m->c[1][1] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + z * z, 29));
-    m->c[2][2] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
-    m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
-    m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
-    m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
-    m->c[2][0] = (int32_t)carom_round(x * z - w * y, 29);
-    m->c[1][2] = (int32_t)carom_round(y * z - w * x, 29);
-    m->c[2][1] = (int32_t)carom_round(y * z + w * x, 29);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int64_t x = q->c[1 + i], y = q->c[1 + j], wz = (int64_t)q->c[0] * q->c[1 + k];
+
+        m->c[k][k] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
+        m->c[i][j] = (int32_t)carom_round(x * y - wz, 29);
+        m->c[j][i] = (int32_t)carom_round(x * y + wz, 29);
+    }
 }
 
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
