@@ -147,30 +147,32 @@ struct body {
     bool woke;     /* wake: in the static check at hand */
     PHASE_TAG(work_phase)
 
-    /* islands, by whoever asks for them: 6 bytes */
+    /* islands, by whoever asks for them: 6 bytes with `contacts` */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-    uint16_t contacts;               /* solve: where the island's contacts are listed */
 
-    /* world: what follows from mesh, mass and force, 104 bytes */
+    /* clock, 4 bytes; its times are below */
+    bool member;   /* step, cut: its path is new; answer: of the island of the hit at hand */
+    bool placed;   /* clock: its path is that of a place where it is looked at */
+    bool stands;   /* answer: for what is left of the frame */
+    bool strained; /* clock: left a path that turns before its end */
+
+    /* world: what follows from mesh, mass and force, 80 bytes */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22;   /* EPS: a resting contact keeps half of this gap to all */
-    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
+    int32_t skin_q22;          /* EPS: a resting contact keeps half of this gap to all */
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
-    /* clock, 16 bytes: the part of the frame that the path at hand takes */
+    /* clock, 12 bytes: the part of the frame that the path at hand takes */
     int32_t from_q30, to_q30;
     uint16_t events; /* answer: hits that it took part in, in this frame */
     uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
     uint8_t shorter; /* answer: slices are shorter by so many factors of 4; one less after each */
-    bool member;     /* step, cut: its path is new; answer: of the island of the hit at hand */
-    bool placed;     /* clock: its path is that of a place where it is looked at */
-    bool stands;     /* answer: for what is left of the frame */
-    bool strained;   /* clock: left a path that turns before its end */
+
+    uint16_t contacts; /* solve: where the island's contacts are listed */
 
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
@@ -186,6 +188,9 @@ struct body {
     /* solve: before it, 72 bytes */
     carom_v3_q40 saved_momentum; /* for the energy rule */
     carom_v3_q40 velocity, spin; /* between steps, while a snapshot is read: its force */
+
+    /* world, 24 bytes: through the centre of mass, until the caller changes it; hashed, saved */
+    carom_v3_q40 force;
 
     union {                    /* by PHASE_TAG work_phase; 16 bytes */
         struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */

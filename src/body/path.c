@@ -15,7 +15,7 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
     out->c[0] = q->c[0] + (int32_t)carom_round(-carom_dot(v, u), 30);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
         int64_t part = (int64_t)q->c[0] * u[k] + (int64_t)v[i] * u[j] - (int64_t)v[j] * u[i];
 
         out->c[1 + k] = v[k] + (int32_t)carom_round(part, 30);
@@ -112,7 +112,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         of_u = parts_of(u_q60, 30);
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
-            m[k] = start[k] + cross_part(&of_m, &of_u, (k + 1) % 3, (k + 2) % 3);
+            m[k] = start[k] + cross_part(&of_m, &of_u, fix_next(k), fix_next(fix_next(k)));
         }
     }
     FIX_UNROLL

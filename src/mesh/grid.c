@@ -153,7 +153,7 @@ static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_
 {
     for (int k = 0; k < 3; k++) {
         const int16_t *a = raw->vertices[raw->faces[f][k]];
-        const int16_t *b = raw->vertices[raw->faces[f][(k + 1) % 3]];
+        const int16_t *b = raw->vertices[raw->faces[f][fix_next(k)]];
         int outside = 0;
 
         for (int i = 0; i < 3; i++) {

@@ -45,7 +45,7 @@ static int64_t determinant(const struct tetrahedron *t)
     int64_t sum = 0;
 
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        int j = fix_next(i), k = fix_next(j);
 
         sum += t->p[0][i] * ((int64_t)b[j] * c[k] - (int64_t)b[k] * c[j]);
     }
@@ -78,7 +78,7 @@ static void sum_faces(const struct frame *about, struct sums *out)
             fix_wide_add_product(&out->moment[k], det, s[k]);
         }
         for (int n = 0; n < 6; n++) {
-            int i = n % 3, j = n < 3 ? i : (i + 1) % 3;
+            int i = n % 3, j = n < 3 ? i : fix_next(i);
             int64_t sum = (int64_t)s[i] * s[j];
 
             for (int c = 0; c < 3; c++) {
@@ -163,8 +163,8 @@ static void second_moments(const struct frame *about, struct fix_wide *det20,
     fix_wide_shift_up(&sums.det, 2);
     fix_wide_add(det20, &sums.det);
     for (int i = 0; i < 3; i++) {
-        fix_wide_add(&inertia20[i], &sums.second[(i + 1) % 3]);
-        fix_wide_add(&inertia20[i], &sums.second[(i + 2) % 3]);
+        fix_wide_add(&inertia20[i], &sums.second[fix_next(i)]);
+        fix_wide_add(&inertia20[i], &sums.second[fix_next(fix_next(i))]);
         fix_wide_subtract(&inertia20[3 + i], &sums.second[3 + i]);
     }
 }

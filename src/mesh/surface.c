@@ -246,7 +246,7 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
         p[k] = mesh->raw.vertices[corner[k]];
     }
     for (int k = 0; k < 3; k++) {
-        part[k] = area(p[(k + 1) % 3], p[(k + 2) % 3], place, shift);
+        part[k] = area(p[fix_next(k)], p[fix_next(fix_next(k))], place, shift);
         part[k] = part[k] < 0 ? 0 : part[k];
         whole += part[k];
     }

@@ -344,7 +344,7 @@ void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
     /* twice each product: a shift of 29 in place of 30 */
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
         int64_t x = q->c[1 + i], y = q->c[1 + j], wz = (int64_t)q->c[0] * q->c[1 + k];
 
         m->c[k][k] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));

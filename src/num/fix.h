@@ -161,6 +161,12 @@ static inline int32_t fix_larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+/* The axis after another: 1, 2, 0. Less code than a remainder. */
+static inline int fix_next(int axis)
+{
+    return axis < 2 ? axis + 1 : 0;
+}
+
 /* The largest of |x|, |y| and |z|, each above INT32_MIN. */
 static inline int32_t fix_largest(const int32_t v[3])
 {

@@ -41,7 +41,7 @@ static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_s
     if (all >> 31 == 0) {
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
+            int i = fix_next(k), j = fix_next(i);
 
             out[k] = short_product(v[i], arm[j], bits) - short_product(v[j], arm[i], bits);
         }
@@ -49,7 +49,7 @@ static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_s
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
 
         out[k] = fix_mul(v[i], arm[j], bits) - fix_mul(v[j], arm[i], bits);
     }

@@ -69,7 +69,7 @@ static void find_own_k(int64_t k_q30[6], const int32_t turn[3][3], int turn_bits
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         k_q30[k] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[k], turn[k]), down);
-        k_q30[3 + k] = carom_round(carom_dot(turn[k], turn[(k + 1) % 3]), down);
+        k_q30[3 + k] = carom_round(carom_dot(turn[k], turn[fix_next(k)]), down);
     }
 }
 

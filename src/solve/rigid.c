@@ -99,7 +99,7 @@ static void add_angular(const struct rest *r, const carom_v3_q32 *about, uint32_
         x[k] = state->position.c[k] - about->c[k];
     }
     for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
+        int m = fix_next(k), n = fix_next(m);
 
         fix_wide_add_product(&sum_q72[k], x[m], p[n]);
         fix_wide_add_product(&sum_q72[k], -x[n], p[m]);
@@ -237,7 +237,7 @@ struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid
 
     arm_q30(r, rigid, i, arm);
     for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3, bits = 62 - rigid->length_bits;
+        int m = fix_next(k), n = fix_next(m), bits = 62 - rigid->length_bits;
 
         v.c[k] += fix_mul(w[m], arm[n], bits) - fix_mul(w[n], arm[m], bits);
     }

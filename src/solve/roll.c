@@ -58,7 +58,7 @@ static bool rises(const struct contact_side *side)
     struct fix_wide sum = {0, 0};
 
     for (int k = 0; b && k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+        int m = fix_next(k), n = fix_next(m), bits = contact_arm_bits(b);
 
         fix_wide_add_product(&sum,
                              fix_mul(b->spin.c[n], side->arm_q30[m], bits) -

@@ -27,7 +27,7 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
     bool slips;
 
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
 
         cross_q70[k] = fix_wide_mul(t[i], f->n.c[j]);
         fix_wide_add_product(&cross_q70[k], -t[j], f->n.c[i]);
@@ -47,8 +47,8 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
             far = carom_abs(f->n.c[k]) < carom_abs(f->n.c[far]) ? k : far;
         }
         across[far] = 0;
-        across[(far + 1) % 3] = -f->n.c[(far + 2) % 3];
-        across[(far + 2) % 3] = f->n.c[(far + 1) % 3];
+        across[fix_next(far)] = -f->n.c[fix_next(fix_next(far))];
+        across[fix_next(fix_next(far))] = f->n.c[fix_next(far)];
     }
     fix_normalise(&f->u, across);
     carom_cross(f->v.c, f->n.c, f->u.c, 30);
@@ -157,7 +157,7 @@ static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
         own[k] = CAROM_ONE_Q30;
         impulse[k] = (int32_t)fix_round_shift(-(m->sign * m->share_q30), -p->arm_shift);
     } else {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k - 3), j = fix_next(i);
 
         for (int l = 0; l < 3; l++) {
             own[3 + l] = m->inertia_q30[fix_sym3_at[k - 3][l]];
@@ -291,7 +291,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
 
         for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
+            int i = fix_next(k), j = fix_next(i);
 
             out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) +
                                      times_arm(m, dw[i], j) - times_arm(m, dw[j], i));
@@ -311,7 +311,7 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
         out_q40[k] = fix_round_shift(share[k], -p->arm_shift) - dv[k];
     }
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
 
         out_q40[3 + k] =
             fix_round_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);

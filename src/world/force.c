@@ -112,7 +112,7 @@ int carom_body_push(struct carom_world *w, int body, const carom_v3_q40 *impulse
         arm_q32[k] = point->c[k] - pushed.position.c[k];
     }
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
         int64_t moment;
 
         if (!moment_q40(arm_q32[i], impulse->c[j], arm_q32[j], impulse->c[i], &moment)) {
