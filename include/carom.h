@@ -168,8 +168,26 @@ struct carom_mesh {
  * Memory that carom_mesh_build needs for any mesh of so many vertices and faces; a constant
  * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
  */
-#define CAROM_MESH_BYTES(vertices, faces)                                                          \
-    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)146 * (size_t)(faces) + 7) / 8 * 8)
+#define CAROM_MESH_BYTES(vertices, faces) CAROM_MESH_BYTES_((size_t)(vertices), (size_t)(faces))
+#define CAROM_MESH_BYTES_(v, f)                                                                    \
+    (CAROM_ARRAY_(struct carom_face, f) +                                                          \
+     CAROM_ARRAY_(struct carom_edge, CAROM_MESH_EDGES_(v, f)) + CAROM_ARRAY_(uint32_t, (v) + 1) +  \
+     CAROM_ARRAY_(uint32_t, 2 * CAROM_MESH_EDGES_(v, f)) +                                         \
+     CAROM_ARRAY_(struct carom_leaf, CAROM_MESH_LEAVES_(v, f)) + CAROM_ARRAY_(uint16_t, f) +       \
+     CAROM_ARRAY_(uint16_t, CAROM_MESH_LEAF_VERTICES_(v, f)) + CAROM_ARRAY_(uint8_t, 3 * (f)) +    \
+     CAROM_ARRAY_(uint32_t, CAROM_MESH_CELLS_(f) + 1) +                                            \
+     CAROM_ARRAY_(struct carom_zref, CAROM_MESH_ENTRIES_(f)))
+/* The most there may be of edges, of leaves and their vertices, of cells and of their entries. */
+#define CAROM_MESH_EDGES_(v, f)                                                                    \
+    CAROM_MORE_(3 * (f) / 2, CAROM_LESS_(3 * (f), 3 * (v)-6)) /* v is 3 or more */
+#define CAROM_MESH_LEAVES_(v, f)                                                                   \
+    (((f) + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES * ((v) > CAROM_LEAF_VERTICES ? 2 : 1))
+#define CAROM_MESH_LEAF_VERTICES_(v, f) CAROM_LESS_(3 * (f), (v)*CAROM_MESH_LEAVES_(v, f))
+#define CAROM_MESH_CELLS_(f)            CAROM_LESS_(1024, 2 * (f) / 3 + 1)
+#define CAROM_MESH_ENTRIES_(f)          (8 * (f))
+#define CAROM_ARRAY_(type, n)           (((n) * sizeof(type) + 7) / 8 * 8)
+#define CAROM_LESS_(a, b)               ((a) < (b) ? (a) : (b))
+#define CAROM_MORE_(a, b)               ((a) > (b) ? (a) : (b))
 
 /*
  * Whether a raw mesh can be built: what carom_mesh_build would return.
