@@ -50,7 +50,8 @@ struct rest {
 
     /* the island being solved: its first body, and its contacts in the order of islands */
     uint16_t island;
-    uint8_t sweep_cap; /* 0: none but those above */
+    uint16_t roll_count; /* that roll in it, of `rolls` */
+    uint8_t sweep_cap;   /* 0: none but those above */
     bool
         loaded; /* the bodies' velocities are those of the states: only their paths changed since */
     uint32_t first, count;

@@ -2,6 +2,11 @@
 /* The end of a step: bodies that left, events, statistics. */
 #include "parts.h"
 
+bool step_may_note(const struct carom_world *w)
+{
+    return w->event_count < w->config.caps.pairs + w->config.caps.bodies;
+}
+
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 {
     struct carom_event *e = &w->events[w->event_count];
