@@ -280,7 +280,7 @@ const carom_v3_q40 *rest_moment(const struct contact *c)
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 {
-    struct fix_scaled unit = c->work->mass_unit;
+    struct fix_scaled unit = contact_mass_unit(c);
     struct contact_roll *roll = c->work->roll;
 
     if (!c->work->rolls) {

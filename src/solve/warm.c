@@ -93,20 +93,6 @@ static void to_units(int64_t v[4], struct fix_scaled inverse)
     }
 }
 
-/* One over a contact's unit of impulses, which is 2^n of the mass of one of its bodies. */
-static struct fix_scaled inverse_unit(const struct contact *c)
-{
-    struct fix_scaled unit = c->work->mass_unit, inverse;
-    const struct body *b = c->side[0].body;
-
-    if (b->mass.m != unit.m) {
-        b = c->side[1].body;
-    }
-    inverse = b->inverse_mass;
-    inverse.e += b->mass.e - unit.e;
-    return inverse;
-}
-
 static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,
                  int32_t divisor)
 {
@@ -117,8 +103,8 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     if (!w) {
         return;
     }
-    inverse = inverse_unit(c);
-    inverse.e += sw->unit;
+    inverse = contact_lighter(c)->inverse_mass;
+    inverse.e += sw->unit - c->work->fine_bits;
     along = rest_along_q40(&w->tangent_q40, &c->normal);
     impulse[3] = w->normal_q40;
     FIX_UNROLL
