@@ -9,6 +9,36 @@
 #define STAYED_DIVISOR 1024
 #define MOVED_DIVISOR  20
 
+struct rest_warm_parts rest_warm_parts(const struct rest_warm *w)
+{
+    struct rest_warm_parts parts;
+
+    parts.normal_q40 = rest_along_q40(&w->impulse, &w->normal);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        parts.tangent.c[k] = w->impulse.c[k] - fix_mul_q30(parts.normal_q40, w->normal.c[k]);
+    }
+    return parts;
+}
+
+/* Bounds: with a normal's components up to 2^30.1 and parts up to 2^60 an impulse is below 2^61.1. */
+bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts)
+{
+    const int64_t most = (int64_t)1 << 60, *across = parts->tangent.c;
+    const int32_t longest = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10);
+
+    for (int k = 0; k < 3; k++) {
+        int32_t n = w->normal.c[k];
+
+        if (n > longest || n < -longest || across[k] > most || across[k] < -most ||
+            parts->normal_q40 > most || parts->normal_q40 < -most) {
+            return false;
+        }
+        w->impulse.c[k] = across[k] + fix_mul_q30(parts->normal_q40, n);
+    }
+    return rest_warm_parts(w).normal_q40 == parts->normal_q40;
+}
+
 /* Where the impulses of a pair begin: they are in the order of pairs. */
 static uint32_t first_warm(const struct rest *r, const struct pair *p)
 {
@@ -43,6 +73,13 @@ static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int3
     return distance;
 }
 
+/* Whether an impulse is there that no contact has begun with yet. */
+static bool presses(const struct rest_warm *w)
+{
+    return (w->impulse.c[0] | w->impulse.c[1] | w->impulse.c[2]) != 0 &&
+           rest_along_q40(&w->impulse, &w->normal) != 0;
+}
+
 /*
  * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
  * within a part of a's radius. The impulses of its pair begin at `first`.
@@ -61,7 +98,7 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
          w < end && w->a == p->a && w->b == p->b; w++) {
         int32_t distance = distance_below(&w->arm, &arm, nearest);
 
-        if (distance < nearest && w->normal_q40 != 0 &&
+        if (distance < nearest && presses(w) &&
             carom_dot(w->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
             nearest = distance;
             best = w;
@@ -97,6 +134,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
                  int32_t divisor)
 {
     struct rest_warm *w = find_warm(r, c, first, divisor);
+    struct rest_warm_parts parts;
     struct fix_scaled inverse;
     int64_t along, impulse[4];
 
@@ -105,16 +143,17 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     }
     inverse = contact_lighter(c)->inverse_mass;
     inverse.e += sw->unit - c->work->fine_bits;
-    along = rest_along_q40(&w->tangent_q40, &c->normal);
-    impulse[3] = w->normal_q40;
+    parts = rest_warm_parts(w);
+    along = rest_along_q40(&parts.tangent, &c->normal);
+    impulse[3] = parts.normal_q40;
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        impulse[k] = w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]);
+        impulse[k] = parts.tangent.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
     to_units(impulse, inverse);
     memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
     c->work->normal_impulse = impulse[3];
-    w->normal_q40 = 0; /* used */
+    w->impulse = (carom_v3_q40){{0, 0, 0}}; /* used */
 }
 
 /* Contacts that have no impulse yet, from what is no farther than a part of a radius. */
@@ -160,11 +199,6 @@ void rest_store_warm(struct rest *r)
         w->normal = c->normal;
         arm = contact_arm(c);
         carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
-        w->normal_q40 = rest_along_q40(contact_impulse(c), &c->normal);
-        FIX_UNROLL
-        for (int k = 0; k < 3; k++) {
-            w->tangent_q40.c[k] =
-                contact_impulse(c)->c[k] - fix_mul_q30(w->normal_q40, w->normal.c[k]);
-        }
+        w->impulse = *contact_impulse(c);
     }
 }
