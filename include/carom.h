@@ -265,9 +265,9 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(832, 832)
-#define CAROM_PAIR_BYTES           CAROM_BYTES_(68, 68)
-#define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(824, 824)
+#define CAROM_PAIR_BYTES           CAROM_BYTES_(64, 64)
+#define CAROM_CONTACT_BYTES        CAROM_BYTES_(248, 272)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
@@ -278,7 +278,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * each contact, and for as many pairs as have one, to solve.
  */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
-#define CAROM_WORK_BYTES    CAROM_BYTES_(216, 216)
+#define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)
 #define CAROM_ROLL_BYTES    64
 #define CAROM_FOUND_BYTES   48
 

@@ -9,15 +9,21 @@
 #define STAYED_DIVISOR 1024
 #define MOVED_DIVISOR  20
 
+/* What the part along the normal leaves of an impulse. */
+static inline void find_tangent(const struct rest_warm *w, int64_t normal_q40, int64_t tangent[3])
+{
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        tangent[k] = w->impulse.c[k] - fix_mul_q30(normal_q40, w->normal.c[k]);
+    }
+}
+
 struct rest_warm_parts rest_warm_parts(const struct rest_warm *w)
 {
     struct rest_warm_parts parts;
 
     parts.normal_q40 = rest_along_q40(&w->impulse, &w->normal);
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        parts.tangent.c[k] = w->impulse.c[k] - fix_mul_q30(parts.normal_q40, w->normal.c[k]);
-    }
+    find_tangent(w, parts.normal_q40, parts.tangent.c);
     return parts;
 }
 
@@ -73,19 +79,13 @@ static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int3
     return distance;
 }
 
-/* Whether an impulse is there that no contact has begun with yet. */
-static bool presses(const struct rest_warm *w)
-{
-    return (w->impulse.c[0] | w->impulse.c[1] | w->impulse.c[2]) != 0 &&
-           rest_along_q40(&w->impulse, &w->normal) != 0;
-}
-
 /*
  * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
- * within a part of a's radius. The impulses of its pair begin at `first`.
+ * within a part of a's radius. The impulses of its pair begin at `first`. One that is used is 0.
+ *   normal_q40  out  the part along its normal
  */
 static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint32_t first,
-                                   int32_t divisor)
+                                   int32_t divisor, int64_t *normal_q40)
 {
     const struct pair *p = &r->pairs[c->key.pair];
     const struct body *a = rest_body(r, c, 0);
@@ -98,10 +98,15 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
          w < end && w->a == p->a && w->b == p->b; w++) {
         int32_t distance = distance_below(&w->arm, &arm, nearest);
 
-        if (distance < nearest && presses(w) &&
+        if (distance < nearest && (w->impulse.c[0] | w->impulse.c[1] | w->impulse.c[2]) != 0 &&
             carom_dot(w->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
-            nearest = distance;
-            best = w;
+            int64_t along_q40 = rest_along_q40(&w->impulse, &w->normal);
+
+            if (along_q40 != 0) {
+                nearest = distance;
+                best = w;
+                *normal_q40 = along_q40;
+            }
         }
     }
     return best;
@@ -133,22 +138,21 @@ static void to_units(int64_t v[4], struct fix_scaled inverse)
 static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,
                  int32_t divisor)
 {
-    struct rest_warm *w = find_warm(r, c, first, divisor);
-    struct rest_warm_parts parts;
-    struct fix_scaled inverse;
+    carom_v3_q40 tangent;
     int64_t along, impulse[4];
+    struct rest_warm *w = find_warm(r, c, first, divisor, &impulse[3]);
+    struct fix_scaled inverse;
 
     if (!w) {
         return;
     }
     inverse = contact_lighter(c)->inverse_mass;
     inverse.e += sw->unit - c->work->fine_bits;
-    parts = rest_warm_parts(w);
-    along = rest_along_q40(&parts.tangent, &c->normal);
-    impulse[3] = parts.normal_q40;
+    find_tangent(w, impulse[3], tangent.c);
+    along = rest_along_q40(&tangent, &c->normal);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        impulse[k] = parts.tangent.c[k] - fix_mul_q30(along, c->normal.c[k]);
+        impulse[k] = tangent.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
     to_units(impulse, inverse);
     memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
