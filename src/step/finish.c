@@ -41,7 +41,6 @@ bool step_retire(struct step *s, uint32_t i)
     last.rotation = state->rotation;
     *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
     state->out = 1;
-    step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
     w->interfere.stale = true;
     return true;
 }
@@ -134,6 +133,9 @@ int step_finish_events(struct step *s)
         if (state->woken) {
             step_add_event(w, CAROM_EVENT_WAKE, (uint16_t)i, 0);
             state->woken = 0;
+        }
+        if (state->out && !before->bodies[i].out) {
+            step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
         }
         if (state->asleep && !before->bodies[i].asleep) {
             step_add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);

@@ -164,7 +164,7 @@ int step_solve(struct step *s, bool warm);
 
 /*
  * Append an event while there is room. Before the end of a step there is room for as many hits and cuts as
- * there may be pairs and bodies: the rest is for bodies that are out and for what the end finds.
+ * there may be pairs and bodies: the rest is for what the end finds.
  */
 bool step_may_note(const struct carom_world *w);
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b);

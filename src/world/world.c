@@ -1,16 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "world.h"
 
-/*
- * What a step may report at most: hits of pairs, and of bodies that they are out, and rest or waking, ...
- */
-#define EVENTS(bodies, pairs) ((size_t)(pairs) + 2 * (size_t)(bodies))
-/* ... and in its end, when nothing is solved any more, beginnings and ends of touching. */
-#define FOUND_EVENTS(pairs) (2 * (size_t)(pairs))
+/* What a step may report at most: hits of pairs, and as many cuts as there is room for, ... */
+#define EVENTS(bodies, pairs) ((size_t)(pairs) + (size_t)(bodies))
 
 /* The sizes that CAROM_WORLD_BYTES promises: what there is for one of each ... */
-#define OF_BODY                                                                                    \
-    (sizeof(struct body) + 2 * sizeof(struct body_state) + 2 * sizeof(struct carom_event))
+#define OF_BODY    (sizeof(struct body) + 2 * sizeof(struct body_state) + sizeof(struct carom_event))
 #define OF_PAIR    (3 * sizeof(struct pair) + sizeof(struct pair_work) + sizeof(struct carom_event))
 #define OF_CONTACT (sizeof(struct contact) + 2 * sizeof(struct rest_warm))
 _Static_assert(OF_BODY <= CAROM_BODY_BYTES, "CAROM_BODY_BYTES");
@@ -38,8 +33,6 @@ _Static_assert((sizeof(union world_scratch) + 7) / 8 * 8 <= CAROM_SCRATCH_BYTES,
                "CAROM_SCRATCH_BYTES");
 _Static_assert(sizeof(struct contact_work) <= CAROM_WORK_BYTES, "CAROM_WORK_BYTES");
 _Static_assert(sizeof(struct contact_roll) <= CAROM_ROLL_BYTES, "CAROM_ROLL_BYTES");
-_Static_assert(FOUND_EVENTS(1) * sizeof(struct carom_event) <= CAROM_FOUND_BYTES,
-               "CAROM_FOUND_BYTES");
 _Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_HEADS_BYTES");
 
 /* -------------------------------------------------------------------- init */
@@ -59,20 +52,20 @@ static size_t bytes_for(const struct carom_caps *caps)
 }
 
 /*
- * Events, and behind them the room that stages share. The events that the end of a step finds go on into
- * that: whoever works there between steps has its own part of it.
+ * Events, and behind them the room that stages share. The events that the end of a step finds, when nothing is
+ * solved any more, go on into that: beginnings and ends of touching, and of bodies that they woke, rest or are
+ * out. Whoever works there between steps has its own part of it.
  */
 static void carve_shared(struct carom_world *w, struct arena *arena)
 {
     const struct carom_caps *caps = &w->config.caps;
-    const size_t event = sizeof *w->events;
     size_t works = caps->contacts * sizeof *w->rest.works;
     size_t solve = works + CAROM_LESS_(caps->pairs, caps->contacts) * sizeof *w->rest.rolls;
-    size_t found = FOUND_EVENTS(caps->pairs) * event, scratch = (sizeof *w->scratch + 7) / 8 * 8;
+    size_t found = CAROM_FOUND_BYTES_(caps->bodies, caps->pairs);
     uint8_t *room;
 
-    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * event);
-    room = arena_carve(arena, CAROM_MORE_(solve, found + scratch));
+    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
+    room = arena_carve(arena, CAROM_MORE_(solve, found + sizeof *w->scratch));
     w->rest.works = (struct contact_work *)room;
     w->rest.rolls = (struct contact_roll *)(room + works);
     w->scratch = (union world_scratch *)(room + found);
