@@ -76,10 +76,15 @@ static inline bool rest_up_to_two(const struct rest *r)
 /* Twice what a surface that moves does by a contact's impulse, q80. */
 static inline struct fix_wide rest_work2(const struct contact *c)
 {
-    const int64_t *drift = c->drift.c, twice[3] = {2 * drift[0], 2 * drift[1], 2 * drift[2]};
+    int64_t twice[3];
 
-    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(contact_impulse(c)->c, twice)
-                                                 : (struct fix_wide){0, 0};
+    if (!c->drift) {
+        return (struct fix_wide){0, 0};
+    }
+    for (int k = 0; k < 3; k++) {
+        twice[k] = 2 * c->drift->c[k];
+    }
+    return fix_wide_dot(contact_impulse(c)->c, twice);
 }
 
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
