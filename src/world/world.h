@@ -32,7 +32,7 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 552 bytes where a pointer has 32 bits. */
+/* 560 bytes where a pointer has 32 bits. */
 struct carom_world {
     /* world: what the caller gave, and the arrays in the block; 80 bytes */
     struct carom_config config; /* gravity: the present one */
