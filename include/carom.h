@@ -279,7 +279,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * What stages work in one after the other: so much, and the events that the end of a step finds; or, to solve in,
  * so much for each contact, and for as many pairs as have one.
  */
-#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1800)
+#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
 #define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)
 #define CAROM_ROLL_BYTES    64
 
