@@ -49,7 +49,7 @@ USES = [
     ("drawing of what changed", "carom_draw_changes"),
 ]
 
-HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 192, 0, 256"}  # tests/host_pools.c
+HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
 MEMORY = [
     ("a world of the head scene", "CAROM_WORLD_BYTES(2, 1, 64, 1024, 256, 1024)"),
     ("a world of 16 boxes in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["16"]),
