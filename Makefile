@@ -276,7 +276,8 @@ $(B)/lib%.a:
 	$(TARGET_AR) rcs $@ $^
 
 link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
-    $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))
+    $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))$(if $(IMAGE_TOOL), && \
+    $(IMAGE_TOOL) $(@:.elf=$(IMAGE_SUFFIX)))
 PROGRAM := $(SUPPORT) $(SCENE_FILES) $(B)/libcarom.a | $(ALSO)
 
 $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)

@@ -185,11 +185,12 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
                                     .height = height,
                                     .stride = fb->stride,
                                     .format = fb->format,
+                                    .row = fb->row,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (!BOARD_DRAWS || !fb->pixels) {
+    if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
         return 0;
     }
     expect(carom_draw_changes(world, camera, &picture, style, &drawn), "draw");
