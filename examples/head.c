@@ -285,7 +285,7 @@ static void play(int frames)
             expect(carom_stats(world, &stats), "stats");
             draw_ticks =
                 draw(world, scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
-                     play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+                     play.lines && !fb.row ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
             if (!play.plain) {
                 scene_play_figures(&fb, stats.total_ticks, draw_ticks);
             }

@@ -7,7 +7,7 @@ DISPLAY := LCD 240 x 240, by rows
 SCENES := head450:15 boxes3:60
 CROSS := arm-none-eabi-
 NEED := arm newlib python3 node npm npm:tools/pico
-ARCH := -mcpu=cortex-m0plus -mthumb
+ARCH := -mcpu=cortex-m0plus -mthumb -DFIX_UNROLL=
 PORT := port/pico/pico.c port/pico/lcd.c port/pico/start.c port/pico/boot.S port/arm/cortex_m.c \
     port/bare/arguments.c port/bare/start.c port/arm/systick.c port/arm/multiply_v6m.S port/newlib/syscalls.c
 FAMILY_LDFLAGS := --specs=nano.specs
@@ -15,7 +15,7 @@ IMAGE_SUFFIX := .bin
 IMAGE_TOOL := tools/uf2.py
 RUNNER := tools/pico/run.mjs
 ROM_SCENES := head450 boxes3
-CAPS := 4,6,64,512,1,256
+CAPS := 4,3,24,128,1,256
 DRAW_BYTES := 28672
 PICTURES := 1
 SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact

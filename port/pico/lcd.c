@@ -44,7 +44,7 @@ static struct {
 
 static void wait_us(uint32_t since_us, uint32_t us)
 {
-    while (TIMER_MICROSECONDS - since_us < us) {
+    while (TIMER_MICROSECONDS - since_us <= us) { /* the first may be nearly over */
     }
 }
 
@@ -106,8 +106,11 @@ void lcd_wake(void)
     lcd.drawn = NOTHING;
 }
 
-static void turn_on(void)
+void lcd_turn_on(void)
 {
+    if (lcd.is_on) {
+        return;
+    }
     wait_us(lcd.woken_us, WAKE_US);
     command(SLEEP_OUT);
     drain();
@@ -160,9 +163,6 @@ static void send_row(void)
 void *lcd_row(void *context, int32_t x0, int32_t x1, int32_t y)
 {
     (void)context;
-    if (!lcd.is_on) {
-        turn_on();
-    }
     if (lcd.drawn != NOTHING) {
         send_row(); /* the other row is out by now */
     }
@@ -175,7 +175,7 @@ void *lcd_row(void *context, int32_t x0, int32_t x1, int32_t y)
 
 void lcd_finish(void)
 {
-    if (lcd.is_on && lcd.drawn != NOTHING) {
+    if (lcd.drawn != NOTHING) {
         send_row();
         drain();
         lcd.drawn = NOTHING;

@@ -43,6 +43,7 @@ void port_init(void)
 
 struct port_fb port_fb(void)
 {
+    lcd_turn_on();
     return (struct port_fb){
         .row = lcd_row, .width = LCD_SIDE, .height = LCD_SIDE, .format = PORT_RGB565};
 }
