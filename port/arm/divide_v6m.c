@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *rest);
-int64_t __divdi3(int64_t n, int64_t d);
+int64_t __gnu_ldivmod_helper(int64_t n, int64_t d, int64_t *rest);
 
 /* Two digits of 16 bits by one, d having its highest bit set; the rest is below d, and so is n's upper word. */
 static uint32_t divide_digit(uint32_t *rest, uint32_t next, uint32_t d)
@@ -70,16 +70,16 @@ uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *rest)
         }
         q = (uint64_t)first << 32 | divide_words(high, low, divisor);
     }
-    if (rest) {
-        *rest = n - q * d;
-    }
+    *rest = n - q * d;
     return q;
 }
 
-int64_t __divdi3(int64_t n, int64_t d)
+/* The helper of __aeabi_ldivmod, whose rest has the sign of n. */
+int64_t __gnu_ldivmod_helper(int64_t n, int64_t d, int64_t *rest)
 {
-    uint64_t size = n < 0 ? 0 - (uint64_t)n : (uint64_t)n;
-    uint64_t q = __udivmoddi4(size, d < 0 ? 0 - (uint64_t)d : (uint64_t)d, 0);
+    uint64_t r, size = n < 0 ? 0 - (uint64_t)n : (uint64_t)n;
+    uint64_t q = __udivmoddi4(size, d < 0 ? 0 - (uint64_t)d : (uint64_t)d, &r);
 
+    *rest = (int64_t)(n < 0 ? 0 - r : r);
     return (int64_t)((n < 0) != (d < 0) ? 0 - q : q);
 }

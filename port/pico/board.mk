@@ -4,7 +4,7 @@ CPU := Cortex-M0+
 CLOCK_MHZ := 125
 CYCLES := 1
 DISPLAY := LCD 240 x 240, by rows
-SCENES := head450:15 boxes3:60
+SCENES := head450:30 boxes3:55
 CROSS := arm-none-eabi-
 NEED := arm newlib python3 node npm npm:tools/pico
 ARCH := -mcpu=cortex-m0plus -mthumb -DFIX_UNROLL=
@@ -19,5 +19,5 @@ ROM_SCENES := head450 boxes3
 CAPS := 4,3,24,128,1,256
 DRAW_BYTES := 28672
 PICTURES := 1
-SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITES := port fix arena gauss scan zlist mass mesh_blob body impact draw_picture draw_rays
 SUITE_IMAGES := 1
