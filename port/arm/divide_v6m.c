@@ -13,8 +13,8 @@ static uint32_t divide_digit(uint32_t *rest, uint32_t next, uint32_t d)
 {
     uint32_t q = *rest / (d >> 16), r = *rest - q * (d >> 16);
 
-    /* as d's lower digit was left out, q is too large by two at most */
-    while (q >> 16 || q * (d & 0xffff) > (r << 16 | next)) {
+    /* as d's lower digit was left out, q is too large by two at most: 2^16 + 1, and the product fits */
+    while (q * (d & 0xffff) > (r << 16 | next)) {
         q--;
         r += d >> 16;
         if (r >> 16) {
