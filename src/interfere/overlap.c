@@ -8,7 +8,7 @@
  */
 #include "narrow.h"
 
-/* Boxes of bodies are compared with some room, q22. */
+/* Boxes of bodies are compared with some room, q22: more than all that is cut off here. */
 #define BOX_MARGIN_Q22 256
 
 struct interfere_query {
@@ -174,25 +174,78 @@ static bool meet(struct interfere *w, const struct target *t, uint32_t i)
 
 /* ------------------------------------------------------------------- bodies */
 
+/* The box of a mesh along an axis, from its centre of mass. */
+static int32_t side_q20(const struct carom_mesh *mesh, int side, int k)
+{
+    return mesh->box[side][k] * ((int32_t)1 << (20 - mesh->raw.quantum_bits)) -
+           (mesh->mass.centre.c[k] >> 2);
+}
+
+/* Whether the box around a's sphere, seen from b, and b's are apart. */
+static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
+{
+    int64_t around = (w->a->radius_q22 + BOX_MARGIN_Q22) >> 2;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t at = d_q32[k] >> 12;
+
+        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the box around a's own, seen from b, and b's are apart. */
+static bool box_apart(const struct interfere *w)
+{
+    const struct interfere_leaf *l = w->leaf;
+    int32_t middle[3], half[3];
+
+    for (int k = 0; k < 3; k++) {
+        int32_t low = side_q20(w->a->mesh, 0, k), high = side_q20(w->a->mesh, 1, k);
+
+        middle[k] = (low + high) / 2;
+        half[k] = (high - low) / 2 + 1;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t at = l->at.c[k], around = BOX_MARGIN_Q22 >> 2;
+
+        for (int i = 0; i < 3; i++) {
+            at += carom_mul_q30(middle[i], l->to_b.c[k][i]);
+            around += carom_mul_q30(half[i], (int32_t)carom_abs(l->to_b.c[k][i]));
+        }
+        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /*
- * Where a is as seen from b. Bounds: boxes of bodies meet, and no point of a body is more than 444
- * units from its centre or origin, so places in b's frame are within 1332 units and fit q20.
+ * Where a is as seen from b; false when their boxes are apart. Bounds: no point of a body is more than
+ * 444 units from its centre or origin, so of boxes that meet, all places in b's frame are within 1332
+ * units and fit q20.
  */
-static void place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
+static bool place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
 {
     carom_m3_q30 r_a, r_b;
     int64_t d_q32[3];
 
-    fix_matrix(&r_a, &a->rotation);
     fix_matrix(&r_b, &b->rotation);
     for (int k = 0; k < 3; k++) {
         d_q32[k] = a->position.c[k] - b->position.c[k];
     }
     fix_rotate_back(d_q32, &r_b, d_q32);
+    if (sphere_apart(w, d_q32)) {
+        return false;
+    }
     for (int k = 0; k < 3; k++) {
         w->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
     }
+    fix_matrix(&r_a, &a->rotation);
     interfere_relate(&w->leaf->to_b, &r_b, &r_a);
+    return !box_apart(w);
 }
 
 /* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
@@ -230,18 +283,17 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     struct interfere_query q;
     int result;
 
-    if (!broad_near(a.body, a.state, b.body, b.state, BOX_MARGIN_Q22)) {
+    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
+    w->a = q.swapped ? b.body : a.body;
+    w->b = q.swapped ? a.body : b.body;
+    if (!place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state)) {
         return 0;
     }
     q.out = out;
     q.room = room;
     q.count = 0;
-    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
     q.leaf = NULL;
     q.again = false;
-    w->a = q.swapped ? b.body : a.body;
-    w->b = q.swapped ? a.body : b.body;
-    place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state);
     memset(&w->leaf->change, 0, sizeof w->leaf->change);
     memset(&w->leaf->moves, 0, sizeof w->leaf->moves);
     w->leaf->near_q22 = 0;
