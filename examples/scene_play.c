@@ -117,8 +117,8 @@ void scene_play_figures(const struct port_fb *fb, uint32_t step, uint32_t draw)
 {
     for (int32_t y = fb->height - SCENE_PLAY_ROWS; y < fb->height; y++) {
         int32_t line = y - (fb->height - 2 - DIGIT_ROWS);
-        void *row = fb->row ? fb->row(NULL, 0, fb->width, y)
-                            : (uint8_t *)fb->pixels + y * fb->stride;
+        void *row =
+            fb->row ? fb->row(NULL, 0, fb->width, y) : (uint8_t *)fb->pixels + y * fb->stride;
 
         for (int32_t x = 0; x < fb->width; x++) {
             set_pixel(row, fb->format, x, false);

@@ -47,7 +47,8 @@ static uint32_t divide_words(uint32_t high, uint32_t low, uint32_t d)
 static uint32_t divide_by_wide(uint64_t n, uint64_t d)
 {
     int shift = __builtin_clz((uint32_t)(d >> 32));
-    uint32_t q = divide_words((uint32_t)(n >> 33), (uint32_t)(n >> 1), (uint32_t)(d << shift >> 32));
+    uint32_t q =
+        divide_words((uint32_t)(n >> 33), (uint32_t)(n >> 1), (uint32_t)(d << shift >> 32));
 
     q >>= 31 - shift;
     q -= q > 0;

@@ -10,7 +10,14 @@
 
 #include "rp2040.h"
 
-enum { PIN_DATA = 8, PIN_SELECT = 9, PIN_CLOCK = 10, PIN_SEND = 11, PIN_RESET = 12, PIN_LIGHT = 13 };
+enum {
+    PIN_DATA = 8,
+    PIN_SELECT = 9,
+    PIN_CLOCK = 10,
+    PIN_SEND = 11,
+    PIN_RESET = 12,
+    PIN_LIGHT = 13
+};
 #define PIN(n) (1u << (n))
 
 #define RESET_US    10

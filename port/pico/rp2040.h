@@ -78,7 +78,7 @@ enum { FUNCTION_SPI = 1, FUNCTION_UART = 2, FUNCTION_SOFTWARE = 5 };
 
 /* Section 4.4, an ARM PL022. */
 #define SPI_FRAME        REGISTER(0x40040000)
-#define SPI_BITS(n)      ((n) - 1u)
+#define SPI_BITS(n)      ((n)-1u)
 #define SPI_MODE_3       (3u << 6)
 #define SPI_CONTROL      REGISTER(0x40040004)
 #define SPI_ENABLE       (1u << 1)
