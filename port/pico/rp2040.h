@@ -38,7 +38,7 @@
 #define XOSC_STATUS       REGISTER(0x40024004)
 #define XOSC_STABLE       (1u << 31)
 #define XOSC_STARTUP      REGISTER(0x4002400c)
-#define XOSC_MILLISECONDS 47u /* 256 periods of 12 MHz each */
+#define XOSC_WAIT         282u /* times 256 periods of 12 MHz: 6 ms */
 
 /* Section 2.18, the system's phase-locked loop. */
 #define PLL_CS           REGISTER(0x40028000)

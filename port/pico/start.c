@@ -26,7 +26,7 @@ static void start_clocks(void)
     CLEAR(CLK_SYS_CTRL) = CLK_SYS_AUX;
     while (CLK_SYS_SELECTED != 1) {
     }
-    XOSC_STARTUP = XOSC_MILLISECONDS;
+    XOSC_STARTUP = XOSC_WAIT;
     REGISTER(XOSC_CTRL) = XOSC_ENABLE | XOSC_1_TO_15_MHZ;
     while (!(XOSC_STATUS & XOSC_STABLE)) {
     }
