@@ -185,11 +185,12 @@ static uint32_t draw(const struct carom_world *world, const struct carom_camera 
                                     .height = height,
                                     .stride = fb->stride,
                                     .format = fb->format,
+                                    .row = fb->row,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block};
     uint32_t start = port_ticks();
 
-    if (!BOARD_DRAWS || !fb->pixels) {
+    if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
         return 0;
     }
     expect(carom_draw_changes(world, camera, &picture, style, &drawn), "draw");
@@ -284,7 +285,7 @@ static void play(int frames)
             expect(carom_stats(world, &stats), "stats");
             draw_ticks =
                 draw(world, scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
-                     play.lines ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+                     play.lines && !fb.row ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
             if (!play.plain) {
                 scene_play_figures(&fb, stats.total_ticks, draw_ticks);
             }

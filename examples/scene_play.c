@@ -84,33 +84,30 @@ bool scene_play_draws(struct scene_play *play)
 static const uint16_t digits[10] = {075557, 026227, 071747, 071717, 055711,
                                     074717, 074757, 071111, 075757, 075717};
 
-static void set_pixel(const struct port_fb *fb, int32_t x, int32_t y, bool white)
+static void set_pixel(void *row, uint8_t format, int32_t x, bool white)
 {
-    uint8_t *row = (uint8_t *)fb->pixels + y * fb->stride;
-
-    switch (fb->format) {
+    switch (format) {
     case PORT_PALETTE8:
-        row[x] = white ? 255 : 0;
+        ((uint8_t *)row)[x] = white ? 255 : 0;
         break;
     case PORT_XRGB8888:
-        ((uint32_t *)(void *)row)[x] = white ? 0xffffff : 0;
+        ((uint32_t *)row)[x] = white ? 0xffffff : 0;
         break;
     default:
-        ((uint16_t *)(void *)row)[x] = white ? 0xffff : 0;
+        ((uint16_t *)row)[x] = white ? 0xffff : 0;
         break;
     }
 }
 
-/* A number that ends left of column x. */
-static void put_number(const struct port_fb *fb, int32_t x, uint32_t number)
+/* A line of the digits of a number that ends left of column x. */
+static void put_number(void *row, uint8_t format, int32_t x, int32_t line, uint32_t number)
 {
     do {
-        uint32_t shape = digits[number % 10];
+        uint32_t shape = digits[number % 10] >> (DIGIT_ROWS - 1 - line) * DIGIT_COLUMNS;
 
         x -= DIGIT_COLUMNS + 1;
-        for (int32_t i = 0; i < DIGIT_ROWS * DIGIT_COLUMNS; i++) {
-            set_pixel(fb, x + i % DIGIT_COLUMNS, fb->height - 2 - DIGIT_ROWS + i / DIGIT_COLUMNS,
-                      shape >> (DIGIT_ROWS * DIGIT_COLUMNS - 1 - i) & 1);
+        for (int32_t i = 0; i < DIGIT_COLUMNS; i++) {
+            set_pixel(row, format, x + i, shape >> (DIGIT_COLUMNS - 1 - i) & 1);
         }
         number /= 10;
     } while (number > 0);
@@ -119,11 +116,17 @@ static void put_number(const struct port_fb *fb, int32_t x, uint32_t number)
 void scene_play_figures(const struct port_fb *fb, uint32_t step, uint32_t draw)
 {
     for (int32_t y = fb->height - SCENE_PLAY_ROWS; y < fb->height; y++) {
+        int32_t line = y - (fb->height - 2 - DIGIT_ROWS);
+        void *row =
+            fb->row ? fb->row(NULL, 0, fb->width, y) : (uint8_t *)fb->pixels + y * fb->stride;
+
         for (int32_t x = 0; x < fb->width; x++) {
-            set_pixel(fb, x, y, false);
+            set_pixel(row, fb->format, x, false);
+        }
+        if (line >= 0 && line < DIGIT_ROWS) {
+            put_number(row, fb->format, fb->width / 3, line, step);
+            put_number(row, fb->format, 2 * fb->width / 3, line, draw);
+            put_number(row, fb->format, fb->width, line, step + draw);
         }
     }
-    put_number(fb, fb->width / 3, step);
-    put_number(fb, 2 * fb->width / 3, draw);
-    put_number(fb, fb->width, step + draw);
 }

@@ -5,7 +5,7 @@
  *   A       throws the body up
  *   arrows  tilt gravity while they are held
  *   B       shows or hides the figures
- *   SELECT  faces or lines
+ *   SELECT  faces or lines, which a display that is sent rows cannot show
  *   START   starts again; so does a body that fell off the ground
  */
 #ifndef CAROM_SCENE_PLAY_H

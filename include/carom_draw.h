@@ -44,6 +44,17 @@ struct carom_picture {
     uint8_t format;         /* enum carom_pixel_format */
     void *workspace;        /* aligned to 8; WIRE needs none, and it may be NULL */
     size_t workspace_bytes; /* at least CAROM_DRAW_BYTES_LEAST; few cost time, not results */
+
+    /*
+     * For a display that is sent rows and keeps them, so that no memory holds a whole picture; else
+     * NULL. It is called before a row is drawn and returns memory in which pixel 0 of row y lies,
+     * aligned to the size of a pixel. Pixels x0 <= x < x1 are written there, and no others. The row
+     * that it was called for before is complete by then, the last one when the picture is. Within a
+     * rectangle that changes rows come from the top down; a row may come more than once, and the
+     * last time counts. `pixels` and `stride` are not used. FLAT only, and not CAROM_GREY4.
+     */
+    void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
+    void *context; /* the row function's */
 };
 
 /*
@@ -60,7 +71,7 @@ struct carom_picture {
  * coloured. Every pixel of the picture is written, none outside of it.
  *
  * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length
- *          out of range or an eye at its target; CAROM_ERR_RANGE for a camera too far away;
+ *          out of range, a style or format that cannot be sent by rows, or an eye at its target; CAROM_ERR_RANGE for a camera too far away;
  *          CAROM_ERR_MEMORY for a workspace that is too small, or memory that is not aligned.
  *          Unless CAROM_OK, nothing is drawn.
  */

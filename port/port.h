@@ -14,10 +14,15 @@
 enum port_pixels { PORT_PALETTE8, PORT_RGB565, PORT_XRGB8888, PORT_GREY4, PORT_BGR555 };
 
 struct port_fb {
-    void *pixels; /* NULL: no display */
+    void *pixels; /* NULL: no display, or one that is sent rows */
     int32_t width, height;
     int32_t stride; /* bytes a row */
     uint8_t format; /* enum port_pixels, the same numbers as enum carom_pixel_format */
+    /*
+     * Of a display that is sent rows and keeps them, as the row function of struct carom_picture; else
+     * NULL.
+     */
+    void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
 };
 
 /* Bring up clock, timer and display. Called once, first. */
@@ -26,7 +31,7 @@ void port_init(void);
 /* The framebuffer to draw into. */
 struct port_fb port_fb(void);
 
-/* Show what is in the framebuffer and return when it may be drawn into again. */
+/* Show what is in the framebuffer, or was drawn in rows, and return when it may be drawn into again. */
 void port_present(void);
 
 /* A free-running counter that wraps at 2^32, and its rate. */

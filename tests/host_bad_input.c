@@ -98,7 +98,13 @@ static void test_null_drawing(struct lab *lab)
 {
     static uint32_t pixels[16 * 16];
     static _Alignas(8) uint8_t rows[CAROM_DRAW_BYTES(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES)];
-    struct carom_picture picture = {pixels, 16, 16, 64, CAROM_XRGB8888, rows, sizeof rows}, bad;
+    struct carom_picture bad, picture = {.pixels = pixels,
+                                         .width = 16,
+                                         .height = 16,
+                                         .stride = 64,
+                                         .format = CAROM_XRGB8888,
+                                         .workspace = rows,
+                                         .workspace_bytes = sizeof rows};
     const struct carom_camera *camera = lab->scene.camera;
     struct carom_camera inside = *camera;
     struct carom_world *w = lab->world;

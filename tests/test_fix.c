@@ -77,26 +77,82 @@ static uint64_t product_by_digits(uint64_t a, uint64_t b)
     return product;
 }
 
+/* What is likely to go wrong, in pairs, then numbers of all sizes. */
+static const int64_t edges[] = {
+    0,          1,           -1,          2,         -2,        0x7fff,        0x8000,
+    0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,     INT32_MIN,
+    UINT32_MAX, 0x100000000, 0x1ffff0001, INT64_MAX, INT64_MIN, -0xffffffffLL,
+};
+enum { EDGES = sizeof edges / sizeof edges[0], PAIRS = EDGES * EDGES + CASES };
+
+static uint64_t number_of_pair(struct test_random *r, int i, int edge)
+{
+    return (uint64_t)(i < EDGES * EDGES ? edges[edge] : random_size(r, 64));
+}
+
 /* The product that everything here is made of; on a small processor a function of the board's. */
 static void test_product(void)
 {
-    static const int64_t edges[] = {
-        0,          1,           -1,          2,         -2,        0x7fff,        0x8000,
-        0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,     INT32_MIN,
-        UINT32_MAX, 0x100000000, 0x1ffff0001, INT64_MAX, INT64_MIN, -0xffffffffLL,
-    };
-    enum { COUNT = sizeof edges / sizeof edges[0] };
     struct test_random r = {64};
 
-    for (int i = 0; i < COUNT * COUNT + CASES; i++) {
-        bool edge = i < COUNT * COUNT;
-        volatile uint64_t a = (uint64_t)(edge ? edges[i / COUNT] : random_size(&r, 64));
-        volatile uint64_t b = (uint64_t)(edge ? edges[i % COUNT] : random_size(&r, 64));
+    for (int i = 0; i < PAIRS; i++) {
+        volatile uint64_t a = number_of_pair(&r, i, i / EDGES);
+        volatile uint64_t b = number_of_pair(&r, i, i % EDGES);
         volatile int32_t low_a = (int32_t)(uint32_t)a, low_b = (int32_t)(uint32_t)b;
 
         CHECK_EQ(a * b, product_by_digits(a, b));
         CHECK_EQ((int64_t)low_a * low_b,
                  product_by_digits((uint64_t)(int64_t)low_a, (uint64_t)(int64_t)low_b));
+    }
+}
+
+/* What a quotient is: q d + r = n, r smaller than d and of n's sign. */
+static void check_quotient(uint64_t n, uint64_t d)
+{
+    uint64_t q = n / d, r = n % d;
+    int64_t signed_n = (int64_t)n, signed_d = (int64_t)d, signed_r;
+
+    CHECK(r < d);
+    CHECK_EQ(q * d + r, n);
+    if (signed_n == INT64_MIN && signed_d == -1) {
+        return;
+    }
+    signed_r = signed_n % signed_d;
+    CHECK_EQ((uint64_t)(signed_n / signed_d) * d + (uint64_t)signed_r, n);
+    CHECK(signed_r == 0 || (signed_r < 0) == (signed_n < 0));
+    CHECK((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r) <
+          (signed_d < 0 ? 0 - d : d));
+}
+
+static void check_small_quotient(uint32_t n, uint32_t d)
+{
+    int32_t signed_n = (int32_t)n, signed_d = (int32_t)d;
+
+    CHECK(n % d < d);
+    CHECK_EQ((uint32_t)(n / d * d + n % d), n);
+    if (signed_n != INT32_MIN || signed_d != -1) {
+        CHECK_EQ(signed_n / signed_d, (int64_t)signed_n / signed_d);
+        CHECK_EQ(signed_n % signed_d, (int64_t)signed_n % signed_d);
+    }
+}
+
+/* On a small processor functions of the board's too. */
+static void test_quotient(void)
+{
+    struct test_random r = {65};
+
+    for (int i = 0; i < PAIRS; i++) {
+        volatile uint64_t n = number_of_pair(&r, i, i / EDGES);
+        volatile uint64_t d = number_of_pair(&r, i, i % EDGES);
+
+        if (d != 0) {
+            check_quotient(n, d);
+            check_quotient(n | 1, d | (uint64_t)1 << 63); /* by the most */
+        }
+        if ((uint32_t)d != 0) {
+            check_quotient(n, (uint32_t)d);
+            check_small_quotient((uint32_t)n, (uint32_t)d);
+        }
     }
 }
 
@@ -540,21 +596,13 @@ static void test_rotate(void)
 }
 
 const struct test tests_fix[] = {
-    {"fix/product", test_product},
-    {"fix/rounding", test_rounding},
-    {"fix/constants", test_constants},
-    {"fix/vectors", test_vectors},
-    {"fix/bits", test_bits},
-    {"fix/sqrt", test_sqrt},
-    {"fix/mul_exact", test_mul_exact},
-    {"fix/mul_wide", test_mul_wide},
-    {"fix/wide", test_wide},
-    {"fix/ratio", test_ratio},
-    {"fix/scale", test_scale},
-    {"fix/inverse", test_inverse},
-    {"fix/mul_scaled", test_mul_scaled},
-    {"fix/length", test_length},
-    {"fix/normalise", test_normalise},
-    {"fix/rotate", test_rotate},
-    {0},
+    {"fix/product", test_product},   {"fix/quotient", test_quotient},
+    {"fix/rounding", test_rounding}, {"fix/constants", test_constants},
+    {"fix/vectors", test_vectors},   {"fix/bits", test_bits},
+    {"fix/sqrt", test_sqrt},         {"fix/mul_exact", test_mul_exact},
+    {"fix/mul_wide", test_mul_wide}, {"fix/wide", test_wide},
+    {"fix/ratio", test_ratio},       {"fix/scale", test_scale},
+    {"fix/inverse", test_inverse},   {"fix/mul_scaled", test_mul_scaled},
+    {"fix/length", test_length},     {"fix/normalise", test_normalise},
+    {"fix/rotate", test_rotate},     {0},
 };

@@ -99,7 +99,7 @@ def main():
     subprocess.run(["make", "-s", "-C", ROOT, "BOARD=" + BOARD, "build"], stdout=subprocess.DEVNULL,
                    env={k: v for k, v in os.environ.items()
                         if not k.startswith("MAKE") and k != "MFLAGS"})
-    if not os.path.exists(IMAGE):
+    if not os.path.exists(IMAGE) and "CI" not in os.environ:
         print("ok 1 - pad/plays # SKIP the board cannot be built here\n1..1")
         return 0
     failed = number = 0

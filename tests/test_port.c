@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* What a board counts: that its ticks go on, and that the instructions they stand for are exact. */
+/*
+ * What a board counts: that its ticks go on, and that the instructions they stand for are exact. What it copies,
+ * which on some boards is a function of theirs.
+ */
+#include <string.h>
+
 #include "port.h"
 #include "test.h"
 
@@ -48,4 +53,29 @@ static void ticks(void)
     CHECK(last >= 1000);
 }
 
-const struct test tests_port[] = {{"port/instructions", instructions}, {"port/ticks", ticks}, {0}};
+/* Every size and both ends at every place within a word: what is copied, and nothing beside it. */
+static void copies(void)
+{
+    enum { MOST = 21, ROOM = MOST + 8 };
+
+    for (uint32_t i = 0; i < 16 * MOST; i++) {
+        volatile size_t from = i % 4, to = i / 4 % 4, size = i / 16;
+        _Alignas(4) uint8_t source[ROOM], target[ROOM];
+        bool right = true;
+
+        for (uint32_t k = 0; k < ROOM; k++) {
+            source[k] = (uint8_t)(k + 1);
+            target[k] = (uint8_t)(k + 101);
+        }
+        CHECK(memcpy(target + to, source + from, size) == target + to);
+        for (uint32_t k = 0; k < ROOM; k++) {
+            bool inside = k >= to && k < to + size;
+
+            right = right && target[k] == (inside ? source[k - to + from] : (uint8_t)(k + 101));
+        }
+        CHECK(right);
+    }
+}
+
+const struct test tests_port[] = {
+    {"port/instructions", instructions}, {"port/ticks", ticks}, {"port/copies", copies}, {0}};

@@ -16,5 +16,5 @@ __attribute__((naked)) static void exception(void)
 }
 
 __attribute__((section(".vectors"), used)) static void (*const vectors[16])(void) = {
-    stack_top, start,     exception, exception, exception, exception, exception, exception,
+    stack_top, reset,     exception, exception, exception, exception, exception, exception,
     exception, exception, exception, exception, exception, exception, exception, exception};

@@ -8,6 +8,9 @@
 /* Fill memory, run main, leave with its status. The stack is set before. */
 _Noreturn void start(void);
 
+/* Where a Cortex-M's vectors lead: a board's own function that ends in start(), else start() itself. */
+_Noreturn void reset(void);
+
 /* Say where the processor stopped and leave with status 125. */
 _Noreturn void fault(uint32_t address);
 

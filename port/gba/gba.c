@@ -4,7 +4,7 @@
  *
  * The console is the debug port of the emulator mGBA; on anything else what is printed is lost. A
  * line goes out in pieces, because mGBA cuts long ones; port_exit logs the status as an error and
- * stops. Arguments stand in the image (start.S). With the option pictures=..., port_present prints
+ * stops. Arguments stand in the image (bare/arguments.c). With the option pictures=..., port_present prints
  * the line "picture" and lets two frames pass, in which the runner takes the picture.
  */
 #include <string.h>
@@ -36,11 +36,8 @@ enum { WIDTH = 240, HEIGHT = 160 };
 enum { SEND_STATUS = 0x101, SEND_PIECE = 0x102, SEND_LINE = 0x103 };
 #define PIECE_MAX 80
 
-#define ARGUMENTS_MAX 12
-
 const uint32_t port_ticks_hz = 16777216;
 
-extern const char arguments[256];
 _Noreturn void gba_start(void);
 
 /* What start() does not know of: the code that runs from RAM, memcpy among it, and the wide RAM. */
@@ -133,28 +130,6 @@ void port_putc(char c)
 uint32_t port_input(void)
 {
     return ~KEYS & 0x3ff;
-}
-
-/* Cut the line at its spaces; a copy, since it stands in the cartridge. */
-const char *port_arg(int n)
-{
-    static char line[sizeof arguments];
-    static const char *argument[ARGUMENTS_MAX];
-    static int count = -1;
-
-    if (count < 0) {
-        char *next = line;
-
-        memcpy(line, arguments, sizeof line - 1);
-        for (count = 0; *next && count < ARGUMENTS_MAX; count++) {
-            argument[count] = next;
-            next += strcspn(next, " ");
-            if (*next) {
-                *next++ = '\0';
-            }
-        }
-    }
-    return n >= 0 && n < count ? argument[n] : NULL;
 }
 
 long port_read_file(const char *name, void *buffer, size_t max)

@@ -20,12 +20,8 @@ reset:
     .byte 0                   /* check sum, by a cartridge tool */
     .space 2
 
-/* Arguments of the program, written by a runner; empty in a cartridge that is played. */
-    .global arguments
-arguments:
-    .space 256
-
 /* Interrupts are never enabled; the processor starts in system mode, whose stack is the only one. */
+    .section .text, "ax"
 go:
     mov r0, #0x1f
     msr cpsr_c, r0

@@ -142,6 +142,7 @@ static bool same_picture(const struct carom_drawn *drawn, const struct carom_cam
     return drawn->shows && drawn->style == (uint8_t)style && old->pixels == picture->pixels &&
            old->width == picture->width && old->height == picture->height &&
            old->stride == picture->stride && old->format == picture->format &&
+           old->row == picture->row && old->context == picture->context &&
            drawn->camera.focal_q16 == camera->focal_q16 &&
            memcmp(&drawn->camera.eye, &camera->eye, sizeof camera->eye) == 0 &&
            memcmp(&drawn->camera.target, &camera->target, sizeof camera->target) == 0;

@@ -1,13 +1,27 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
+/* Whether pixels of a picture can be written where it says. */
+static int check_pixels(const struct carom_picture *picture, enum carom_draw_style style)
+{
+    int shift = draw_pixel_shift(picture->format);
+    int32_t each = shift < 0 ? 1 : 1 << shift; /* bytes */
+    int32_t row = shift < 0 ? (picture->width + 1) / 2 : picture->width * each;
+
+    if (picture->row) {
+        return style == CAROM_DRAW_FLAT && shift >= 0 ? CAROM_OK : CAROM_ERR_ARGUMENT;
+    }
+    if (picture->stride < row || picture->stride % each != 0) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    return (uintptr_t)picture->pixels % (uintptr_t)each != 0 ? CAROM_ERR_MEMORY : CAROM_OK;
+}
+
 int draw_check(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style)
 {
-    int32_t each, row; /* bytes */
-    int shift;
-
-    if (world == NULL || camera == NULL || picture == NULL || picture->pixels == NULL ||
+    if (world == NULL || camera == NULL || picture == NULL ||
+        (picture->pixels == NULL && picture->row == NULL) ||
         (style == CAROM_DRAW_FLAT && picture->workspace == NULL)) {
         return CAROM_ERR_NULL;
     }
@@ -18,16 +32,7 @@ int draw_check(const struct carom_world *world, const struct carom_camera *camer
         picture->height > 2 * DRAW_GUARD || picture->format > CAROM_BGR555) {
         return CAROM_ERR_ARGUMENT;
     }
-    shift = draw_pixel_shift(picture->format);
-    each = shift < 0 ? 1 : 1 << shift;
-    row = shift < 0 ? (picture->width + 1) / 2 : picture->width * each;
-    if (picture->stride < row || picture->stride % each != 0) {
-        return CAROM_ERR_ARGUMENT;
-    }
-    if ((uintptr_t)picture->pixels % (uintptr_t)each != 0) {
-        return CAROM_ERR_MEMORY;
-    }
-    return CAROM_OK;
+    return check_pixels(picture, style);
 }
 
 int draw_part(const struct draw_source *source, struct draw_view *view,

@@ -359,7 +359,10 @@ static inline uint8_t *draw_pixel(uint8_t *row, int pixel_shift, int32_t x)
     return row + (pixel_shift < 0 ? x >> 1 : x * (1 << pixel_shift));
 }
 
-/* Pixel 0 of row y, both counted from the middle of the picture. */
+/*
+ * Pixel 0 of row y, both counted from the middle of the picture. Called once for each row of the view's
+ * part, when the row before it is complete: a display that is sent rows hears of them here.
+ */
 uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
 /* Pixels from <= x < to of a row in one colour, and no others. */

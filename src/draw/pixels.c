@@ -10,10 +10,16 @@ int draw_pixel_shift(uint8_t format)
 
 uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y)
 {
-    uint8_t *row =
-        (uint8_t *)picture->pixels + (size_t)(y + view->middle[1]) * (size_t)picture->stride;
+    const int32_t *middle = view->middle;
+    uint8_t *row = picture->pixels;
 
-    return draw_pixel(row, draw_pixel_shift(picture->format), view->middle[0]);
+    if (picture->row) {
+        row = picture->row(picture->context, view->rect.x0 + middle[0], view->rect.x1 + middle[0],
+                           y + middle[1]);
+    } else {
+        row += (size_t)(y + middle[1]) * (size_t)picture->stride;
+    }
+    return draw_pixel(row, draw_pixel_shift(picture->format), middle[0]);
 }
 
 uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y)

@@ -14,7 +14,7 @@ import { pathToFileURL } from "node:url";
 const STEP = 1 / 60, GRAVITY = -9.81, FRICTION = 0.5;
 const PHASES = [["falling", 60], ["settling", 60], ["resting", 60]];
 
-const require = createRequire(process.cwd() + "/build/npm/");
+const require = createRequire(process.cwd() + "/build/npm/compare_wasm/");
 const rapier = require("@dimforge/rapier3d-deterministic-compat");
 const { default: initJolt } = await import(pathToFileURL(require.resolve("jolt-physics")));
 const [image, ...layouts] = process.argv.slice(2);
