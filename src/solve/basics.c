@@ -146,7 +146,7 @@ int rest_shrink(int64_t v[4], int bits)
 bool rest_cut(int64_t v[3], int64_t limit)
 {
     int64_t part[4] = {v[0], v[1], v[2], limit};
-    int down = rest_used(part) >> 31 ? rest_shrink(part, 31) : 0;
+    int down = rest_shrink(part, 31);
     const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
     uint64_t most = (uint64_t)part[3], square = rest_square32(v32);
     int32_t ratio_q30;
