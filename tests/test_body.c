@@ -415,7 +415,7 @@ static void vertex_at(double out[3], uint32_t v, int32_t t_q30)
     fix_matrix(&r, &q);
     carom_rotate(local.c, &r, local.c);
     for (int k = 0; k < 3; k++) {
-        out[k] = real(local.c[k], 22) + real(body.path.start.x.c[k] + way.c[k], 32);
+        out[k] = real(local.c[k], 22) + real(body.path.start_x_q32[k] + way.c[k], 32);
     }
 }
 

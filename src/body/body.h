@@ -72,10 +72,8 @@ struct body_path {
     };
     struct {
         carom_m3_q30 r;
-        struct {
-            int16_t c[3];
-        } x; /* q32, what the origin leaves of the position */
     } start;
+    int16_t start_x_q32[3]; /* what the origin leaves of the position */
     bool turns;
     PHASE_TAG(phase)
     int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
@@ -198,7 +196,7 @@ struct body {
     };
 };
 
-/* The path of a body that has one: for all but `start` and `turns`, which stay. */
+/* The path of a body that has one: for all but `start`, `start_x_q32` and `turns`, which stay. */
 static inline const struct body_path *body_path(const struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_PATH);

@@ -128,7 +128,7 @@ void body_place_origin(struct body *b, const struct body_state *s)
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
-        path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+        path->start_x_q32[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
     }
     PHASE_BEGIN(path->phase, BODY_ORIGIN);
 }

@@ -84,7 +84,7 @@ carom_v3_q32 contact_point(const struct contact *c)
     carom_v3_q32 point;
 
     for (int k = 0; k < 3; k++) {
-        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start.x.c[k] +
+        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start_x_q32[k] +
                      fix_round_shift(c->side[0].arm_q30[k], 32 - contact_arm_bits(a));
     }
     return point;

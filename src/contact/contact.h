@@ -54,14 +54,15 @@ struct contact_work {
     bool waits : 1;            /* K, in place of its inverse: until the contact pushes */
     bool inverted : 1;         /* false: K is too uneven for an inverse in 30 bits */
     bool slides : 1;           /* drag_q28 and step are there: from the first time that it slides */
+    bool b_lighter : 1;        /* than a */
     int8_t fine_bits;          /* of impulses, below the solver's unit */
     int8_t k_shift;            /* K that waits has 30 - k_shift fractional bits */
     PHASE_TAG(phase)
-    int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
-    int64_t target_q40; /* wanted V'.N */
-    struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
-    int32_t mass_q24;            /* velocity by a unit impulse: the largest along an axis */
-    int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
+    int32_t band_q30;       /* slip that friction does not resist: what closing the gap asks for */
+    int32_t band;           /* it in solver units */
+    int64_t target_q40;     /* wanted V'.N */
+    int32_t mass_q24;       /* velocity by a unit impulse: the largest along an axis */
+    int32_t drag_q28[3];    /* the part of K N across N, over the part along it */
     int32_t step[2];        /* of a sweep when it slides, so too: along N, and one scalar across */
     union {                 /* by PHASE_TAG phase; contact_inverse, contact_wanted */
         int32_t inverse[6]; /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
@@ -71,7 +72,6 @@ struct contact_work {
     /* the sweeps', in solver units */
     uint32_t friction_q16;
     int32_t before[3]; /* V - wanted N before, with a slip that sweeps can follow */
-    int32_t band;      /* band_q30 */
     int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
 };
 
@@ -145,6 +145,20 @@ static inline carom_v3_q40 *contact_wanted(const struct contact *c)
 {
     PHASE_ASSERT(c->work->phase, CONTACT_WANTED);
     return &c->work->wanted_q40;
+}
+
+/* The lighter one of a contact's bodies that move; its unit of impulses is 2^-fine_bits of that one's mass. */
+static inline const struct body *contact_lighter(const struct contact *c)
+{
+    return c->side[c->work->b_lighter ? 1 : 0].body;
+}
+
+static inline struct fix_scaled contact_mass_unit(const struct contact *c)
+{
+    struct fix_scaled unit = contact_lighter(c)->mass;
+
+    unit.e += c->work->fine_bits;
+    return unit;
 }
 
 /* Rolling in the sweeps; and the moment when they are over. */

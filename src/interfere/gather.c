@@ -114,8 +114,8 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     w->span = *span;
     w->by_paths = !keep;
     gather(w, all, number, visitor);
-    m->first = w->own_first;
-    m->count = pool->used - w->own_first;
+    m->first = (uint16_t)w->own_first;
+    m->count = (uint16_t)(pool->used - w->own_first);
     m->kept = keep && w->whole && !w->error;
     m->found = m->count > 0 || !w->whole;
     if (!m->kept) {

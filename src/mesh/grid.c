@@ -52,7 +52,7 @@ static uint32_t count_entries(const struct carom_mesh *mesh, uint32_t *count)
 {
     uint32_t total = 0;
 
-    memset(count, 0, ZLIST_CELLS_MAX * sizeof count[0]);
+    memset(count, 0, (size_t)mesh->grid_nx * mesh->grid_ny * sizeof count[0]);
     for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
         struct scan_cells scan;
         struct scan_run run;
@@ -189,7 +189,8 @@ static bool list_overlaps(const struct carom_mesh_raw *raw, const struct carom_z
 int mesh_build_zlists(struct mesh_builder *b)
 {
     struct carom_mesh *mesh = b->mesh;
-    uint32_t *cell = arena_carve(&b->arena, (ZLIST_CELLS_MAX + 1) * sizeof cell[0]);
+    const uint32_t n = mesh->raw.face_count;
+    uint32_t *cell = arena_carve(&b->arena, (CAROM_MESH_CELLS_(n) + 1) * sizeof cell[0]);
     struct carom_zref *zrefs;
     uint32_t total, end = 0, cells;
     int shift = 0;
@@ -200,7 +201,7 @@ int mesh_build_zlists(struct mesh_builder *b)
         }
         total = count_entries(mesh, cell);
         shift++;
-    } while (total > MESH_ENTRIES_PER_FACE * mesh->raw.face_count);
+    } while (total > CAROM_MESH_ENTRIES_(n));
     cells = (uint32_t)mesh->grid_nx * mesh->grid_ny;
     for (uint32_t c = 0; c < cells; c++) {
         end += cell[c];

@@ -97,12 +97,12 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
 static void prepare_shares(struct contact *c)
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
+    struct fix_scaled unit;
 
-    c->work->mass_unit = a ? a->mass : b->mass;
-    if (a && b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
-        fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
-        c->work->mass_unit = b->mass;
-    }
+    c->work->b_lighter =
+        !a || (b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
+               fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass));
+    unit = contact_lighter(c)->mass;
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
         struct contact_lever *lever = &c->work->lever[s];
@@ -110,11 +110,10 @@ static void prepare_shares(struct contact *c)
         if (!side->body) {
             continue;
         }
-        if (side->body->mass.m == c->work->mass_unit.m &&
-            side->body->mass.e == c->work->mass_unit.e) {
+        if (side->body->mass.m == unit.m && side->body->mass.e == unit.e) {
             lever->share_q30 = CAROM_ONE_Q30;
         } else {
-            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, c->work->mass_unit);
+            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, unit);
 
             lever->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
         }
@@ -128,7 +127,6 @@ static void prepare_shares(struct contact *c)
 static void refine_unit(struct contact *c, const int64_t k_q30[6])
 {
     c->work->fine_bits = (int8_t)(fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 31 + 5);
-    c->work->mass_unit.e += c->work->fine_bits;
 }
 
 /* a b - c d in q30 */

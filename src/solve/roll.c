@@ -151,7 +151,7 @@ static int64_t turning_q30(const struct contact *c, int s)
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 {
     struct contact *c = rest_contact(r, i);
-    struct contact_roll *roll = &r->rolls[c->key.pair];
+    struct contact_roll *roll;
     const struct body *a = c->side[0].body, *b = c->side[1].body;
     int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
 
@@ -160,7 +160,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
         return false;
     }
-    c->work->roll = roll;
+    c->work->roll = roll = &r->rolls[r->roll_count++];
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
     roll->arm_q30 = rest_clamp(carom_shl(arm_q22(r, i), 30 - roll->unit_bits));
@@ -282,7 +282,7 @@ const carom_v3_q40 *rest_moment(const struct contact *c)
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 {
-    struct fix_scaled unit = c->work->mass_unit;
+    struct fix_scaled unit = contact_mass_unit(c);
     struct contact_roll *roll = c->work->roll;
 
     if (!c->work->rolls) {

@@ -504,6 +504,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         while (!rest_sum_up(r)) {
             rest_enlarge_unit(r, sw);
         }
+        r->roll_count = 0;
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }

@@ -187,7 +187,7 @@ void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        struct fix_scaled unit = c->work->mass_unit;
+        struct fix_scaled unit = contact_mass_unit(c);
 
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */

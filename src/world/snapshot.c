@@ -132,12 +132,20 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
 
 static void stream_warm(struct stream *s, struct rest_warm *w)
 {
+    struct rest_warm_parts parts = {0};
+
+    if (!s->loading) {
+        parts = rest_warm_parts(w);
+    }
     number16(s, &w->a);
     number16(s, &w->b);
     vector32(s, w->arm.c, 3);
     vector32(s, w->normal.c, 3);
-    number64(s, &w->normal_q40);
-    vector64(s, w->tangent_q40.c);
+    number64(s, &parts.normal_q40);
+    vector64(s, parts.tangent.c);
+    if (s->loading && !rest_warm_join(w, &parts)) {
+        s->failed = true;
+    }
 }
 
 static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
