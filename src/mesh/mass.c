@@ -303,8 +303,7 @@ static void root_column(int32_t out[3], int8_t *out_e, const int64_t v[3], struc
 void mass_spread(const struct carom_sym3 *in, struct carom_spread *out)
 {
     const int32_t *m = in->m, rows[2][3] = {{m[0], m[3], m[5]}, {m[3], m[1], m[4]}};
-    const int64_t first[3] = {1, 0, 0}, second[3] = {-m[3], m[0], 0},
-                  last[3] = {m[5], m[4], m[2]};
+    const int64_t first[3] = {1, 0, 0}, second[3] = {-m[3], m[0], 0}, last[3] = {m[5], m[4], m[2]};
     const struct fix_scaled one = fix_scale(1, 0), corner = fix_scale(m[0], 0);
     struct fix_scaled minor;
     struct fix_wide det = {0, 0};

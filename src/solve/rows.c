@@ -296,8 +296,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
 
         for (int k = 0; k < 3; k++) {
-            out_q40[k] +=
-                m->sign * (fix_round_shift(dv[k], -p->arm_shift) + cross_arm(m, dw, k));
+            out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) + cross_arm(m, dw, k));
         }
     }
 }
