@@ -362,19 +362,19 @@ build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/s
 	clang --target=wasm32 -std=c11 -O3 -ffreestanding -Iport/nolibc -Iinclude -nostdlib \
 	    -Wl,--no-entry,-z,stack-size=262144 -o $@ $(filter %.c,$^)
 
-# The part of the engine that indexes meshes, and the scenes, for tools.
+# The engine and the scenes, for tools; what these do not call is left out at the link.
 build/tools/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  cc    $< for tools'
 	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -MMD -MP -c -o $@ $<
 
-TOOL_ENGINE := $(wildcard src/num/*.c src/mesh/*.c) src/world/report.c
-build/tools/libmesh.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
+TOOL_ENGINE := $(filter-out src/draw/%,$(wildcard src/*/*.c))
+build/tools/libengine.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
 	@echo '  ar    $@'
 	rm -f $@
 	$(AR) rcs $@ $^
 
-build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libmesh.a)
+build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o libengine.a)
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp
 
@@ -392,7 +392,7 @@ build/tools/gba_run: tools/gba_run.c
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
-                       $(SCENES_BUILT:$(B)/%=build/tools/%) build/tools/libmesh.a
+                       $(SCENES_BUILT:$(B)/%=build/tools/%) build/tools/libengine.a
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^
 

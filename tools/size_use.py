@@ -32,15 +32,15 @@ LIBRARY = ["memcpy", "memmove", "memset", "memcmp"]
 
 # What a program does besides the one before it, and the functions that it calls for that.
 USES = [
-    ("a world and its step, meshes in ROM", "carom_world_init carom_body_add carom_world_step "
+    ("a world and its step with meshes in ROM", "carom_world_init carom_body_add carom_world_step "
      "carom_body_get"),
-    ("bodies look, count, leave, are set", "carom_body_look carom_body_mesh carom_body_count "
+    ("bodies are looked at and set and leave", "carom_body_look carom_body_mesh carom_body_count "
      "carom_body_remove carom_body_set"),
-    ("forces, pushes, other gravity", "carom_world_set_gravity carom_body_set_force "
+    ("forces and pushes and other gravity", "carom_world_set_gravity carom_body_set_force "
      "carom_body_push"),
-    ("events, contacts, interfering faces", "carom_events carom_contacts carom_interfering_faces"),
-    ("statistics, usage, hash, texts", "carom_stats carom_usage carom_stage_name "
-     "carom_result_text carom_world_hash"),
+    ("events and contacts and interfering faces", "carom_events carom_contacts carom_interfering_faces"),
+    ("statistics and texts", "carom_stats carom_usage carom_stage_name carom_result_text"),
+    ("a hash of the state", "carom_world_hash"),
     ("meshes from vertices and faces", "carom_mesh_build carom_mesh_check carom_mesh_read"),
     ("queries", "carom_query_faces carom_query_inside"),
     ("surfaces that move", "carom_surface_build carom_surface_move carom_surface_set"),

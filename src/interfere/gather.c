@@ -76,12 +76,14 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
 static void gather_over(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const uint16_t b = all->pairs[number].b;
-    const struct interfere_area area = interfere_area_under(all->bodies, all->pairs, all->count, b);
+    const struct carom_mesh *mesh = all->bodies[b].mesh;
+    const struct mesh_moving *does = mesh->surface->does;
+    const struct interfere_area area = does->area_under(all->bodies, all->pairs, all->count, b);
     struct interfere_place place = {0, 0};
     bool last = false;
 
     while (!last && !w->error) {
-        last = interfere_make_lists(w, all->bodies[b].mesh, &area, &place);
+        last = does->make_lists(w, mesh, &area, &place);
         gather_pair(w, all, number);
     }
 }

@@ -305,7 +305,7 @@ static void visit_leaves(struct interfere *w)
 
     w->pooled = interfere_makes_lists(w->b->mesh);
     while (!last && !w->error) {
-        last = !w->pooled || interfere_make_lists(w, w->b->mesh, &area, &place);
+        last = !w->pooled || w->b->mesh->surface->does->make_lists(w, w->b->mesh, &area, &place);
         interfere_leaves(w);
         w->query->again = true;
     }

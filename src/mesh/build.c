@@ -66,17 +66,17 @@ static int find_normals(struct mesh_builder *b)
     uint32_t up = 0, down = 0;
 
     for (uint32_t f = 0; f < raw->face_count; f++) {
-        const int16_t *p0 = raw->vertices[raw->faces[f][0]];
-        const int16_t *p1 = raw->vertices[raw->faces[f][1]];
-        const int16_t *p2 = raw->vertices[raw->faces[f][2]];
+        const uint16_t *corner = raw->faces[f];
+        int32_t side[2][3];
         int64_t n[3];
 
-        for (int i = 0; i < 3; i++) {
-            int j = fix_next(i), k = fix_next(j);
+        for (int k = 0; k < 3; k++) {
+            int32_t from = raw->vertices[corner[0]][k];
 
-            n[i] = (int64_t)(p1[j] - p0[j]) * (p2[k] - p0[k]) -
-                   (int64_t)(p1[k] - p0[k]) * (p2[j] - p0[j]);
+            side[0][k] = raw->vertices[corner[1]][k] - from;
+            side[1][k] = raw->vertices[corner[2]][k] - from;
         }
+        fix_cross(n, side[0], side[1]);
         if (!fix_normalise(&b->faces[f].normal, n)) {
             return CAROM_ERR_MESH_DEGENERATE;
         }

@@ -41,15 +41,10 @@ static void load(struct tetrahedron *t, const struct frame *f, uint32_t face)
  * of the cross product <= 2^41 and the result <= 3 * 2^61. */
 static int64_t determinant(const struct tetrahedron *t)
 {
-    const int32_t *b = t->p[1], *c = t->p[2];
-    int64_t sum = 0;
+    int64_t across[3];
 
-    for (int i = 0; i < 3; i++) {
-        int j = fix_next(i), k = fix_next(j);
-
-        sum += t->p[0][i] * ((int64_t)b[j] * c[k] - (int64_t)b[k] * c[j]);
-    }
-    return sum;
+    fix_cross(across, t->p[1], t->p[2]);
+    return t->p[0][0] * across[0] + t->p[0][1] * across[1] + t->p[0][2] * across[2];
 }
 
 /* Sums over the faces, without their divisors. */
@@ -307,17 +302,16 @@ static void root_column(int32_t out[3], int8_t *out_e, const int64_t v[3], struc
  */
 void mass_spread(const struct carom_sym3 *in, struct carom_spread *out)
 {
-    const int64_t a = in->m[0], b = in->m[1], c = in->m[2], d = in->m[3], e = in->m[4],
-                  f = in->m[5];
-    const int64_t first[3] = {1, 0, 0}, second[3] = {-d, a, 0},
-                  third[3] = {d * e - b * f, d * f - a * e, a * b - d * d};
-    const struct fix_scaled one = fix_scale(1, 0), corner = fix_scale(a, 0),
-                            minor = fix_scale(third[2], 0);
+    const int32_t *m = in->m, rows[2][3] = {{m[0], m[3], m[5]}, {m[3], m[1], m[4]}};
+    const int64_t first[3] = {1, 0, 0}, second[3] = {-m[3], m[0], 0}, last[3] = {m[5], m[4], m[2]};
+    const struct fix_scaled one = fix_scale(1, 0), corner = fix_scale(m[0], 0);
+    struct fix_scaled minor;
     struct fix_wide det = {0, 0};
+    int64_t third[3];
 
-    fix_wide_add_product(&det, f, third[0]);
-    fix_wide_add_product(&det, e, third[1]);
-    fix_wide_add_product(&det, c, third[2]);
+    fix_cross(third, rows[0], rows[1]);
+    minor = fix_scale(third[2], 0);
+    fix_wide_add_dot(&det, last, third);
     root_column(out->column[0], &out->e[0], first, corner, one, in->e);
     root_column(out->column[1], &out->e[1], second, corner, minor, in->e);
     root_column(out->column[2], &out->e[2], third, minor, fix_wide_over(&det, 1), in->e);

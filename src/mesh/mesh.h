@@ -19,6 +19,12 @@ inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
         {quanta[0] * one - centre[0], quanta[1] * one - centre[1], quanta[2] * one - centre[2]}};
 }
 
+struct body;
+struct interfere;
+struct interfere_area;
+struct interfere_place;
+struct pair;
+
 /*
  * What a step asks of a surface that may move. It is called through the surface, so that a program without
  * one does not link it: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, and mesh_list_face, which enters
@@ -32,6 +38,11 @@ struct mesh_moving {
                        carom_v3_q40 *out);
     bool (*list_face)(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
                       uint32_t *cells);
+    /* interfere_area_under and interfere_make_lists */
+    struct interfere_area (*area_under)(const struct body *bodies, const struct pair *pairs,
+                                        uint32_t pair_count, uint16_t b);
+    bool (*make_lists)(struct interfere *w, const struct carom_mesh *mesh,
+                       const struct interfere_area *area, struct interfere_place *from);
 };
 
 /* A surface whose vertices the caller may move; behind its mesh in the caller's block. */
@@ -48,6 +59,10 @@ struct carom_surface {
     int32_t most_q22; /* no vertex has moved by more since `before` */
     uint32_t moves;   /* how often they have */
 };
+
+/* carom_surface_build, for a surface that does this. */
+int mesh_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                       size_t bytes, const struct mesh_moving *does);
 
 /*
  * Let the mesh have other vertices, for a try: mesh_surface_keep takes them over, mesh_surface_undo

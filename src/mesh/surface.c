@@ -4,11 +4,9 @@
 
 _Static_assert(sizeof(struct carom_surface) <= 80, "CAROM_SURFACE_BYTES");
 
-int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
-                        size_t bytes)
+int mesh_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                       size_t bytes, const struct mesh_moving *does)
 {
-    static const struct mesh_moving moving = {mesh_drift_vertex, mesh_drift_edge, mesh_drift_face,
-                                              mesh_list_face};
     struct carom_mesh built;
     struct carom_surface *s;
     struct mesh_builder b;
@@ -32,7 +30,7 @@ int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *ra
     }
     s = (struct carom_surface *)((uint64_t *)mem + offset / 8);
     memset(s, 0, sizeof *s);
-    s->does = &moving;
+    s->does = does;
     s->mesh = mesh;
     s->now = (int16_t(*)[3])(s + 1);
     s->before = s->now + vertices;

@@ -77,31 +77,32 @@ static int64_t floor_div(int64_t n, int64_t d)
 }
 
 /*
- * Narrow [*z0, *z1] to the z of the face's plane over an area. With n = u x v and s = sign(n.z),
+ * Narrow [*z0, *z1] to the z of the face's plane over an area. With n the sides' cross product and s = sign(n.z),
  * the height over corner 0 is -(n.x dx + n.y dy) / n.z, lowest where s n.x dx and s n.y dy are
  * largest. Nothing is narrowed for a plane that stands on edge or for a face beyond the bounds.
  *
- * Bounds: |u|, |v| < 2^18, so |n| < 2^37; |dx|, |dy| < 2^18, being within the face's own rectangle;
+ * Bounds: |sides| < 2^18, so |n| < 2^37; |dx|, |dy| < 2^18, being within the face's own rectangle;
  * so each product is < 2^55 and their sum < 2^56.
  */
 static void narrow(const struct zface *f, const struct area *area, int32_t *z0, int32_t *z1)
 {
-    int64_t u[3], v[3], n[3];
-    int64_t least = 0, most = 0, low, high;
+    int64_t n[3], least = 0, most = 0, low, high;
+    int32_t side[2][3];
 
-    for (int k = 0; k < 3; k++) {
-        u[k] = (int64_t)f->p[1][k] - f->p[0][k];
-        v[k] = (int64_t)f->p[2][k] - f->p[0][k];
-        if (carom_abs(u[k]) >= 1 << 18 || carom_abs(v[k]) >= 1 << 18) {
-            return;
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++) {
+            int64_t d = (int64_t)f->p[1 + i][k] - f->p[0][k];
+
+            if (carom_abs(d) >= 1 << 18) {
+                return;
+            }
+            side[i][k] = (int32_t)d;
         }
     }
-    n[2] = u[0] * v[1] - u[1] * v[0];
+    fix_cross(n, side[0], side[1]);
     if (n[2] == 0) {
         return;
     }
-    n[0] = u[1] * v[2] - u[2] * v[1];
-    n[1] = u[2] * v[0] - u[0] * v[2];
     for (int k = 0; k < 2; k++) {
         int64_t slope = n[2] < 0 ? -n[k] : n[k];
         int64_t a = slope * (area->low[k] - f->p[0][k]);

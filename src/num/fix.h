@@ -93,7 +93,7 @@ int64_t fix_sqrt_above(uint64_t v);
  * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
  * bits: a = high 2^32 + low with low unsigned. Quick where s is a constant.
  */
-#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_PRODUCTS
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
 int64_t fix_mul(int64_t a, int32_t b, int s);
 int64_t fix_mul_q30(int64_t a, int32_t b);
 int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);

@@ -4,6 +4,7 @@
 
 extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
 extern inline uint64_t rest_used(const int64_t v[4]);
+extern inline int rest_shrink(int64_t v[4], int bits);
 
 int32_t rest_clamp(int64_t v)
 {
@@ -128,15 +129,8 @@ void rest_push(struct contact *c, const int32_t impulse[3])
     }
 }
 
-int rest_shrink(int64_t v[4], int bits)
+int rest_shift_down(int64_t v[4], int down)
 {
-    uint64_t all = rest_used(v);
-    int down;
-
-    if (all >> bits == 0) {
-        return 0;
-    }
-    down = fix_bits(all) - bits;
     for (int k = 0; k < 4; k++) {
         v[k] >>= down;
     }
@@ -146,7 +140,7 @@ int rest_shrink(int64_t v[4], int bits)
 bool rest_cut(int64_t v[3], int64_t limit)
 {
     int64_t part[4] = {v[0], v[1], v[2], limit};
-    int down = rest_used(part) >> 31 ? rest_shrink(part, 31) : 0;
+    int down = rest_shrink(part, 31);
     const int32_t v32[3] = {(int32_t)part[0], (int32_t)part[1], (int32_t)part[2]};
     uint64_t most = (uint64_t)part[3], square = rest_square32(v32);
     int32_t ratio_q30;

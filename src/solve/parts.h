@@ -158,8 +158,14 @@ inline uint64_t rest_used(const int64_t v[4])
     return (uint64_t)used;
 }
 
-/* Shift four numbers down until each has at most so many bits; returns how far. */
-int rest_shrink(int64_t v[4], int bits);
+/* Shift four numbers down; until each has at most so many bits, which most have: returns how far. */
+int rest_shift_down(int64_t v[4], int down);
+inline int rest_shrink(int64_t v[4], int bits)
+{
+    uint64_t all = rest_used(v);
+
+    return all >> bits == 0 ? 0 : rest_shift_down(v, fix_bits(all) - bits);
+}
 /* v cut to a length of `limit`, which is at most 2^45; returns whether it was longer. */
 bool rest_cut(int64_t v[3], int64_t limit);
 

@@ -272,14 +272,19 @@ static int eliminate(const struct impact_problem *p, const struct goal *goal)
     return more;
 }
 
-static int64_t times_share(const struct impact_mover *m, int64_t v)
+/* v times a number in two parts */
+static int64_t times(int64_t v, int32_t by_q30, int32_t rest_q60)
 {
-    return fix_mul_q30(v, m->share_q30) + fix_mul(v, m->share_rest_q60, 60);
+    return fix_mul_q30(v, by_q30) + fix_mul(v, rest_q60, 60);
 }
 
-static int64_t times_arm(const struct impact_mover *m, int64_t v, int k)
+/* Component k of v x arm */
+static int64_t cross_arm(const struct impact_mover *m, const int64_t v[3], int k)
 {
-    return fix_mul_q30(v, m->arm_q30[k]) + fix_mul(v, m->arm_rest_q60[k], 60);
+    int i = fix_next(k), j = fix_next(i);
+
+    return times(v[i], m->arm_q30[j], m->arm_rest_q60[j]) -
+           times(v[j], m->arm_q30[i], m->arm_rest_q60[i]);
 }
 
 /* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
@@ -291,10 +296,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
 
         for (int k = 0; k < 3; k++) {
-            int i = fix_next(k), j = fix_next(i);
-
-            out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) +
-                                     times_arm(m, dw[i], j) - times_arm(m, dw[j], i));
+            out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) + cross_arm(m, dw, k));
         }
     }
 }
@@ -307,14 +309,11 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
     int64_t share[3];
 
     for (int k = 0; k < 3; k++) {
-        share[k] = m->sign * times_share(m, impulse[k]);
+        share[k] = m->sign * times(impulse[k], m->share_q30, m->share_rest_q60);
         out_q40[k] = fix_round_shift(share[k], -p->arm_shift) - dv[k];
     }
     for (int k = 0; k < 3; k++) {
-        int i = fix_next(k), j = fix_next(i);
-
-        out_q40[3 + k] =
-            fix_round_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
+        out_q40[3 + k] = fix_round_shift(-cross_arm(m, share, k), -m->inertia_odd);
         for (int l = 0; l < 3; l++) {
             out_q40[3 + k] -= fix_mul_q30(dw[l], m->inertia_q30[fix_sym3_at[k][l]]);
         }

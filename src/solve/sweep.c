@@ -92,9 +92,7 @@ static bool in_cone(const struct contact *c, int64_t normal, const int64_t tange
     int64_t all[4] = {tangent[0], tangent[1], tangent[2], normal}, limit;
     int32_t across[3];
 
-    if (rest_used(all) >> 29) {
-        rest_shrink(all, 29);
-    }
+    rest_shrink(all, 29);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         across[k] = (int32_t)all[k];
@@ -194,9 +192,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
         change[k] -= in->tangent_impulse[k];
     }
     /* if that is too large for one push a part of all of it: from one place in the cone to another */
-    if (rest_used(change) >> 29) {
-        rest_shrink(change, 29);
-    }
+    rest_shrink(change, 29);
     g->along = (int32_t)change[3];
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {

@@ -6,6 +6,7 @@
  */
 #include "world.h"
 #include "../boyse/boyse.h"
+#include "../interfere/narrow.h"
 
 /* Bodies that were lifted into each other are lifted together: so often at most. */
 #define ROUNDS_MAX 64
@@ -263,6 +264,16 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 }
 
 /* ----------------------------------------------------------------- the calls */
+
+int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
+                        size_t bytes)
+{
+    static const struct mesh_moving moving = {mesh_drift_vertex,    mesh_drift_edge,
+                                              mesh_drift_face,      mesh_list_face,
+                                              interfere_area_under, interfere_make_lists};
+
+    return mesh_surface_build(mesh, raw, mem, bytes, &moving);
+}
 
 /* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
 static void stir(struct carom_world *w, uint32_t body)
