@@ -3,7 +3,7 @@
 #include "body.h"
 
 /* x times a number of 16 fractional bits, which nearly always is one. */
-static int64_t longer(int64_t x, int32_t by_q16)
+FIX_APART static int64_t longer(int64_t x, int32_t by_q16)
 {
     return by_q16 == 1 << 16 ? x : fix_mul(x, by_q16, 16);
 }

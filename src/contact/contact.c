@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "contact.h"
 
+extern inline int contact_arm_bits(const struct body *b);
+extern inline carom_v3_q22 contact_arm(const struct contact *c);
+extern inline int32_t contact_arm_along(const struct contact *c, int k);
+
 /* The place in key order for a candidate; sets *same when it is there already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {

@@ -206,20 +206,20 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
                      carom_v3_q30 *normal);
 
 /* Fractional bits of arm_q30 taken as a length. */
-static inline int contact_arm_bits(const struct body *b)
+inline int contact_arm_bits(const struct body *b)
 {
     return 30 + 22 - b->unit_bits;
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */
-static inline int32_t contact_arm_along(const struct contact *c, int k)
+inline int32_t contact_arm_along(const struct contact *c, int k)
 {
     int down = contact_arm_bits(c->side[0].body) - 22;
 
     return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
 }
 
-static inline carom_v3_q22 contact_arm(const struct contact *c)
+inline carom_v3_q22 contact_arm(const struct contact *c)
 {
     return (carom_v3_q22){
         {contact_arm_along(c, 0), contact_arm_along(c, 1), contact_arm_along(c, 2)}};

@@ -7,7 +7,7 @@
  * both ends, so that vertices on a regular grid do not fall on the sides of cells; where a cell too
  * many would be needed for that, an extent of whole cells has no overhang.
  */
-static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
+FIX_APART static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
 {
     int32_t side = (int32_t)1 << shift;
     int32_t n = (high - low) / side + 1;
@@ -81,6 +81,33 @@ struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face)
     return z;
 }
 
+bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
+                    uint32_t *cells)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+    struct zface z = mesh_zface(mesh, face);
+    struct scan_cells scan;
+    struct scan_run run;
+    uint32_t cell = 0;
+
+    mesh_scan_face(&scan, mesh, face);
+    while (scan_cells_next(&scan, &run)) {
+        for (int32_t col = run.x0; col < run.x1; col++) {
+            int16_t z0, z1;
+
+            if (cell++ < *cells) {
+                continue;
+            }
+            zface_interval(&z, &grid, col, run.y, &z0, &z1);
+            if (!zlist_enter(lists, (uint32_t)(run.y * grid.nx + col), z0, z1, (uint16_t)face)) {
+                return false;
+            }
+            ++*cells;
+        }
+    }
+    return true;
+}
+
 /*
  * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is
  * left with where it starts, and a cell's faces stand in rising order.
@@ -126,7 +153,7 @@ static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_
 {
     for (int k = 0; k < 3; k++) {
         const int16_t *a = raw->vertices[raw->faces[f][k]];
-        const int16_t *b = raw->vertices[raw->faces[f][(k + 1) % 3]];
+        const int16_t *b = raw->vertices[raw->faces[f][fix_next(k)]];
         int outside = 0;
 
         for (int i = 0; i < 3; i++) {

@@ -93,7 +93,7 @@ static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32
  * Take column k out of row i. The entry a_ik is not cleared: nothing reads it as a coefficient any
  * more, and it is the multiplier that later right-hand sides need.
  */
-static void eliminate(struct gauss *w, int n, int k, int i)
+FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
 {
     int32_t *row = w->a[i];
     int32_t pivot = w->pivot[k], f = -row[k];

@@ -59,7 +59,7 @@ struct pair_work {
 #define PAIRS_NEVER INT32_MAX
 
 /* A moving body that is neither asleep nor frozen. */
-static inline bool broad_active(const struct body *b, const struct body_state *s)
+inline bool broad_active(const struct body *b, const struct body_state *s)
 {
     return b->mesh && b->moving && !s->asleep && !s->out;
 }

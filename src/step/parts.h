@@ -37,7 +37,7 @@ struct step {
     uint32_t event_cap; /* hits of a body */
 };
 
-static inline bool step_active(const struct step *s, uint32_t i)
+inline bool step_active(const struct step *s, uint32_t i)
 {
     return broad_active(&s->w->bodies[i], &s->next->bodies[i]);
 }

@@ -80,7 +80,7 @@ static int64_t most_impulse_q40(const struct body *b)
  * An impulse presses, along the normal; friction is within the widest cone there is across it; and it
  * is not more than a solve can give, see SPEC.md.
  */
-static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
+FIX_APART static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
     const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
     const struct rest_warm_parts parts = rest_warm_parts(warm);

@@ -122,6 +122,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     arena_init(&arena, mem, bytes);
     w = arena_carve(&arena, sizeof *w);
     w->config = *config;
+    w->now = w->states;
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
     CAROM_POOLS(SET_SIZE)
 #undef SET_SIZE
@@ -271,7 +272,7 @@ int carom_body_remove(struct carom_world *w, int body)
     if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    s = &w->states[w->now];
+    s = w->now;
     world_wake_around(w, (uint32_t)body);
     interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
