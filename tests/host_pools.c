@@ -259,7 +259,7 @@ int main(void)
     test_outputs();
     test_exact();
     test_bodies();
-    test_heap("pile", (struct carom_caps){17, 88, 48, 144, 0, 128});
-    test_heap("pile32", (struct carom_caps){33, 136, 72, 224, 0, 256});
+    test_heap("pile", (struct carom_caps){17, 88, 48, 136, 0, 128});
+    test_heap("pile32", (struct carom_caps){33, 128, 64, 208, 0, 256});
     return lab_finish();
 }
