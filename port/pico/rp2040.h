@@ -32,13 +32,13 @@
 #define CLK_PERI_ENABLE  (1u << 11) /* from the system's clock */
 
 /* Section 2.16, the crystal's oscillator. */
-#define XOSC_CTRL         0x40024000u
-#define XOSC_1_TO_15_MHZ  0xaa0u
-#define XOSC_ENABLE       (0xfabu << 12)
-#define XOSC_STATUS       REGISTER(0x40024004)
-#define XOSC_STABLE       (1u << 31)
-#define XOSC_STARTUP      REGISTER(0x4002400c)
-#define XOSC_WAIT         282u /* times 256 periods of 12 MHz: 6 ms */
+#define XOSC_CTRL        0x40024000u
+#define XOSC_1_TO_15_MHZ 0xaa0u
+#define XOSC_ENABLE      (0xfabu << 12)
+#define XOSC_STATUS      REGISTER(0x40024004)
+#define XOSC_STABLE      (1u << 31)
+#define XOSC_STARTUP     REGISTER(0x4002400c)
+#define XOSC_WAIT        282u /* times 256 periods of 12 MHz: 6 ms */
 
 /* Section 2.18, the system's phase-locked loop. */
 #define PLL_CS           REGISTER(0x40028000)
