@@ -267,17 +267,19 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
 #define CAROM_BODY_BYTES           CAROM_BYTES_(800, 800)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(64, 64)
-#define CAROM_CONTACT_BYTES        CAROM_BYTES_(248, 272)
+#define CAROM_CONTACT_BYTES        CAROM_BYTES_(224, 248)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(576, 752)
-#define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(584, 768)
+/* For any entries at all: once, and for each contact. */
+#define CAROM_HEADS_BYTES 2048
+#define CAROM_DRIFT_BYTES 24
 /*
  * What stages work in one after the other: so much, and the events that the end of a step finds; or, to solve in,
  * so much for each contact, and for as many pairs as have one.
  */
-#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
+#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
 #define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)
 #define CAROM_ROLL_BYTES    64
 
@@ -304,7 +306,8 @@ struct carom_caps {
     ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +                       \
+     ((e) > 0 ? CAROM_HEADS_BYTES + (size_t)(c)*CAROM_DRIFT_BYTES : 0) +                           \
+     (size_t)(n)*CAROM_CANDIDATE_BYTES +                                                           \
      CAROM_MORE_(CAROM_SOLVE_BYTES_((size_t)(p), (size_t)(c)),                                     \
                  CAROM_FOUND_BYTES_((size_t)(b), (size_t)(p)) + CAROM_SCRATCH_BYTES))
 #define CAROM_FOUND_BYTES_(b, p) ((2 * (p) + (b)) * sizeof(struct carom_event))

@@ -232,7 +232,7 @@ static void test_small(void)
     }
     make_prism(corner, 16, 300);
     CHECK_EQ(build(), CAROM_OK);
-    CHECK_EQ(mesh.leaf_count, (mesh.raw.face_count + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
+    CHECK_EQ(mesh.leaf_count, (raw.face_count + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
     check_zlists();
     CHECK(CAROM_MESH_BYTES(8, 12) <= 1800); /* a box */
 }

@@ -119,7 +119,7 @@ struct body_sweep {
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
 /*
- * A body, 576 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
+ * A body, 584 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
  * world sets outlives a step, and so do in_contact and the region with `active`, `free`, `boxed` and the
  * box: no result depends on these.
  */

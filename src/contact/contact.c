@@ -96,6 +96,7 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 {
     bool same, full = list->pool->used == list->pool->size;
     uint32_t place = find_place(list, key, &same);
+    carom_v3_q40 drift;
     struct contact *c;
 
     if (same && !list->contacts[place].doubted) {
@@ -120,7 +121,8 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->side[0].body = pair->a->moving ? pair->a : NULL;
     c->side[1].body = pair->b->moving ? pair->b : NULL;
     set_arms(c, arm);
-    contact_drift(pair, key, &arm[1], &c->drift);
+    contact_drift(pair, key, &arm[1], &drift);
+    contact_keep_drift(list, c, &drift);
     return true;
 }
 

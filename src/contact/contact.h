@@ -80,19 +80,19 @@ struct contact {
     struct candidate key;
     carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
-    int32_t skin_q22;   /* of the pair */
-    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
+    int32_t skin_q22;    /* of the pair */
+    carom_v3_q40 *drift; /* how a surface that the caller moves does there; NULL: there is none */
     struct contact_side side[2];
 
     /* worked out by the solver */
     struct contact_work *work; /* NULL: not yet taken up */
     /* contacts[n].order is the n-th contact when islands come one after the other */
     uint16_t order;
-    bool idle;    /* nothing asks for its island to be solved now */
-    bool resting; /* solved without any impact in its island */
-    bool impact;
-    bool lasting; /* by the step: its pair has hit again and again in the frame */
-    bool doubted; /* it was there, and is not found again yet */
+    bool idle : 1;    /* nothing asks for its island to be solved now */
+    bool resting : 1; /* solved without any impact in its island */
+    bool impact : 1;
+    bool lasting : 1; /* by the step: its pair has hit again and again in the frame */
+    bool doubted : 1; /* it was there, and is not found again yet */
     PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
@@ -178,6 +178,8 @@ static inline carom_v3_q40 *contact_moment(const struct contact *c)
 struct contact_list {
     struct contact *contacts;
     struct pool *pool;
+    carom_v3_q40 *drifts; /* as many as there is room for contacts; NULL where no surface moves */
+    uint32_t next_drift;  /* where a free one is looked for first */
 };
 
 /*
@@ -256,6 +258,9 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
  */
 void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
                    const carom_v3_q40 *arm, carom_v3_q40 *drift);
+
+/* Remember it with the contact, when it is not 0. */
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift);
 
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)

@@ -28,3 +28,28 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
     }
     fix_rotate(drift->c, &b->path.start.r, drift->c);
 }
+
+/* Whether a contact in the list has that one. */
+static bool is_kept(const struct contact_list *list, const carom_v3_q40 *drift)
+{
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        if (list->contacts[i].drift == drift) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The contacts may go, be moved and be copied over: what none of them has is free. */
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift)
+{
+    c->drift = NULL;
+    if ((drift->c[0] | drift->c[1] | drift->c[2]) == 0) {
+        return;
+    }
+    while (is_kept(list, &list->drifts[list->next_drift])) {
+        list->next_drift = (list->next_drift + 1) % list->pool->size;
+    }
+    c->drift = &list->drifts[list->next_drift];
+    *c->drift = *drift;
+}

@@ -38,8 +38,8 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
 
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        d.c[k] =
-            carom_shl(a->start_x_q32[k] - b->start_x_q32[k], 8) - carom_shl(pair->offset_q22[k], 18);
+        d.c[k] = carom_shl(a->start_x_q32[k] - b->start_x_q32[k], 8) -
+                 carom_shl(pair->offset_q22[k], 18);
     }
     return d;
 }

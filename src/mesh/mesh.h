@@ -141,8 +141,8 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
  * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above
  * it.)
  */
-inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
-                                    const int32_t n_q30[3], int32_t tolerance_q30)
+inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
+                             int32_t tolerance_q30)
 {
     int64_t low_q60 = -((int64_t)tolerance_q30 << 30);
 

@@ -60,7 +60,7 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        v->c[k] = -c->drift.c[k];
+        v->c[k] = c->drift ? -c->drift->c[k] : 0;
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;

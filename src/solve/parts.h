@@ -132,8 +132,8 @@ static inline void rest_push_side(struct body *b, const struct contact_lever *le
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        in->used |= rest_add(&in->dv[k], own[k] >> down) |
-                    rest_add(&in->du[k], turn_by(lever, k, own, s));
+        in->used |=
+            rest_add(&in->dv[k], own[k] >> down) | rest_add(&in->du[k], turn_by(lever, k, own, s));
     }
 }
 

@@ -134,7 +134,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     for (int k = 0; k < 3; k++) {
         int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
 
-        c->drift.c[k] -= rise;
+        c->drift->c[k] -= rise;
         contact_velocity(c)->c[k] += rise;
     }
     c->speed_q40 += rise_q40;
@@ -168,7 +168,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 {
     int32_t e_q30 = restitution(r, c);
     bool rests = may_rest(c, e_q30);
-    int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
+    int64_t rise_q40 = c->drift ? contact_rise_q40(c->drift, &c->normal) : 0;
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;

@@ -52,10 +52,8 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
 
 void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times)
 {
-    for (int k = 0; k < 3; k++) {
-        if (c->drift.c[k] != 0) {
-            fix_wide_add_product(sum, contact_impulse(c)->c[k], 2 * times * c->drift.c[k]);
-        }
+    for (int k = 0; c->drift && k < 3; k++) {
+        fix_wide_add_product(sum, contact_impulse(c)->c[k], 2 * times * c->drift->c[k]);
     }
 }
 

@@ -235,10 +235,8 @@ static int spread(struct lift *l)
 /* Lift what the surface went into: where to, into the state that is not current. */
 static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 {
-    struct lift l = {.w = w,
-                     .states = world_next(w)->bodies,
-                     .surface = surface,
-                     .rise_q32 = rise_q22 << 10};
+    struct lift l = {
+        .w = w, .states = world_next(w)->bodies, .surface = surface, .rise_q32 = rise_q22 << 10};
     carom_m3_q30 r;
     int result;
 

@@ -88,6 +88,9 @@ static void carve(struct carom_world *w, struct arena *arena)
         s->touching = arena_carve(arena, caps->pairs * sizeof *s->touching);
     }
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
+    if (caps->entries > 0) { /* surfaces that move need some */
+        w->rest.list.drifts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.drifts);
+    }
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
     if (caps->entries > 0) {

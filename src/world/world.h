@@ -32,7 +32,7 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 552 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
+/* 560 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
 struct carom_world {
     /* world: what the caller gave, and the arrays in the block; 84 bytes */
     struct carom_config config; /* gravity: the present one */
