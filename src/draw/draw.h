@@ -270,7 +270,7 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 /* A face in the row at hand. */
 struct draw_span {
     int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
-    int32_t until;  /* the row in which an edge has ended */
+    int32_t until;                 /* the row in which an edge has ended */
     int32_t rest;   /* rows after that: > 0 with a new left edge, < 0 with a new right one */
     uint32_t pixel; /* its colour, over a whole word */
     const struct draw_face *face;
