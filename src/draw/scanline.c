@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
+/* Some compilers would rather have one copy of what two callers share. */
+#if defined __GNUC__
+#define FORCE_INLINE __attribute__((always_inline)) static inline
+#else
+#define FORCE_INLINE static inline
+#endif
+
 /* The state of a walk over the rows of a part. */
 struct rows {
     const struct draw_view *view;
@@ -173,7 +180,7 @@ static void step_row(struct rows *r, int32_t row)
  * Pixels from <= x < to, and perhaps 3 pixels more. Here most runs are of a few pixels, and it costs
  * less to write four at a time than to see where they end.
  */
-static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
+static inline void fill_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
     uint8_t *p, *end;
 
@@ -219,8 +226,8 @@ static void overlap(struct draw_sweep *s, struct draw_span *span)
     }
 }
 
-static inline void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
-                            int pixel_shift)
+FORCE_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
+                           int pixel_shift)
 {
     int32_t x = s->x, end = x, gate = x, safe = s->safe;
     uint32_t pixel = s->ground, ground = s->ground;
@@ -249,7 +256,7 @@ static inline void fill_row(struct draw_sweep *s, struct draw_span *const *spans
                 continue;
             }
             if (top && a == end && a < safe && draw_shows(s, span)) {
-                fill(row, pixel_shift, x, end, pixel);
+                fill_run(row, pixel_shift, x, end, pixel);
                 top = span;
                 pixel = span->pixel;
                 x = a;
@@ -267,7 +274,7 @@ static inline void fill_row(struct draw_sweep *s, struct draw_span *const *spans
             pixel = top ? top->pixel : ground;
             continue;
         }
-        fill(row, pixel_shift, x, end, pixel);
+        fill_run(row, pixel_shift, x, end, pixel);
         if (a > end) {
             draw_run(row, pixel_shift, end, a, ground);
         }
@@ -280,6 +287,17 @@ static inline void fill_row(struct draw_sweep *s, struct draw_span *const *spans
     s->top = end > x ? top : NULL;
     s->end = end;
     draw_advance(s, x1);
+}
+
+/* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
+static void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+{
+    fill_row(s, spans, x1, 2);
+}
+
+static void fill_row_any(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+{
+    fill_row(s, spans, x1, s->pixel_shift);
 }
 
 /* Lay out the room: spans, and two lists of as many with a sentinel at both ends. */
@@ -305,10 +323,12 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
     struct draw_sweep s = {.view = view, .vertices = list->vertices};
     struct draw_span lowest = {.x_q15 = {INT32_MIN, INT32_MIN}};
     const struct draw_rect *rect = &view->rect;
+    void (*fill)(struct draw_sweep *, struct draw_span *const *, int32_t);
 
     make_room(&r, (struct draw_span *)(void *)(list->vertices + list->vertex_count));
     r.spans[0] = r.last[0] = &lowest;
     s.pixel_shift = draw_pixel_shift(picture->format);
+    fill = s.pixel_shift == 2 ? fill_row_4 : fill_row_any;
     for (int32_t y = rect->y0; y < rect->y1; y++) {
         if (!begin_faces(&r, y) && !must) {
             return false;
@@ -322,11 +342,7 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.under_count = 0;
         s.under_high = 0;
         s.ground = draw_ground(view, picture, y);
-        if (s.pixel_shift == 2) {
-            fill_row(&s, r.spans + 1, rect->x1, 2);
-        } else {
-            fill_row(&s, r.spans + 1, rect->x1, s.pixel_shift);
-        }
+        fill(&s, r.spans + 1, rect->x1);
     }
     return true;
 }
