@@ -346,10 +346,16 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
 typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
 typedef uint32_t draw_pixel4 __attribute__((may_alias)); /* a pixel of 4 bytes, in its place */
+typedef struct {
+    uint32_t word[4];
+} __attribute__((may_alias)) draw_four;
 #else
 typedef uint16_t draw_half;
 typedef uint32_t draw_word;
 typedef uint32_t draw_pixel4;
+typedef struct {
+    uint32_t word[4];
+} draw_four;
 #endif
 
 /* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */
