@@ -4,14 +4,17 @@
  * the console. tools/bench.py runs it, and says what the rows mean.
  *
  * Options: scene=NAME  frames=600  first=1 (the first frame that has a row)  awake=1 (no sleep)
+ *          throw=N (the N-th way to throw the scene's first body; 0: the scene's own)
  *          draw=N (every N-th of those frames is drawn as well, in both sizes)
  *          caps=B,P,C,F,E,N (capacities of the world)
  */
 #include <stdlib.h>
 
 #include "carom_draw.h"
+#include "num/fix.h"
 #include "port.h"
 #include "scene.h"
+#include "test.h"
 
 #ifndef BENCH_MESH_BYTES
 #define BENCH_MESH_BYTES SCENE_LARGE_MESH_BYTES
@@ -50,6 +53,58 @@ static size_t world_bytes(struct carom_caps *caps)
     }
     return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
                              caps->candidates);
+}
+
+static int64_t about_zero(struct test_random *random, int64_t most)
+{
+    return test_random_range(random, -most, most);
+}
+
+static int64_t largest(const carom_v3_q40 *v)
+{
+    int64_t most = 0;
+
+    for (int k = 0; k < 3; k++) {
+        most = v->c[k] > most ? v->c[k] : -v->c[k] > most ? -v->c[k] : most;
+    }
+    return most;
+}
+
+static carom_quat_q30 any_rotation(struct test_random *random)
+{
+    carom_quat_q30 q;
+    int64_t c[4], sum = 0;
+
+    for (int k = 0; k < 4; k++) {
+        c[k] = about_zero(random, 30000);
+        sum += c[k] * c[k];
+    }
+    for (int k = 0; k < 4; k++) {
+        q.c[k] = (int32_t)(c[k] * CAROM_ONE_Q30 / fix_sqrt((uint64_t)sum));
+    }
+    return q;
+}
+
+/*
+ * Throw a body in another way: turned anyhow, up to two units beside the middle and going towards
+ * it. No component of its velocity or spin exceeds the largest one that it had.
+ */
+static void throw_body(struct carom_body_def *def, uint64_t number)
+{
+    struct test_random random = {.state = number};
+    int64_t speed = largest(&def->velocity), turn = largest(&def->spin);
+
+    def->rotation = any_rotation(&random);
+    for (int k = 0; k < 3; k++) {
+        def->velocity.c[k] = about_zero(&random, speed);
+        def->spin.c[k] = about_zero(&random, turn);
+    }
+    for (int k = 0; k < 2; k++) {
+        def->position.c[k] = about_zero(&random, CAROM_POSITION_MM(2000));
+        if ((def->position.c[k] > 0) == (def->velocity.c[k] > 0)) {
+            def->velocity.c[k] = -def->velocity.c[k];
+        }
+    }
 }
 
 static bool all_asleep(const struct carom_world *world, int bodies)
@@ -146,6 +201,9 @@ int main(void)
     config.ticks = port_ticks;
     config.sleep = port_number("awake", 0) == 0;
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
+    if (port_number("throw", 0) > 0) {
+        throw_body(&scene.body, (uint64_t)port_number("throw", 0));
+    }
     bytes = world_bytes(&scene.caps);
     config.caps = scene.caps;
     expect(scene_make(&scene, &config, world_block, bytes, &world), "world");

@@ -51,7 +51,7 @@ def series(figures, stages, suffix):
     for field in FIELDS:
         keys = [("growth-%d%s" % (field, suffix), "contact", stage) for stage in stages]
         if all(key in figures for key in keys):
-            yield HEAD + field, sum(figures[key][0] for key in keys)
+            yield HEAD + field, sum(figures[key].mean for key in keys)
 
 
 def figure7(figures, folder):
@@ -85,8 +85,8 @@ plot %s
 
 def figure8(figures, folder):
     rows = [(scene, seconds * bench.PAPER_RATE / 1e6,
-             figures[scene, "contact", "total"][0] / 1e6,
-             figures[scene, "contact", bench.DISPLAY][0] / 1e6)
+             figures[scene, "contact", "total"].mean / 1e6,
+             figures[scene, "contact", bench.DISPLAY].mean / 1e6)
             for scene, seconds in bench.PAPER.items()
             if (scene, "contact", bench.DISPLAY) in figures]
     if not rows:

@@ -174,10 +174,10 @@ static void visit_leaf(struct interfere *w)
 /* -------------------------------------------------------------------- pair */
 
 /*
- * How high the centre of a leaf may be above its radius, q20, for leaf_near to find that it is not above
- * b: with what no leaf reaches beyond, for its sphere is within twice the radius of a.
+ * An upper bound of the centre's z less the radius, q20, of the leaves that leaf_near does not find above
+ * `top`: the sphere of every leaf is within twice the radius of a.
  */
-static int32_t highest_centre(const struct interfere *w)
+static int64_t highest_leaf(const struct interfere *w, int32_t top)
 {
     const struct carom_mesh *mb = w->b->mesh;
     const struct interfere_leaf *l = w->leaf;
@@ -187,24 +187,43 @@ static int32_t highest_centre(const struct interfere *w)
         turns_q30 += carom_abs(l->change.c[2][k]) / 2;
     }
     reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->radius_q22, 30)) >> 2) +
-                carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 4;
-    reach_q20 += (int64_t)(l->top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
+                carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 6;
+    reach_q20 += (int64_t)(top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
                  (mb->mass.centre.c[2] >> 2) - l->at.c[2];
-    return (int32_t)(reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2);
+    return reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2;
+}
+
+/* The next leaf that is not above all of a height of b; most leaves end here. */
+static const struct carom_leaf *next_leaf(const struct interfere *w, const struct carom_leaf *leaf,
+                                          int64_t highest_q20)
+{
+    const struct carom_leaf *end = w->a->mesh->leaves + w->a->mesh->leaf_count;
+    const int32_t *up = w->leaf->to_b.c[2];
+    const int32_t x = up[0], y = up[1], z = up[2];
+    const int64_t highest_q52 = highest_q20 * ((int64_t)1 << 32);
+
+    while (leaf < end && (int64_t)x * leaf->centre.c[0] + (int64_t)y * leaf->centre.c[1] +
+                                 (int64_t)z * leaf->centre.c[2] -
+                                 (int64_t)leaf->radius_q22 * CAROM_ONE_Q30 >
+                             highest_q52) {
+        leaf++;
+    }
+    return leaf;
 }
 
 void interfere_leaves(struct interfere *w)
 {
     const struct carom_leaf *leaf = w->a->mesh->leaves, *end = leaf + w->a->mesh->leaf_count;
-    const int32_t up[3] = {w->leaf->to_b.c[2][0], w->leaf->to_b.c[2][1], w->leaf->to_b.c[2][2]};
-    int32_t highest_q20;
+    int64_t highest_q20;
 
+    leaf = next_leaf(w, leaf, highest_leaf(w, w->b->mesh->box[1][2]));
+    if (leaf == end) {
+        return;
+    }
     w->leaf->top = highest_of_b(w);
-    highest_q20 = highest_centre(w);
-    for (; leaf < end && !w->error; leaf++) {
-        /* most end here */
-        if (interfere_dot(up, leaf->centre.c) - (leaf->radius_q22 >> 2) <= highest_q20 &&
-            leaf_near(w, leaf)) {
+    highest_q20 = highest_leaf(w, w->leaf->top);
+    for (; (leaf = next_leaf(w, leaf, highest_q20)) < end && !w->error; leaf++) {
+        if (leaf_near(w, leaf)) {
             visit_leaf(w);
         }
     }

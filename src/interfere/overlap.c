@@ -8,7 +8,7 @@
  */
 #include "narrow.h"
 
-/* Boxes of bodies are compared with some room, q22. */
+/* Boxes of bodies are compared with some room, q22: more than all that is cut off here. */
 #define BOX_MARGIN_Q22 256
 
 struct interfere_query {
@@ -49,8 +49,8 @@ struct overlap {
     int32_t near_q20;
 };
 
-static struct interfere_vec way(const struct interfere_vec *from, const struct interfere_vec *to,
-                                int32_t scale)
+FIX_APART static struct interfere_vec way(const struct interfere_vec *from,
+                                          const struct interfere_vec *to, int32_t scale)
 {
     return (struct interfere_vec){{(to->c[0] - from->c[0]) * scale, (to->c[1] - from->c[1]) * scale,
                                    (to->c[2] - from->c[2]) * scale}};
@@ -159,7 +159,7 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     return !intervals_apart(&m, p, t->p, over_p, t->corners_over);
 }
 
-static bool meet(struct interfere *w, const struct target *t, uint32_t i)
+static void list_pair(struct interfere *w, const struct target *t, uint32_t i)
 {
     struct interfere_query *q = w->query;
 
@@ -169,30 +169,117 @@ static bool meet(struct interfere *w, const struct target *t, uint32_t i)
     if (faces_cross(w, t, i)) {
         add_pair(w, (uint16_t)interfere_face(w, i), t->number);
     }
-    return false;
+}
+
+/* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
+static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
+{
+    const struct interfere_plane *plane = &w->leaf->planes[i];
+    int32_t above_q18, below_q18, p_q18, q_q18, r_q18;
+
+    if (!(w->leaf->placed >> i & 1)) {
+        interfere_place_plane(w, i);
+    }
+    above_q18 = plane->above_q18;
+    below_q18 = plane->below_q18;
+    p_q18 = interfere_dot(plane->n_q30, t->p[0].c);
+    q_q18 = interfere_dot(plane->n_q30, t->p[1].c);
+    r_q18 = interfere_dot(plane->n_q30, t->p[2].c);
+    t->corners_over = interfere_is_less(above_q18, p_q18) |
+                      interfere_is_less(above_q18, q_q18) << 1 |
+                      interfere_is_less(above_q18, r_q18) << 2;
+    t->corners_under = interfere_is_less(p_q18, below_q18) |
+                       interfere_is_less(q_q18, below_q18) << 1 |
+                       interfere_is_less(r_q18, below_q18) << 2;
+    return t->corners_over != 7 && t->corners_under != 7;
+}
+
+/* List the faces of the leaf that neither boxes nor the planes of both keep apart from b's face. */
+static void meet(struct interfere *w, struct target *t)
+{
+    uint32_t near = interfere_faces_near(w, t);
+
+    for (uint32_t i = 0; near != 0; i++, near >>= 1) {
+        if ((near & 1) && is_reached(w, t, i)) {
+            list_pair(w, t, i);
+        }
+    }
 }
 
 /* ------------------------------------------------------------------- bodies */
 
+/* The box of a mesh along an axis, from its centre of mass. */
+static int32_t side_q20(const struct carom_mesh *mesh, int side, int k)
+{
+    return mesh->box[side][k] * ((int32_t)1 << (20 - mesh->raw.quantum_bits)) -
+           (mesh->mass.centre.c[k] >> 2);
+}
+
+/* Whether the box around a's sphere, seen from b, and b's are apart. */
+static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
+{
+    int64_t around = (w->a->radius_q22 + BOX_MARGIN_Q22) >> 2;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t at = d_q32[k] >> 12;
+
+        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the box around a's own, seen from b, and b's are apart. */
+static bool box_apart(const struct interfere *w)
+{
+    const struct interfere_leaf *l = w->leaf;
+    int32_t middle[3], half[3];
+
+    for (int k = 0; k < 3; k++) {
+        int32_t low = side_q20(w->a->mesh, 0, k), high = side_q20(w->a->mesh, 1, k);
+
+        middle[k] = (low + high) / 2;
+        half[k] = (high - low) / 2 + 1;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t at = l->at.c[k], around = BOX_MARGIN_Q22 >> 2;
+
+        for (int i = 0; i < 3; i++) {
+            at += carom_mul_q30(middle[i], l->to_b.c[k][i]);
+            around += carom_mul_q30(half[i], (int32_t)carom_abs(l->to_b.c[k][i]));
+        }
+        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /*
- * Where a is as seen from b. Bounds: boxes of bodies meet, and no point of a body is more than 444
- * units from its centre or origin, so places in b's frame are within 1332 units and fit q20.
+ * Where a is as seen from b; false when their boxes are apart. Bounds: no point of a body is more than
+ * 444 units from its centre or origin, so of boxes that meet, all places in b's frame are within 1332
+ * units and fit q20.
  */
-static void place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
+static bool place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
 {
     carom_m3_q30 r_a, r_b;
     int64_t d_q32[3];
 
-    fix_matrix(&r_a, &a->rotation);
     fix_matrix(&r_b, &b->rotation);
     for (int k = 0; k < 3; k++) {
         d_q32[k] = a->position.c[k] - b->position.c[k];
     }
     fix_rotate_back(d_q32, &r_b, d_q32);
+    if (sphere_apart(w, d_q32)) {
+        return false;
+    }
     for (int k = 0; k < 3; k++) {
         w->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
     }
+    fix_matrix(&r_a, &a->rotation);
     interfere_relate(&w->leaf->to_b, &r_b, &r_a);
+    return !box_apart(w);
 }
 
 /* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
@@ -230,18 +317,17 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     struct interfere_query q;
     int result;
 
-    if (!broad_near(a.body, a.state, b.body, b.state, BOX_MARGIN_Q22)) {
+    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
+    w->a = q.swapped ? b.body : a.body;
+    w->b = q.swapped ? a.body : b.body;
+    if (!place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state)) {
         return 0;
     }
     q.out = out;
     q.room = room;
     q.count = 0;
-    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
     q.leaf = NULL;
     q.again = false;
-    w->a = q.swapped ? b.body : a.body;
-    w->b = q.swapped ? a.body : b.body;
-    place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state);
     memset(&w->leaf->change, 0, sizeof w->leaf->change);
     memset(&w->leaf->moves, 0, sizeof w->leaf->moves);
     w->leaf->near_q22 = 0;
