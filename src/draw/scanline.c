@@ -323,12 +323,10 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
     struct draw_sweep s = {.view = view, .vertices = list->vertices};
     struct draw_span lowest = {.x_q15 = {INT32_MIN, INT32_MIN}};
     const struct draw_rect *rect = &view->rect;
-    void (*fill)(struct draw_sweep *, struct draw_span *const *, int32_t);
 
     make_room(&r, (struct draw_span *)(void *)(list->vertices + list->vertex_count));
     r.spans[0] = r.last[0] = &lowest;
     s.pixel_shift = draw_pixel_shift(picture->format);
-    fill = s.pixel_shift == 2 ? fill_row_4 : fill_row_any;
     for (int32_t y = rect->y0; y < rect->y1; y++) {
         if (!begin_faces(&r, y) && !must) {
             return false;
@@ -342,7 +340,11 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.under_count = 0;
         s.under_high = 0;
         s.ground = draw_ground(view, picture, y);
-        fill(&s, r.spans + 1, rect->x1);
+        if (s.pixel_shift == 2) {
+            fill_row_4(&s, r.spans + 1, rect->x1);
+        } else {
+            fill_row_any(&s, r.spans + 1, rect->x1);
+        }
     }
     return true;
 }
