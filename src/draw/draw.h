@@ -270,8 +270,8 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 /* A face in the row at hand. */
 struct draw_span {
     int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
-    int32_t rows;                  /* before an edge ends */
-    int32_t rest;   /* after that: > 0 with a new left edge, < 0 with a new right one */
+    int32_t until;                 /* the row in which an edge has ended */
+    int32_t rest;   /* rows after that: > 0 with a new left edge, < 0 with a new right one */
     uint32_t pixel; /* its colour, over a whole word */
     const struct draw_face *face;
     uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
@@ -285,7 +285,7 @@ struct draw_sweep {
     const struct draw_view *view;
     const struct draw_vertex *vertices;
     uint8_t *row; /* its pixel 0 */
-    int32_t safe; /* a run that ends here may write 3 bytes more */
+    int32_t safe; /* a run that ends here may write 3 pixels more */
     int pixel_shift;
     int32_t y, x;
     uint32_t ground;       /* the background */
@@ -345,9 +345,17 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 #if defined __GNUC__
 typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
 typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
+typedef uint32_t draw_pixel4 __attribute__((may_alias)); /* a pixel of 4 bytes, in its place */
+typedef struct {
+    uint32_t word[4];
+} __attribute__((may_alias)) draw_four;
 #else
 typedef uint16_t draw_half;
 typedef uint32_t draw_word;
+typedef uint32_t draw_pixel4;
+typedef struct {
+    uint32_t word[4];
+} draw_four;
 #endif
 
 /* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */

@@ -39,6 +39,16 @@ static void run_bytes(uint8_t *p, uint8_t *end, uint32_t word)
         *(draw_half *)(void *)p = (uint16_t)word;
         p += 2;
     }
+    /* some processors write several words at once, where they are aligned */
+    if (((uintptr_t)p & 3) == 0) {
+        const draw_four four = {{word, word, word, word}};
+
+        for (; end - p >= 64; p += 64) {
+            draw_four *to = (void *)p;
+
+            to[0] = to[1] = to[2] = to[3] = four;
+        }
+    }
     for (; end - p >= 32; p += 32) {
         draw_word *to = (void *)p;
 

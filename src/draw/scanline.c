@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
+/* Some compilers would rather have one copy of what two callers share. */
+#if defined __GNUC__
+#define FORCE_INLINE __attribute__((always_inline)) static inline
+#else
+#define FORCE_INLINE static inline
+#endif
+
 /* The state of a walk over the rows of a part. */
 struct rows {
     const struct draw_view *view;
@@ -47,11 +54,11 @@ static inline void begin_span(struct draw_span *span, const struct draw_vertex *
     if (rows_b <= 0) {
         set_side(span, 0, b, c, row);
         set_side(span, 1, a, c, row);
-        span->rows = rows_c;
+        span->until = row + rows_c;
         return;
     }
     set_side(span, 0, a, b, row);
-    span->rows = rows_b;
+    span->until = row + rows_b;
     if (rows_c <= 0) {
         set_side(span, 1, c, b, row);
         return;
@@ -59,7 +66,7 @@ static inline void begin_span(struct draw_span *span, const struct draw_vertex *
     set_side(span, 1, a, c, row);
     span->rest = rows_c - rows_b;
     if (rows_c < rows_b) {
-        span->rows = rows_c;
+        span->until = row + rows_c;
     }
 }
 
@@ -71,10 +78,10 @@ static inline void turn_span(struct draw_span *span, const struct draw_vertex *v
 
     if (span->rest > 0) {
         set_side(span, 0, b, c, row);
-        span->rows = span->rest;
+        span->until = row + span->rest;
     } else {
         set_side(span, 1, c, b, row);
-        span->rows = -span->rest;
+        span->until = row - span->rest;
     }
     span->rest = 0;
 }
@@ -97,7 +104,7 @@ static bool begin_faces(struct rows *r, int32_t row)
             return false;
         }
         span->face = face;
-        span->pixel = r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
+        span->pixel = r->format == CAROM_XRGB8888 ? carom_draw_palette[face->colour]
                                                   : draw_colour(r->format, face->colour);
         begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
@@ -137,7 +144,7 @@ static void step_row(struct rows *r, int32_t row)
 
         span->x_q15[0] = x0;
         span->x_q15[1] = x1;
-        if (--span->rows == 0) {
+        if (span->until == row) {
             if (span->rest == 0) {
                 span->next = r->free;
                 r->free = span;
@@ -170,13 +177,21 @@ static void step_row(struct rows *r, int32_t row)
 }
 
 /*
- * Pixels from <= x < to, and perhaps 3 bytes more. Here most runs are of a few pixels, and it costs
- * less to write whole words than to see where they end.
+ * Pixels from <= x < to, and perhaps 3 pixels more. Here most runs are of a few pixels, and it costs
+ * less to write four at a time than to see where they end.
  */
-static inline void fill(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
+static inline void fill_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
     uint8_t *p, *end;
 
+    if (pixel_shift == 2) {
+        draw_pixel4 *to4 = (draw_pixel4 *)(void *)row + to;
+
+        for (draw_pixel4 *p4 = to4 + (from - to); p4 < to4; p4 += 4) {
+            p4[0] = p4[1] = p4[2] = p4[3] = pixel;
+        }
+        return;
+    }
     if (pixel_shift < 0) {
         draw_run(row, pixel_shift, from, to, pixel);
         return;
@@ -211,13 +226,13 @@ static void overlap(struct draw_sweep *s, struct draw_span *span)
     }
 }
 
-static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+FORCE_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
+                           int pixel_shift)
 {
     int32_t x = s->x, end = x, gate = x, safe = s->safe;
     uint32_t pixel = s->ground, ground = s->ground;
     struct draw_span *top = NULL;
     uint8_t *row = s->row;
-    int pixel_shift = s->pixel_shift;
 
     for (;;) {
         struct draw_span *span = *spans++;
@@ -241,7 +256,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
                 continue;
             }
             if (top && a == end && a < safe && draw_shows(s, span)) {
-                fill(row, pixel_shift, x, end, pixel);
+                fill_run(row, pixel_shift, x, end, pixel);
                 top = span;
                 pixel = span->pixel;
                 x = a;
@@ -259,7 +274,7 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
             pixel = top ? top->pixel : ground;
             continue;
         }
-        fill(row, pixel_shift, x, end, pixel);
+        fill_run(row, pixel_shift, x, end, pixel);
         if (a > end) {
             draw_run(row, pixel_shift, end, a, ground);
         }
@@ -272,6 +287,17 @@ static void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32
     s->top = end > x ? top : NULL;
     s->end = end;
     draw_advance(s, x1);
+}
+
+/* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
+static void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+{
+    fill_row(s, spans, x1, 2);
+}
+
+static void fill_row_any(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+{
+    fill_row(s, spans, x1, s->pixel_shift);
 }
 
 /* Lay out the room: spans, and two lists of as many with a sentinel at both ends. */
@@ -314,7 +340,11 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.under_count = 0;
         s.under_high = 0;
         s.ground = draw_ground(view, picture, y);
-        fill_row(&s, r.spans + 1, rect->x1);
+        if (s.pixel_shift == 2) {
+            fill_row_4(&s, r.spans + 1, rect->x1);
+        } else {
+            fill_row_any(&s, r.spans + 1, rect->x1);
+        }
     }
     return true;
 }
