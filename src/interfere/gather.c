@@ -46,6 +46,22 @@ static void choose_asker(struct interfere *w)
     }
 }
 
+/*
+ * How far a direction of one body may be off what the middle of both ends of the span makes of it, as seen
+ * from the other: by half of what the bodies turn in the span, whatever the axes, and by what room their regions
+ * give to turns.
+ */
+static int64_t off_the_middle_q30(const struct interfere *w)
+{
+    int64_t turn_q30 = w->leaf->angle_q30 / 2 + CONE_NOISE_Q30;
+
+    if (!w->by_paths) {
+        turn_q30 += w->a->turn_q30 - 2 * w->a->region.u_q30;
+        turn_q30 += w->b->turn_q30 - 2 * w->b->region.u_q30;
+    }
+    return turn_q30;
+}
+
 static void gather_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const struct pair *p = &all->pairs[number];
@@ -64,9 +80,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
         w->error = CAROM_ERR_RANGE;
         return;
     }
-    cone_q30 = INTERFERE_CONE_Q30;
-    cone_q30 += w->by_paths ? (int64_t)w->leaf->angle_q30 + CONE_NOISE_Q30
-                            : (int64_t)bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
+    cone_q30 = INTERFERE_CONE_Q30 + off_the_middle_q30(w);
     w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
