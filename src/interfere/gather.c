@@ -35,14 +35,15 @@ static int64_t carried_around(const struct interfere *w, const struct body *othe
 static void choose_asker(struct interfere *w)
 {
     const struct body *a = w->a;
+    int64_t from_a_q30 = w->span.from_a_q30;
 
     w->swapped = w->b->moving && a->radius_q22 / 5 > w->b->radius_q22 / 4 &&
                  carried_around(w, a, w->b) > carried_around(w, w->b, a);
     if (w->swapped) {
         w->a = w->b;
         w->b = a;
-        w->span = (struct interfere_span){w->span.from_b_q30, w->span.from_a_q30, w->span.time_q30,
-                                          w->span.most};
+        w->span.from_a_q30 = w->span.from_b_q30;
+        w->span.from_b_q30 = from_a_q30;
     }
 }
 
@@ -121,8 +122,11 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
 {
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
+    uint32_t old = span->more ? m->count : 0;
 
-    w->own_first = pool->used;
+    CAROM_ASSERT(!span->more || (m->kept && m->first + old == pool->used));
+    w->own_first = pool->used - old;
+    m->kept = false;
     w->span = *span;
     w->by_paths = !keep;
     gather(w, all, number, visitor);
@@ -136,7 +140,8 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     if (w->error) {
         return w->error;
     }
-    visitor->visit(visitor, &w->candidates[m->first], m->count);
+    old = w->whole ? old : 0;
+    visitor->visit(visitor, &w->candidates[m->first + old], m->count - old);
     return CAROM_OK;
 }
 
@@ -155,7 +160,7 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
     struct pair_work *meetings = w->meetings;
 
     w->meetings = NULL;
-    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX};
+    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX, false};
     w->by_paths = false;
     w->error = CAROM_OK;
     for (uint32_t i = 0; i < pair_count && !w->error; i++) {

@@ -19,6 +19,14 @@
 #define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
+/* From q30 to the unit of a pair's `until`. */
+#define UNTIL_SHIFT 24
+#ifndef GP
+#define GP 16
+#endif
+#ifndef GM
+#define GM 4
+#endif
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -48,7 +56,7 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
 static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
                                      int64_t time_q30)
 {
-    struct interfere_span span = {0, 0, time_q30, UINT32_MAX};
+    struct interfere_span span = {0, 0, time_q30, UINT32_MAX, false};
 
     span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
     span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
@@ -96,6 +104,55 @@ static void shorten(struct step *s, uint32_t i)
     }
 }
 
+/* In which of the parts of its window a hit's surfaces meet. */
+static int32_t part_of(const struct step_visitor *v, const struct boyse_hit *hit)
+{
+    int32_t part = (int32_t)(((int64_t)hit->root_q30 * v->parts) >> 30);
+
+    return part < v->parts ? part : v->parts - 1;
+}
+
+/*
+ * Candidates of a pair that is to be kept, part of the window by part, until a part has a hit: those of the
+ * parts behind it are not gathered. Else they are those of the whole of the regions.
+ */
+static int visit_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    struct carom_world *w = s->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    struct pair_work *m = &w->meetings[number];
+    int32_t done_q30 = from_q30;
+    struct interfere_span span;
+
+    int32_t parts = m->hits == 0 && !w->bodies[w->pairs[number].a].touched && !w->bodies[w->pairs[number].b].touched ? v->parts : 1;
+
+    m->kept = false;
+    for (int32_t k = 1; k < parts; k++) {
+        int32_t end = from_q30 + (int32_t)((int64_t)(v->to_q30 - from_q30) * k / v->parts);
+        int32_t until = (end >> UNTIL_SHIFT) + 1;
+        int result;
+
+        if (until >= CAROM_ONE_Q30 >> UNTIL_SHIFT) {
+            break;
+        }
+        span = span_of(s, &w->pairs[number], done_q30, (until << UNTIL_SHIFT) - done_q30);
+        span.more = m->kept;
+        result = interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+        m->until = (uint32_t)until & 63;
+        if (result != CAROM_OK || (v->found && part_of(v, &v->hit) < k)) {
+            return result;
+        }
+        done_q30 = m->kept ? until << UNTIL_SHIFT : from_q30;
+        if (!m->kept) {
+            break; /* the pool is too small: what it had room for is gone */
+        }
+    }
+    m->until = 0;
+    span = span_of(s, &w->pairs[number], done_q30, (int64_t)BODY_REGION_FRAMES << 30);
+    span.more = m->kept;
+    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+}
+
 /* A pair that is not kept. */
 static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
@@ -118,15 +175,25 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
     span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
                 : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
     w->meetings[number].clear = 0; /* the static check measured other candidates */
-    span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
-    result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
-    if (result == INTERFERE_TOO_MANY) {
+    w->meetings[number].until = 0;
+    if (!keep || lasts(s, p->a) || lasts(s, p->b)) {
+        span.most = keep ? ENOUGH : UINT32_MAX;
+        result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+        if (result != INTERFERE_TOO_MANY) {
+            return result;
+        }
         shorten(s, p->a);
         shorten(s, p->b);
-        span = span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30);
-        result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
     }
-    return result;
+    return visit_parts(s, number, v, from_q30);
+}
+
+/* Candidates that are those of a part of the window are not enough beyond it. */
+static void drop_part(struct pair_work *m, int32_t to_q30)
+{
+    if (m->until > 0 && to_q30 > (int32_t)m->until << UNTIL_SHIFT) {
+        m->kept = false;
+    }
 }
 
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
@@ -140,6 +207,7 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     v->number = number;
     v->found = false;
     v->error = CAROM_OK;
+    drop_part(&s->w->meetings[number], v->to_q30);
     if (s->w->meetings[number].kept) {
         interfere_visit_kept(&s->w->interfere, number, &v->base);
         result = CAROM_OK;
@@ -199,11 +267,26 @@ bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
     return late;
 }
 
-/* The earliest hit; equal times go to the first in the order of candidates. */
+/*
+ * Whether a hit comes before the best so far: in an earlier part of the window, or else earlier. Equal times
+ * go to the first in the order of candidates.
+ */
+static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
+{
+    int32_t part = part_of(v, hit), best = part_of(v, &v->hit);
+
+    if (part != best) {
+        return part < best;
+    }
+    return hit->t_q30 < v->hit.t_q30 ||
+           (hit->t_q30 == v->hit.t_q30 &&
+            candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
+}
+
+/* The first hit. */
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
-    struct boyse_hit *best = &v->hit;
     struct boyse_pair *pair = n > 0 ? step_set_pair(v->step->w, v->number) : NULL;
 
     for (uint32_t i = 0; i < n; i++) {
@@ -215,9 +298,8 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
         }
         hit.candidate = c[i];
         hit.touch.valid = step_put_off(pair, &hit);
-        if (!v->found || hit.t_q30 < best->t_q30 ||
-            (hit.t_q30 == best->t_q30 && candidate_compare(&c[i], &best->candidate) < 0)) {
-            *best = hit;
+        if (!v->found || is_before(v, &hit)) {
+            v->hit = hit;
             v->found = true;
         }
     }
@@ -250,20 +332,20 @@ int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
     return step_visit(s, number, v, visit_first);
 }
 
-/* Into how many parts a window is cut for the turns of both paths. */
-static int64_t parts_of_turn(const struct body *a, const struct body *b)
+/* Into how many parts of a turn of 1 / `fine` the turns of both paths are cut. */
+static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t fine)
 {
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
     int64_t u2_q30 = (path_a->turns ? path_a->u2_q30 : 0) + (path_b->turns ? path_b->u2_q30 : 0);
     int64_t turn_q30;
 
     /* a turn is 2 |u|, and the square of a sum of two no more than twice the sum of the squares */
-    if (u2_q30 * 8 * TURN_PARTS * TURN_PARTS <= CAROM_ONE_Q30 || !many_faces(a, b)) {
+    if (u2_q30 * 8 * fine * fine <= CAROM_ONE_Q30 || !many_faces(a, b)) {
         return 1;
     }
     turn_q30 = path_a->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_a->u2_q30 << 30) : 0;
     turn_q30 += path_b->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_b->u2_q30 << 30) : 0;
-    return ((turn_q30 * TURN_PARTS) >> 30) + 1;
+    return ((turn_q30 * fine) >> 30) + 1;
 }
 
 /*
@@ -275,7 +357,7 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t radius_q22 = (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
-    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b);
+    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, TURN_PARTS);
 
     for (int k = 0; k < 3; k++) {
         way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]);
@@ -302,6 +384,7 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
         step_open_window(s, number, v->from_q30, v->to_q30);
     }
     v->found = false;
+    v->parts = parts > 1 ? 1 : (int32_t)parts_of_turn(&s->w->bodies[s->w->pairs[number].a],&s->w->bodies[s->w->pairs[number].b],GP);
     if (!step_stay_apart(s, number, 0)) {
         result = step_first_hit(s, number, v);
     }
@@ -377,7 +460,7 @@ int step_search(struct step *s, uint32_t number)
         m->hit_q30 = v.hit_q30;
         m->root_q30 = v.hit.root_q30;
         m->late = v.hit.touch.valid ? 1 : 0;
-        m->kind = v.hit.candidate.kind;
+        m->kind = (uint32_t)v.hit.candidate.kind & 3;
         m->i = v.hit.candidate.i;
         m->j = v.hit.candidate.j;
     }
