@@ -134,9 +134,11 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     m->count = pool->used - w->own_first;
     m->kept = keep && w->whole && !w->error;
     m->found = m->count > 0 || !w->whole;
-    if (!m->kept) {
-        pool->used = w->own_first;
+    if (w->error == INTERFERE_TOO_MANY && span->more && w->whole) {
+        m->count = old;
+        m->kept = true;
     }
+    pool->used = w->own_first + (m->kept ? m->count : 0);
     if (w->error) {
         return w->error;
     }

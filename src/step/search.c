@@ -21,12 +21,8 @@
 #define HALVINGS 20
 /* From q30 to the unit of a pair's `until`. */
 #define UNTIL_SHIFT 24
-#ifndef GP
 #define GP 16
-#endif
-#ifndef GM
-#define GM 4
-#endif
+#define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -112,45 +108,96 @@ static int32_t part_of(const struct step_visitor *v, const struct boyse_hit *hit
     return part < v->parts ? part : v->parts - 1;
 }
 
-/*
- * Candidates of a pair that is to be kept, part of the window by part, until a part has a hit: those of the
- * parts behind it are not gathered. Else they are those of the whole of the regions.
- */
-static int visit_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+/* Candidates from a time of the frame to another, to be kept with those that the pair has. */
+static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
+                     int64_t to_q30, uint32_t most)
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
-    struct pair_work *m = &w->meetings[number];
-    int32_t done_q30 = from_q30;
-    struct interfere_span span;
+    struct interfere_span span = span_of(s, &w->pairs[number], from_q30, to_q30 - from_q30);
 
-    int32_t parts = m->hits == 0 && !w->bodies[w->pairs[number].a].touched && !w->bodies[w->pairs[number].b].touched ? v->parts : 1;
+    span.most = most;
+    span.more = w->meetings[number].kept;
+    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+}
 
-    m->kept = false;
-    for (int32_t k = 1; k < parts; k++) {
-        int32_t end = from_q30 + (int32_t)((int64_t)(v->to_q30 - from_q30) * k / v->parts);
-        int32_t until = (end >> UNTIL_SHIFT) + 1;
+/*
+ * Candidates of the parts of the window but for the last one, until a part has a hit: those of the parts behind it are
+ * not asked for. Whether one has; `done` becomes the time up to which the pair keeps what was found.
+ */
+static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *done_q30)
+{
+    struct pair_work *m = &s->w->meetings[number];
+    const int32_t from_q30 = *done_q30, time_q30 = v->to_q30 - from_q30;
+
+    for (int32_t k = 1; k < v->parts && *done_q30 >= 0; k++) {
+        int32_t end_q30 = from_q30 + (int32_t)((int64_t)time_q30 * k / v->parts);
+        int32_t until = (end_q30 >> UNTIL_SHIFT) + 1;
         int result;
 
         if (until >= CAROM_ONE_Q30 >> UNTIL_SHIFT) {
             break;
         }
-        span = span_of(s, &w->pairs[number], done_q30, (until << UNTIL_SHIFT) - done_q30);
-        span.more = m->kept;
-        result = interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+        result = gather_on(s, number, v, *done_q30, (int64_t)until << UNTIL_SHIFT, UINT32_MAX);
         m->until = (uint32_t)until & 63;
-        if (result != CAROM_OK || (v->found && part_of(v, &v->hit) < k)) {
-            return result;
+        if (result < 0 || (v->found && part_of(v, &v->hit) < k)) {
+            return result < 0 ? result : 1;
         }
-        done_q30 = m->kept ? until << UNTIL_SHIFT : from_q30;
+        *done_q30 = until << UNTIL_SHIFT;
         if (!m->kept) {
-            break; /* the pool is too small: what it had room for is gone */
+            *done_q30 = from_q30;
+            break;
         }
     }
     m->until = 0;
-    span = span_of(s, &w->pairs[number], done_q30, (int64_t)BODY_REGION_FRAMES << 30);
-    span.more = m->kept;
-    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+    return CAROM_OK;
+}
+
+/* Whether it is likely that a part of the window is enough: not for bodies that touch all the time. */
+static bool by_parts(const struct step *s, uint32_t number)
+{
+    const struct pair *p = &s->w->pairs[number];
+
+    return s->w->meetings[number].hits == 0 && !s->w->bodies[p->a].touched &&
+           !s->w->bodies[p->b].touched;
+}
+
+/*
+ * A pair that is to be kept, from a time on to the end of both regions. One that lasts because nothing was
+ * near ends with the frame when something is.
+ */
+static int gather_regions(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+
+    m->kept = false;
+    if (by_parts(s, number)) {
+        result = gather_parts(s, number, v, &from_q30);
+    }
+    if (result != CAROM_OK) {
+        return result < 0 ? result : CAROM_OK;
+    }
+    if (lasts(s, p->a) || lasts(s, p->b)) {
+        result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
+        if (result < 0) {
+            return result;
+        }
+        from_q30 = CAROM_ONE_Q30;
+        if (v->found || !m->kept || m->count > ENOUGH) {
+            result = INTERFERE_TOO_MANY;
+        } else {
+            result = gather_on(s, number, v, CAROM_ONE_Q30, FOREVER_Q30, ENOUGH);
+        }
+        if (result == INTERFERE_TOO_MANY) {
+            shorten(s, p->a);
+            shorten(s, p->b);
+            result = CAROM_OK;
+        }
+        return result;
+    }
+    return gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
 }
 
 /* A pair that is not kept. */
@@ -159,33 +206,24 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
     const struct pair *p = &w->pairs[number];
-    bool keep = !step_goes_far(s, p);
     int32_t from_q30 = 0;
     struct interfere_span span;
-    int result;
 
+    w->meetings[number].clear = 0; /* the static check measured other candidates */
+    w->meetings[number].until = 0;
+    if (step_goes_far(s, p)) {
+        span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
+        return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
+    }
     /* a pair is gathered from the latest start of its bodies' paths on: before that it was asked */
-    for (int k = 0; keep && k < 2; k++) {
+    for (int k = 0; k < 2; k++) {
         uint32_t i = k == 0 ? p->a : p->b;
 
         if (step_active(s, i) && w->bodies[i].from_q30 > from_q30) {
             from_q30 = w->bodies[i].from_q30;
         }
     }
-    span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
-                : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
-    w->meetings[number].clear = 0; /* the static check measured other candidates */
-    w->meetings[number].until = 0;
-    if (!keep || lasts(s, p->a) || lasts(s, p->b)) {
-        span.most = keep ? ENOUGH : UINT32_MAX;
-        result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
-        if (result != INTERFERE_TOO_MANY) {
-            return result;
-        }
-        shorten(s, p->a);
-        shorten(s, p->b);
-    }
-    return visit_parts(s, number, v, from_q30);
+    return gather_regions(s, number, v, from_q30);
 }
 
 /* Candidates that are those of a part of the window are not enough beyond it. */
