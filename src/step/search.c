@@ -22,6 +22,7 @@
 /* From q30 to the unit of a pair's `until`. */
 #define UNTIL_SHIFT 24
 #define GP 16
+#define FAR_PARTS 8
 #define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
@@ -153,6 +154,15 @@ static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v,
     return CAROM_OK;
 }
 
+/* Whether the bodies go far in regions that nothing was near to. */
+static bool goes_on_far(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    return (step_active(s, p->a) && a->region.length_q22 > a->radius_q22 / FAR_PARTS) ||
+           (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
+}
+
 /* Whether it is likely that a part of the window is enough: not for bodies that touch all the time. */
 static bool by_parts(const struct step *s, uint32_t number)
 {
@@ -162,10 +172,34 @@ static bool by_parts(const struct step *s, uint32_t number)
            !s->w->bodies[p->b].touched;
 }
 
-/*
- * A pair that is to be kept, from a time on to the end of both regions. One that lasts because nothing was
- * near ends with the frame when something is.
- */
+/* A pair of which one body's region lasts: it ends with the frame when something is near. */
+static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+
+    /* where bodies go far they are likely to have come near: then the frame is enough */
+    if (goes_on_far(s, p)) {
+        result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
+        from_q30 = CAROM_ONE_Q30;
+    }
+    if (result == CAROM_OK) {
+        result = m->count > ENOUGH || v->found || (from_q30 == CAROM_ONE_Q30 && !m->kept)
+                     ? INTERFERE_TOO_MANY
+                     : gather_on(s, number, v, from_q30, FOREVER_Q30, ENOUGH);
+    }
+    if (result == INTERFERE_TOO_MANY) {
+        shorten(s, p->a);
+        shorten(s, p->b);
+        result = from_q30 < CAROM_ONE_Q30
+                     ? gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX)
+                     : CAROM_OK;
+    }
+    return result;
+}
+
+/* A pair that is to be kept, from a time on to the end of both regions. */
 static int gather_regions(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
 {
     const struct pair *p = &s->w->pairs[number];
@@ -173,31 +207,16 @@ static int gather_regions(struct step *s, uint32_t number, struct step_visitor *
     int result = CAROM_OK;
 
     m->kept = false;
+    m->count = 0;
     if (by_parts(s, number)) {
         result = gather_parts(s, number, v, &from_q30);
     }
     if (result != CAROM_OK) {
         return result < 0 ? result : CAROM_OK;
     }
-    if (lasts(s, p->a) || lasts(s, p->b)) {
-        result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
-        if (result < 0) {
-            return result;
-        }
-        from_q30 = CAROM_ONE_Q30;
-        if (v->found || !m->kept || m->count > ENOUGH) {
-            result = INTERFERE_TOO_MANY;
-        } else {
-            result = gather_on(s, number, v, CAROM_ONE_Q30, FOREVER_Q30, ENOUGH);
-        }
-        if (result == INTERFERE_TOO_MANY) {
-            shorten(s, p->a);
-            shorten(s, p->b);
-            result = CAROM_OK;
-        }
-        return result;
-    }
-    return gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
+    return lasts(s, p->a) || lasts(s, p->b)
+               ? gather_lasting(s, number, v, from_q30)
+               : gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
 }
 
 /* A pair that is not kept. */
