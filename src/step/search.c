@@ -19,11 +19,14 @@
 #define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
+/* Candidates to be kept are gathered in parts of a window, by 1 / that radians each. */
+#define KEPT_TURN_PARTS 16
 /* From q30 to the unit of a pair's `until`. */
 #define UNTIL_SHIFT 24
-#define GP 16
-#define FAR_PARTS 8
+/* Beyond every region. */
 #define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
+/* A body goes far that goes this part of its radius in its region. */
+#define FAR_PARTS 8
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -123,34 +126,33 @@ static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, in
 }
 
 /*
- * Candidates of the parts of the window but for the last one, until a part has a hit: those of the parts behind it are
- * not asked for. Whether one has; `done` becomes the time up to which the pair keeps what was found.
+ * Candidates of all parts of the window but the last one, up to the first part that has a hit: then they are `enough`,
+ * for what lies behind is of no interest before the hit is answered. `from` becomes the time up to which the pair keeps
+ * them all; a pool that is too small keeps none, and that time stays.
  */
-static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *done_q30)
+static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *from_q30,
+                        bool *enough)
 {
     struct pair_work *m = &s->w->meetings[number];
-    const int32_t from_q30 = *done_q30, time_q30 = v->to_q30 - from_q30;
+    const int32_t start_q30 = *from_q30, time_q30 = v->to_q30 - start_q30;
 
-    for (int32_t k = 1; k < v->parts && *done_q30 >= 0; k++) {
-        int32_t end_q30 = from_q30 + (int32_t)((int64_t)time_q30 * k / v->parts);
-        int32_t until = (end_q30 >> UNTIL_SHIFT) + 1;
-        int result;
+    *enough = false;
+    for (int32_t part = 1; part < v->parts; part++) {
+        int32_t end_q30 = start_q30 + (int32_t)((int64_t)time_q30 * part / v->parts), result;
+        uint32_t until = ((uint32_t)end_q30 >> UNTIL_SHIFT) + 1;
 
-        if (until >= CAROM_ONE_Q30 >> UNTIL_SHIFT) {
-            break;
+        end_q30 = (int32_t)(until << UNTIL_SHIFT);
+        if (end_q30 <= *from_q30 || end_q30 >= v->to_q30) {
+            continue;
         }
-        result = gather_on(s, number, v, *done_q30, (int64_t)until << UNTIL_SHIFT, UINT32_MAX);
-        m->until = (uint32_t)until & 63;
-        if (result < 0 || (v->found && part_of(v, &v->hit) < k)) {
-            return result < 0 ? result : 1;
+        result = gather_on(s, number, v, *from_q30, end_q30, UINT32_MAX);
+        *enough = v->found && part_of(v, &v->hit) < part;
+        if (result != CAROM_OK || *enough) {
+            m->until = until & 63;
+            return result;
         }
-        *done_q30 = until << UNTIL_SHIFT;
-        if (!m->kept) {
-            *done_q30 = from_q30;
-            break;
-        }
+        *from_q30 = m->kept ? end_q30 : start_q30;
     }
-    m->until = 0;
     return CAROM_OK;
 }
 
@@ -163,8 +165,8 @@ static bool goes_on_far(const struct step *s, const struct pair *p)
            (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
 }
 
-/* Whether it is likely that a part of the window is enough: not for bodies that touch all the time. */
-static bool by_parts(const struct step *s, uint32_t number)
+/* Whether it is likely that a part of the window is enough: what has hit or touches flies away, or hits slowly. */
+static bool goes_by_parts(const struct step *s, uint32_t number)
 {
     const struct pair *p = &s->w->pairs[number];
 
@@ -205,14 +207,15 @@ static int gather_regions(struct step *s, uint32_t number, struct step_visitor *
     const struct pair *p = &s->w->pairs[number];
     struct pair_work *m = &s->w->meetings[number];
     int result = CAROM_OK;
+    bool enough = false;
 
     m->kept = false;
-    m->count = 0;
-    if (by_parts(s, number)) {
-        result = gather_parts(s, number, v, &from_q30);
+    m->count = m->until = 0;
+    if (goes_by_parts(s, number)) {
+        result = gather_parts(s, number, v, &from_q30, &enough);
     }
-    if (result != CAROM_OK) {
-        return result < 0 ? result : CAROM_OK;
+    if (result != CAROM_OK || enough) {
+        return result;
     }
     return lasts(s, p->a) || lasts(s, p->b)
                ? gather_lasting(s, number, v, from_q30)
@@ -229,7 +232,6 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
     struct interfere_span span;
 
     w->meetings[number].clear = 0; /* the static check measured other candidates */
-    w->meetings[number].until = 0;
     if (step_goes_far(s, p)) {
         span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
         return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
@@ -437,11 +439,14 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
+    v->parts = 1;
     if (parts > 1) {
         step_open_window(s, number, v->from_q30, v->to_q30);
+    } else {
+        v->parts = (int32_t)parts_of_turn(&s->w->bodies[s->w->pairs[number].a],
+                                          &s->w->bodies[s->w->pairs[number].b], KEPT_TURN_PARTS);
     }
     v->found = false;
-    v->parts = parts > 1 ? 1 : (int32_t)parts_of_turn(&s->w->bodies[s->w->pairs[number].a],&s->w->bodies[s->w->pairs[number].b],GP);
     if (!step_stay_apart(s, number, 0)) {
         result = step_first_hit(s, number, v);
     }
@@ -496,8 +501,11 @@ int step_search(struct step *s, uint32_t number)
     int result = CAROM_OK;
 
     m->hit_q30 = PAIRS_NEVER;
-    if (!step_window(s, number, &v.from_q30, &v.to_q30) || (m->kept && m->count == 0) ||
-        (v.from_q30 == 0 && stays_clear(s, number))) {
+    if (!step_window(s, number, &v.from_q30, &v.to_q30)) {
+        return CAROM_OK;
+    }
+    drop_part(m, v.to_q30);
+    if ((m->kept && m->count == 0) || (v.from_q30 == 0 && stays_clear(s, number))) {
         return CAROM_OK;
     }
     step_open_window(s, number, v.from_q30, v.to_q30);
