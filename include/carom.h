@@ -119,7 +119,7 @@ struct carom_face {
 };
 
 /* A cluster of neighbouring faces: what interference detection culls first. */
-#define CAROM_LEAF_FACES    16
+#define CAROM_LEAF_FACES    14
 #define CAROM_LEAF_VERTICES 32
 struct carom_leaf {
     carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */

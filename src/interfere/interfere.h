@@ -80,8 +80,9 @@ struct interfere_leaf {
     int32_t axis_q15[3];                   /* of its slab */
     int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
     bool listed;
-    uint32_t corners[CAROM_LEAF_FACES]; /* of each face, once listed, a bit each */
-    uint32_t boxed;                     /* faces with boxes around their ways, a bit each */
+    uint32_t corners[CAROM_LEAF_FACES];  /* of each face, once listed, a bit each */
+    uint8_t own_edges[CAROM_LEAF_FACES]; /* that each face owns, once listed, a bit each */
+    uint32_t boxed;                      /* faces with boxes around their ways, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
     uint32_t placed; /* faces whose planes are known, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
@@ -128,8 +129,8 @@ struct interfere {
     int error;
     struct candidate_visitor *visitor;
 
-    /* what becomes of face i of the leaf and a face of b that no plane parts: candidates, or a pair */
-    bool (*meet)(struct interfere *w, const struct target *t, uint32_t i);
+    /* what becomes of the leaf and a face of b whose plane it reaches: candidates, or pairs of faces */
+    void (*meet)(struct interfere *w, struct target *t);
     struct interfere_query *query; /* of a query */
 
     /* the pair being worked on */

@@ -100,6 +100,7 @@ void interfere_list_faces(struct interfere *w)
         const uint8_t *corner = interfere_corners(w, i);
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
+        l->own_edges[i] = w->a->mesh->faces[interfere_face(w, i)].own >> 3;
     }
 }
 

@@ -26,7 +26,7 @@ struct target {
     struct interfere_vec p[3], low, high;
     /* vertices of the leaf that stay on one side of its plane; of those of faces that are near */
     uint32_t over, under;
-    /* its own corners that stay on one side of the plane of the leaf's face, a bit each */
+    /* of a query: its own corners that stay on one side of the plane of the leaf's face, a bit each */
     uint32_t corners_over, corners_under;
 };
 
@@ -38,6 +38,12 @@ bool interfere_set_motion(struct interfere *w);
 
 /* Every leaf of a that comes near faces of b, with w->meet for each pair of faces. */
 void interfere_leaves(struct interfere *w);
+
+/* 1 when a is less than b; they differ by less than 2^31. */
+static inline uint32_t interfere_is_less(int32_t a, int32_t b)
+{
+    return (uint32_t)(a - b) >> 31;
+}
 
 /* From b's frame to b's quanta along an axis. */
 static inline int32_t interfere_quanta(const struct carom_mesh *mb, int32_t x_q20, int k)
@@ -107,10 +113,13 @@ static inline const uint8_t *interfere_corners(const struct interfere *w, uint32
 }
 
 /*
- * The leaf at hand and a face of b that it may come near: w->meet for each face of the leaf that
- * neither boxes nor the planes of both keep apart from it.
+ * The leaf at hand and a face of b that it may come near: w->meet when the leaf reaches the plane of the
+ * face.
  */
 void interfere_narrow(struct interfere *w, uint16_t face_b);
+
+/* The faces of the leaf, a bit each, that reach the plane of b's face and whose boxes meet its own. */
+uint32_t interfere_faces_near(struct interfere *w, const struct target *t);
 
 /*
  * Whether a pair of features can touch: a vertex of the leaf and b's face, corner k of that and face i
@@ -121,8 +130,8 @@ bool interfere_face_vertex(const struct interfere *w, const struct target *t, ui
 bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
                          int j);
 
-/* Emit the vertex/face and edge/edge pairs of two faces that can touch; whether there is any. */
-bool interfere_features(struct interfere *w, const struct target *t, uint32_t i);
+/* Emit the vertex/face and edge/edge pairs of the leaf and b's face that can touch. */
+void interfere_features(struct interfere *w, struct target *t);
 
 /* Whether the z-lists of a mesh are made within a step. */
 static inline bool interfere_makes_lists(const struct carom_mesh *mesh)

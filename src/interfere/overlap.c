@@ -159,7 +159,7 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     return !intervals_apart(&m, p, t->p, over_p, t->corners_over);
 }
 
-static bool meet(struct interfere *w, const struct target *t, uint32_t i)
+static void list_pair(struct interfere *w, const struct target *t, uint32_t i)
 {
     struct interfere_query *q = w->query;
 
@@ -169,7 +169,41 @@ static bool meet(struct interfere *w, const struct target *t, uint32_t i)
     if (faces_cross(w, t, i)) {
         add_pair(w, (uint16_t)interfere_face(w, i), t->number);
     }
-    return false;
+}
+
+/* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
+static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
+{
+    const struct interfere_plane *plane = &w->leaf->planes[i];
+    int32_t above_q18, below_q18, p_q18, q_q18, r_q18;
+
+    if (!(w->leaf->placed >> i & 1)) {
+        interfere_place_plane(w, i);
+    }
+    above_q18 = plane->above_q18;
+    below_q18 = plane->below_q18;
+    p_q18 = interfere_dot(plane->n_q30, t->p[0].c);
+    q_q18 = interfere_dot(plane->n_q30, t->p[1].c);
+    r_q18 = interfere_dot(plane->n_q30, t->p[2].c);
+    t->corners_over = interfere_is_less(above_q18, p_q18) |
+                      interfere_is_less(above_q18, q_q18) << 1 |
+                      interfere_is_less(above_q18, r_q18) << 2;
+    t->corners_under = interfere_is_less(p_q18, below_q18) |
+                       interfere_is_less(q_q18, below_q18) << 1 |
+                       interfere_is_less(r_q18, below_q18) << 2;
+    return t->corners_over != 7 && t->corners_under != 7;
+}
+
+/* List the faces of the leaf that neither boxes nor the planes of both keep apart from b's face. */
+static void meet(struct interfere *w, struct target *t)
+{
+    uint32_t near = interfere_faces_near(w, t);
+
+    for (uint32_t i = 0; near != 0; i++, near >>= 1) {
+        if ((near & 1) && is_reached(w, t, i)) {
+            list_pair(w, t, i);
+        }
+    }
 }
 
 /* ------------------------------------------------------------------- bodies */

@@ -158,7 +158,7 @@ void mesh_shape_leaves(struct mesh_builder *b)
     }
 }
 
-/* Make leaves of n <= 16 neighbouring faces: one, or two where there are too many vertices for one,
+/* Make leaves of up to CAROM_LEAF_FACES neighbouring faces: one, or two where there are too many vertices for one,
  * since any ten faces fit. */
 static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
                        const uint64_t *keys, uint32_t n)
