@@ -25,8 +25,9 @@
 #define UNTIL_SHIFT 24
 /* Beyond every region. */
 #define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
-/* A body goes far that goes this part of its radius in its region. */
-#define FAR_PARTS 8
+/* A body goes far that goes this part of its radius in its region; a gather of so many pairs of faces costs much. */
+#define FAR_PARTS       8
+#define FACE_PAIRS_COSTLY 1000000
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -63,10 +64,15 @@ static struct interfere_span span_of(const struct step *s, const struct pair *p,
     return span;
 }
 
+static uint32_t face_pairs(const struct body *a, const struct body *b)
+{
+    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count;
+}
+
 /* Whether two meshes have so many faces that turns are to be cut. */
 static bool many_faces(const struct body *a, const struct body *b)
 {
-    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count >= FACE_PAIRS_MANY;
+    return face_pairs(a, b) >= FACE_PAIRS_MANY;
 }
 
 bool step_goes_far(const struct step *s, const struct pair *p)
@@ -156,11 +162,14 @@ static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v,
     return CAROM_OK;
 }
 
-/* Whether the bodies go far in regions that nothing was near to. */
+/* Whether bodies go far in regions that nothing was near to, and a gather costs much. */
 static bool goes_on_far(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
+    if (face_pairs(a, b) < FACE_PAIRS_COSTLY) {
+        return false;
+    }
     return (step_active(s, p->a) && a->region.length_q22 > a->radius_q22 / FAR_PARTS) ||
            (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
 }
