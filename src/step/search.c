@@ -26,7 +26,7 @@
 /* Beyond every region. */
 #define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
 /* A body goes far that goes this part of its radius in its region; a gather of so many pairs of faces costs much. */
-#define FAR_PARTS       8
+#define FAR_PARTS         8
 #define FACE_PAIRS_COSTLY 1000000
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
@@ -346,9 +346,8 @@ static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
     if (part != best) {
         return part < best;
     }
-    return hit->t_q30 < v->hit.t_q30 ||
-           (hit->t_q30 == v->hit.t_q30 &&
-            candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
+    return hit->t_q30 < v->hit.t_q30 || (hit->t_q30 == v->hit.t_q30 &&
+                                         candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
 }
 
 /* The first hit. */
