@@ -435,6 +435,14 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
 }
 
+/* In how many parts the candidates of a window are gathered that are to be kept: of bodies in flight that turn. */
+static int32_t kept_parts(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    return a->in_contact || b->in_contact ? 1 : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
+}
+
 /*
  * The first hit of a window's part, if there is any: its times become those of the whole window. One that is
  * not cut is open.
@@ -447,12 +455,9 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
-    v->parts = 1;
+    v->parts = parts > 1 ? 1 : kept_parts(s, &s->w->pairs[number]);
     if (parts > 1) {
         step_open_window(s, number, v->from_q30, v->to_q30);
-    } else {
-        v->parts = (int32_t)parts_of_turn(&s->w->bodies[s->w->pairs[number].a],
-                                          &s->w->bodies[s->w->pairs[number].b], KEPT_TURN_PARTS);
     }
     v->found = false;
     if (!step_stay_apart(s, number, 0)) {
