@@ -226,9 +226,10 @@ check: ## the gates: format, layers, symbols, sizes, stack
 	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
 	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status
 
-size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; BOARD= of one
+size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; what a use of the engine adds; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
 	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
+	@tools/size_use.py
 
 boards: ## the table of boards in README.md, with the figures that budget and size left in out/
 	@tools/need python3

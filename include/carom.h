@@ -168,8 +168,26 @@ struct carom_mesh {
  * Memory that carom_mesh_build needs for any mesh of so many vertices and faces; a constant
  * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
  */
-#define CAROM_MESH_BYTES(vertices, faces)                                                          \
-    (((size_t)4352 + (size_t)52 * (size_t)(vertices) + (size_t)146 * (size_t)(faces) + 7) / 8 * 8)
+#define CAROM_MESH_BYTES(vertices, faces) CAROM_MESH_BYTES_((size_t)(vertices), (size_t)(faces))
+#define CAROM_MESH_BYTES_(v, f)                                                                    \
+    (CAROM_ARRAY_(struct carom_face, f) +                                                          \
+     CAROM_ARRAY_(struct carom_edge, CAROM_MESH_EDGES_(v, f)) + CAROM_ARRAY_(uint32_t, (v) + 1) +  \
+     CAROM_ARRAY_(uint32_t, 2 * CAROM_MESH_EDGES_(v, f)) +                                         \
+     CAROM_ARRAY_(struct carom_leaf, CAROM_MESH_LEAVES_(v, f)) + CAROM_ARRAY_(uint16_t, f) +       \
+     CAROM_ARRAY_(uint16_t, CAROM_MESH_LEAF_VERTICES_(v, f)) + CAROM_ARRAY_(uint8_t, 3 * (f)) +    \
+     CAROM_ARRAY_(uint32_t, CAROM_MESH_CELLS_(f) + 1) +                                            \
+     CAROM_ARRAY_(struct carom_zref, CAROM_MESH_ENTRIES_(f)))
+/* The most there may be of edges, of leaves and their vertices, of cells and of their entries. */
+#define CAROM_MESH_EDGES_(v, f)                                                                    \
+    CAROM_MORE_(3 * (f) / 2, CAROM_LESS_(3 * (f), 3 * (v)-6)) /* v is 3 or more */
+#define CAROM_MESH_LEAVES_(v, f)                                                                   \
+    (((f) + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES * ((v) > CAROM_LEAF_VERTICES ? 2 : 1))
+#define CAROM_MESH_LEAF_VERTICES_(v, f) CAROM_LESS_(3 * (f), (v)*CAROM_MESH_LEAVES_(v, f))
+#define CAROM_MESH_CELLS_(f)            CAROM_LESS_(1024, 2 * (f) / 3 + 1)
+#define CAROM_MESH_ENTRIES_(f)          (8 * (f))
+#define CAROM_ARRAY_(type, n)           (((n) * sizeof(type) + 7) / 8 * 8)
+#define CAROM_LESS_(a, b)               ((a) < (b) ? (a) : (b))
+#define CAROM_MORE_(a, b)               ((a) > (b) ? (a) : (b))
 
 /*
  * Whether a raw mesh can be built: what carom_mesh_build would return.
@@ -247,17 +265,22 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(832, 832)
-#define CAROM_PAIR_BYTES           CAROM_BYTES_(116, 116)
-#define CAROM_CONTACT_BYTES        CAROM_BYTES_(264, 288)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(800, 800)
+#define CAROM_PAIR_BYTES           CAROM_BYTES_(64, 64)
+#define CAROM_CONTACT_BYTES        CAROM_BYTES_(224, 248)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(576, 752)
-#define CAROM_HEADS_BYTES          2048 /* once, for any entries at all */
-/* What stages work in one after the other: so much, or for each contact and pair that is solved. */
-#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1800, 1824)
-#define CAROM_WORK_BYTES    CAROM_BYTES_(216, 216)
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(584, 768)
+/* For any entries at all: once, and for each contact. */
+#define CAROM_HEADS_BYTES 2048
+#define CAROM_DRIFT_BYTES 24
+/*
+ * What stages work in one after the other: so much, and the events that the end of a step finds; or, to solve in,
+ * so much for each contact, and for as many pairs as have one.
+ */
+#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
+#define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)
 #define CAROM_ROLL_BYTES    64
 
 enum carom_pool {
@@ -283,10 +306,12 @@ struct carom_caps {
     ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     ((e) > 0 ? CAROM_HEADS_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +                       \
-     (CAROM_SOLVE_BYTES_(p, c) > CAROM_SCRATCH_BYTES ? CAROM_SOLVE_BYTES_(p, c)                    \
-                                                     : (size_t)CAROM_SCRATCH_BYTES))
-#define CAROM_SOLVE_BYTES_(p, c) ((size_t)(p)*CAROM_ROLL_BYTES + (size_t)(c)*CAROM_WORK_BYTES)
+     ((e) > 0 ? CAROM_HEADS_BYTES + (size_t)(c)*CAROM_DRIFT_BYTES : 0) +                           \
+     (size_t)(n)*CAROM_CANDIDATE_BYTES +                                                           \
+     CAROM_MORE_(CAROM_SOLVE_BYTES_((size_t)(p), (size_t)(c)),                                     \
+                 CAROM_FOUND_BYTES_((size_t)(b), (size_t)(p)) + CAROM_SCRATCH_BYTES))
+#define CAROM_FOUND_BYTES_(b, p) ((2 * (p) + (b)) * sizeof(struct carom_event))
+#define CAROM_SOLVE_BYTES_(p, c) ((c)*CAROM_WORK_BYTES + CAROM_LESS_(p, c) * CAROM_ROLL_BYTES)
 
 /* ------------------------------------------------------------------- worlds */
 

@@ -93,10 +93,6 @@ inline int64_t carom_dot(const int32_t a[3], const int32_t b[3])
 int64_t carom_round(int64_t v, int s);
 int64_t carom_shl(int64_t v, int s);
 int64_t carom_abs(int64_t v);
-int32_t carom_mul_q30(int32_t a, int32_t b);
-void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
-void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
-void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
 #else
 
 /*
@@ -118,6 +114,15 @@ inline int64_t carom_abs(int64_t v)
 {
     return v < 0 ? -v : v;
 }
+
+#endif
+
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_PRODUCTS
+int32_t carom_mul_q30(int32_t a, int32_t b);
+void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
+void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+void carom_rotate_back(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);
+#else
 
 /* a * b / 2^30 to nearest: the product of a number in any format with one in q30. */
 inline int32_t carom_mul_q30(int32_t a, int32_t b)

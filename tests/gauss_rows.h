@@ -30,8 +30,8 @@ static inline int gauss_rows_of(struct gauss *w, const struct impact *in,
     if (result != CAROM_OK) {
         return result;
     }
-    p.wanted_q70 = fix_wide_add(fix_wide_mul(in->target_q40, CAROM_ONE_Q30),
-                                fix_wide_neg(impact_speed_q70(in, &in->normal)));
+    p.wanted_q70 = fix_wide_mul(in->target_q40, CAROM_ONE_Q30);
+    impact_add_speed_q70(&p.wanted_q70, in, &in->normal, -1);
     impact_prepare(&p);
     impact_set_frame(&p.frame, in->velocity.c);
     sticks = !out.slid || impact_slide(&p, in->friction_q16, &x) != 0;

@@ -58,7 +58,7 @@ void hand_begin(int moving, double fall)
         shape_body(i == 0 ? &hand.ground : &hand.solid, i > 0, &hand.bodies[i], &hand.states[i]);
     }
     hand_set_gravity(0, 0, -fall);
-    hand.rest.list = (struct contact_list){hand.contacts, &hand.pool};
+    hand.rest.list = (struct contact_list){.contacts = hand.contacts, .pool = &hand.pool};
     hand.rest.pairs = hand_pairs;
     hand.rest.bodies = hand.bodies;
     hand.rest.states = hand.states;

@@ -211,6 +211,41 @@ static void test_bodies(void)
     lab_free(lab);
 }
 
+/* -------------------------------------------------------------------- heaps */
+
+/* The frames in which a heap falls together and sleeps; a hash after them. */
+#define HEAP_FRAMES 500
+
+static uint64_t play(const char *name, const struct carom_caps *caps)
+{
+    static _Alignas(8) uint8_t meshes[SCENE_MESH_BYTES], block[SCENE_WORLD_BYTES];
+    const struct carom_config config = scene_config();
+    struct carom_world *world;
+    struct scene scene;
+    int frame = 0;
+
+    lab_expect(scene_load(&scene, name, NULL, meshes, sizeof meshes), name);
+    if (caps) {
+        scene.caps = *caps;
+    }
+    lab_expect(scene_make(&scene, &config, block, sizeof block, &world), name);
+    while (frame < HEAP_FRAMES && carom_world_step(world) >= 0) {
+        frame++;
+    }
+    return frame == HEAP_FRAMES ? carom_world_hash(world) : 0;
+}
+
+/* A poured heap does in little more than it uses up as it does in plenty: test_world_small.c has the bytes. */
+static void test_heap(const char *name, struct carom_caps caps)
+{
+    uint64_t ample = play(name, NULL), hash = play(name, &caps);
+    char title[64];
+
+    snprintf(title, sizeof title, "pools/%s", name);
+    lab_report(hash == ample && hash != 0, title, "%u contacts, %u pairs, %u candidates",
+               caps.contacts, caps.pairs, caps.candidates);
+}
+
 int main(void)
 {
     const uint32_t sizes[] = {1, 2, 3, 16, 64};
@@ -224,5 +259,7 @@ int main(void)
     test_outputs();
     test_exact();
     test_bodies();
+    test_heap("pile", (struct carom_caps){17, 88, 48, 136, 0, 128});
+    test_heap("pile32", (struct carom_caps){33, 128, 64, 208, 0, 256});
     return lab_finish();
 }

@@ -200,11 +200,13 @@ static uint32_t tick(void)
     struct carom_world *w = trace.world;
 
     if (w) {
+        struct world_state *now = w->now;
+
         trace_close();
         /* a step builds the state that is not current */
-        w->now = 1 - w->now;
+        w->now = world_next(w);
         trace.state = carom_world_hash(w);
-        w->now = 1 - w->now;
+        w->now = now;
         trace.found = fold_found(w);
         trace.open = true;
     }

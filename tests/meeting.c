@@ -58,7 +58,8 @@ static void pose_at(const struct meeting *m, int side, long double t, struct mee
     long double q[4], b[3], w, x, y, z, s;
 
     for (int k = 0; k < 3; k++) {
-        f->x[side][k] = fixed(path->origin_q22[k] - origin[k], 22) + fixed(path->start.x.c[k], 32) +
+        f->x[side][k] = fixed(path->origin_q22[k] - origin[k], 22) +
+                        fixed(path->start_x_q32[k], 32) +
                         t * (fixed(path->v.c[k], 40) + t * fixed(path->g.c[k], 40));
         b[k] = t * fixed(path->u.c[k], 30);
     }

@@ -205,7 +205,7 @@ static void random_case(struct test_random *r, struct candidate *c, int kind)
     for (int k = 0; k < 3; k++) {
         duo.state[0].position.c[k] += real_round(d[k] * real_power2(32));
         duo.body[0].path.origin_q22[k] = carom_round(duo.state[0].position.c[k], 10);
-        duo.body[0].path.start.x.c[k] =
+        duo.body[0].path.start_x_q32[k] =
             (int16_t)(duo.state[0].position.c[k] - carom_shl(duo.body[0].path.origin_q22[k], 10));
     }
     boyse_pair_init(&duo.pair, &duo.body[0], &duo.body[1]);

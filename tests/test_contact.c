@@ -20,7 +20,7 @@ static struct contact contacts[CONTACTS], first[CONTACTS];
 static struct candidate candidates[CANDIDATES];
 static uint32_t candidate_count;
 static struct pool pool;
-static struct contact_list list = {contacts, &pool};
+static struct contact_list list = {.contacts = contacts, .pool = &pool};
 
 /* Both bodies at rest in the middle, a to be moved; place() when they are where they should be. */
 static void begin(void)
@@ -516,6 +516,7 @@ static void square(int32_t out_q22)
 
 static void test_thin_keeps(void)
 {
+    carom_v3_q40 drift = {{0, 0, 1}};
     const int32_t side = 1 << 22;
 
     square(side / 40);
@@ -534,7 +535,7 @@ static void test_thin_keeps(void)
     contacts[4].normal.c[0] += 1 << 21;
     CHECK_EQ(contact_thin(contacts, 5), 5);
     square(side / 40); /* the surface moves */
-    contacts[4].drift.c[2] = 1;
+    contacts[4].drift = &drift;
     CHECK_EQ(contact_thin(contacts, 5), 5);
     square(side / 40); /* four hold a face */
     contacts[3] = contacts[4];

@@ -21,6 +21,35 @@ static int64_t random_size(struct test_random *r, int bits)
     return test_random_next(r) & 1 ? -v : v;
 }
 
+static struct fix_wide wide_sum(struct fix_wide a, struct fix_wide b)
+{
+    fix_wide_add(&a, &b);
+    return a;
+}
+
+static int64_t wide_part(struct fix_wide a, int s)
+{
+    return fix_wide_shift(&a, s);
+}
+
+static int wide_sign(struct fix_wide a)
+{
+    return fix_wide_sign(&a);
+}
+
+static struct fix_scaled wide_ratio(struct fix_wide a, struct fix_wide b)
+{
+    return fix_wide_ratio(&a, &b);
+}
+
+static struct fix_wide wide_opposite(struct fix_wide a)
+{
+    struct fix_wide opposite = {0, 0};
+
+    fix_wide_subtract(&opposite, &a);
+    return opposite;
+}
+
 static void check_wide_equal(struct fix_wide a, struct fix_wide b)
 {
     CHECK_EQ(a.hi, b.hi);
@@ -204,8 +233,8 @@ static void test_mul_wide(void)
         int s = (int)test_random_range(&r, 1, 62);
         struct fix_wide p = fix_wide_mul(a, b), half = {0, (uint64_t)1 << (s - 1)};
 
-        if (fix_wide_bits(p) - s < 63) {
-            CHECK_EQ(fix_mul(a, b, s), fix_wide_shift(fix_wide_add(p, half), s));
+        if (fix_wide_bits(&p) - s < 63) {
+            CHECK_EQ(fix_mul(a, b, s), wide_part(wide_sum(p, half), s));
 #ifdef __SIZEOF_INT128__
             CHECK_EQ(fix_mul(a, b, s), (int64_t)(((int128)a * b + ((int128)1 << (s - 1))) >> s));
 #endif
@@ -220,45 +249,45 @@ static void test_wide(void)
     struct test_random r = {4};
     const struct fix_wide zero = {0, 0}, minus_one = {-1, UINT64_MAX};
 
-    CHECK_EQ(fix_wide_sign(zero), 0);
-    CHECK_EQ(fix_wide_bits(zero), 0);
-    CHECK_EQ(fix_wide_sign(minus_one), -1);
-    CHECK_EQ(fix_wide_bits(minus_one), 1);
+    CHECK_EQ(fix_wide_sign(&zero), 0);
+    CHECK_EQ(fix_wide_bits(&zero), 0);
+    CHECK_EQ(fix_wide_sign(&minus_one), -1);
+    CHECK_EQ(fix_wide_bits(&minus_one), 1);
     for (int s = 0; s <= 127; s++) {
-        CHECK_EQ(fix_wide_shift(minus_one, s), -1);
+        CHECK_EQ(fix_wide_shift(&minus_one, s), -1);
     }
     check_wide_equal(fix_wide_mul(INT64_MIN, INT64_MIN), (struct fix_wide){(int64_t)1 << 62, 0});
     for (int i = 0; i < 63; i++) {
         for (int j = 0; j < 63; j++) {
             struct fix_wide p = fix_wide_mul((int64_t)1 << i, -((int64_t)1 << j));
 
-            CHECK_EQ(fix_wide_bits(p), i + j + 1);
-            CHECK_EQ(fix_wide_sign(p), -1);
-            CHECK_EQ(fix_wide_shift(p, i + j), -1);
-            CHECK_EQ(fix_wide_shift(fix_wide_neg(p), i + j), 1);
+            CHECK_EQ(fix_wide_bits(&p), i + j + 1);
+            CHECK_EQ(fix_wide_sign(&p), -1);
+            CHECK_EQ(fix_wide_shift(&p, i + j), -1);
+            CHECK_EQ(wide_part(wide_opposite(p), i + j), 1);
         }
     }
     for (int n = 0; n < CASES; n++) {
         int64_t a = random_size(&r, 62), b = random_size(&r, 62), c = random_size(&r, 62);
         int s = (int)test_random_range(&r, 0, 62);
-        struct fix_wide ab = fix_wide_mul(a, b), sum = fix_wide_add(ab, fix_wide_mul(a, c));
+        struct fix_wide ab = fix_wide_mul(a, b), sum = wide_sum(ab, fix_wide_mul(a, c));
 
         check_wide_equal(fix_wide_mul(b, a), ab);
-        check_wide_equal(fix_wide_mul(a, -b), fix_wide_neg(ab));
+        check_wide_equal(fix_wide_mul(a, -b), wide_opposite(ab));
         check_wide_equal(fix_wide_mul(a, b + c), sum);
-        check_wide_equal(fix_wide_neg(fix_wide_neg(ab)), ab);
-        check_wide_equal(fix_wide_add(ab, fix_wide_neg(ab)), zero);
+        check_wide_equal(wide_opposite(wide_opposite(ab)), ab);
+        check_wide_equal(wide_sum(ab, wide_opposite(ab)), zero);
         /* (a + b)(a - b) = a^2 - b^2 */
         check_wide_equal(fix_wide_mul(a + b, a - b),
-                         fix_wide_add(fix_wide_mul(a, a), fix_wide_neg(fix_wide_mul(b, b))));
-        CHECK_EQ(fix_wide_sign(ab), ((a > 0) - (a < 0)) * ((b > 0) - (b < 0)));
-        CHECK_EQ(fix_wide_shift(fix_wide_mul(a, (int64_t)1 << s), s), a);
-        CHECK_EQ(fix_wide_shift(fix_wide_mul(a, 1), s), a >> s);
+                         wide_sum(fix_wide_mul(a, a), wide_opposite(fix_wide_mul(b, b))));
+        CHECK_EQ(fix_wide_sign(&ab), ((a > 0) - (a < 0)) * ((b > 0) - (b < 0)));
+        CHECK_EQ(wide_part(fix_wide_mul(a, (int64_t)1 << s), s), a);
+        CHECK_EQ(wide_part(fix_wide_mul(a, 1), s), a >> s);
 #ifdef __SIZEOF_INT128__
         CHECK_EQ(ab.hi, (int64_t)(((int128)a * b) >> 64));
         CHECK_EQ(ab.lo, (uint64_t)((int128)a * b));
         for (int k = 0; k < 128; k += 13) {
-            CHECK_EQ(fix_wide_shift(ab, k), (int64_t)(uint64_t)(((int128)a * b) >> k));
+            CHECK_EQ(fix_wide_shift(&ab, k), (int64_t)(uint64_t)(((int128)a * b) >> k));
         }
 #endif
     }
@@ -268,10 +297,10 @@ static void test_wide(void)
 
 static double wide_real(struct fix_wide a)
 {
-    int sign = fix_wide_sign(a);
+    int sign = fix_wide_sign(&a);
 
     if (sign < 0) { /* the sum of a huge negative and a huge positive part would lose the rest */
-        a = fix_wide_neg(a);
+        a = wide_opposite(a);
     }
     return sign * (real(a.hi, -64) + (double)a.lo);
 }
@@ -285,17 +314,17 @@ static void test_ratio(void)
 {
     struct test_random r = {5};
     const struct fix_wide zero = {0, 0}, one = {0, 1};
-    struct fix_scaled q = fix_wide_ratio(zero, one);
+    struct fix_scaled q = wide_ratio(zero, one);
 
     CHECK_EQ(q.m, 0);
-    q = fix_wide_ratio(fix_wide_mul(INT64_MIN, INT64_MIN), one);
+    q = wide_ratio(fix_wide_mul(INT64_MIN, INT64_MIN), one);
     CHECK(q.m == 1 << 29 && q.e == 29 - 126);
     for (int n = 0; n < CASES; n++) {
         struct fix_wide a = fix_wide_mul(random_size(&r, 63) | 1, random_size(&r, 63) | 1);
         struct fix_wide b = fix_wide_mul(random_size(&r, 63) | 1, random_size(&r, 63) | 1);
         double quotient = wide_real(a) / wide_real(b);
 
-        q = fix_wide_ratio(a, b);
+        q = wide_ratio(a, b);
         CHECK(scaled_whole(q));
         CHECK(real_abs(real(q.m, q.e) / quotient - 1) <= real_power2(-29));
     }
@@ -358,7 +387,7 @@ static void test_mul_scaled(void)
         struct fix_wide p = fix_wide_mul(v, s.m), error;
         int more = s.e > 62 ? s.e - 62 : 0;
 
-        if (fix_wide_bits(p) - s.e > 62) {
+        if (fix_wide_bits(&p) - s.e > 62) {
             continue;
         }
         result = fix_mul_scaled(v, s);
@@ -369,7 +398,7 @@ static void test_mul_scaled(void)
         } else {
             /* v m - result 2^e, half of 2^e at most; beyond 62 it is rounded twice */
             error = fix_wide_mul(carom_shl(result, more), (int64_t)1 << (s.e - more));
-            error = fix_wide_add(p, fix_wide_neg(error));
+            error = wide_sum(p, wide_opposite(error));
             CHECK(real_abs(wide_real(error)) <=
                   real_power2(s.e - 1) + (more ? real_power2(61) : 0));
         }
@@ -380,13 +409,13 @@ static void test_mul_scaled(void)
 
 static struct fix_wide square_sum(const int64_t v[3])
 {
-    return fix_wide_add(fix_wide_mul(v[0], v[0]),
-                        fix_wide_add(fix_wide_mul(v[1], v[1]), fix_wide_mul(v[2], v[2])));
+    return wide_sum(fix_wide_mul(v[0], v[0]),
+                    wide_sum(fix_wide_mul(v[1], v[1]), fix_wide_mul(v[2], v[2])));
 }
 
 static int compare_square(int64_t a, struct fix_wide b)
 {
-    return fix_wide_sign(fix_wide_add(fix_wide_mul(a, a), fix_wide_neg(b)));
+    return wide_sign(wide_sum(fix_wide_mul(a, a), wide_opposite(b)));
 }
 
 static void random_vector(struct test_random *r, int bits, int64_t v[3])

@@ -128,6 +128,8 @@ static void check_zlists(void)
     uint32_t cells = (uint32_t)g.nx * g.ny;
 
     CHECK(cells <= ZLIST_CELLS_MAX && mesh.zref_count <= 8 * raw.face_count);
+    CHECK((const uint8_t *)(mesh.zrefs + mesh.zref_count) <=
+          block + CAROM_MESH_BYTES(raw.vertex_count, raw.face_count));
     CHECK(g.x0 <= mesh.box[0][0] && g.x0 + (g.nx << g.shift) >= mesh.box[1][0]);
     CHECK(g.y0 <= mesh.box[0][1] && g.y0 + (g.ny << g.shift) >= mesh.box[1][1]);
     CHECK(mesh.cell_start[0] == 0 && mesh.cell_start[cells] == mesh.zref_count);
@@ -206,9 +208,39 @@ static void test_memory(void)
     CHECK(hash[0] == hash[1]);
 }
 
+/*
+ * Faces without a vertex in common have as many edges as there can be. A prism of 16 sides has 32 vertices: no
+ * leaf of it has too many.
+ */
+static void test_small(void)
+{
+    static const int corner[16][2] = {{400, 0},  {370, 153},   {283, 283},   {153, 370},
+                                      {0, 400},  {-153, 370},  {-283, 283},  {-370, 153},
+                                      {-400, 0}, {-370, -153}, {-283, -283}, {-153, -370},
+                                      {0, -400}, {153, -370},  {283, -283},  {370, -153}};
+
+    begin(CAROM_SURFACE);
+    for (int i = 0; i < 7; i++) {
+        uint32_t v = add_vertex(300 * i, 0, 0);
+
+        add_vertex(300 * i + 200, 0, 5);
+        add_vertex(300 * i, 200, 9);
+        add_face(v, v + 1, v + 2);
+        CHECK_EQ(build(), CAROM_OK);
+        CHECK_EQ(mesh.edge_count, 3 * (i + 1));
+        check_zlists();
+    }
+    make_prism(corner, 16, 300);
+    CHECK_EQ(build(), CAROM_OK);
+    CHECK_EQ(mesh.leaf_count, (raw.face_count + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
+    check_zlists();
+    CHECK(CAROM_MESH_BYTES(8, 12) <= 1800); /* a box */
+}
+
 const struct test tests_mesh_index[] = {
     {"mesh_index/leaves", test_leaves},
     {"mesh_index/zlists", test_zlists},
     {"mesh_index/memory", test_memory},
+    {"mesh_index/small", test_small},
     {0},
 };

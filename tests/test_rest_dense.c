@@ -228,7 +228,7 @@ static void random_bodies(struct test_random *r, struct axes *a, bool planar, do
         set_motion(r, i, a, planar, i > 0 ? speed : 0);
     }
     pool = (struct pool){2, 0, 0, 0};
-    rest.list = (struct contact_list){contacts, &pool};
+    rest.list = (struct contact_list){.contacts = contacts, .pool = &pool};
     rest.pairs = pairs;
     rest.bodies = bodies;
     rest.states = states;

@@ -14,9 +14,9 @@ static double energy(void)
     double sum = 0;
 
     for (uint32_t i = 1; i < hand.rest.body_count; i++) {
-        struct fix_wide e =
-            body_kinetic2(&hand.bodies[i], &hand.states[i], &hand.bodies[i].path.start.r);
+        struct fix_wide e = {0, 0};
 
+        body_add_kinetic2(&e, &hand.bodies[i], &hand.states[i], &hand.bodies[i].path.start.r);
         sum += real(e.hi, 16) + (double)e.lo * real_power2(-80);
     }
     return sum / 2;

@@ -128,49 +128,46 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
     }
 }
 
-struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
-                              const carom_m3_q30 *r)
+void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
+                       const carom_m3_q30 *r)
 {
     carom_v3_q40 v, w;
-    struct fix_wide sum = {0, 0};
 
     body_velocity(b, s, &v);
     body_spin(b, s, r, &w);
-    for (int k = 0; k < 3; k++) {
-        fix_wide_add_product(&sum, s->momentum.c[k], v.c[k]);
-        fix_wide_add_product(&sum, s->angular.c[k], w.c[k]);
-    }
-    return sum;
+    fix_wide_add_dot(sum, s->momentum.c, v.c);
+    fix_wide_add_dot(sum, s->angular.c, w.c);
 }
 
 /*
  * p.v + L.w is at most |p| |v| + |L| |w|. |v| is |p| / m, and an L of no more than 2^-n of the calm
  * one turns by less than 2^-n half radians: see calm_angular_q40, which also leaves room for roundings.
  */
-struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s)
+void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s)
 {
     uint64_t p_q40 = fix_sum(s->momentum.c), l_q40 = fix_sum(s->angular.c);
     int64_t speed_q40;
     int n;
 
     if (!b->moving || (p_q40 | l_q40) == 0) {
-        return (struct fix_wide){0, 0};
+        return;
     }
     if (!body_calm(b, s)) {
-        return (struct fix_wide){INT64_MAX >> 20, 0}; /* far more than any has */
+        sum->hi += INT64_MAX >> 20; /* far more than any has */
+        return;
     }
     speed_q40 = fix_mul_scaled((int64_t)p_q40, b->inverse_mass);
     speed_q40 += (speed_q40 >> 20) + 1;
     n = fix_bits(b->calm_angular_q40) - 1 - fix_bits(l_q40);
-    return fix_wide_add(fix_wide_mul((int64_t)p_q40, speed_q40),
-                        fix_wide_mul((int64_t)l_q40, n < 39 ? (int64_t)1 << (39 - n) : 1));
+    fix_wide_add_product(sum, (int64_t)p_q40, speed_q40);
+    fix_wide_add_product(sum, (int64_t)l_q40, n < 39 ? (int64_t)1 << (39 - n) : 1);
 }
 
-struct fix_wide body_lift2(const struct body *b)
+void body_add_lift2(struct fix_wide *sum, const struct body *b, int sign)
 {
     int64_t weight_q40 = fix_mul_scaled(b->acceleration_q40, b->mass);
 
-    return fix_wide_mul(weight_q40 / 10 * 3, (int64_t)b->skin_q22 << 18);
+    fix_wide_add_product(sum, weight_q40 / 10 * 3, sign * ((int64_t)b->skin_q22 << 18));
 }
 
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)

@@ -72,10 +72,8 @@ struct body_path {
     };
     struct {
         carom_m3_q30 r;
-        struct {
-            int16_t c[3];
-        } x; /* q32, what the origin leaves of the position */
     } start;
+    int16_t start_x_q32[3]; /* what the origin leaves of the position */
     bool turns;
     PHASE_TAG(phase)
     int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
@@ -121,7 +119,7 @@ struct body_sweep {
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
 /*
- * A body, 576 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
+ * A body, 584 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
  * world sets outlives a step, and so do in_contact and the region with `active`, `free`, `boxed` and the
  * box: no result depends on these.
  */
@@ -147,30 +145,32 @@ struct body {
     bool woke;     /* wake: in the static check at hand */
     PHASE_TAG(work_phase)
 
-    /* islands, by whoever asks for them: 6 bytes */
+    /* islands, by whoever asks for them: 6 bytes with `contacts` */
     uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-    uint16_t contacts;               /* solve: where the island's contacts are listed */
 
-    /* world: what follows from mesh, mass and force, 104 bytes */
+    /* clock, 4 bytes; its times are below */
+    bool member;   /* step, cut: its path is new; answer: of the island of the hit at hand */
+    bool placed;   /* clock: its path is that of a place where it is looked at */
+    bool stands;   /* answer: for what is left of the frame */
+    bool strained; /* clock: left a path that turns before its end */
+
+    /* world: what follows from mesh, mass and force, 80 bytes */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22;   /* EPS: a resting contact keeps half of this gap to all */
-    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
+    int32_t skin_q22;          /* EPS: a resting contact keeps half of this gap to all */
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
 
-    /* clock, 16 bytes: the part of the frame that the path at hand takes */
+    /* clock, 12 bytes: the part of the frame that the path at hand takes */
     int32_t from_q30, to_q30;
     uint16_t events; /* answer: hits that it took part in, in this frame */
     uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
     uint8_t shorter; /* answer: slices are shorter by so many factors of 4; one less after each */
-    bool member;     /* step, cut: its path is new; answer: of the island of the hit at hand */
-    bool placed;     /* clock: its path is that of a place where it is looked at */
-    bool stands;     /* answer: for what is left of the frame */
-    bool strained;   /* clock: left a path that turns before its end */
+
+    uint16_t contacts; /* solve: where the island's contacts are listed */
 
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
@@ -187,13 +187,16 @@ struct body {
     carom_v3_q40 saved_momentum; /* for the energy rule */
     carom_v3_q40 velocity, spin; /* between steps, while a snapshot is read: its force */
 
+    /* world, 24 bytes: through the centre of mass, until the caller changes it; hashed, saved */
+    carom_v3_q40 force;
+
     union {                    /* by PHASE_TAG work_phase; 16 bytes */
         struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
         int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
     };
 };
 
-/* The path of a body that has one: for all but `start` and `turns`, which stay. */
+/* The path of a body that has one: for all but `start`, `start_x_q32` and `turns`, which stay. */
 static inline const struct body_path *body_path(const struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_PATH);
@@ -220,17 +223,17 @@ static inline const struct body_path *body_solved(const struct body *b)
     return &b->path;
 }
 
-/* What surfaces did on a body in a step; they did more. By what they lift an island between steps. */
-static inline struct fix_wide body_work2(const struct body *b)
+/* What surfaces did on a body in a step; and to read it. By what they lift an island between steps. */
+static inline struct fix_wide *body_work2(struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return b->work2;
+    return &b->work2;
 }
 
-static inline void body_add_work2(struct body *b, struct fix_wide work2)
+static inline const struct fix_wide *body_worked2(const struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);
-    b->work2 = fix_wide_add(b->work2, work2);
+    return &b->work2;
 }
 
 static inline int64_t *body_lift_q32(struct body *b)
@@ -262,18 +265,18 @@ void body_spin_most(const struct body_state *s, carom_v3_q40 *w);
 /* The momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);
-/* p.v + L.w, twice the kinetic energy, 80 fractional bits. */
-struct fix_wide body_kinetic2(const struct body *b, const struct body_state *s,
-                              const carom_m3_q30 *r);
+/* Add p.v + L.w, twice the kinetic energy, 80 fractional bits. */
+void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
+                       const carom_m3_q30 *r);
 
 /* No less than that, and sooner: for bodies that hardly move. */
-struct fix_wide body_kinetic2_most(const struct body *b, const struct body_state *s);
+void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s);
 
 /*
- * What closing an overlap of skins may add to body_kinetic2 in a frame: 0.3 m |g| skin. A body that
- * is lifted by a part of its skin gains that much; anything above is not lifting.
+ * Add sign times what closing an overlap of skins may add to twice the kinetic energy in a frame:
+ * 0.3 m |g| skin. A body that is lifted by a part of its skin gains that much; anything above is not lifting.
  */
-struct fix_wide body_lift2(const struct body *b);
+void body_add_lift2(struct fix_wide *sum, const struct body *b, int sign);
 
 /* out = m v for a symmetric m within 2^30; |v| < 2^62; out may be v. */
 void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3]);

@@ -5,17 +5,21 @@
 /* out = q (1, u), normalised: q turned by Cayley(u) in the body's axes. */
 static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3])
 {
-    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
+    const int32_t *v = &q->c[1];
 
     /*
      * A slice turns by half a radian at the spin of its start; the midpoint's may be more, but
      * |u| <= 0.25 + |u|^2 / sqrt 3 by the triangle inequality of inertias, so |u| <= 0.31 and the
      * length of the product is at most 1.05.
      */
-    out->c[0] = q->c[0] + (int32_t)carom_round(-x * u[0] - y * u[1] - z * u[2], 30);
-    out->c[1] = q->c[1] + (int32_t)carom_round(w * u[0] + y * u[2] - z * u[1], 30);
-    out->c[2] = q->c[2] + (int32_t)carom_round(w * u[1] + z * u[0] - x * u[2], 30);
-    out->c[3] = q->c[3] + (int32_t)carom_round(w * u[2] + x * u[1] - y * u[0], 30);
+    out->c[0] = q->c[0] + (int32_t)carom_round(-carom_dot(v, u), 30);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        int i = fix_next(k), j = fix_next(i);
+        int64_t part = (int64_t)q->c[0] * u[k] + (int64_t)v[i] * u[j] - (int64_t)v[j] * u[i];
+
+        out->c[1 + k] = v[k] + (int32_t)carom_round(part, 30);
+    }
     body_normalise(out);
 }
 
@@ -62,7 +66,7 @@ static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct
 }
 
 /* Component m_i u_j - m_j u_i of m x u in the format of m; m has 31 bits in its low parts, u 30. */
-static inline int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
+FIX_APART static int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
 {
     int64_t low = (int64_t)m->high[i] * u->low[j] - (int64_t)m->high[j] * u->low[i];
 
@@ -82,14 +86,9 @@ static inline int64_t cross_part(const struct parts *m, const struct parts *u, i
 static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30, carom_v3_q30 *u)
 {
     int64_t start[3], m[3], u_q60[3] = {0, 0, 0};
-    uint64_t all = 0;
     int up;
 
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        all |= (uint64_t)carom_abs(l_q40[k]);
-    }
-    up = 60 - fix_bits(all);
+    up = 60 - fix_bits3(l_q40);
     up = up < 0 ? 0 : up;
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -111,9 +110,10 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
             break;
         }
         of_u = parts_of(u_q60, 30);
-        m[0] = start[0] + cross_part(&of_m, &of_u, 1, 2);
-        m[1] = start[1] + cross_part(&of_m, &of_u, 2, 0);
-        m[2] = start[2] + cross_part(&of_m, &of_u, 0, 1);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            m[k] = start[k] + cross_part(&of_m, &of_u, fix_next(k), fix_next(fix_next(k)));
+        }
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -128,7 +128,7 @@ void body_place_origin(struct body *b, const struct body_state *s)
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         path->origin_q22[k] = carom_round(s->position.c[k], 10);
-        path->start.x.c[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
+        path->start_x_q32[k] = (int16_t)(s->position.c[k] - carom_shl(path->origin_q22[k], 10));
     }
     PHASE_BEGIN(path->phase, BODY_ORIGIN);
 }

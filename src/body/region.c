@@ -3,7 +3,7 @@
 #include "body.h"
 
 /* x times a number of 16 fractional bits, which nearly always is one. */
-static int64_t longer(int64_t x, int32_t by_q16)
+FIX_APART static int64_t longer(int64_t x, int32_t by_q16)
 {
     return by_q16 == 1 << 16 ? x : fix_mul(x, by_q16, 16);
 }
@@ -212,7 +212,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     }
     part_q30 = part_of(region, time_q30);
     for (int k = 0; k < 3; k++) {
-        start[k] = carom_shl(path->origin_q22[k], 10) + path->start.x.c[k];
+        start[k] = carom_shl(path->origin_q22[k], 10) + path->start_x_q32[k];
         end[k] = start[k] + ((path->v.c[k] + path->g.c[k]) >> 8);
         bend[k] = path->g.c[k] - fix_mul_q30(fix_mul_q30(region->bend.c[k], part_q30), part_q30);
     }

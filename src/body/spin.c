@@ -31,7 +31,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
         for (int k = 0; k < 3; k++) {
             fix_wide_add_product(&sum, b->mesh->inverse.m[fix_sym3_at[i][k]], l[k]);
         }
-        if (fix_wide_bits(sum) - b->mesh->inverse.e > 40 + BODY_SPIN_BITS) {
+        if (fix_wide_bits(&sum) - b->mesh->inverse.e > 40 + BODY_SPIN_BITS) {
             return false;
         }
     }

@@ -86,7 +86,7 @@ static void set_view(struct boyse_view *view, struct body *from, struct body *to
     for (int k = 0; k < 3; k++) {
         centre_q32[k] =
             carom_shl(body_path(from)->origin_q22[k] - body_path(to)->origin_q22[k], 10) +
-            from->path.start.x.c[k] - to->path.start.x.c[k];
+            from->path.start_x_q32[k] - to->path.start_x_q32[k];
         v[k] = body_path(from)->v.c[k] - body_path(to)->v.c[k];
         g[k] = body_path(from)->g.c[k] - body_path(to)->g.c[k];
         view->u.c[k] = 0;

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "contact.h"
 
+extern inline int contact_arm_bits(const struct body *b);
+extern inline carom_v3_q22 contact_arm(const struct contact *c);
+extern inline int32_t contact_arm_along(const struct contact *c, int k);
+
 /* The place in key order for a candidate; sets *same when it is there already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {
@@ -80,7 +84,7 @@ carom_v3_q32 contact_point(const struct contact *c)
     carom_v3_q32 point;
 
     for (int k = 0; k < 3; k++) {
-        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start.x.c[k] +
+        point.c[k] = carom_shl(body_origin_q22(a)[k], 10) + a->path.start_x_q32[k] +
                      fix_round_shift(c->side[0].arm_q30[k], 32 - contact_arm_bits(a));
     }
     return point;
@@ -92,6 +96,7 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 {
     bool same, full = list->pool->used == list->pool->size;
     uint32_t place = find_place(list, key, &same);
+    carom_v3_q40 drift;
     struct contact *c;
 
     if (same && !list->contacts[place].doubted) {
@@ -116,7 +121,8 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->side[0].body = pair->a->moving ? pair->a : NULL;
     c->side[1].body = pair->b->moving ? pair->b : NULL;
     set_arms(c, arm);
-    contact_drift(pair, key, &arm[1], &c->drift);
+    contact_drift(pair, key, &arm[1], &drift);
+    contact_keep_drift(list, c, &drift);
     return true;
 }
 

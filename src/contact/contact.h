@@ -54,14 +54,15 @@ struct contact_work {
     bool waits : 1;            /* K, in place of its inverse: until the contact pushes */
     bool inverted : 1;         /* false: K is too uneven for an inverse in 30 bits */
     bool slides : 1;           /* drag_q28 and step are there: from the first time that it slides */
+    bool b_lighter : 1;        /* than a */
     int8_t fine_bits;          /* of impulses, below the solver's unit */
     int8_t k_shift;            /* K that waits has 30 - k_shift fractional bits */
     PHASE_TAG(phase)
-    int32_t band_q30;   /* slip that friction does not resist: what closing the gap asks for */
-    int64_t target_q40; /* wanted V'.N */
-    struct fix_scaled mass_unit; /* of impulses: 2^-fine_bits of the lighter body's mass */
-    int32_t mass_q24;            /* velocity by a unit impulse: the largest along an axis */
-    int32_t drag_q28[3];         /* the part of K N across N, over the part along it */
+    int32_t band_q30;       /* slip that friction does not resist: what closing the gap asks for */
+    int32_t band;           /* it in solver units */
+    int64_t target_q40;     /* wanted V'.N */
+    int32_t mass_q24;       /* velocity by a unit impulse: the largest along an axis */
+    int32_t drag_q28[3];    /* the part of K N across N, over the part along it */
     int32_t step[2];        /* of a sweep when it slides, so too: along N, and one scalar across */
     union {                 /* by PHASE_TAG phase; contact_inverse, contact_wanted */
         int32_t inverse[6]; /* K^-1 with 30 - fine_bits fractional bits: xx yy zz xy yz zx */
@@ -71,7 +72,6 @@ struct contact_work {
     /* the sweeps', in solver units */
     uint32_t friction_q16;
     int32_t before[3]; /* V - wanted N before, with a slip that sweeps can follow */
-    int32_t band;      /* band_q30 */
     int64_t normal_impulse, tangent_impulse[3]; /* accumulated, along N and across */
 };
 
@@ -80,19 +80,19 @@ struct contact {
     struct candidate key;
     carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
-    int32_t skin_q22;   /* of the pair */
-    carom_v3_q40 drift; /* how a surface that the caller moves does there, units a frame */
+    int32_t skin_q22;    /* of the pair */
+    carom_v3_q40 *drift; /* how a surface that the caller moves does there; NULL: there is none */
     struct contact_side side[2];
 
     /* worked out by the solver */
     struct contact_work *work; /* NULL: not yet taken up */
     /* contacts[n].order is the n-th contact when islands come one after the other */
     uint16_t order;
-    bool idle;    /* nothing asks for its island to be solved now */
-    bool resting; /* solved without any impact in its island */
-    bool impact;
-    bool lasting; /* by the step: its pair has hit again and again in the frame */
-    bool doubted; /* it was there, and is not found again yet */
+    bool idle : 1;    /* nothing asks for its island to be solved now */
+    bool resting : 1; /* solved without any impact in its island */
+    bool impact : 1;
+    bool lasting : 1; /* by the step: its pair has hit again and again in the frame */
+    bool doubted : 1; /* it was there, and is not found again yet */
     PHASE_TAG(phase)
     int32_t
         chord_q28; /* how fast the gap opens on the path, from its start to its end, at most 8 */
@@ -147,6 +147,20 @@ static inline carom_v3_q40 *contact_wanted(const struct contact *c)
     return &c->work->wanted_q40;
 }
 
+/* The lighter one of a contact's bodies that move; its unit of impulses is 2^-fine_bits of that one's mass. */
+static inline const struct body *contact_lighter(const struct contact *c)
+{
+    return c->side[c->work->b_lighter ? 1 : 0].body;
+}
+
+static inline struct fix_scaled contact_mass_unit(const struct contact *c)
+{
+    struct fix_scaled unit = contact_lighter(c)->mass;
+
+    unit.e += c->work->fine_bits;
+    return unit;
+}
+
 /* Rolling in the sweeps; and the moment when they are over. */
 static inline struct contact_roll *contact_rolling(const struct contact *c)
 {
@@ -164,6 +178,8 @@ static inline carom_v3_q40 *contact_moment(const struct contact *c)
 struct contact_list {
     struct contact *contacts;
     struct pool *pool;
+    carom_v3_q40 *drifts; /* as many as there is room for contacts; NULL where no surface moves */
+    uint32_t next_drift;  /* where a free one is looked for first */
 };
 
 /*
@@ -190,20 +206,20 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
                      carom_v3_q30 *normal);
 
 /* Fractional bits of arm_q30 taken as a length. */
-static inline int contact_arm_bits(const struct body *b)
+inline int contact_arm_bits(const struct body *b)
 {
     return 30 + 22 - b->unit_bits;
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */
-static inline int32_t contact_arm_along(const struct contact *c, int k)
+inline int32_t contact_arm_along(const struct contact *c, int k)
 {
     int down = contact_arm_bits(c->side[0].body) - 22;
 
     return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
 }
 
-static inline carom_v3_q22 contact_arm(const struct contact *c)
+inline carom_v3_q22 contact_arm(const struct contact *c)
 {
     return (carom_v3_q22){
         {contact_arm_along(c, 0), contact_arm_along(c, 1), contact_arm_along(c, 2)}};
@@ -242,6 +258,9 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
  */
 void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
                    const carom_v3_q40 *arm, carom_v3_q40 *drift);
+
+/* Remember it with the contact, when it is not 0. */
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift);
 
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)

@@ -6,6 +6,7 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
                    const carom_v3_q40 *arm, carom_v3_q40 *drift)
 {
     const struct body *b = pair->b;
+    const struct mesh_moving *surface;
     carom_v3_q22 at;
     int64_t local[3];
 
@@ -13,16 +14,42 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
     if (mesh_drift_most(b->mesh) == 0) {
         return;
     }
+    surface = b->mesh->surface->does;
     fix_rotate_back(local, &b->path.start.r, arm->c);
     for (int k = 0; k < 3; k++) {
         at.c[k] = (int32_t)carom_round(local[k], 18);
     }
     if (key->kind == CANDIDATE_VERTEX_FACE) {
-        mesh_drift_face(b->mesh, key->j, &at, drift);
+        surface->drift_face(b->mesh, key->j, &at, drift);
     } else if (key->kind == CANDIDATE_FACE_VERTEX) {
-        mesh_drift_vertex(b->mesh, key->i, drift);
+        surface->drift_vertex(b->mesh, key->i, drift);
     } else {
-        mesh_drift_edge(b->mesh, key->j, &at, drift);
+        surface->drift_edge(b->mesh, key->j, &at, drift);
     }
     fix_rotate(drift->c, &b->path.start.r, drift->c);
+}
+
+/* Whether a contact in the list has that one. */
+static bool is_kept(const struct contact_list *list, const carom_v3_q40 *drift)
+{
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        if (list->contacts[i].drift == drift) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The contacts may go, be moved and be copied over: what none of them has is free. */
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift)
+{
+    c->drift = NULL;
+    if ((drift->c[0] | drift->c[1] | drift->c[2]) == 0) {
+        return;
+    }
+    while (is_kept(list, &list->drifts[list->next_drift])) {
+        list->next_drift = (list->next_drift + 1) % list->pool->size;
+    }
+    c->drift = &list->drifts[list->next_drift];
+    *c->drift = *drift;
 }

@@ -38,8 +38,8 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
 
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        d.c[k] =
-            carom_shl(a->start.x.c[k] - b->start.x.c[k], 8) - carom_shl(pair->offset_q22[k], 18);
+        d.c[k] = carom_shl(a->start_x_q32[k] - b->start_x_q32[k], 8) -
+                 carom_shl(pair->offset_q22[k], 18);
     }
     return d;
 }
@@ -67,12 +67,15 @@ static int64_t nearest_q40(const carom_v3_q40 *d, const int64_t w_q60[3], const 
 {
     const int64_t df_q40[3] = {cross_part(d, f, 1, 2), cross_part(d, f, 2, 0),
                                cross_part(d, f, 0, 1)};
+    struct fix_wide part = {0, 0}, square = {0, 0};
     struct fix_scaled ratio;
 
     if (is_small(w_q60, ROUNDING_Q30)) {
         return (int64_t)length_q22 << 17;
     }
-    ratio = fix_wide_ratio(fix_wide_dot(df_q40, w_q60), fix_wide_dot(w_q60, w_q60));
+    fix_wide_add_dot(&part, df_q40, w_q60);
+    fix_wide_add_dot(&square, w_q60, w_q60);
+    ratio = fix_wide_ratio(&part, &square);
     ratio.e -= 60; /* q100 over q120, to q40 */
     return -fix_mul_scaled(1, ratio);
 }

@@ -102,7 +102,7 @@ static bool is_dispensable(const struct contact *contacts, const struct place *p
     const struct contact *c = &contacts[i];
     uint32_t j = nearest(places, n, i);
 
-    if ((c->drift.c[0] | c->drift.c[1] | c->drift.c[2]) != 0 || !on_one_plane(c, &contacts[j])) {
+    if (c->drift || !on_one_plane(c, &contacts[j])) {
         return false;
     }
     for (uint32_t k = 0; k < n; k++) {

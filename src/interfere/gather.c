@@ -15,8 +15,8 @@ static bool in_range(const struct body *a, const struct body *b)
 }
 
 /* How far turns of a body's axes carry the other one around, by squares: below 2^27 times 2^34. */
-static int64_t carried_around(const struct interfere *w, const struct body *other,
-                              const struct body *by)
+FIX_APART static int64_t carried_around(const struct interfere *w, const struct body *other,
+                                        const struct body *by)
 {
     int64_t radius = other->radius_q22 >> 10;
     int32_t u2_q30 = by->path.turns ? by->path.u2_q30 : 0;
@@ -130,8 +130,8 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     w->span = *span;
     w->by_paths = !keep;
     gather(w, all, number, visitor);
-    m->first = w->own_first;
-    m->count = pool->used - w->own_first;
+    m->first = (uint16_t)w->own_first;
+    m->count = (uint16_t)(pool->used - w->own_first);
     m->kept = keep && w->whole && !w->error;
     m->found = m->count > 0 || !w->whole;
     if (w->error == INTERFERE_TOO_MANY && span->more && w->whole) {

@@ -54,7 +54,7 @@ static void close_gaps(struct interfere *w)
             i++;
             continue;
         }
-        w->meetings[w->candidates[i].pair].first = kept;
+        w->meetings[w->candidates[i].pair].first = (uint16_t)kept;
         memmove(&w->candidates[kept], &w->candidates[i], count * sizeof *w->candidates);
         kept += count;
         i += count;

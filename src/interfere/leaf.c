@@ -25,7 +25,7 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
 }
 
 /* A length in quanta, q15; what does not fit is as good as the largest that does. */
-static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
+FIX_APART static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
 {
     int64_t x_q15 = x_q18 * ((int64_t)1 << (mesh->raw.quantum_bits - 3));
 

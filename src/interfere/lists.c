@@ -8,35 +8,6 @@
 /* Lists reach farther than is asked for by this part. */
 #define AREA_PART 256
 
-/* Enter a face in its cells from the place on; false when the pool is full. */
-static bool enter_face(struct interfere *w, const struct carom_mesh *mesh,
-                       struct interfere_place *at)
-{
-    struct scan_grid grid = mesh_grid(mesh);
-    struct zface z = mesh_zface(mesh, at->face);
-    struct scan_cells scan;
-    struct scan_run run;
-    uint32_t cells = 0;
-
-    mesh_scan_face(&scan, mesh, at->face);
-    while (scan_cells_next(&scan, &run)) {
-        for (int32_t col = run.x0; col < run.x1; col++) {
-            int16_t z0, z1;
-
-            if (cells++ < at->cells) {
-                continue;
-            }
-            zface_interval(&z, &grid, col, run.y, &z0, &z1);
-            if (!zlist_enter(&w->lists, (uint32_t)(run.y * grid.nx + col), z0, z1,
-                             (uint16_t)at->face)) {
-                return false;
-            }
-            at->cells++;
-        }
-    }
-    return true;
-}
-
 static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct interfere_area *area)
 {
     const uint16_t *corner = mesh->raw.faces[face];
@@ -88,7 +59,8 @@ bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
     w->listed = NULL;
     zlist_clear(&w->lists);
     for (; from->face < mesh->raw.face_count; from->face++, from->cells = 0) {
-        if (face_in(mesh, from->face, &more) && !enter_face(w, mesh, from)) {
+        if (face_in(mesh, from->face, &more) &&
+            !mesh->surface->does->list_face(mesh, from->face, &w->lists, &from->cells)) {
             return false;
         }
     }

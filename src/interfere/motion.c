@@ -9,12 +9,9 @@ void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q
 {
     FIX_UNROLL
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            out->c[i][j] = (int32_t)carom_round((int64_t)b->c[0][i] * a->c[0][j] +
-                                                    (int64_t)b->c[1][i] * a->c[1][j] +
-                                                    (int64_t)b->c[2][i] * a->c[2][j],
-                                                30);
-        }
+        const int32_t column[3] = {b->c[0][i], b->c[1][i], b->c[2][i]};
+
+        carom_rotate_back(out->c[i], a, column);
     }
 }
 
@@ -46,8 +43,8 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
 }
 
 /* The sweep of a body; returns how far it may be off that. */
-static int32_t sweep_body(const struct interfere *w, const struct body *b, int64_t from_q30,
-                          struct body_sweep *sweep)
+FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body *b,
+                                    int64_t from_q30, struct body_sweep *sweep)
 {
     if (w->by_paths) {
         body_path_sweep(b, sweep);
@@ -98,9 +95,11 @@ bool interfere_set_motion(struct interfere *w)
     memset(&l->change, 0, sizeof l->change);
     if (a->u_q30 > 0 || b->u_q30 > 0) {
         interfere_relate(&l->change, &b->end, &a->end);
-        for (int i = 0; i < 9; i++) {
-            l->change.c[i / 3][i % 3] -= l->to_b.c[i / 3][i % 3];
-            l->to_b.c[i / 3][i % 3] += l->change.c[i / 3][i % 3] / 2;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                l->change.c[i][j] -= l->to_b.c[i][j];
+                l->to_b.c[i][j] += l->change.c[i][j] / 2;
+            }
         }
     }
     l->angle_q30 = 2 * (a->u_q30 + b->u_q30);

@@ -76,23 +76,18 @@ void interfere_list_faces(struct interfere *w);
 void interfere_box_face(struct interfere *w, uint32_t i);
 void interfere_place_plane(struct interfere *w, uint32_t i);
 
-static inline void interfere_bound_axis(int32_t x, int32_t y, int32_t z, int32_t *low,
-                                        int32_t *high)
-{
-    int32_t less = x < y ? x : y, more = x < y ? y : x;
-
-    *low = z < less ? z : less;
-    *high = z > more ? z : more;
-}
-
-/* Spelled out, because compilers leave loops over three components. */
 static inline void interfere_bound(const struct interfere_vec *p, const struct interfere_vec *q,
                                    const struct interfere_vec *r, struct interfere_vec *low,
                                    struct interfere_vec *high)
 {
-    interfere_bound_axis(p->c[0], q->c[0], r->c[0], &low->c[0], &high->c[0]);
-    interfere_bound_axis(p->c[1], q->c[1], r->c[1], &low->c[1], &high->c[1]);
-    interfere_bound_axis(p->c[2], q->c[2], r->c[2], &low->c[2], &high->c[2]);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        int32_t x = p->c[k], y = q->c[k], z = r->c[k];
+        int32_t less = x < y ? x : y, more = x < y ? y : x;
+
+        low->c[k] = z < less ? z : less;
+        high->c[k] = z > more ? z : more;
+    }
 }
 
 /* The vertex of a that is number `at` of the leaf. */

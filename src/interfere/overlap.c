@@ -49,8 +49,8 @@ struct overlap {
     int32_t near_q20;
 };
 
-static struct interfere_vec way(const struct interfere_vec *from, const struct interfere_vec *to,
-                                int32_t scale)
+FIX_APART static struct interfere_vec way(const struct interfere_vec *from,
+                                          const struct interfere_vec *to, int32_t scale)
 {
     return (struct interfere_vec){{(to->c[0] - from->c[0]) * scale, (to->c[1] - from->c[1]) * scale,
                                    (to->c[2] - from->c[2]) * scale}};

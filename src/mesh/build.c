@@ -72,7 +72,7 @@ static int find_normals(struct mesh_builder *b)
         int64_t n[3];
 
         for (int i = 0; i < 3; i++) {
-            int j = (i + 1) % 3, k = (i + 2) % 3;
+            int j = fix_next(i), k = fix_next(j);
 
             n[i] = (int64_t)(p1[j] - p0[j]) * (p2[k] - p0[k]) -
                    (int64_t)(p1[k] - p0[k]) * (p2[j] - p0[j]);

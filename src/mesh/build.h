@@ -11,9 +11,7 @@
 #include "../num/sort.h"
 #include "mesh.h"
 
-/* The z-lists of a mesh hold at most this many entries a face; CAROM_MESH_BYTES counts on it. */
-#define MESH_ENTRIES_PER_FACE 8
-#define MESH_GRID_SIDE_MAX    32
+#define MESH_GRID_SIDE_MAX 32
 
 struct mesh_builder {
     struct carom_mesh *mesh;

@@ -58,11 +58,10 @@ static int count_edges(struct mesh_builder *b)
         return CAROM_ERR_MESH_EDGE;
     }
     /*
-     * CAROM_MESH_BYTES has room for 3/2 (vertices + faces) edges. A closed mesh has 3/2 faces. Any
-     * mesh has at most 3 faces, so one that does not fit has more than 3 vertices: more than a
-     * graph drawn in the plane without crossings can have.
+     * A closed mesh has 3/2 edges a face. Seen from above a surface is a graph drawn in the plane without
+     * crossings, which has at most 3 edges a vertex, less 6. Both fit CAROM_MESH_BYTES.
      */
-    if (2 * count > 3 * (raw->vertex_count + raw->face_count)) {
+    if (count > CAROM_MESH_EDGES_(raw->vertex_count, raw->face_count)) {
         return CAROM_ERR_MESH_SURFACE;
     }
     b->mesh->edge_count = count;

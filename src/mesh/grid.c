@@ -7,7 +7,7 @@
  * both ends, so that vertices on a regular grid do not fall on the sides of cells; where a cell too
  * many would be needed for that, an extent of whole cells has no overhang.
  */
-static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
+FIX_APART static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
 {
     int32_t side = (int32_t)1 << shift;
     int32_t n = (high - low) / side + 1;
@@ -52,7 +52,7 @@ static uint32_t count_entries(const struct carom_mesh *mesh, uint32_t *count)
 {
     uint32_t total = 0;
 
-    memset(count, 0, ZLIST_CELLS_MAX * sizeof count[0]);
+    memset(count, 0, (size_t)mesh->grid_nx * mesh->grid_ny * sizeof count[0]);
     for (uint32_t f = 0; f < mesh->raw.face_count; f++) {
         struct scan_cells scan;
         struct scan_run run;
@@ -79,6 +79,33 @@ struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face)
     }
     z.grow = 0;
     return z;
+}
+
+bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
+                    uint32_t *cells)
+{
+    struct scan_grid grid = mesh_grid(mesh);
+    struct zface z = mesh_zface(mesh, face);
+    struct scan_cells scan;
+    struct scan_run run;
+    uint32_t cell = 0;
+
+    mesh_scan_face(&scan, mesh, face);
+    while (scan_cells_next(&scan, &run)) {
+        for (int32_t col = run.x0; col < run.x1; col++) {
+            int16_t z0, z1;
+
+            if (cell++ < *cells) {
+                continue;
+            }
+            zface_interval(&z, &grid, col, run.y, &z0, &z1);
+            if (!zlist_enter(lists, (uint32_t)(run.y * grid.nx + col), z0, z1, (uint16_t)face)) {
+                return false;
+            }
+            ++*cells;
+        }
+    }
+    return true;
 }
 
 /*
@@ -126,7 +153,7 @@ static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_
 {
     for (int k = 0; k < 3; k++) {
         const int16_t *a = raw->vertices[raw->faces[f][k]];
-        const int16_t *b = raw->vertices[raw->faces[f][(k + 1) % 3]];
+        const int16_t *b = raw->vertices[raw->faces[f][fix_next(k)]];
         int outside = 0;
 
         for (int i = 0; i < 3; i++) {
@@ -162,7 +189,8 @@ static bool list_overlaps(const struct carom_mesh_raw *raw, const struct carom_z
 int mesh_build_zlists(struct mesh_builder *b)
 {
     struct carom_mesh *mesh = b->mesh;
-    uint32_t *cell = arena_carve(&b->arena, (ZLIST_CELLS_MAX + 1) * sizeof cell[0]);
+    const uint32_t n = mesh->raw.face_count;
+    uint32_t *cell = arena_carve(&b->arena, (CAROM_MESH_CELLS_(n) + 1) * sizeof cell[0]);
     struct carom_zref *zrefs;
     uint32_t total, end = 0, cells;
     int shift = 0;
@@ -173,7 +201,7 @@ int mesh_build_zlists(struct mesh_builder *b)
         }
         total = count_entries(mesh, cell);
         shift++;
-    } while (total > MESH_ENTRIES_PER_FACE * mesh->raw.face_count);
+    } while (total > CAROM_MESH_ENTRIES_(n));
     cells = (uint32_t)mesh->grid_nx * mesh->grid_ny;
     for (uint32_t c = 0; c < cells; c++) {
         end += cell[c];

@@ -207,13 +207,12 @@ static void split_faces(const struct carom_mesh *mesh, struct leaf_builder *l, u
 void mesh_build_leaves(struct mesh_builder *b)
 {
     struct carom_mesh *mesh = b->mesh;
-    uint32_t n = mesh->raw.face_count;
-    uint32_t most_leaves = 2 * ((n + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
+    const uint32_t n = mesh->raw.face_count, v = mesh->raw.vertex_count;
     struct leaf_builder l = {0};
 
-    l.leaves = arena_carve(&b->arena, most_leaves * sizeof l.leaves[0]);
+    l.leaves = arena_carve(&b->arena, CAROM_MESH_LEAVES_(v, n) * sizeof l.leaves[0]);
     l.faces = arena_carve(&b->arena, n * sizeof l.faces[0]);
-    l.vertices = arena_carve(&b->arena, 3 * n * sizeof l.vertices[0]);
+    l.vertices = arena_carve(&b->arena, CAROM_MESH_LEAF_VERTICES_(v, n) * sizeof l.vertices[0]);
     l.corners = arena_carve(&b->arena, n * sizeof l.corners[0]);
     for (uint32_t f = 0; f < n; f++) {
         b->keys[f] = f;

@@ -45,7 +45,7 @@ static int64_t determinant(const struct tetrahedron *t)
     int64_t sum = 0;
 
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        int j = fix_next(i), k = fix_next(j);
 
         sum += t->p[0][i] * ((int64_t)b[j] * c[k] - (int64_t)b[k] * c[j]);
     }
@@ -78,7 +78,7 @@ static void sum_faces(const struct frame *about, struct sums *out)
             fix_wide_add_product(&out->moment[k], det, s[k]);
         }
         for (int n = 0; n < 6; n++) {
-            int i = n % 3, j = n < 3 ? i : (i + 1) % 3;
+            int i = n % 3, j = n < 3 ? i : fix_next(i);
             int64_t sum = (int64_t)s[i] * s[j];
 
             for (int c = 0; c < 3; c++) {
@@ -91,15 +91,14 @@ static void sum_faces(const struct frame *about, struct sums *out)
 
 /*
  * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the
- * first ratio leaves is divided again.
+ * first ratio leaves is divided again. n ends as what is left.
  */
-static int64_t wide_quotient(struct fix_wide n, int64_t d)
+static int64_t wide_quotient(struct fix_wide *n, int64_t d)
 {
-    struct fix_wide divisor = fix_wide_mul(d, 1);
-    int64_t q = fix_mul_scaled(1, fix_wide_ratio(n, divisor));
-    struct fix_wide rest = fix_wide_add(n, fix_wide_mul(-q, d));
+    int64_t q = fix_mul_scaled(1, fix_wide_over(n, d));
 
-    return q + fix_mul_scaled(1, fix_wide_ratio(rest, divisor));
+    fix_wide_add_product(n, -q, d);
+    return q + fix_mul_scaled(1, fix_wide_over(n, d));
 }
 
 /*
@@ -115,16 +114,17 @@ static int volume_and_centre(const struct carom_mesh_raw *raw, int bits, int64_t
     struct sums sums;
 
     sum_faces(&quanta, &sums);
-    if (fix_wide_sign(sums.det) <= 0) {
-        return fix_wide_sign(sums.det) < 0 ? CAROM_ERR_MESH_INSIDE_OUT : CAROM_ERR_MESH_EMPTY;
+    if (fix_wide_sign(&sums.det) <= 0) {
+        return fix_wide_sign(&sums.det) < 0 ? CAROM_ERR_MESH_INSIDE_OUT : CAROM_ERR_MESH_EMPTY;
     }
-    if (fix_wide_bits(sums.det) > 51) {
+    if (fix_wide_bits(&sums.det) > 51) {
         return CAROM_ERR_RANGE;
     }
-    *volume6 = fix_wide_shift(sums.det, 0);
+    *volume6 = fix_wide_shift(&sums.det, 0);
     for (int k = 0; k < 3; k++) {
         /* moments of quanta are below 2^84 */
-        centre[k] = wide_quotient(fix_wide_up(sums.moment[k], bits), 4 * *volume6);
+        fix_wide_shift_up(&sums.moment[k], bits);
+        centre[k] = wide_quotient(&sums.moment[k], 4 * *volume6);
     }
     return CAROM_OK;
 }
@@ -157,10 +157,15 @@ static void second_moments(const struct frame *about, struct fix_wide *det20,
     struct sums sums;
 
     sum_faces(about, &sums);
-    *det20 = fix_wide_add(fix_wide_up(sums.det, 4), fix_wide_up(sums.det, 2));
+    memset(inertia20, 0, 6 * sizeof *inertia20);
+    fix_wide_shift_up(&sums.det, 2);
+    *det20 = sums.det;
+    fix_wide_shift_up(&sums.det, 2);
+    fix_wide_add(det20, &sums.det);
     for (int i = 0; i < 3; i++) {
-        inertia20[i] = fix_wide_add(sums.second[(i + 1) % 3], sums.second[(i + 2) % 3]);
-        inertia20[3 + i] = fix_wide_neg(sums.second[3 + i]);
+        fix_wide_add(&inertia20[i], &sums.second[fix_next(i)]);
+        fix_wide_add(&inertia20[i], &sums.second[fix_next(fix_next(i))]);
+        fix_wide_subtract(&inertia20[3 + i], &sums.second[3 + i]);
     }
 }
 
@@ -222,10 +227,10 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
     }
     second_moments(&about, &det20, inertia20);
     for (int n = 0; n < 6; n++) {
-        if (n < 3 && fix_wide_sign(inertia20[n]) <= 0) {
+        if (n < 3 && fix_wide_sign(&inertia20[n]) <= 0) {
             return CAROM_ERR_MESH_INSIDE_OUT;
         }
-        ratio[n] = fix_wide_ratio(inertia20[n], det20);
+        ratio[n] = fix_wide_ratio(&inertia20[n], &det20);
     }
     share_exponent(&mass.inertia, ratio);
     mass.inertia.e += 2 * (raw->quantum_bits + about.bits);
@@ -257,12 +262,14 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
     for (int k = 0; k < 3; k++) {
         fix_wide_add_product(&det, in->m[fix_sym3_at[0][k]], cofactor[fix_sym3_at[0][k]]);
     }
-    if (fix_wide_sign(det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
-        fix_wide_bits(det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
+    if (fix_wide_sign(&det) <= 0 || cofactor[0] <= 0 || cofactor[1] <= 0 || cofactor[2] <= 0 ||
+        fix_wide_bits(&det) < fix_bits(all) + fix_bits(size) - SINGULAR_BITS) {
         return -1;
     }
     for (int n = 0; n < 6; n++) {
-        ratio[n] = fix_wide_ratio((struct fix_wide){cofactor[n] >> 63, (uint64_t)cofactor[n]}, det);
+        const struct fix_wide wide = fix_wide_mul(cofactor[n], 1);
+
+        ratio[n] = fix_wide_ratio(&wide, &det);
     }
     share_exponent(out, ratio);
     for (int n = 0; n < 6; n++) {
@@ -274,7 +281,7 @@ int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct caro
 
             fix_wide_add_product(&left, part, cofactor[fix_sym3_at[0][k]]);
         }
-        rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(left, det));
+        rest->m[n] = (int32_t)fix_mul_scaled((int64_t)1 << 29, fix_wide_ratio(&left, &det));
     }
     out->e -= in->e;
     rest->e = out->e + 29;
@@ -313,6 +320,5 @@ void mass_spread(const struct carom_sym3 *in, struct carom_spread *out)
     fix_wide_add_product(&det, c, third[2]);
     root_column(out->column[0], &out->e[0], first, corner, one, in->e);
     root_column(out->column[1], &out->e[1], second, corner, minor, in->e);
-    root_column(out->column[2], &out->e[2], third, minor,
-                fix_wide_ratio(det, (struct fix_wide){0, 1}), in->e);
+    root_column(out->column[2], &out->e[2], third, minor, fix_wide_over(&det, 1), in->e);
 }

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "build.h"
 
+extern inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
+                                    const int32_t n_q30[3], int32_t tolerance_q30);
+extern inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v);
+
 bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
                     int32_t tolerance_q22)
 {

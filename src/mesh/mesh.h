@@ -10,7 +10,7 @@
 #include "zlist.h"
 
 /* Vertex v relative to the centre of mass, exact. */
-static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
+inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v)
 {
     const int16_t *quanta = mesh->raw.vertices[v];
     const int32_t *centre = mesh->mass.centre.c, one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
@@ -19,8 +19,24 @@ static inline carom_v3_q22 mesh_vertex(const struct carom_mesh *mesh, uint32_t v
         {quanta[0] * one - centre[0], quanta[1] * one - centre[1], quanta[2] * one - centre[2]}};
 }
 
+/*
+ * What a step asks of a surface that may move. It is called through the surface, so that a program without
+ * one does not link it: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, and mesh_list_face, which enters
+ * a face in z-lists, in the cells from `cells` on; false when the pool is full, with `cells` those that are done.
+ */
+struct mesh_moving {
+    void (*drift_vertex)(const struct carom_mesh *mesh, uint32_t v, carom_v3_q40 *out);
+    void (*drift_edge)(const struct carom_mesh *mesh, uint32_t edge, const carom_v3_q22 *at,
+                       carom_v3_q40 *out);
+    void (*drift_face)(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *at,
+                       carom_v3_q40 *out);
+    bool (*list_face)(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
+                      uint32_t *cells);
+};
+
 /* A surface whose vertices the caller may move; behind its mesh in the caller's block. */
 struct carom_surface {
+    const struct mesh_moving *does;
     struct carom_mesh *mesh;
     int16_t (*now)[3];    /* its vertices */
     int16_t (*before)[3]; /* where they were when the last step ended */
@@ -72,6 +88,8 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
 void mesh_scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face);
 /* A face as z-lists see it. */
 struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face);
+bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
+                    uint32_t *cells);
 
 /* The grid of the mesh's own z-lists. */
 static inline struct scan_grid mesh_grid(const struct carom_mesh *mesh)
@@ -123,8 +141,8 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
  * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above
  * it.)
  */
-static inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
-                                    const int32_t n_q30[3], int32_t tolerance_q30)
+inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
+                             int32_t tolerance_q30)
 {
     int64_t low_q60 = -((int64_t)tolerance_q30 << 30);
 

@@ -7,6 +7,8 @@ _Static_assert(sizeof(struct carom_surface) <= 80, "CAROM_SURFACE_BYTES");
 int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
                         size_t bytes)
 {
+    static const struct mesh_moving moving = {mesh_drift_vertex, mesh_drift_edge, mesh_drift_face,
+                                              mesh_list_face};
     struct carom_mesh built;
     struct carom_surface *s;
     struct mesh_builder b;
@@ -30,6 +32,7 @@ int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *ra
     }
     s = (struct carom_surface *)((uint64_t *)mem + offset / 8);
     memset(s, 0, sizeof *s);
+    s->does = &moving;
     s->mesh = mesh;
     s->now = (int16_t(*)[3])(s + 1);
     s->before = s->now + vertices;
@@ -243,7 +246,7 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
         p[k] = mesh->raw.vertices[corner[k]];
     }
     for (int k = 0; k < 3; k++) {
-        part[k] = area(p[(k + 1) % 3], p[(k + 2) % 3], place, shift);
+        part[k] = area(p[fix_next(k)], p[fix_next(fix_next(k))], place, shift);
         part[k] = part[k] < 0 ? 0 : part[k];
         whole += part[k];
     }

@@ -80,22 +80,20 @@ int64_t fix_round_shift(int64_t v, int s)
     return s < -62 ? 0 : carom_round(v, -s);
 }
 
-struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b)
+void fix_wide_add(struct fix_wide *sum, const struct fix_wide *v)
 {
-    struct fix_wide sum;
+    uint64_t lo = v->lo;
 
-    sum.lo = a.lo + b.lo;
-    sum.hi = (int64_t)((uint64_t)a.hi + (uint64_t)b.hi + (sum.lo < a.lo));
-    return sum;
+    sum->lo += lo;
+    sum->hi = (int64_t)((uint64_t)sum->hi + (uint64_t)v->hi + (sum->lo < lo));
 }
 
-struct fix_wide fix_wide_neg(struct fix_wide a)
+void fix_wide_subtract(struct fix_wide *sum, const struct fix_wide *v)
 {
-    struct fix_wide n;
+    uint64_t borrow = sum->lo < v->lo;
 
-    n.lo = ~a.lo + 1;
-    n.hi = (int64_t)(~(uint64_t)a.hi + (n.lo == 0));
-    return n;
+    sum->lo -= v->lo;
+    sum->hi = (int64_t)((uint64_t)sum->hi - (uint64_t)v->hi - borrow);
 }
 
 struct fix_wide fix_wide_mul(int64_t a, int64_t b)
@@ -115,64 +113,89 @@ struct fix_wide fix_wide_mul(int64_t a, int64_t b)
 
 void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b)
 {
-    *sum = fix_wide_add(*sum, fix_wide_mul(a, b));
+    const struct fix_wide product = fix_wide_mul(a, b);
+
+    fix_wide_add(sum, &product);
 }
 
-struct fix_wide fix_wide_up(struct fix_wide a, int s)
+void fix_wide_add_dot(struct fix_wide *sum, const int64_t a[3], const int64_t b[3])
+{
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(sum, a[k], b[k]);
+    }
+}
+
+void fix_wide_shift_up(struct fix_wide *sum, int s)
 {
     if (s > 0) {
-        a.hi = carom_shl(a.hi, s) | (int64_t)(a.lo >> (64 - s));
-        a.lo <<= s;
+        sum->hi = carom_shl(sum->hi, s) | (int64_t)(sum->lo >> (64 - s));
+        sum->lo <<= s;
     }
-    return a;
 }
 
-struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3])
+int fix_wide_sign(const struct fix_wide *a)
 {
-    struct fix_wide sum = {0, 0};
+    return a->hi < 0 ? -1 : (a->hi != 0 || a->lo != 0);
+}
+
+/* |a|, modulo 2^128 */
+static struct fix_wide magnitude(const struct fix_wide *a)
+{
+    struct fix_wide size = {0, 0};
+
+    if (a->hi >= 0) {
+        return *a;
+    }
+    fix_wide_subtract(&size, a);
+    return size;
+}
+
+int fix_wide_bits(const struct fix_wide *a)
+{
+    const struct fix_wide size = magnitude(a);
+
+    return size.hi ? 64 + fix_bits((uint64_t)size.hi) : fix_bits(size.lo);
+}
+
+int fix_wide_bits3(const struct fix_wide a[3])
+{
+    int most = 0;
 
     for (int k = 0; k < 3; k++) {
-        fix_wide_add_product(&sum, a[k], b[k]);
+        int bits = fix_wide_bits(&a[k]);
+
+        most = bits > most ? bits : most;
     }
-    return sum;
+    return most;
 }
 
-int fix_wide_sign(struct fix_wide a)
-{
-    return a.hi < 0 ? -1 : (a.hi != 0 || a.lo != 0);
-}
-
-int fix_wide_bits(struct fix_wide a)
-{
-    if (a.hi < 0) {
-        a = fix_wide_neg(a);
-    }
-    return a.hi ? 64 + fix_bits((uint64_t)a.hi) : fix_bits(a.lo);
-}
-
-int64_t fix_wide_shift(struct fix_wide a, int s)
+int64_t fix_wide_shift(const struct fix_wide *a, int s)
 {
     CAROM_ASSERT(s >= 0 && s <= 127);
     if (s == 0) {
-        return (int64_t)a.lo;
+        return (int64_t)a->lo;
     }
     if (s >= 64) {
-        return a.hi >> (s - 64);
+        return a->hi >> (s - 64);
     }
-    return (int64_t)(((uint64_t)a.hi << (64 - s)) | (a.lo >> s));
+    return (int64_t)(((uint64_t)a->hi << (64 - s)) | (a->lo >> s));
+}
+
+struct fix_wide fix_wide_down(const struct fix_wide *a, int s)
+{
+    return (struct fix_wide){a->hi >> s, (uint64_t)fix_wide_shift(a, s)};
 }
 
 /* |a| as a number of exactly `bits` bits (63 at most) and the exponent that was taken out. */
-static uint64_t wide_magnitude(struct fix_wide a, int bits, int *e)
+static uint64_t wide_magnitude(const struct fix_wide *a, int bits, int *e)
 {
-    if (a.hi < 0) {
-        a = fix_wide_neg(a);
-    }
+    const struct fix_wide size = magnitude(a);
+
     *e = fix_wide_bits(a) - bits;
-    return *e >= 0 ? (uint64_t)fix_wide_shift(a, *e) : a.lo << -*e;
+    return *e >= 0 ? (uint64_t)fix_wide_shift(&size, *e) : size.lo << -*e;
 }
 
-struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b)
+struct fix_scaled fix_wide_ratio(const struct fix_wide *a, const struct fix_wide *b)
 {
     struct fix_scaled q = {0, 0};
     int ea, eb;
@@ -184,11 +207,25 @@ struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b)
         uint64_t d = wide_magnitude(b, 32, &eb);
 
         q = fix_scale((int64_t)(n / d), eb - ea);
-        if (fix_wide_sign(a) != fix_wide_sign(b)) {
+        if ((a->hi ^ b->hi) < 0) {
             q.m = -q.m;
         }
     }
     return q;
+}
+
+struct fix_scaled fix_wide_over(const struct fix_wide *a, int64_t b)
+{
+    const struct fix_wide wide = fix_wide_mul(b, 1);
+
+    return fix_wide_ratio(a, &wide);
+}
+
+struct fix_scaled fix_ratio(int64_t a, int64_t b)
+{
+    const struct fix_wide wide = fix_wide_mul(a, 1);
+
+    return fix_wide_over(&wide, b);
 }
 
 struct fix_scaled fix_scale(int64_t v, int q)
@@ -304,18 +341,16 @@ int64_t fix_length_bound(const int64_t v[3])
 
 void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
 {
-    int64_t w = q->c[0], x = q->c[1], y = q->c[2], z = q->c[3];
-
     /* twice each product: a shift of 29 in place of 30 */
-    m->c[0][0] = (int32_t)(CAROM_ONE_Q30 - carom_round(y * y + z * z, 29));
-    m->c[1][1] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + z * z, 29));
-    m->c[2][2] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
-    m->c[0][1] = (int32_t)carom_round(x * y - w * z, 29);
-    m->c[1][0] = (int32_t)carom_round(x * y + w * z, 29);
-    m->c[0][2] = (int32_t)carom_round(x * z + w * y, 29);
-    m->c[2][0] = (int32_t)carom_round(x * z - w * y, 29);
-    m->c[1][2] = (int32_t)carom_round(y * z - w * x, 29);
-    m->c[2][1] = (int32_t)carom_round(y * z + w * x, 29);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        int i = fix_next(k), j = fix_next(i);
+        int64_t x = q->c[1 + i], y = q->c[1 + j], wz = (int64_t)q->c[0] * q->c[1 + k];
+
+        m->c[k][k] = (int32_t)(CAROM_ONE_Q30 - carom_round(x * x + y * y, 29));
+        m->c[i][j] = (int32_t)carom_round(x * y - wz, 29);
+        m->c[j][i] = (int32_t)carom_round(x * y + wz, 29);
+    }
 }
 
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])

@@ -21,6 +21,13 @@
 #endif
 #endif
 
+/* Before a function that GCC would copy into its callers where that takes more room than calls of it. */
+#if defined __GNUC__ && defined __OPTIMIZE_SIZE__
+#define FIX_APART __attribute__((noinline))
+#else
+#define FIX_APART
+#endif
+
 /* The four library functions that the engine may call; <string.h> is not freestanding. */
 void *memcpy(void *restrict to, const void *restrict from, size_t bytes);
 void *memmove(void *to, const void *from, size_t bytes);
@@ -86,7 +93,7 @@ int64_t fix_sqrt_above(uint64_t v);
  * a * b / 2^s to nearest; 1 <= s <= 62, b > INT32_MIN; the result must fit. The product may take 95
  * bits: a = high 2^32 + low with low unsigned. Quick where s is a constant.
  */
-#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_BODIES
+#if defined __OPTIMIZE_SIZE__ && !defined CAROM_FIX_PRODUCTS
 int64_t fix_mul(int64_t a, int32_t b, int s);
 int64_t fix_mul_q30(int64_t a, int32_t b);
 int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
@@ -154,6 +161,12 @@ static inline int32_t fix_larger(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
+/* The axis after another: 1, 2, 0. Less code than a remainder. */
+static inline int fix_next(int axis)
+{
+    return axis < 2 ? axis + 1 : 0;
+}
+
 /* The largest of |x|, |y| and |z|, each above INT32_MIN. */
 static inline int32_t fix_largest(const int32_t v[3])
 {
@@ -161,7 +174,7 @@ static inline int32_t fix_largest(const int32_t v[3])
 }
 
 /* a x b, exact; each component of both above INT32_MIN: two products are below 2^63. */
-static inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
+inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
     out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
@@ -176,25 +189,31 @@ inline uint64_t fix_sum(const int64_t v[3])
 
 /* a * b as a 128-bit number, exact. */
 struct fix_wide fix_wide_mul(int64_t a, int64_t b);
-struct fix_wide fix_wide_add(struct fix_wide a, struct fix_wide b);
-struct fix_wide fix_wide_neg(struct fix_wide a);
-/* sum += a * b; a * 2^s for 0 <= s < 64. */
+/* Sums are formed in place: sum += v, sum -= v, sum += a b, sum += a . b; sum 2^s, 0 <= s < 64. */
+void fix_wide_add(struct fix_wide *sum, const struct fix_wide *v);
+void fix_wide_subtract(struct fix_wide *sum, const struct fix_wide *v);
 void fix_wide_add_product(struct fix_wide *sum, int64_t a, int64_t b);
-struct fix_wide fix_wide_up(struct fix_wide a, int s);
-/* a . b of two vectors, exact. */
-struct fix_wide fix_wide_dot(const int64_t a[3], const int64_t b[3]);
+void fix_wide_add_dot(struct fix_wide *sum, const int64_t a[3], const int64_t b[3]);
+void fix_wide_shift_up(struct fix_wide *sum, int s);
 /* -1, 0 or 1. */
-int fix_wide_sign(struct fix_wide a);
+int fix_wide_sign(const struct fix_wide *a);
 /* Bits of |a|. */
-int fix_wide_bits(struct fix_wide a);
+int fix_wide_bits(const struct fix_wide *a);
 /* floor(a / 2^s) truncated to 64 bits; 0 <= s <= 127. */
-int64_t fix_wide_shift(struct fix_wide a, int s);
+int64_t fix_wide_shift(const struct fix_wide *a, int s);
+/* floor(a / 2^s); 0 < s < 64. */
+struct fix_wide fix_wide_down(const struct fix_wide *a, int s);
+/* The bits of the largest of three. */
+int fix_wide_bits3(const struct fix_wide a[3]);
 
 /*
  * a / b as mantissa and exponent, accurate to 2^-29 of the quotient. b != 0 (0 gives 0).
  * Used once a mesh or an impact, never in an inner loop.
  */
-struct fix_scaled fix_wide_ratio(struct fix_wide a, struct fix_wide b);
+struct fix_scaled fix_wide_ratio(const struct fix_wide *a, const struct fix_wide *b);
+/* The same over a number of 64 bits, and of two of them. */
+struct fix_scaled fix_wide_over(const struct fix_wide *a, int64_t b);
+struct fix_scaled fix_ratio(int64_t a, int64_t b);
 
 /* v as mantissa and exponent: value = v * 2^-q. Truncates below 30 bits, to nearest. */
 struct fix_scaled fix_scale(int64_t v, int q);
@@ -227,7 +246,7 @@ void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 
 /* out = m v in plain integers: three products of at most 30 and 31 bits stay below 2^63. */
-static inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
+inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3])
 {
     const int32_t x = v[0], y = v[1], z = v[2];
 

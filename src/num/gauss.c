@@ -93,7 +93,7 @@ static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32
  * Take column k out of row i. The entry a_ik is not cleared: nothing reads it as a coefficient any
  * more, and it is the multiplier that later right-hand sides need.
  */
-static void eliminate(struct gauss *w, int n, int k, int i)
+FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
 {
     int32_t *row = w->a[i];
     int32_t pivot = w->pivot[k], f = -row[k];
@@ -152,15 +152,15 @@ static int factor(struct gauss *w, int n)
 static int invert_diagonal(struct gauss *w, int n)
 {
     for (int k = 0; k < n; k++) {
-        int32_t d = w->a[w->row[k]][k];
+        int32_t *d = &w->a[w->row[k]][k];
         int z;
 
-        if (d == 0) {
+        if (*d == 0) {
             return -1;
         }
-        z = headroom((uint32_t)carom_abs(d), NORMAL);
+        z = headroom((uint32_t)carom_abs(*d), NORMAL);
         /* 2^59 over at least 2^29: at most 2^30. */
-        w->inverse_q59[k] = (int32_t)(((int64_t)1 << 59) / carom_shl(d, z));
+        *d = (int32_t)(((int64_t)1 << 59) / carom_shl(*d, z));
         w->inverse_shift[k] = (uint8_t)z;
     }
     return 0;
@@ -218,6 +218,12 @@ static int replay(struct gauss *w, int n)
     return down;
 }
 
+/* x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse: 60 bits before it. */
+static inline int64_t quotient(const struct gauss *w, int k)
+{
+    return (int64_t)(int32_t)w->y[w->row[k]] * w->a[w->row[k]][k];
+}
+
 /* Solve for the residual, of so many bits, times 2^-q. The answer is digits 2^-h; returns h. */
 static int correction(struct gauss *w, int n, int bits, int q)
 {
@@ -233,17 +239,12 @@ static int correction(struct gauss *w, int n, int bits, int q)
     for (int k = 0; k < n; k++) {
         most = w->inverse_shift[k] > most ? w->inverse_shift[k] : most;
     }
-    /* x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse: 60 bits before it. */
     for (int k = 0; k < n; k++) {
-        int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
-
-        used |= (uint64_t)carom_abs(x) >> (most - w->inverse_shift[k]);
+        used |= (uint64_t)carom_abs(quotient(w, k)) >> (most - w->inverse_shift[k]);
     }
     top = fix_bits(used) + most - DIGITS_BITS;
     for (int k = 0; k < n; k++) {
-        int64_t x = (int64_t)(int32_t)w->y[w->row[k]] * w->inverse_q59[k];
-
-        w->digits[k] = (int32_t)scale_down(x, top - w->inverse_shift[k]);
+        w->a[k][GAUSS_MAX] = (int32_t)scale_down(quotient(w, k), top - w->inverse_shift[k]);
     }
     return q + 59 - top;
 }
@@ -257,7 +258,7 @@ void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row)
     uint64_t sum = 0;
 
     for (int j = 0; j < n; j++) {
-        sum += (uint64_t)((int64_t)row[j] * w->digits[j]);
+        sum += (uint64_t)((int64_t)row[j] * w->a[j][GAUSS_MAX]);
     }
     w->residual[i] = (int64_t)((uint64_t)w->residual[i] - (sum << w->up[i]));
 }
@@ -266,7 +267,7 @@ void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row)
 static void add_digits(struct gauss *w, int n, int h)
 {
     for (int k = 0; k < n; k++) {
-        w->x_q40[k] += h - 40 > 62 ? 0 : scale_down(w->digits[k], h - 40);
+        w->x_q40[k] += h - 40 > 62 ? 0 : scale_down(w->a[k][GAUSS_MAX], h - 40);
     }
 }
 

@@ -20,17 +20,19 @@
 
 /* Workspace from the caller. a[i][n] is the right-hand side of row i. */
 struct gauss {
-    int32_t a[GAUSS_MAX][GAUSS_MAX + 1]; /* in: the system, |entry| <= 2^30; destroyed */
-    int64_t x_q40[GAUSS_MAX];            /* out: the solution */
+    /*
+     * in: the system, |entry| <= 2^30; destroyed. When rows are factors the last column is one correction of the
+     * solution, and the last pivots give way to their inverses in q59, normalised.
+     */
+    int32_t a[GAUSS_MAX][GAUSS_MAX + 1];
+    int64_t x_q40[GAUSS_MAX]; /* out: the solution */
 
     /* Gauss's own. A step eliminates one column. */
     uint8_t up[GAUSS_MAX];               /* how far each row was shifted up at first */
     int64_t residual[GAUSS_MAX];         /* what the solution so far leaves over, by row */
     int64_t y[GAUSS_MAX];                /* a right-hand side on its way through the steps */
-    int32_t digits[GAUSS_MAX];           /* one correction of the solution */
     int32_t pivot[GAUSS_MAX];            /* pivot of each step, as it was then */
-    int32_t inverse_q59[GAUSS_MAX];      /* of the last pivots, normalised */
-    uint8_t inverse_shift[GAUSS_MAX];    /* by how much they were */
+    uint8_t inverse_shift[GAUSS_MAX];    /* by how much the last pivots were normalised */
     uint8_t row[GAUSS_MAX];              /* the row chosen at each step */
     int8_t step[GAUSS_MAX];              /* the step at which each row was chosen; -1: not yet */
     uint8_t shift[GAUSS_MAX][GAUSS_MAX]; /* by row and step: how far the products were shifted */

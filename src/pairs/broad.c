@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "broad.h"
 
+extern inline bool broad_active(const struct body *b, const struct body_state *s);
+
 /* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
 static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)
 {

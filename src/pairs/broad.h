@@ -39,7 +39,7 @@ static inline uint32_t broad_place_of(const struct pair *list, uint32_t count, u
 /* What a step keeps of a pair while its bodies are near each other. */
 struct pair_work {
     /* by interfere: where the pool has all of its candidates, when it has */
-    uint32_t first, count;
+    uint16_t first, count;
     /* by the search for hits: the next one, in the time of the frame, or PAIRS_NEVER */
     int32_t hit_q30;
     int32_t root_q30; /* where the surfaces meet, a time of the window that was searched */
@@ -61,7 +61,7 @@ struct pair_work {
 #define PAIRS_NEVER INT32_MAX
 
 /* A moving body that is neither asleep nor frozen. */
-static inline bool broad_active(const struct body *b, const struct body_state *s)
+inline bool broad_active(const struct body *b, const struct body_state *s)
 {
     return b->mesh && b->moving && !s->asleep && !s->out;
 }

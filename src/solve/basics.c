@@ -2,6 +2,9 @@
 /* Velocities and impulses at a contact, and vectors cut to a length: every solver uses them. */
 #include "parts.h"
 
+extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
+extern inline uint64_t rest_used(const int64_t v[4]);
+
 int32_t rest_clamp(int64_t v)
 {
     return rest_within(v, INT32_MAX);
@@ -36,14 +39,17 @@ static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_s
     int bits = contact_arm_bits(side->body);
 
     if (all >> 31 == 0) {
-        out[0] = short_product(v[1], arm[2], bits) - short_product(v[2], arm[1], bits);
-        out[1] = short_product(v[2], arm[0], bits) - short_product(v[0], arm[2], bits);
-        out[2] = short_product(v[0], arm[1], bits) - short_product(v[1], arm[0], bits);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            int i = fix_next(k), j = fix_next(i);
+
+            out[k] = short_product(v[i], arm[j], bits) - short_product(v[j], arm[i], bits);
+        }
         return;
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
 
         out[k] = fix_mul(v[i], arm[j], bits) - fix_mul(v[j], arm[i], bits);
     }
@@ -54,7 +60,7 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
 {
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        v->c[k] = -c->drift.c[k];
+        v->c[k] = c->drift ? -c->drift->c[k] : 0;
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;

@@ -26,11 +26,11 @@ bool impact_in_cone(const struct impact_problem *p, const struct impact_answer *
 {
     int64_t limit = fix_mul(impact_dot(x->p_q40, &p->frame.n), (int32_t)p->in->friction_q16, 16);
     int64_t pu = impact_dot(x->p_q40, &p->frame.u), pv = impact_dot(x->p_q40, &p->frame.v);
-    struct fix_wide excess = fix_wide_neg(fix_wide_mul(limit, limit));
+    struct fix_wide excess = fix_wide_mul(-limit, limit);
 
-    excess = fix_wide_add(excess, fix_wide_mul(pu, pu));
-    excess = fix_wide_add(excess, fix_wide_mul(pv, pv));
-    return limit >= 0 && fix_wide_sign(excess) <= 0;
+    fix_wide_add_product(&excess, pu, pu);
+    fix_wide_add_product(&excess, pv, pv);
+    return limit >= 0 && fix_wide_sign(&excess) <= 0;
 }
 
 void impact_cone_limit(const struct impact_problem *p, const struct impact_answer *stick,
@@ -40,17 +40,17 @@ void impact_cone_limit(const struct impact_problem *p, const struct impact_answe
     int64_t tangential[3] = {impact_dot(d.p_q40, &p->frame.u), impact_dot(d.p_q40, &p->frame.v), 0};
     int32_t mu_q16 = (int32_t)p->in->friction_q16;
     int64_t length = fix_length(tangential), reach, growth;
-    struct fix_wide excess = fix_wide_add(fix_wide_dot(tangential, tangential),
-                                          fix_wide_neg(fix_wide_mul(length, length)));
+    struct fix_wide excess = fix_wide_mul(-length, length);
 
     /* One Newton step for the digits that fix_length leaves out: growth is a difference. */
     if (length > 0) {
-        length += fix_mul_scaled(1, fix_wide_ratio(excess, fix_wide_mul(length, 2)));
+        fix_wide_add_dot(&excess, tangential, tangential);
+        length += fix_mul_scaled(1, fix_wide_over(&excess, 2 * length));
     }
     /* Where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N). */
     reach = fix_mul(impact_dot(out->p_q40, &p->frame.n), mu_q16, 16);
     growth = length - fix_mul(impact_dot(d.p_q40, &p->frame.n), mu_q16, 16);
     if (reach > 0 && growth > 0) {
-        impact_add_scaled(out, &d, fix_wide_ratio(fix_wide_mul(reach, 1), fix_wide_mul(growth, 1)));
+        impact_add_scaled(out, &d, fix_ratio(reach, growth));
     }
 }

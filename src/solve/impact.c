@@ -58,9 +58,9 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
     for (int k = 0; k < 3; k++) {
         CAROM_ASSERT(carom_abs(in->velocity.c[k]) < (int64_t)1 << 52);
     }
-    p.wanted_q70 = fix_wide_add(fix_wide_mul(in->target_q40, CAROM_ONE_Q30),
-                                fix_wide_neg(impact_speed_q70(in, &in->normal)));
-    if (fix_wide_sign(p.wanted_q70) <= 0) {
+    p.wanted_q70 = fix_wide_mul(in->target_q40, CAROM_ONE_Q30);
+    impact_add_speed_q70(&p.wanted_q70, in, &in->normal, -1);
+    if (fix_wide_sign(&p.wanted_q70) <= 0) {
         *out = (struct impact_result){.slid = false};
         return CAROM_OK;
     }

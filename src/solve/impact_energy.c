@@ -29,17 +29,6 @@ static struct fix_scaled largest_feasible(int64_t abc[3])
     return k;
 }
 
-/* Twice the energy that an answer adds, in the solver's units: P.(2V + K P). */
-static struct fix_wide gain(const int64_t v_q40[3], const struct impact_answer *x)
-{
-    int64_t sum[3];
-
-    for (int k = 0; k < 3; k++) {
-        sum[k] = 2 * v_q40[k] + x->dv_q40[k];
-    }
-    return fix_wide_dot(x->p_q40, sum);
-}
-
 static void speeds(const struct impact_problem *p, const struct impact_answer *x, int64_t v[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -49,10 +38,14 @@ static void speeds(const struct impact_problem *p, const struct impact_answer *x
 
 bool impact_gains(const struct impact_problem *p, const struct impact_answer *x)
 {
+    struct fix_wide gain = {0, 0}; /* twice the energy, in the solver's units: P.(2V + K P) */
     int64_t v[3];
 
     speeds(p, x, v);
-    return fix_wide_sign(gain(v, x)) > 0;
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(&gain, x->p_q40[k], 2 * v[k] + x->dv_q40[k]);
+    }
+    return fix_wide_sign(&gain) > 0;
 }
 
 /*
@@ -69,7 +62,7 @@ void impact_energy_rule(const struct impact_problem *p, const struct impact_answ
                         struct impact_answer *x)
 {
     struct impact_answer d = impact_subtract(x, free);
-    struct fix_wide square, slope;
+    struct fix_wide square = {0, 0}, slope = {0, 0}, twice = p->wanted_q70;
     struct fix_scaled loss;
     int64_t v[3], abc[3];
     int down;
@@ -79,19 +72,16 @@ void impact_energy_rule(const struct impact_problem *p, const struct impact_answ
         x->p_q40[k] -= d.p_q40[k];
         x->dv_q40[k] -= d.dv_q40[k];
     }
-    square = fix_wide_dot(d.p_q40, d.dv_q40);
-    slope = fix_wide_dot(d.p_q40, v);
-    slope = fix_wide_add(slope, slope);
-    down =
-        fix_wide_bits(square) > fix_wide_bits(slope) ? fix_wide_bits(square) : fix_wide_bits(slope);
+    fix_wide_add_dot(&square, d.p_q40, d.dv_q40);
+    fix_wide_add_dot(&slope, d.p_q40, v);
+    fix_wide_shift_up(&slope, 1);
+    down = fix_larger(fix_wide_bits(&square), fix_wide_bits(&slope));
     down = down > 59 ? down - 59 : 0;
-    abc[0] = fix_wide_shift(square, down);
-    abc[1] = fix_wide_shift(slope, down);
+    abc[0] = fix_wide_shift(&square, down);
+    abc[1] = fix_wide_shift(&slope, down);
     /* 2 V.N + wanted = V.N + target */
-    loss = fix_wide_ratio(
-        fix_wide_add(fix_wide_add(p->wanted_q70, impact_speed_q70(p->in, &p->frame.n)),
-                     impact_speed_q70(p->in, &p->frame.n)),
-        fix_wide_mul(1, 1));
+    impact_add_speed_q70(&twice, p->in, &p->frame.n, 2);
+    loss = fix_wide_over(&twice, 1);
     loss.e += 30 + x->unit + down;
     abc[2] = loss.m < 0 ? fix_mul_scaled(impact_dot(x->p_q40, &p->frame.n), loss) : 0;
     impact_add_scaled(x, &d, largest_feasible(abc));

@@ -40,14 +40,9 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
         int64_t turn[3];
 
         fix_cross(turn, body_solved(b)->columns[j], side->arm_q30);
-        if (down > 0) {
-            turn[0] = carom_round(turn[0], down);
-            turn[1] = carom_round(turn[1], down);
-            turn[2] = carom_round(turn[2], down);
-        } else {
-            turn[0] = carom_shl(turn[0], -down);
-            turn[1] = carom_shl(turn[1], -down);
-            turn[2] = carom_shl(turn[2], -down);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            turn[k] = down > 0 ? carom_round(turn[k], down) : carom_shl(turn[k], -down);
         }
         if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
             if (b->turn_bits < TURN_BITS_MAX) {
@@ -58,9 +53,10 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
                 turn[i] = rest_within(turn[i], CAROM_ONE_Q30 - 1);
             }
         }
-        lever->turn[0][j] = (int32_t)turn[0];
-        lever->turn[1][j] = (int32_t)turn[1];
-        lever->turn[2][j] = (int32_t)turn[2];
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            lever->turn[k][j] = (int32_t)turn[k];
+        }
     }
     return true;
 }
@@ -70,12 +66,11 @@ static void find_own_k(int64_t k_q30[6], const int32_t turn[3][3], int turn_bits
 {
     int down = 32 - 2 * turn_bits;
 
-    k_q30[0] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[0], turn[0]), down);
-    k_q30[1] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[1], turn[1]), down);
-    k_q30[2] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[2], turn[2]), down);
-    k_q30[3] = carom_round(carom_dot(turn[0], turn[1]), down);
-    k_q30[4] = carom_round(carom_dot(turn[1], turn[2]), down);
-    k_q30[5] = carom_round(carom_dot(turn[2], turn[0]), down);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        k_q30[k] = CAROM_ONE_Q30 + carom_round(carom_dot(turn[k], turn[k]), down);
+        k_q30[3 + k] = carom_round(carom_dot(turn[k], turn[fix_next(k)]), down);
+    }
 }
 
 /* K: the sum over the sides of share (1 + turn turn^T). */
@@ -102,12 +97,12 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
 static void prepare_shares(struct contact *c)
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
+    struct fix_scaled unit;
 
-    c->work->mass_unit = a ? a->mass : b->mass;
-    if (a && b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
-        fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass)) {
-        c->work->mass_unit = b->mass;
-    }
+    c->work->b_lighter =
+        !a || (b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
+               fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass));
+    unit = contact_lighter(c)->mass;
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
         struct contact_lever *lever = &c->work->lever[s];
@@ -115,11 +110,10 @@ static void prepare_shares(struct contact *c)
         if (!side->body) {
             continue;
         }
-        if (side->body->mass.m == c->work->mass_unit.m &&
-            side->body->mass.e == c->work->mass_unit.e) {
+        if (side->body->mass.m == unit.m && side->body->mass.e == unit.e) {
             lever->share_q30 = CAROM_ONE_Q30;
         } else {
-            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, c->work->mass_unit);
+            int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, unit);
 
             lever->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
         }
@@ -133,7 +127,6 @@ static void prepare_shares(struct contact *c)
 static void refine_unit(struct contact *c, const int64_t k_q30[6])
 {
     c->work->fine_bits = (int8_t)(fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 31 + 5);
-    c->work->mass_unit.e += c->work->fine_bits;
 }
 
 /* a b - c d in q30 */

@@ -60,7 +60,7 @@ void rest_list_islands(struct rest *r);
 bool rest_take_island(struct rest *r);
 
 /* Contact i, below r->count, of the island at hand. */
-static inline struct contact *rest_contact(const struct rest *r, uint32_t i)
+inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 {
     return &r->list.contacts[r->list.contacts[r->first + i].order];
 }
@@ -73,14 +73,8 @@ static inline bool rest_up_to_two(const struct rest *r)
     return next == ISLAND_END || r->bodies[next].next_in_island == ISLAND_END;
 }
 
-/* Twice what a surface that moves does by a contact's impulse, q80. */
-static inline struct fix_wide rest_work2(const struct contact *c)
-{
-    const int64_t *drift = c->drift.c, twice[3] = {2 * drift[0], 2 * drift[1], 2 * drift[2]};
-
-    return (drift[0] | drift[1] | drift[2]) != 0 ? fix_wide_dot(contact_impulse(c)->c, twice)
-                                                 : (struct fix_wide){0, 0};
-}
+/* Add `times` twice what a surface that moves does by a contact's impulse, q80; 1 or -1 times. */
+void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times);
 
 /* Row i of a symmetric matrix, xx yy zz xy yz zx, times v. */
 static inline int64_t rest_row(const int32_t m[6], int i, const int32_t v[3])
@@ -131,15 +125,16 @@ static inline void rest_push_side(struct body *b, const struct contact_lever *le
     int32_t own[3] = {impulse[0], impulse[1], impulse[2]};
 
     if (lever->share_q30 != CAROM_ONE_Q30) {
-        own[0] = carom_mul_q30(own[0], lever->share_q30);
-        own[1] = carom_mul_q30(own[1], lever->share_q30);
-        own[2] = carom_mul_q30(own[2], lever->share_q30);
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            own[k] = carom_mul_q30(own[k], lever->share_q30);
+        }
     }
-    in->used |= rest_add(&in->dv[0], own[0] >> down) | rest_add(&in->dv[1], own[1] >> down) |
-                rest_add(&in->dv[2], own[2] >> down) |
-                rest_add(&in->du[0], turn_by(lever, 0, own, s)) |
-                rest_add(&in->du[1], turn_by(lever, 1, own, s)) |
-                rest_add(&in->du[2], turn_by(lever, 2, own, s));
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        in->used |=
+            rest_add(&in->dv[k], own[k] >> down) | rest_add(&in->du[k], turn_by(lever, k, own, s));
+    }
 }
 
 /* Give the bodies an impulse on a, and its opposite on b; the components are below 2^31. */
@@ -152,10 +147,15 @@ static inline uint64_t rest_square32(const int32_t v[3])
 }
 
 /* Bits that four numbers use, signs apart. */
-static inline uint64_t rest_used(const int64_t v[4])
+inline uint64_t rest_used(const int64_t v[4])
 {
-    return (uint64_t)((v[0] ^ (v[0] >> 63)) | (v[1] ^ (v[1] >> 63)) | (v[2] ^ (v[2] >> 63)) |
-                      (v[3] ^ (v[3] >> 63)));
+    int64_t used = v[3] ^ (v[3] >> 63);
+
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        used |= v[k] ^ (v[k] >> 63);
+    }
+    return (uint64_t)used;
 }
 
 /* Shift four numbers down until each has at most so many bits; returns how far. */
@@ -218,10 +218,11 @@ void rest_save_momenta(struct rest *r);
 
 /*
  * The energy rule for several contacts, after the impulses were applied: if energy rose above what
- * it was before by more than `lift` (twice that), go back towards the frictionless plastic solution as
- * far as needed. In lasting contact it may rise by a 256th: the frame gives that back in the end.
+ * it was before, and where contact `lifts` above what that may add, go back towards the frictionless
+ * plastic solution as far as needed. In lasting contact it may rise by a 256th: the frame gives that back
+ * in the end.
  */
-void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting);
+void rest_energy_rule(struct rest *r, bool lifts, bool lasting);
 
 /*
  * After sweeps that ran out: take out without friction what places still approach by, where they do.

@@ -64,7 +64,7 @@ static bool may_rest(const struct contact *c, int32_t e_q30)
 }
 
 /* What gravity gives in a frame. */
-static int64_t pull_q40(const struct contact *c)
+FIX_APART static int64_t pull_q40(const struct contact *c)
 {
     int64_t largest_q40 = 0;
 
@@ -112,10 +112,11 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 }
 
 /* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
-static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 {
-    return way_q22 < 1 << 22 ? (way_q22 << 40) / (time_q30 >> 8)
-                             : ((way_q22 << 30) / (time_q30 >> 8)) << 10;
+    int more = way_q22 < 1 << 22 ? 10 : 0;
+
+    return ((way_q22 << (30 + more)) / (time_q30 >> 8)) << (10 - more);
 }
 
 /*
@@ -133,7 +134,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     for (int k = 0; k < 3; k++) {
         int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
 
-        c->drift.c[k] -= rise;
+        c->drift->c[k] -= rise;
         contact_velocity(c)->c[k] += rise;
     }
     c->speed_q40 += rise_q40;
@@ -167,7 +168,7 @@ static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_
 {
     int32_t e_q30 = restitution(r, c);
     bool rests = may_rest(c, e_q30);
-    int64_t rise_q40 = contact_rise_q40(&c->drift, &c->normal);
+    int64_t rise_q40 = c->drift ? contact_rise_q40(c->drift, &c->normal) : 0;
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
@@ -296,17 +297,6 @@ static bool lasts(const struct rest *r)
     return false;
 }
 
-/* What resting contacts may add to twice the energy of the bodies at hand. */
-static struct fix_wide lift2(const struct rest *r)
-{
-    struct fix_wide sum = {0, 0};
-
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        sum = fix_wide_add(sum, body_lift2(&r->bodies[i]));
-    }
-    return sum;
-}
-
 static void note_unsettled(struct rest *r, bool unsettled)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
@@ -369,7 +359,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
-    rest_energy_rule(r, impacts && !lasting ? (struct fix_wide){0, 0} : lift2(r), lasting);
+    rest_energy_rule(r, !impacts || lasting, lasting);
     note_unsettled(r, sw.ran_out && rest_approaches(r));
     return CAROM_OK;
 }
@@ -387,9 +377,8 @@ static void book_work(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
-        struct body *b = c->side[0].body;
 
-        body_add_work2(b, rest_work2(c));
+        rest_add_work2(body_work2(c->side[0].body), c, 1);
     }
 }
 
@@ -420,7 +409,7 @@ static bool may_enter(const struct contact *c)
 }
 
 /* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
-static bool lies(const struct rest *r, const struct contact *c)
+FIX_APART static bool lies(const struct rest *r, const struct contact *c)
 {
     int64_t pull = pull_q40(c);
     carom_v3_q40 v;

@@ -30,9 +30,17 @@ struct rest_warm {
     uint16_t a, b;
     carom_v3_q22 arm; /* on a, in its mesh's axes */
     carom_v3_q30 normal;
-    int64_t normal_q40;       /* impulse along the normal */
-    carom_v3_q40 tangent_q40; /* and across it */
+    carom_v3_q40 impulse;
 };
+
+/* Its parts along the normal and across it, as a snapshot has them. */
+struct rest_warm_parts {
+    int64_t normal_q40;
+    carom_v3_q40 tangent;
+};
+struct rest_warm_parts rest_warm_parts(const struct rest_warm *w);
+/* The impulse that has these parts. Returns false when there is none. */
+bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts);
 
 struct rest {
     /* room to solve in: a single impact, or many contacts and rolling by pairs; one at a time */
@@ -50,7 +58,8 @@ struct rest {
 
     /* the island being solved: its first body, and its contacts in the order of islands */
     uint16_t island;
-    uint8_t sweep_cap; /* 0: none but those above */
+    uint16_t roll_count; /* that roll in it, of `rolls` */
+    uint8_t sweep_cap;   /* 0: none but those above */
     bool
         loaded; /* the bodies' velocities are those of the states: only their paths changed since */
     uint32_t first, count;

@@ -7,18 +7,6 @@
 /* Lasting contact may take that for what paths bend by. */
 #define LASTING_BITS 8
 
-static struct fix_wide kinetic2(const struct rest *r)
-{
-    struct fix_wide sum = {0, 0};
-
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        const struct body *b = &r->bodies[i];
-
-        sum = fix_wide_add(sum, body_kinetic2(b, &r->states[i], &b->path.start.r));
-    }
-    return sum;
-}
-
 void rest_save_momenta(struct rest *r)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
@@ -62,48 +50,57 @@ static void apply_blend(struct rest *r, int32_t k_q30, bool keep)
     }
 }
 
-/* Whether the energy is above `before`, by more than 2^-bits of it, and what surfaces that move have added. */
-static bool rises(const struct rest *r, struct fix_wide before, int bits)
+void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times)
 {
-    struct fix_wide slack = {before.hi >> bits, (uint64_t)fix_wide_shift(before, bits)};
-    struct fix_wide limit = fix_wide_add(before, slack);
-
-    for (uint32_t i = 0; i < r->count; i++) {
-        limit = fix_wide_add(limit, rest_work2(rest_contact(r, i)));
+    for (int k = 0; c->drift && k < 3; k++) {
+        fix_wide_add_product(sum, contact_impulse(c)->c[k], 2 * times * c->drift->c[k]);
     }
-
-    return fix_wide_sign(fix_wide_add(kinetic2(r), fix_wide_neg(limit))) > 0;
 }
 
-/* Twice the kinetic energy before the solve. */
-static struct fix_wide before2(const struct rest *r)
+/*
+ * Whether the energy, by all its digits or by a bound of it, is above `limit` and what surfaces that move
+ * have added.
+ */
+static bool rises(const struct rest *r, const struct fix_wide *limit, bool exactly)
 {
     struct fix_wide sum = {0, 0};
 
+    fix_wide_subtract(&sum, limit);
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         const struct body *b = &r->bodies[i];
 
-        sum = fix_wide_add(sum, fix_wide_dot(b->saved_momentum.c, b->velocity.c));
-        sum = fix_wide_add(sum, fix_wide_dot(body_solved(b)->saved_angular.c, b->spin.c));
-    }
-    return sum;
-}
-
-/* Whether the energy may be above `allowed` and what surfaces that move have added. */
-static bool may_rise(const struct rest *r, struct fix_wide allowed)
-{
-    struct fix_wide sum = fix_wide_neg(allowed);
-
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        sum = fix_wide_add(sum, body_kinetic2_most(&r->bodies[i], &r->states[i]));
+        if (exactly) {
+            body_add_kinetic2(&sum, b, &r->states[i], &b->path.start.r);
+        } else {
+            body_add_kinetic2_most(&sum, b, &r->states[i]);
+        }
     }
     for (uint32_t i = 0; i < r->count; i++) {
-        sum = fix_wide_add(sum, fix_wide_neg(rest_work2(rest_contact(r, i))));
+        rest_add_work2(&sum, rest_contact(r, i), -1);
     }
-    return fix_wide_sign(sum) > 0;
+    return fix_wide_sign(&sum) > 0;
 }
 
-void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
+/* What resting contacts may add to twice the energy of the bodies at hand. */
+static void add_lift2(const struct rest *r, struct fix_wide *sum)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        body_add_lift2(sum, &r->bodies[i], 1);
+    }
+}
+
+/* Twice the kinetic energy before the solve. */
+static void add_before2(const struct rest *r, struct fix_wide *sum)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        const struct body *b = &r->bodies[i];
+
+        fix_wide_add_dot(sum, b->saved_momentum.c, b->velocity.c);
+        fix_wide_add_dot(sum, body_solved(b)->saved_angular.c, b->spin.c);
+    }
+}
+
+void rest_energy_rule(struct rest *r, bool lifts, bool lasting)
 {
     bool exact = rest_up_to_two(r);
     struct rest_sweep plastic = {.plastic = true,
@@ -113,13 +110,18 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
                                  .residual = exact ? REST_RESIDUAL_EXACT : REST_RESIDUAL_IMPACT};
     int bits = lasting ? LASTING_BITS : ROUNDING_BITS;
     int32_t low = 0, high = CAROM_ONE_Q30;
-    struct fix_wide before;
+    struct fix_wide limit = {0, 0}, slack;
 
-    if (!may_rise(r, lift)) {
+    if (lifts) {
+        add_lift2(r, &limit);
+    }
+    if (!rises(r, &limit, false)) {
         return; /* whatever it was before: not below 0 */
     }
-    before = fix_wide_add(before2(r), lift);
-    if (!rises(r, before, bits)) {
+    add_before2(r, &limit);
+    slack = fix_wide_down(&limit, bits);
+    fix_wide_add(&limit, &slack);
+    if (!rises(r, &limit, true)) {
         return;
     }
     r->energy_rules++;
@@ -132,7 +134,7 @@ void rest_energy_rule(struct rest *r, struct fix_wide lift, bool lasting)
         int32_t k_q30 = low + (high - low) / 2;
 
         apply_blend(r, k_q30, false);
-        if (rises(r, before, bits)) {
+        if (rises(r, &limit, true)) {
             high = k_q30;
         } else {
             low = k_q30;

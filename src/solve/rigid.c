@@ -81,8 +81,7 @@ static void find_centre(const struct rest *r, struct rest_rigid *rigid)
         }
     }
     for (int k = 0; k < 3; k++) {
-        struct fix_scaled way =
-            fix_wide_ratio(fix_wide_mul(moment_q30[k], 1), fix_wide_mul(rigid->mass_q30, 1));
+        struct fix_scaled way = fix_ratio(moment_q30[k], rigid->mass_q30);
 
         way.e -= rigid->length_bits;
         rigid->centre.c[k] += fix_mul_scaled(1, way);
@@ -100,11 +99,11 @@ static void add_angular(const struct rest *r, const carom_v3_q32 *about, uint32_
         x[k] = state->position.c[k] - about->c[k];
     }
     for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
+        int m = fix_next(k), n = fix_next(m);
 
-        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(x[m], p[n]));
-        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(-x[n], p[m]));
-        sum_q72[k] = fix_wide_add(sum_q72[k], fix_wide_mul(state->angular.c[k], (int64_t)1 << 32));
+        fix_wide_add_product(&sum_q72[k], x[m], p[n]);
+        fix_wide_add_product(&sum_q72[k], -x[n], p[m]);
+        fix_wide_add_product(&sum_q72[k], state->angular.c[k], (int64_t)1 << 32);
     }
 }
 
@@ -120,9 +119,7 @@ static struct momenta sum_momenta(const struct rest *r, const struct rest_rigid 
     memset(&sum, 0, sizeof sum);
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
         for (int k = 0; k < 3; k++) {
-            int64_t p = r->states[i].momentum.c[k];
-
-            sum.linear_q40[k] = fix_wide_add(sum.linear_q40[k], fix_wide_mul(p, 1));
+            fix_wide_add_product(&sum.linear_q40[k], r->states[i].momentum.c[k], 1);
         }
         add_angular(r, &rigid->centre, i, sum.angular_q72);
     }
@@ -133,12 +130,11 @@ static struct momenta sum_momenta(const struct rest *r, const struct rest_rigid 
 static struct momenta lost(const struct rest *r, const struct rest_rigid *rigid,
                            const struct momenta *before)
 {
-    struct momenta now = sum_momenta(r, rigid), lost;
+    struct momenta now = sum_momenta(r, rigid), lost = *before;
 
     for (int k = 0; k < 3; k++) {
-        lost.linear_q40[k] = fix_wide_add(before->linear_q40[k], fix_wide_neg(now.linear_q40[k]));
-        lost.angular_q72[k] =
-            fix_wide_add(before->angular_q72[k], fix_wide_neg(now.angular_q72[k]));
+        fix_wide_subtract(&lost.linear_q40[k], &now.linear_q40[k]);
+        fix_wide_subtract(&lost.angular_q72[k], &now.angular_q72[k]);
     }
     return lost;
 }
@@ -176,7 +172,7 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
     int32_t rows[3][GAUSS_MAX + 1];
     int64_t inertia_q30[6] = {0};
     uint64_t all = 0;
-    int down, up, bits = 0;
+    int down, up, bits = fix_wide_bits3(angular_q72);
 
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
         add_inertia(r, rigid, i, inertia_q30);
@@ -184,18 +180,13 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
     for (int n = 0; n < 6; n++) {
         all |= (uint64_t)carom_abs(inertia_q30[n]);
     }
-    for (int k = 0; k < 3; k++) {
-        int b = fix_wide_bits(angular_q72[k]);
-
-        bits = b > bits ? b : bits;
-    }
     down = fix_bits(all) - 30;
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
             w->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
         }
-        w->a[m][3] = (int32_t)fix_wide_shift(angular_q72[m], bits);
+        w->a[m][3] = (int32_t)fix_wide_shift(&angular_q72[m], bits);
     }
     memcpy(rows, w->a, sizeof rows);
     if (gauss_solve(w, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
@@ -213,7 +204,7 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
 static bool find_motion(const struct rest *r, struct rest_rigid *rigid, const struct momenta *of)
 {
     for (int k = 0; k < 3; k++) {
-        struct fix_scaled v = fix_wide_ratio(of->linear_q40[k], fix_wide_mul(rigid->mass_q30, 1));
+        struct fix_scaled v = fix_wide_over(&of->linear_q40[k], rigid->mass_q30);
 
         v.e -= rigid->mass_e;
         rigid->velocity.c[k] = fix_mul_scaled(1, v);
@@ -246,7 +237,7 @@ struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid
 
     arm_q30(r, rigid, i, arm);
     for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3, bits = 62 - rigid->length_bits;
+        int m = fix_next(k), n = fix_next(m), bits = 62 - rigid->length_bits;
 
         v.c[k] += fix_mul(w[m], arm[n], bits) - fix_mul(w[n], arm[m], bits);
     }
@@ -272,11 +263,11 @@ static void make_up(struct rest *r, const struct rest_rigid *rigid, const struct
     struct momenta rest = lost(r, rigid, before);
 
     for (int k = 0; k < 3; k++) {
-        heavy->momentum.c[k] += fix_wide_shift(rest.linear_q40[k], 0);
+        heavy->momentum.c[k] += fix_wide_shift(&rest.linear_q40[k], 0);
     }
     rest = lost(r, rigid, before);
     for (int k = 0; k < 3; k++) {
-        heavy->angular.c[k] += carom_round(fix_wide_shift(rest.angular_q72[k], 31), 1);
+        heavy->angular.c[k] += carom_round(fix_wide_shift(&rest.angular_q72[k], 31), 1);
     }
 }
 

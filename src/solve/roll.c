@@ -55,15 +55,17 @@ static bool may_roll(const struct rest *r, uint32_t i)
 static bool rises(const struct contact_side *side)
 {
     const struct body *b = side->body;
-    int64_t way_q40[3];
+    struct fix_wide sum = {0, 0};
 
     for (int k = 0; b && k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3, bits = contact_arm_bits(b);
+        int m = fix_next(k), n = fix_next(m), bits = contact_arm_bits(b);
 
-        way_q40[k] = fix_mul(b->spin.c[n], side->arm_q30[m], bits) -
-                     fix_mul(b->spin.c[m], side->arm_q30[n], bits);
+        fix_wide_add_product(&sum,
+                             fix_mul(b->spin.c[n], side->arm_q30[m], bits) -
+                                 fix_mul(b->spin.c[m], side->arm_q30[n], bits),
+                             b->acceleration.c[k]);
     }
-    return b && fix_wide_sign(fix_wide_dot(way_q40, b->acceleration.c)) < 0;
+    return fix_wide_sign(&sum) < 0;
 }
 
 /* Whether the pair of contact i rolls up on all that pressed in the last frame. */
@@ -85,7 +87,7 @@ static bool rolls_up(const struct rest *r, uint32_t i)
 }
 
 /* The arm of the pair of contact i. */
-static int64_t arm_q22(const struct rest *r, uint32_t i)
+FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
 {
     const struct contact *c = rest_contact(r, i);
     int64_t spin_q40[3] = {0, 0, 0}, speed_q40, whole_q40 = 1, grown;
@@ -149,7 +151,7 @@ static int64_t turning_q30(const struct contact *c, int s)
 bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 {
     struct contact *c = rest_contact(r, i);
-    struct contact_roll *roll = &r->rolls[c->key.pair];
+    struct contact_roll *roll;
     const struct body *a = c->side[0].body, *b = c->side[1].body;
     int64_t spin[3] = {0, 0, 0}, mass_q30 = 0;
 
@@ -158,7 +160,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
         return false;
     }
-    c->work->roll = roll;
+    c->work->roll = roll = &r->rolls[r->roll_count++];
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
     roll->arm_q30 = rest_clamp(carom_shl(arm_q22(r, i), 30 - roll->unit_bits));
@@ -280,7 +282,7 @@ const carom_v3_q40 *rest_moment(const struct contact *c)
 
 void rest_roll_finish(struct contact *c, const struct rest_sweep *sw)
 {
-    struct fix_scaled unit = c->work->mass_unit;
+    struct fix_scaled unit = contact_mass_unit(c);
     struct contact_roll *roll = c->work->roll;
 
     if (!c->work->rolls) {

@@ -9,11 +9,12 @@ int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d)
     return fix_dot_q30(v, d->c);
 }
 
-struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d)
+void impact_add_speed_q70(struct fix_wide *sum, const struct impact *in, const carom_v3_q30 *d,
+                          int times)
 {
-    int64_t d64[3] = {d->c[0], d->c[1], d->c[2]};
-
-    return fix_wide_dot(in->velocity.c, d64);
+    for (int k = 0; k < 3; k++) {
+        fix_wide_add_product(sum, in->velocity.c[k], times * (int64_t)d->c[k]);
+    }
 }
 
 /* ------------------------------------------------------------------- frame */
@@ -22,21 +23,21 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
 {
     struct fix_wide cross_q70[3];
     int64_t across[3];
-    int bits = 0;
+    int bits;
     bool slips;
 
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3, b;
+        int i = fix_next(k), j = fix_next(i);
 
-        cross_q70[k] = fix_wide_add(fix_wide_mul(t[i], f->n.c[j]), fix_wide_mul(-t[j], f->n.c[i]));
-        b = fix_wide_bits(cross_q70[k]);
-        bits = b > bits ? b : bits;
+        cross_q70[k] = fix_wide_mul(t[i], f->n.c[j]);
+        fix_wide_add_product(&cross_q70[k], -t[j], f->n.c[i]);
     }
+    bits = fix_wide_bits3(cross_q70);
     /* Less than 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much. */
     slips = bits > 34 && bits > fix_bits3(t) + 30 - 28;
     if (slips) {
         for (int k = 0; k < 3; k++) {
-            across[k] = fix_wide_shift(cross_q70[k], bits > 62 ? bits - 62 : 0);
+            across[k] = fix_wide_shift(&cross_q70[k], bits > 62 ? bits - 62 : 0);
         }
     } else {
         /* The axis farthest from N: its cross product with N is at least sqrt(2/3) long. */
@@ -46,8 +47,8 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
             far = carom_abs(f->n.c[k]) < carom_abs(f->n.c[far]) ? k : far;
         }
         across[far] = 0;
-        across[(far + 1) % 3] = -f->n.c[(far + 2) % 3];
-        across[(far + 2) % 3] = f->n.c[(far + 1) % 3];
+        across[fix_next(far)] = -f->n.c[fix_next(fix_next(far))];
+        across[fix_next(fix_next(far))] = f->n.c[fix_next(far)];
     }
     fix_normalise(&f->u, across);
     carom_cross(f->v.c, f->n.c, f->u.c, 30);
@@ -156,7 +157,7 @@ static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
         own[k] = CAROM_ONE_Q30;
         impulse[k] = (int32_t)fix_round_shift(-(m->sign * m->share_q30), -p->arm_shift);
     } else {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k - 3), j = fix_next(i);
 
         for (int l = 0; l < 3; l++) {
             own[3 + l] = m->inertia_q30[fix_sym3_at[k - 3][l]];
@@ -216,7 +217,7 @@ struct goal {
 };
 
 /* v in units of 2^bits. */
-static int64_t in_unit_q40(struct fix_wide v_q70, int bits)
+static int64_t in_unit_q40(const struct fix_wide *v_q70, int bits)
 {
     return bits > 40 ? carom_round(fix_wide_shift(v_q70, bits - 41), 1)
                      : carom_shl(fix_wide_shift(v_q70, 0), 40 - bits);
@@ -290,7 +291,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
         const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
 
         for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
+            int i = fix_next(k), j = fix_next(i);
 
             out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) +
                                      times_arm(m, dw[i], j) - times_arm(m, dw[j], i));
@@ -310,7 +311,7 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
         out_q40[k] = fix_round_shift(share[k], -p->arm_shift) - dv[k];
     }
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
 
         out_q40[3 + k] =
             fix_round_shift(times_arm(m, share[j], i) - times_arm(m, share[i], j), -m->inertia_odd);
@@ -375,19 +376,14 @@ static int solve(const struct impact_problem *p, const struct goal *goal, struct
 
 int impact_stick(const struct impact_problem *p, struct impact_answer *out)
 {
-    struct fix_wide change_q70[3] = {p->wanted_q70,
-                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.u)),
-                                     fix_wide_neg(impact_speed_q70(p->in, &p->frame.v))};
-    struct goal goal = {.sticks = true, .bits = 0};
+    struct fix_wide change_q70[3] = {p->wanted_q70};
+    struct goal goal = {.sticks = true};
 
+    impact_add_speed_q70(&change_q70[1], p->in, &p->frame.u, -1);
+    impact_add_speed_q70(&change_q70[2], p->in, &p->frame.v, -1);
+    goal.bits = unit_bits(p, fix_wide_bits3(change_q70));
     for (int k = 0; k < 3; k++) {
-        int b = fix_wide_bits(change_q70[k]);
-
-        goal.bits = b > goal.bits ? b : goal.bits;
-    }
-    goal.bits = unit_bits(p, goal.bits);
-    for (int k = 0; k < 3; k++) {
-        goal.change_q40[k] = in_unit_q40(change_q70[k], goal.bits);
+        goal.change_q40[k] = in_unit_q40(&change_q70[k], goal.bits);
     }
     return solve(p, &goal, out);
 }
@@ -395,8 +391,8 @@ int impact_stick(const struct impact_problem *p, struct impact_answer *out)
 int impact_slide(const struct impact_problem *p, uint32_t friction_q16, struct impact_answer *out)
 {
     struct goal goal = {.friction_q16 = friction_q16,
-                        .bits = unit_bits(p, fix_wide_bits(p->wanted_q70))};
+                        .bits = unit_bits(p, fix_wide_bits(&p->wanted_q70))};
 
-    goal.change_q40[0] = in_unit_q40(p->wanted_q70, goal.bits);
+    goal.change_q40[0] = in_unit_q40(&p->wanted_q70, goal.bits);
     return solve(p, &goal, out);
 }

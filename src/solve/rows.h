@@ -60,8 +60,9 @@ struct impact_answer {
 /* v.d for a unit vector d. */
 int64_t impact_dot(const int64_t v[3], const carom_v3_q30 *d);
 
-/* V.d, exact. */
-struct fix_wide impact_speed_q70(const struct impact *in, const carom_v3_q30 *d);
+/* Add `times` V.d, exact; -1 to 2 times. */
+void impact_add_speed_q70(struct fix_wide *sum, const struct impact *in, const carom_v3_q30 *d,
+                          int times);
 
 /*
  * Turn the frame so that u lies along t x N and v along the part of t across N. Returns false when

@@ -30,36 +30,22 @@ static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
-    const int32_t *before = c->work->before;
-    uint64_t turn[3] = {(uint64_t)1 << 31, (uint64_t)1 << 31, (uint64_t)1 << 31};
-    int32_t way[3] = {1 << (REST_FINER_BITS - 1), 1 << (REST_FINER_BITS - 1),
-                      1 << (REST_FINER_BITS - 1)};
 
-    if (a) {
-        const struct body_path *in = body_solved(a);
-        const struct contact_lever *lever = &c->work->lever[0];
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        uint64_t turn = (uint64_t)1 << 31;
+        int32_t way = 1 << (REST_FINER_BITS - 1);
 
-        turn[0] += turned(lever->turn[0], in->du);
-        turn[1] += turned(lever->turn[1], in->du);
-        turn[2] += turned(lever->turn[2], in->du);
-        way[0] += in->dv[0];
-        way[1] += in->dv[1];
-        way[2] += in->dv[2];
+        if (a) {
+            turn += turned(c->work->lever[0].turn[k], body_solved(a)->du);
+            way += body_solved(a)->dv[k];
+        }
+        if (b) {
+            turn -= turned(c->work->lever[1].turn[k], body_solved(b)->du);
+            way -= body_solved(b)->dv[k];
+        }
+        v[k] = c->work->before[k] + (way >> REST_FINER_BITS) + (int32_t)((int64_t)turn >> 32);
     }
-    if (b) {
-        const struct body_path *in = body_solved(b);
-        const struct contact_lever *lever = &c->work->lever[1];
-
-        turn[0] -= turned(lever->turn[0], in->du);
-        turn[1] -= turned(lever->turn[1], in->du);
-        turn[2] -= turned(lever->turn[2], in->du);
-        way[0] -= in->dv[0];
-        way[1] -= in->dv[1];
-        way[2] -= in->dv[2];
-    }
-    v[0] = before[0] + (way[0] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[0] >> 32);
-    v[1] = before[1] + (way[1] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[1] >> 32);
-    v[2] = before[2] + (way[2] >> REST_FINER_BITS) + (int32_t)((int64_t)turn[2] >> 32);
 }
 
 /* Friction is not against slip that closing a gap asks for. */
@@ -94,9 +80,10 @@ struct gain {
 
 static inline void across(struct gain *g, const int32_t n[3])
 {
-    g->across[0] = g->whole[0] - carom_mul_q30(g->along, n[0]);
-    g->across[1] = g->whole[1] - carom_mul_q30(g->along, n[1]);
-    g->across[2] = g->whole[2] - carom_mul_q30(g->along, n[2]);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = g->whole[k] - carom_mul_q30(g->along, n[k]);
+    }
 }
 
 /* Whether an impulse is within the friction cone; mu is at most 4. */
@@ -108,9 +95,10 @@ static bool in_cone(const struct contact *c, int64_t normal, const int64_t tange
     if (rest_used(all) >> 29) {
         rest_shrink(all, 29);
     }
-    across[0] = (int32_t)all[0];
-    across[1] = (int32_t)all[1];
-    across[2] = (int32_t)all[2];
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        across[k] = (int32_t)all[k];
+    }
     limit = (all[3] * (int32_t)c->work->friction_q16) >> 16;
     return rest_square32(across) <= (uint64_t)(limit * limit);
 }
@@ -128,28 +116,29 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     int down = fix_bits32((uint32_t)((v[0] ^ (v[0] >> 31)) | (v[1] ^ (v[1] >> 31)) |
                                      (v[2] ^ (v[2] >> 31)))) +
                in->fine_bits - 30;
-    int32_t x, y, z;
-    int64_t normal, tangent[3];
+    int32_t slow[3];
+    int64_t normal, tangent[3], whole[3];
 
     down = down > 0 ? down : 0;
-    x = v[0] >> down;
-    y = v[1] >> down;
-    z = v[2] >> down;
-    g->whole[0] =
-        -(int32_t)carom_round((int64_t)m[0] * x + (int64_t)m[3] * y + (int64_t)m[5] * z, up);
-    g->whole[1] =
-        -(int32_t)carom_round((int64_t)m[3] * x + (int64_t)m[1] * y + (int64_t)m[4] * z, up);
-    g->whole[2] =
-        -(int32_t)carom_round((int64_t)m[5] * x + (int64_t)m[4] * y + (int64_t)m[2] * z, up);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        slow[k] = v[k] >> down;
+    }
+    fix_sym3_dot(whole, m, slow);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        g->whole[k] = -(int32_t)carom_round(whole[k], up);
+    }
     g->along = (int32_t)carom_round(carom_dot(n, g->whole), 30);
     normal = in->normal_impulse + carom_shl(g->along, down);
     if (normal <= 0) {
         return false;
     }
     across(g, n);
-    tangent[0] = in->tangent_impulse[0] + carom_shl(g->across[0], down);
-    tangent[1] = in->tangent_impulse[1] + carom_shl(g->across[1], down);
-    tangent[2] = in->tangent_impulse[2] + carom_shl(g->across[2], down);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        tangent[k] = in->tangent_impulse[k] + carom_shl(g->across[k], down);
+    }
     return in_cone(c, normal, tangent);
 }
 
@@ -238,20 +227,27 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct g
     }
 }
 
-/* Take up a change; returns its largest component, the last place apart. */
+/* Take up a change into the impulses. */
+FIX_APART static void accumulate(struct contact_work *in, const struct gain *g)
+{
+    in->normal_impulse += g->along;
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        in->tangent_impulse[k] += g->across[k];
+    }
+}
+
+/* And into the bodies; returns its largest component, the last place apart. */
 static int32_t add(struct contact *c, const struct gain *g)
 {
-    struct contact_work *in = c->work;
     int32_t *gain = contact_gain(c)->gain, most;
 
-    in->normal_impulse += g->along;
-    in->tangent_impulse[0] += g->across[0];
-    in->tangent_impulse[1] += g->across[1];
-    in->tangent_impulse[2] += g->across[2];
-    /* a contact by itself, of which nobody asks, may wrap */
-    gain[0] = (int32_t)((uint32_t)gain[0] + (uint32_t)g->whole[0]);
-    gain[1] = (int32_t)((uint32_t)gain[1] + (uint32_t)g->whole[1]);
-    gain[2] = (int32_t)((uint32_t)gain[2] + (uint32_t)g->whole[2]);
+    accumulate(c->work, g);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        /* a contact by itself, of which nobody asks, may wrap */
+        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
+    }
     rest_push(c, g->whole);
     most = fix_largest(g->whole);
     return most > 1 ? most : 0;
@@ -298,15 +294,16 @@ static bool agrees(const struct rest *r)
 
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = contact_gain(rest_contact(r, i));
-        int64_t x = (int64_t)c->gain[0] + c->way[0], y = (int64_t)c->gain[1] + c->way[1],
-                z = (int64_t)c->gain[2] + c->way[2];
 
-        if (x > WAY_MAX || x < -WAY_MAX || y > WAY_MAX || y < -WAY_MAX || z > WAY_MAX ||
-            z < -WAY_MAX) {
-            return false;
+        FIX_UNROLL
+        for (int k = 0; k < 3; k++) {
+            int64_t x = (int64_t)c->gain[k] + c->way[k];
+
+            if (x > WAY_MAX || x < -WAY_MAX) {
+                return false;
+            }
+            sum += c->gain[k] * x >> 13; /* up to 2^47, of at most 4096 contacts */
         }
-        /* up to 2^48, of at most 4096 contacts */
-        sum += (c->gain[0] * x >> 13) + (c->gain[1] * y >> 13) + (c->gain[2] * z >> 13);
     }
     return sum >= 0;
 }
@@ -364,10 +361,7 @@ static void go_beyond(struct contact *c, int32_t part_q30)
     }
     g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
     across(&g, c->normal.c);
-    in->normal_impulse += g.along;
-    in->tangent_impulse[0] += g.across[0];
-    in->tangent_impulse[1] += g.across[1];
-    in->tangent_impulse[2] += g.across[2];
+    accumulate(in, &g);
     if (in->normal_impulse < 0) {
         let_go(c);
     }
@@ -420,7 +414,7 @@ static void into_cones(struct rest *r)
     }
 }
 
-static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
+FIX_APART static int most_rounds(const struct rest *r, const struct rest_sweep *sw)
 {
     int rounds = sw->exact              ? REST_SWEEPS_EXACT
                  : sw->calm             ? REST_SWEEPS_CALM
@@ -514,6 +508,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         while (!rest_sum_up(r)) {
             rest_enlarge_unit(r, sw);
         }
+        r->roll_count = 0;
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }

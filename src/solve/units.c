@@ -5,12 +5,12 @@
 
 /* Sweeps follow a slip of 13 V*. */
 #define SLIP_MAX ((int64_t)13 << REST_BITS)
-/* A slip is not cut when each part of it is below this, a power of 2. */
-#define SLIP_SURE ((int64_t)4 << REST_BITS)
+/* A slip is not cut when no part of it has more bits. */
+#define SLIP_SURE_BITS (REST_BITS + 2)
 /* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
 #define LARGER_BITS 4
 
-static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
+FIX_APART static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
 {
     return sw->plastic && (c->impact || c->work->target_q40 > 0) ? 0 : c->work->target_q40;
 }
@@ -58,7 +58,7 @@ static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 
         slip[k] = in_units(contact_velocity(c)->c[k] - along, sw->unit);
     }
-    if ((carom_abs(slip[0]) | carom_abs(slip[1]) | carom_abs(slip[2])) >= SLIP_SURE) {
+    if (fix_bits3(slip) > SLIP_SURE_BITS) {
         rest_cut(slip, SLIP_MAX);
     }
     PHASE_BEGIN(c->phase, CONTACT_GAIN);
@@ -187,7 +187,7 @@ void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
-        struct fix_scaled unit = c->work->mass_unit;
+        struct fix_scaled unit = contact_mass_unit(c);
 
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
         unit.e += 8 - sw->unit; /* 8 more bits survive the sum */

@@ -9,6 +9,42 @@
 #define STAYED_DIVISOR 1024
 #define MOVED_DIVISOR  20
 
+/* What the part along the normal leaves of an impulse. */
+static inline void find_tangent(const struct rest_warm *w, int64_t normal_q40, int64_t tangent[3])
+{
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        tangent[k] = w->impulse.c[k] - fix_mul_q30(normal_q40, w->normal.c[k]);
+    }
+}
+
+struct rest_warm_parts rest_warm_parts(const struct rest_warm *w)
+{
+    struct rest_warm_parts parts;
+
+    parts.normal_q40 = rest_along_q40(&w->impulse, &w->normal);
+    find_tangent(w, parts.normal_q40, parts.tangent.c);
+    return parts;
+}
+
+/* Bounds: with a normal's components up to 2^30.1 and parts up to 2^60 an impulse is below 2^61.1. */
+bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts)
+{
+    const int64_t most = (int64_t)1 << 60, *across = parts->tangent.c;
+    const int32_t longest = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10);
+
+    for (int k = 0; k < 3; k++) {
+        int32_t n = w->normal.c[k];
+
+        if (n > longest || n < -longest || across[k] > most || across[k] < -most ||
+            parts->normal_q40 > most || parts->normal_q40 < -most) {
+            return false;
+        }
+        w->impulse.c[k] = across[k] + fix_mul_q30(parts->normal_q40, n);
+    }
+    return rest_warm_parts(w).normal_q40 == parts->normal_q40;
+}
+
 /* Where the impulses of a pair begin: they are in the order of pairs. */
 static uint32_t first_warm(const struct rest *r, const struct pair *p)
 {
@@ -45,10 +81,11 @@ static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int3
 
 /*
  * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
- * within a part of a's radius. The impulses of its pair begin at `first`.
+ * within a part of a's radius. The impulses of its pair begin at `first`. One that is used is 0.
+ *   normal_q40  out  the part along its normal
  */
 static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint32_t first,
-                                   int32_t divisor)
+                                   int32_t divisor, int64_t *normal_q40)
 {
     const struct pair *p = &r->pairs[c->key.pair];
     const struct body *a = rest_body(r, c, 0);
@@ -61,10 +98,15 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
          w < end && w->a == p->a && w->b == p->b; w++) {
         int32_t distance = distance_below(&w->arm, &arm, nearest);
 
-        if (distance < nearest && w->normal_q40 != 0 &&
+        if (distance < nearest && (w->impulse.c[0] | w->impulse.c[1] | w->impulse.c[2]) != 0 &&
             carom_dot(w->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
-            nearest = distance;
-            best = w;
+            int64_t along_q40 = rest_along_q40(&w->impulse, &w->normal);
+
+            if (along_q40 != 0) {
+                nearest = distance;
+                best = w;
+                *normal_q40 = along_q40;
+            }
         }
     }
     return best;
@@ -93,42 +135,29 @@ static void to_units(int64_t v[4], struct fix_scaled inverse)
     }
 }
 
-/* One over a contact's unit of impulses, which is 2^n of the mass of one of its bodies. */
-static struct fix_scaled inverse_unit(const struct contact *c)
-{
-    struct fix_scaled unit = c->work->mass_unit, inverse;
-    const struct body *b = c->side[0].body;
-
-    if (b->mass.m != unit.m) {
-        b = c->side[1].body;
-    }
-    inverse = b->inverse_mass;
-    inverse.e += b->mass.e - unit.e;
-    return inverse;
-}
-
 static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw, uint32_t first,
                  int32_t divisor)
 {
-    struct rest_warm *w = find_warm(r, c, first, divisor);
-    struct fix_scaled inverse;
+    carom_v3_q40 tangent;
     int64_t along, impulse[4];
+    struct rest_warm *w = find_warm(r, c, first, divisor, &impulse[3]);
+    struct fix_scaled inverse;
 
     if (!w) {
         return;
     }
-    inverse = inverse_unit(c);
-    inverse.e += sw->unit;
-    along = rest_along_q40(&w->tangent_q40, &c->normal);
-    impulse[3] = w->normal_q40;
+    inverse = contact_lighter(c)->inverse_mass;
+    inverse.e += sw->unit - c->work->fine_bits;
+    find_tangent(w, impulse[3], tangent.c);
+    along = rest_along_q40(&tangent, &c->normal);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        impulse[k] = w->tangent_q40.c[k] - fix_mul_q30(along, c->normal.c[k]);
+        impulse[k] = tangent.c[k] - fix_mul_q30(along, c->normal.c[k]);
     }
     to_units(impulse, inverse);
     memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
     c->work->normal_impulse = impulse[3];
-    w->normal_q40 = 0; /* used */
+    w->impulse = (carom_v3_q40){{0, 0, 0}}; /* used */
 }
 
 /* Contacts that have no impulse yet, from what is no farther than a part of a radius. */
@@ -174,11 +203,6 @@ void rest_store_warm(struct rest *r)
         w->normal = c->normal;
         arm = contact_arm(c);
         carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
-        w->normal_q40 = rest_along_q40(contact_impulse(c), &c->normal);
-        FIX_UNROLL
-        for (int k = 0; k < 3; k++) {
-            w->tangent_q40.c[k] =
-                contact_impulse(c)->c[k] - fix_mul_q30(w->normal_q40, w->normal.c[k]);
-        }
+        w->impulse = *contact_impulse(c);
     }
 }

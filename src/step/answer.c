@@ -221,7 +221,9 @@ static void stop_island(struct step *s, const struct pair *p)
         w->bodies[i].stands |= w->bodies[i].member;
     }
     s->cut_short = true;
-    step_add_event(w, CAROM_EVENT_CUT, p->a, p->b);
+    if (step_may_note(w)) {
+        step_add_event(w, CAROM_EVENT_CUT, p->a, p->b);
+    }
     w->stats.cut_islands++;
 }
 

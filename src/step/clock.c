@@ -93,7 +93,7 @@ static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
     int64_t most_q22 = (int64_t)b->radius_q22 * WAY_RADII, way_q22;
     const int64_t *v = b->path.v.c;
 
-    if ((carom_abs(v[0]) + carom_abs(v[1]) + carom_abs(v[2])) >> 18 <= most_q22) {
+    if ((int64_t)fix_sum(v) >> 18 <= most_q22) {
         return slice_q30;
     }
     way_q22 = fix_length_bound(v) >> 18;
@@ -101,7 +101,7 @@ static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 }
 
 /* What is left of a frame is not to be a sliver. */
-static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
+FIX_APART static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
 {
     return left_q30 > slice_q30 && left_q30 - slice_q30 < STEP_SLICE_MIN_Q30 &&
                    slice_q30 > 2 * STEP_SLICE_MIN_Q30

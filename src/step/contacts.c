@@ -124,8 +124,8 @@ static void note_hits(struct step *s)
             e++;
         }
         if (e == end) {
-            if (w->event_count >= w->config.caps.pairs + w->config.caps.bodies) {
-                continue; /* the rest of the room is for what the end of the step finds */
+            if (!step_may_note(w)) {
+                continue;
             }
             step_add_event(w, CAROM_EVENT_HIT, p->a, p->b);
         }

@@ -12,36 +12,31 @@ struct account {
     struct fix_wide excess; /* of energy over what it was, and what contact may have lifted it by */
 };
 
-static struct fix_wide kinetic2(const struct body *b, const struct body_state *s)
+static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s)
 {
     carom_m3_q30 r;
 
     fix_matrix(&r, &s->rotation);
-    return body_kinetic2(b, s, &r);
+    body_add_kinetic2(sum, b, s, &r);
 }
 
-/* -2 m a.(way from one place to another): q40 times q32 brought to q40. */
-static struct fix_wide climbed2(const struct body *b, const struct body_state *from,
-                                const struct body_state *to)
+/*
+ * Add what of a gain is height, less what surfaces and closing skins account for: -2 m a.(way from one
+ * place to another), q40 times q32 brought to q40.
+ */
+static void add_lifted2(struct fix_wide *sum, const struct body *b, const struct body_state *from,
+                        const struct body_state *to)
 {
-    struct fix_wide sum = {0, 0};
-
     for (int k = 0; k < 3; k++) {
         int64_t weight_q40 = fix_mul_scaled(b->acceleration.c[k], b->mass);
         int64_t way_q32 = to->position.c[k] - from->position.c[k];
 
-        sum = fix_wide_add(sum, fix_wide_mul(-2 * weight_q40, carom_shl(way_q32, 8)));
+        fix_wide_add_product(sum, -2 * weight_q40, carom_shl(way_q32, 8));
     }
-    return sum;
-}
-
-/* What of a gain is height, less what surfaces and closing skins account for. */
-static struct fix_wide lifted2(const struct body *b, const struct body_state *from,
-                               const struct body_state *to)
-{
-    struct fix_wide sum = fix_wide_add(climbed2(b, from, to), fix_wide_neg(body_work2(b)));
-
-    return b->in_contact ? fix_wide_add(sum, fix_wide_neg(body_lift2(b))) : sum;
+    fix_wide_subtract(sum, body_worked2(b));
+    if (b->in_contact) {
+        body_add_lift2(sum, b, -1);
+    }
 }
 
 /* Whether an island may have gained anything: not when less is left than closing skins may add. */
@@ -54,17 +49,18 @@ static bool may_gain(const struct step *s, uint32_t first)
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
         if (b->mesh && !from->out && !to->out) {
-            most = fix_wide_add(most, body_kinetic2_most(b, to));
-            most = fix_wide_add(most, lifted2(b, from, to));
+            body_add_kinetic2_most(&most, b, to);
+            add_lifted2(&most, b, from, to);
         }
     }
-    return fix_wide_sign(most) > 0;
+    return fix_wide_sign(&most) > 0;
 }
 
 /* What an island has gained. A body that left the world in this frame took its own along. */
 static struct account audit(const struct step *s, uint32_t first)
 {
     struct account sum = {{0, 0}, {0, 0}};
+    struct fix_wide before = {0, 0};
 
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
         const struct body *b = &s->w->bodies[i];
@@ -73,28 +69,31 @@ static struct account audit(const struct step *s, uint32_t first)
         if (!b->mesh || from->out) {
             continue;
         }
-        sum.excess = fix_wide_add(sum.excess, fix_wide_neg(kinetic2(b, from)));
+        add_kinetic2(&before, b, from);
         if (to->out) {
             continue;
         }
-        sum.kinetic = fix_wide_add(sum.kinetic, kinetic2(b, to));
-        sum.excess = fix_wide_add(sum.excess, lifted2(b, from, to));
+        add_kinetic2(&sum.kinetic, b, to);
+        add_lifted2(&sum.excess, b, from, to);
     }
-    sum.excess = fix_wide_add(sum.excess, sum.kinetic);
+    fix_wide_add(&sum.excess, &sum.kinetic);
+    fix_wide_subtract(&sum.excess, &before);
     return sum;
 }
 
-/* Twice the kinetic energy of an island in its motion as one rigid body. */
-static struct fix_wide rigid_kinetic2(const struct step *s, const struct rest_rigid *rigid)
+/* Twice the kinetic energy that an island has beside that of its motion as one rigid body. */
+static struct fix_wide beside2(const struct step *s, const struct rest_rigid *rigid,
+                               const struct fix_wide *all)
 {
-    struct fix_wide sum = {0, 0};
+    struct fix_wide sum = {0, 0}, beside = *all;
 
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(&s->w->rest, i)) {
         struct body_state state = rest_rigid_state(&s->w->rest, rigid, i);
 
-        sum = fix_wide_add(sum, kinetic2(&s->w->bodies[i], &state));
+        add_kinetic2(&sum, &s->w->bodies[i], &state);
     }
-    return sum;
+    fix_wide_subtract(&beside, &sum);
+    return beside;
 }
 
 static bool moved(const struct body_state *from, const struct body_state *to)
@@ -183,30 +182,31 @@ static void hold_still(struct step *s, uint32_t first)
 }
 
 /* The factor for momenta that takes `excess` out of a kinetic energy; 0 when that is not enough. */
-static int32_t factor_q30(struct fix_wide kinetic, struct fix_wide excess)
+static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide *excess)
 {
-    struct fix_wide kept = fix_wide_add(kinetic, fix_wide_neg(excess));
+    struct fix_wide kept = *kinetic;
     struct fix_scaled ratio;
 
-    if (fix_wide_sign(kept) <= 0) {
+    fix_wide_subtract(&kept, excess);
+    if (fix_wide_sign(&kept) <= 0) {
         return 0;
     }
-    ratio = fix_wide_ratio(kept, kinetic); /* below 1 */
+    ratio = fix_wide_ratio(&kept, kinetic); /* below 1 */
     return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
 }
 
 static void limit_island(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
-    struct fix_wide slack = {sum.kinetic.hi >> SLACK_BITS,
-                             (uint64_t)fix_wide_shift(sum.kinetic, SLACK_BITS)};
+    struct fix_wide over = sum.excess, slack = fix_wide_down(&sum.kinetic, SLACK_BITS);
     struct rest_rigid rigid;
 
-    if (fix_wide_sign(fix_wide_add(sum.excess, fix_wide_neg(slack))) <= 0) {
+    fix_wide_subtract(&over, &slack);
+    if (fix_wide_sign(&over) <= 0) {
         return;
     }
     if (s->w->bodies[first].grounded) {
-        int32_t factor = factor_q30(sum.kinetic, sum.excess);
+        int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
 
         if (factor == 0) {
             hold_still(s, first); /* it climbed by more than it has to give */
@@ -214,9 +214,9 @@ static void limit_island(struct step *s, uint32_t first)
             rest_scale_grounded(&s->w->rest, first, factor);
         }
     } else if (rest_rigid_motion(&s->w->rest, first, &rigid)) {
-        struct fix_wide beside = fix_wide_add(sum.kinetic, fix_wide_neg(rigid_kinetic2(s, &rigid)));
+        struct fix_wide beside = beside2(s, &rigid, &sum.kinetic);
 
-        rest_scale_free(&s->w->rest, &rigid, factor_q30(beside, sum.excess));
+        rest_scale_free(&s->w->rest, &rigid, factor_q30(&beside, &sum.excess));
     }
 }
 

@@ -2,6 +2,11 @@
 /* The end of a step: bodies that left, events, statistics. */
 #include "parts.h"
 
+bool step_may_note(const struct carom_world *w)
+{
+    return w->event_count < w->config.caps.pairs + w->config.caps.bodies;
+}
+
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 {
     struct carom_event *e = &w->events[w->event_count];
@@ -36,7 +41,6 @@ bool step_retire(struct step *s, uint32_t i)
     last.rotation = state->rotation;
     *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
     state->out = 1;
-    step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
     w->interfere.stale = true;
     return true;
 }
@@ -129,6 +133,9 @@ int step_finish_events(struct step *s)
         if (state->woken) {
             step_add_event(w, CAROM_EVENT_WAKE, (uint16_t)i, 0);
             state->woken = 0;
+        }
+        if (state->out && !before->bodies[i].out) {
+            step_add_event(w, CAROM_EVENT_OUT, (uint16_t)i, 0);
         }
         if (state->asleep && !before->bodies[i].asleep) {
             step_add_event(w, CAROM_EVENT_REST, (uint16_t)i, 0);

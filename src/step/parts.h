@@ -37,7 +37,7 @@ struct step {
     uint32_t event_cap; /* hits of a body */
 };
 
-static inline bool step_active(const struct step *s, uint32_t i)
+inline bool step_active(const struct step *s, uint32_t i)
 {
     return broad_active(&s->w->bodies[i], &s->next->bodies[i]);
 }
@@ -163,7 +163,11 @@ int step_settle_contacts(struct step *s);
 /* Solve those contacts that are not idle. */
 int step_solve(struct step *s, bool warm);
 
-/* Append an event while there is room. */
+/*
+ * Append an event while there is room. Before the end of a step there is room for as many hits and cuts as
+ * there may be pairs and bodies: the rest is for what the end finds.
+ */
+bool step_may_note(const struct carom_world *w);
 void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b);
 
 /*

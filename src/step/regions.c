@@ -38,7 +38,7 @@ static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint3
  * Pairs from a place on have other numbers in the list of contacts. Candidates take theirs when somebody
  * asks for them.
  */
-static void renumber(struct carom_world *w, uint32_t place, int by)
+FIX_APART static void renumber(struct carom_world *w, uint32_t place, int by)
 {
     struct contact_list *list = &w->rest.list;
 

@@ -2,6 +2,8 @@
 /* The booking of ticks, and the longest slice: every file of a step may use them. */
 #include "parts.h"
 
+extern inline bool step_active(const struct step *s, uint32_t i);
+
 void step_mark(struct carom_world *w, enum carom_stage stage)
 {
     if (w->config.ticks) {

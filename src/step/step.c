@@ -25,7 +25,7 @@ static uint32_t count_active(const struct carom_world *w)
 }
 
 /* What the last step found is gone. */
-static void forget(struct carom_world *w)
+FIX_APART static void forget(struct carom_world *w)
 {
     w->event_count = 0;
     w->interfere.stale = true;
@@ -66,7 +66,7 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
 void step_begin(struct step *s, struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
-    struct world_state *next = &w->states[1 - w->now];
+    struct world_state *next = world_next(w);
     s->w = w;
     s->next = next;
     s->now_q30 = 0;
@@ -251,7 +251,7 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
         return result;
     }
     *cut_short = s.cut_short;
-    w->now = 1 - w->now;
+    w->now = s.next;
     world_halt_surfaces(w);
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);

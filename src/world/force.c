@@ -59,11 +59,11 @@ static bool moment_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q4
     struct fix_wide sum = fix_wide_mul(a_q32, b_q40);
 
     fix_wide_add_product(&sum, -c_q32, d_q40);
-    if (fix_wide_bits(sum) > 32 + 61) {
+    if (fix_wide_bits(&sum) > 32 + 61) {
         return false;
     }
     fix_wide_add_product(&sum, (int64_t)1 << 31, 1);
-    *out = fix_wide_shift(sum, 32);
+    *out = fix_wide_shift(&sum, 32);
     return true;
 }
 
@@ -112,7 +112,7 @@ int carom_body_push(struct carom_world *w, int body, const carom_v3_q40 *impulse
         arm_q32[k] = point->c[k] - pushed.position.c[k];
     }
     for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
+        int i = fix_next(k), j = fix_next(i);
         int64_t moment;
 
         if (!moment_q40(arm_q32[i], impulse->c[j], arm_q32[j], impulse->c[i], &moment)) {

@@ -235,10 +235,8 @@ static int spread(struct lift *l)
 /* Lift what the surface went into: where to, into the state that is not current. */
 static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 {
-    struct lift l = {.w = w,
-                     .states = w->states[1 - w->now].bodies,
-                     .surface = surface,
-                     .rise_q32 = rise_q22 << 10};
+    struct lift l = {
+        .w = w, .states = world_next(w)->bodies, .surface = surface, .rise_q32 = rise_q22 << 10};
     carom_m3_q30 r;
     int result;
 
@@ -269,7 +267,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 /* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
 static void stir(struct carom_world *w, uint32_t body)
 {
-    struct world_state *now = &w->states[w->now];
+    struct world_state *now = w->now;
 
     world_wake_around(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {
@@ -328,7 +326,7 @@ static int move(struct carom_world *w, int body, const int16_t (*vertices)[3], b
     mesh_surface_keep(s);
     w->bodies[body].radius_q22 = s->mesh->radius_q22;
     if (drifts) {
-        memcpy(world_now(w)->bodies, w->states[1 - w->now].bodies,
+        memcpy(world_now(w)->bodies, world_next(w)->bodies,
                w->body_count * sizeof *world_now(w)->bodies);
     } else {
         mesh_surface_halt(s);

@@ -80,20 +80,21 @@ static int64_t most_impulse_q40(const struct body *b)
  * An impulse presses, along the normal; friction is within the widest cone there is across it; and it
  * is not more than a solve can give, see SPEC.md.
  */
-static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
+FIX_APART static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
     const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
+    const struct rest_warm_parts parts = rest_warm_parts(warm);
     int64_t most_q40 = most_impulse_q40(a), across_q40;
 
     if (b->moving && most_impulse_q40(b) < most_q40) {
         most_q40 = most_impulse_q40(b);
     }
-    if (warm->normal_q40 > most_q40 || warm->normal_q40 < -IMPULSE_NOISE_Q40) {
+    if (parts.normal_q40 > most_q40 || parts.normal_q40 < -IMPULSE_NOISE_Q40) {
         return false;
     }
-    across_q40 = warm->normal_q40 / (1 << 16) * rest_friction(a, b);
+    across_q40 = parts.normal_q40 / (1 << 16) * rest_friction(a, b);
     across_q40 += across_q40 / 64 + most_q40 / (1 << 20) + IMPULSE_NOISE_Q40;
-    return world_each_within(warm->tangent_q40.c, across_q40);
+    return world_each_within(parts.tangent.c, across_q40);
 }
 
 /* The arm ends at a's surface, but for what gap there may be. */

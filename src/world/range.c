@@ -79,6 +79,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
     carom_v3_q40 v, w, still = {{0, 0, 0}};
     int64_t by_mass[3] = {0, 0, 0};
+    struct fix_wide sum = {0, 0};
     carom_m3_q30 r;
 
     if (!world_position_in_range(&s->position) ||
@@ -97,5 +98,6 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     for (int k = 0; b->moving && k < 3; k++) {
         by_mass[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
     }
-    return fix_wide_bits(fix_wide_dot(by_mass, w.c)) <= 80 + SQUARE_BITS;
+    fix_wide_add_dot(&sum, by_mass, w.c);
+    return fix_wide_bits(&sum) <= 80 + SQUARE_BITS;
 }

@@ -132,12 +132,20 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
 
 static void stream_warm(struct stream *s, struct rest_warm *w)
 {
+    struct rest_warm_parts parts = {0};
+
+    if (!s->loading) {
+        parts = rest_warm_parts(w);
+    }
     number16(s, &w->a);
     number16(s, &w->b);
     vector32(s, w->arm.c, 3);
     vector32(s, w->normal.c, 3);
-    number64(s, &w->normal_q40);
-    vector64(s, w->tangent_q40.c);
+    number64(s, &parts.normal_q40);
+    vector64(s, parts.tangent.c);
+    if (s->loading && !rest_warm_join(w, &parts)) {
+        s->failed = true;
+    }
 }
 
 static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
@@ -150,7 +158,7 @@ static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
     return count;
 }
 
-static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
+FIX_APART static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
 {
     for (uint32_t i = 0; i < 3 * count; i++) {
         uint16_t c = (uint16_t)v[i / 3][i % 3];
@@ -265,7 +273,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         return CAROM_ERR_NULL;
     }
     /* built beside the current state, like a step */
-    next = &w->states[1 - w->now];
+    next = world_next(w);
     memset(&s, 0, sizeof s);
     s.in = in;
     s.size = bytes;
@@ -274,7 +282,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     stream_state(&s, w, next);
     good = !s.failed && s.at == bytes && world_plausible(w, next, &s.gravity);
     if (good) {
-        w->now = 1 - w->now;
+        w->now = next;
         w->config.gravity = s.gravity;
     }
     /* a step relies on what stands still being the same in both states */

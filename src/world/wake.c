@@ -48,7 +48,7 @@ void world_wake_island(struct carom_world *w, uint32_t body)
 
 void world_wake_around(struct carom_world *w, uint32_t body)
 {
-    struct world_state *now = &w->states[w->now];
+    struct world_state *now = w->now;
     const struct body *b = &w->bodies[body];
 
     w->interfere.stale = true;

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "world.h"
 
-/* What a step may report at most: begin, hit and end of a pair; out, and rest or waking, of a body. */
-#define EVENTS(bodies, pairs) (3 * (size_t)(pairs) + 2 * (size_t)(bodies))
+/* What a step may report at most: hits of pairs, and as many cuts as there is room for, ... */
+#define EVENTS(bodies, pairs) ((size_t)(pairs) + (size_t)(bodies))
 
 /* The sizes that CAROM_WORLD_BYTES promises: what there is for one of each ... */
-#define OF_BODY                                                                                    \
-    (sizeof(struct body) + 2 * sizeof(struct body_state) + 2 * sizeof(struct carom_event))
-#define OF_PAIR                                                                                    \
-    (3 * sizeof(struct pair) + sizeof(struct pair_work) + 3 * sizeof(struct carom_event))
+#define OF_BODY    (sizeof(struct body) + 2 * sizeof(struct body_state) + sizeof(struct carom_event))
+#define OF_PAIR    (3 * sizeof(struct pair) + sizeof(struct pair_work) + sizeof(struct carom_event))
 #define OF_CONTACT (sizeof(struct contact) + 2 * sizeof(struct rest_warm))
 _Static_assert(OF_BODY <= CAROM_BODY_BYTES, "CAROM_BODY_BYTES");
 _Static_assert(OF_PAIR <= CAROM_PAIR_BYTES, "CAROM_PAIR_BYTES");
@@ -53,17 +51,32 @@ static size_t bytes_for(const struct carom_caps *caps)
                              caps->candidates);
 }
 
+/*
+ * Events, and behind them the room that stages share. The events that the end of a step finds, when nothing is
+ * solved any more, go on into that: beginnings and ends of touching, and of bodies that they woke, rest or are
+ * out. Whoever works there between steps has its own part of it.
+ */
+static void carve_shared(struct carom_world *w, struct arena *arena)
+{
+    const struct carom_caps *caps = &w->config.caps;
+    size_t works = caps->contacts * sizeof *w->rest.works;
+    size_t solve = works + CAROM_LESS_(caps->pairs, caps->contacts) * sizeof *w->rest.rolls;
+    size_t found = CAROM_FOUND_BYTES_(caps->bodies, caps->pairs);
+    uint8_t *room;
+
+    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
+    room = arena_carve(arena, CAROM_MORE_(solve, found + sizeof *w->scratch));
+    w->rest.works = (struct contact_work *)room;
+    w->rest.rolls = (struct contact_roll *)(room + works);
+    w->scratch = (union world_scratch *)(room + found);
+}
+
 /* Carve every array. The caller has made sure that the block is large enough. */
 static void carve(struct carom_world *w, struct arena *arena)
 {
     const struct carom_caps *caps = &w->config.caps;
 
-    size_t works = caps->contacts * sizeof *w->rest.works;
-    size_t solve = works + caps->pairs * sizeof *w->rest.rolls;
-
-    w->scratch = arena_carve(arena, solve > sizeof *w->scratch ? solve : sizeof *w->scratch);
-    w->rest.works = (struct contact_work *)w->scratch;
-    w->rest.rolls = (struct contact_roll *)((uint8_t *)w->scratch + works);
+    carve_shared(w, arena);
     w->bodies = arena_carve(arena, caps->bodies * sizeof *w->bodies);
     w->pairs = arena_carve(arena, caps->pairs * sizeof *w->pairs);
     w->meetings = arena_carve(arena, caps->pairs * sizeof *w->meetings);
@@ -74,8 +87,10 @@ static void carve(struct carom_world *w, struct arena *arena)
         s->warm = arena_carve(arena, caps->contacts * sizeof *s->warm);
         s->touching = arena_carve(arena, caps->pairs * sizeof *s->touching);
     }
-    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
+    if (caps->entries > 0) { /* surfaces that move need some */
+        w->rest.list.drifts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.drifts);
+    }
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
     if (caps->entries > 0) {
@@ -107,6 +122,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     arena_init(&arena, mem, bytes);
     w = arena_carve(&arena, sizeof *w);
     w->config = *config;
+    w->now = w->states;
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
     CAROM_POOLS(SET_SIZE)
 #undef SET_SIZE
@@ -256,7 +272,7 @@ int carom_body_remove(struct carom_world *w, int body)
     if (!world_has_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    s = &w->states[w->now];
+    s = w->now;
     world_wake_around(w, (uint32_t)body);
     interfere_forget_lists(&w->interfere);
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);

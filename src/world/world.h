@@ -32,27 +32,27 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 552 bytes where a pointer has 32 bits. */
+/* 560 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
 struct carom_world {
-    /* world: what the caller gave, and the arrays in the block; 80 bytes */
+    /* world: what the caller gave, and the arrays in the block; 84 bytes */
     struct carom_config config; /* gravity: the present one */
     uint32_t body_count;        /* places in use, free ones in between included */
+    bool idle; /* the last step found nothing awake, and nothing has changed since */
+    PHASE_TAG(scratch_phase)
     struct body *bodies;
     union world_scratch *scratch;
     struct carom_event *events; /* finish */
 
-    /* all stages: how much of each capacity is used; 96 bytes */
-    struct pool pools[CAROM_POOL_COUNT];
-
-    /* commit: the dynamic state, 48 bytes */
-    struct world_state states[2];
-    uint32_t now; /* which of the two is current */
-    bool idle;    /* the last step found nothing awake, and nothing has changed since */
-    PHASE_TAG(scratch_phase)
-
     /* regions: in order; and what search, answer and interfere keep of each; 8 bytes */
     struct pair *pairs;
     struct pair_work *meetings;
+
+    /* commit: the dynamic state, 44 bytes */
+    struct world_state *now; /* which of the two is current */
+    struct world_state states[2];
+
+    /* all stages: how much of each capacity is used; 96 bytes */
+    struct pool pools[CAROM_POOL_COUNT];
 
     /* interfere, 144 bytes */
     struct interfere interfere;
@@ -82,7 +82,13 @@ static inline struct boyse_pair *world_pair(const struct carom_world *w)
 
 static inline const struct world_state *world_now(const struct carom_world *w)
 {
-    return &w->states[w->now];
+    return w->now;
+}
+
+/* The one that is not current. */
+static inline struct world_state *world_next(struct carom_world *w)
+{
+    return &w->states[w->now == w->states];
 }
 
 /* Whether a state's place and speed are within what the formats hold. */

@@ -1,0 +1,161 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""What a program pays for what it uses of the engine: Thumb-2 at -Os, linked and collected.
+
+Programs of growing use, each with the calls of the one before it. The engine is compiled for a
+Cortex-M3, a function a section, and linked to calls alone; the linker drops what none of them
+reaches. The bytes are code and constants, what the compiler's library adds to the engine (64-bit
+division) included; memcpy and its like are the program's own, and are left out.
+
+The blocks of memory that a program gives to the engine come behind them, where a pointer has 32 bits:
+worlds of the head scene and of heaps in what these use up, and meshes that are built.
+
+out/size_of_use.csv and out/blocks.csv have the tables. tests/size_of_use.csv and tests/blocks.csv have
+the committed ones. No row of the code may be larger than there by more than 1 %, for other releases
+of a compiler differ by as much; no block may be larger at all.
+"""
+import argparse
+import csv
+import os
+import re
+import sys
+
+import gate
+
+CODE, CODE_COLUMNS = "size_of_use.csv", ["use", "bytes", "adds"]
+BLOCKS, BLOCKS_COLUMNS = "blocks.csv", ["block", "bytes"]
+GROWN = 1.01
+FOLDER = "build/size_of_use"
+TARGET = ["arm-none-eabi-gcc", "-std=c11", "-mcpu=cortex-m3", "-mthumb", "-Os", "-Iinclude"]
+SECTIONS = ["-ffunction-sections", "-fdata-sections"]
+LIBRARY = ["memcpy", "memmove", "memset", "memcmp"]
+
+# What a program does besides the one before it, and the functions that it calls for that.
+USES = [
+    ("a world and its step, meshes in ROM", "carom_world_init carom_body_add carom_world_step "
+     "carom_body_get"),
+    ("bodies look, count, leave, are set", "carom_body_look carom_body_mesh carom_body_count "
+     "carom_body_remove carom_body_set"),
+    ("forces, pushes, other gravity", "carom_world_set_gravity carom_body_set_force "
+     "carom_body_push"),
+    ("events, contacts, interfering faces", "carom_events carom_contacts carom_interfering_faces"),
+    ("statistics, usage, hash, texts", "carom_stats carom_usage carom_stage_name "
+     "carom_result_text carom_world_hash"),
+    ("meshes from vertices and faces", "carom_mesh_build carom_mesh_check carom_mesh_read"),
+    ("queries", "carom_query_faces carom_query_inside"),
+    ("surfaces that move", "carom_surface_build carom_surface_move carom_surface_set"),
+    ("snapshots", "carom_snapshot_size carom_snapshot_save carom_snapshot_load"),
+    ("drawing", "carom_draw"),
+    ("drawing of what changed", "carom_draw_changes"),
+]
+
+HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
+MEMORY = [
+    ("a world of the head scene", "CAROM_WORLD_BYTES(2, 1, 64, 1024, 256, 1024)"),
+    ("a world of 16 boxes in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["16"]),
+    ("a world of 32 mixed bodies in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["32"]),
+    ("a box as a mesh", "CAROM_MESH_BYTES(8, 12)"),
+    ("the head as a mesh", "CAROM_MESH_BYTES(940, 1876)"),
+    ("a moving sheet of 800 faces", "CAROM_SURFACE_BYTES(441, 800)"),
+    ("a picture of the head scene", "CAROM_DRAW_BYTES(940 + 1596, 1876 + 3034)"),
+]
+
+
+def program(calls):
+    """A program that needs the functions of these names, and does nothing else."""
+    path = "%s/calls.c" % FOLDER
+    with open(path, "w") as file:
+        file.write('#include "carom.h"\n#include "carom_draw.h"\n'
+                   "typedef void any(void);\nany *const calls[] = {%s};\n" %
+                   ", ".join("(any *)%s" % name for name in calls))
+    return path
+
+
+def collected(objects, calls):
+    """Bytes of code and constants that the linker keeps for calls, without their list."""
+    image = "%s/use.elf" % FOLDER
+    gate.output([*TARGET, *SECTIONS, program(calls), *objects, "-o", image, "-nostdlib",
+                 "-Wl,--gc-sections,--entry=0,--undefined=calls,-z,noexecstack",
+                 *("-Wl,--defsym=%s=0" % name for name in LIBRARY), "-lgcc"])
+    said = gate.output(["arm-none-eabi-readelf", "-SW", image])
+    kept = re.findall(r"\] (\S+) +PROGBITS +\S+ \S+ ([0-9a-f]+) \S+ +\w*A", said)
+    return sum(int(size, 16) for name, size in kept if name != ".ARM.exidx") - 4 * len(calls)
+
+
+def blocks():
+    """The rows of the blocks: name, bytes."""
+    os.makedirs(FOLDER, exist_ok=True)
+    path = "%s/blocks" % FOLDER
+    with open(path + ".c", "w") as file:
+        file.write('#include "carom.h"\n#include "carom_draw.h"\n' + "".join(
+            "char block%d[%s];\n" % (i, size) for i, (_, size) in enumerate(MEMORY)))
+    gate.output([*TARGET, "-c", path + ".c", "-o", path + ".o"])
+    said = gate.output(["arm-none-eabi-nm", "-S", path + ".o"])
+    size = {int(number): int(size, 16)
+            for size, number in re.findall(r"^\S+ (\S+) \S block(\d+)$", said, re.M)}
+    return [[name, size[i]] for i, (name, _) in enumerate(MEMORY)]
+
+
+def compiled():
+    """The engine's objects."""
+    os.makedirs(FOLDER, exist_ok=True)
+    return [made for _, made in gate.objects("size_of_use", TARGET[0], [*TARGET[2:], *SECTIONS])]
+
+
+def measure():
+    """The rows of the table: use, bytes, and what it adds to the use before it."""
+    made = compiled()
+    calls, rows, before = [], [], 0
+    for use, names in USES:
+        calls += names.split()
+        size = collected(made, calls)
+        rows.append([use, size, size - before])
+        before = size
+    left_out = {name for _, name in gate.public_functions()} - set(calls)
+    if left_out:
+        sys.exit("no use calls " + ", ".join(sorted(left_out)))
+    return rows
+
+
+def grown(rows, file_name, allowed):
+    """What the gate complains of: rows with more bytes than the committed ones."""
+    with open("tests/" + file_name, newline="") as file:
+        committed = {row[0]: row[1] for row in csv.reader(file)}
+    for name, size, *_ in rows:
+        before = committed.get(name)
+        if before is None or size > allowed * int(before):
+            yield "%s: %d bytes, in tests/%s %s" % (name, size, file_name, before)
+
+
+def failures(code, memory):
+    return [*grown(code, CODE, GROWN), *grown(memory, BLOCKS, 1)]
+
+
+def write(path, columns, rows):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--baseline", action="store_true", help="write the committed tables")
+    arguments = parser.parse_args()
+
+    gate.need("arm")
+    code, memory = measure(), blocks()
+    print("%-40s %9s %9s" % ("bytes of Thumb-2 at -Os", "in all", "adds"))
+    for row in code:
+        print("%-40s %9d %9d" % tuple(row))
+    print("\n%-40s %9s" % ("bytes of memory", "32-bit"))
+    for row in memory:
+        print("%-40s %9d" % tuple(row))
+    for folder in ["out/"] + ["tests/"] * arguments.baseline:
+        write(folder + CODE, CODE_COLUMNS, code)
+        write(folder + BLOCKS, BLOCKS_COLUMNS, memory)
+
+
+if __name__ == "__main__":
+    main()
