@@ -122,7 +122,7 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
 {
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
-    uint32_t old = span->more ? m->count : 0;
+    uint16_t old = span->more ? m->count : 0;
 
     CAROM_ASSERT(!span->more || (m->kept && m->first + old == pool->used));
     w->own_first = pool->used - old;
@@ -143,7 +143,7 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
         return w->error;
     }
     old = w->whole ? old : 0;
-    visitor->visit(visitor, &w->candidates[m->first + old], m->count - old);
+    visitor->visit(visitor, &w->candidates[m->first + old], (uint32_t)m->count - old);
     return CAROM_OK;
 }
 
