@@ -97,7 +97,7 @@ static void collect(struct candidate_visitor *self, const struct candidate *c, u
 static int visit(struct collector *to)
 {
     const struct interfere_pairs all = {bodies, pairs, 1};
-    const struct interfere_span span = {0, 0, 0, UINT32_MAX};
+    const struct interfere_span span = {0, 0, 0, UINT32_MAX, false};
 
     if (!by_paths) {
         return interfere_visit(&work, bodies, pairs, 1, &to->base);

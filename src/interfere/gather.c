@@ -35,15 +35,32 @@ FIX_APART static int64_t carried_around(const struct interfere *w, const struct 
 static void choose_asker(struct interfere *w)
 {
     const struct body *a = w->a;
+    int64_t from_a_q30 = w->span.from_a_q30;
 
     w->swapped = w->b->moving && a->radius_q22 / 5 > w->b->radius_q22 / 4 &&
                  carried_around(w, a, w->b) > carried_around(w, w->b, a);
     if (w->swapped) {
         w->a = w->b;
         w->b = a;
-        w->span = (struct interfere_span){w->span.from_b_q30, w->span.from_a_q30, w->span.time_q30,
-                                          w->span.most};
+        w->span.from_a_q30 = w->span.from_b_q30;
+        w->span.from_b_q30 = from_a_q30;
     }
+}
+
+/*
+ * How far a direction of one body may be off what the middle of both ends of the span makes of it, as seen
+ * from the other: by half of what the bodies turn in the span, whatever the axes, and by what room their regions
+ * give to turns.
+ */
+static int64_t off_the_middle_q30(const struct interfere *w)
+{
+    int64_t turn_q30 = w->leaf->angle_q30 / 2 + CONE_NOISE_Q30;
+
+    if (!w->by_paths) {
+        turn_q30 += w->a->turn_q30 - 2 * w->a->region.u_q30;
+        turn_q30 += w->b->turn_q30 - 2 * w->b->region.u_q30;
+    }
+    return turn_q30;
 }
 
 static void gather_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
@@ -64,9 +81,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
         w->error = CAROM_ERR_RANGE;
         return;
     }
-    cone_q30 = INTERFERE_CONE_Q30;
-    cone_q30 += w->by_paths ? (int64_t)w->leaf->angle_q30 + CONE_NOISE_Q30
-                            : (int64_t)bodies[p->a].turn_q30 + bodies[p->b].turn_q30;
+    cone_q30 = INTERFERE_CONE_Q30 + off_the_middle_q30(w);
     w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
     w->meet = interfere_features;
     interfere_leaves(w);
@@ -109,8 +124,11 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
 {
     struct pair_work *m = &w->meetings[number];
     struct pool *pool = w->candidate_pool;
+    uint16_t old = span->more ? m->count : 0;
 
-    w->own_first = pool->used;
+    CAROM_ASSERT(!span->more || (m->kept && m->first + old == pool->used));
+    w->own_first = pool->used - old;
+    m->kept = false;
     w->span = *span;
     w->by_paths = !keep;
     gather(w, all, number, visitor);
@@ -118,13 +136,16 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
     m->count = (uint16_t)(pool->used - w->own_first);
     m->kept = keep && w->whole && !w->error;
     m->found = m->count > 0 || !w->whole;
-    if (!m->kept) {
-        pool->used = w->own_first;
+    if (w->error == INTERFERE_TOO_MANY && span->more && w->whole) {
+        m->count = old;
+        m->kept = true;
     }
+    pool->used = w->own_first + (m->kept ? m->count : 0);
     if (w->error) {
         return w->error;
     }
-    visitor->visit(visitor, &w->candidates[m->first], m->count);
+    old = w->whole ? old : 0;
+    visitor->visit(visitor, &w->candidates[m->first + old], (uint32_t)m->count - old);
     return CAROM_OK;
 }
 
@@ -143,7 +164,7 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
     struct pair_work *meetings = w->meetings;
 
     w->meetings = NULL;
-    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX};
+    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX, false};
     w->by_paths = false;
     w->error = CAROM_OK;
     for (uint32_t i = 0; i < pair_count && !w->error; i++) {

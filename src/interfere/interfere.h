@@ -99,6 +99,8 @@ struct interfere_area {
 struct interfere_span {
     int64_t from_a_q30, from_b_q30, time_q30;
     uint32_t most; /* a gather that finds more candidates gives up */
+    /* what the pair has kept, the last in the pool, stays: only what is added is visited */
+    bool more;
 };
 
 /* What a gather returns that gave up. */

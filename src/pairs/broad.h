@@ -44,7 +44,9 @@ struct pair_work {
     int32_t hit_q30;
     int32_t root_q30; /* where the surfaces meet, a time of the window that was searched */
     uint32_t i, j;    /* its features */
-    uint8_t kind;
+    uint8_t kind : 2;
+    /* by the search: candidates are those up to so many 64ths of the frame; 0: to the end of both regions */
+    uint8_t until : 6;
     uint8_t late : 1;  /* nothing can be solved where the window begins: the hit comes later */
     uint8_t kept : 1;  /* first and count are set */
     uint8_t found : 1; /* the last gather found some */

@@ -56,6 +56,7 @@ int step_check_pair(struct step *s, uint32_t number)
     }
     v.from_q30 = v.to_q30 = s->now_q30;
     v.clear_q22 = skin_q22;
+    v.parts = 1;
     result = step_visit(s, number, &v, visit_contacts);
     if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
         m->clear = clear_parts(v.clear_q22, skin_q22) & 15;

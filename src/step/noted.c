@@ -39,6 +39,7 @@ int step_note_faces(struct step *s)
             place(s, p->b);
         }
         v.from_q30 = v.to_q30 = CAROM_ONE_Q30;
+        v.parts = 1;
         result = step_visit(s, n, &v, visit_faces);
         result = result == CAROM_OK ? in->error : result;
     }

@@ -92,6 +92,7 @@ struct step_visitor {
     uint32_t number;          /* of the pair */
     int32_t from_q30, to_q30; /* the time of the frame that is looked at */
     bool found;
+    int32_t parts;        /* of the window, in which candidates are gathered one after the other */
     struct boyse_hit hit; /* its times are those of the paths at hand */
     int32_t hit_q30;      /* and that in the frame */
     int32_t margin_q22;   /* of contacts */

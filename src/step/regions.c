@@ -308,6 +308,7 @@ int step_begin_regions(struct step *s)
             w->meetings[n].hit_q30 = PAIRS_NEVER;
             w->meetings[n].answered_q30 = -1;
             w->meetings[n].hits = w->meetings[n].clear = 0;
+            w->meetings[n].kept = w->meetings[n].kept && w->meetings[n].until == 0;
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
             result = w->bodies[i].mesh ? begin_one(s, i) : CAROM_OK;

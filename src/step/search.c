@@ -19,6 +19,15 @@
 #define TURN_PARTS 4
 /* Time is halved so often to find when features face each other. */
 #define HALVINGS 20
+/* Candidates to be kept are gathered in parts of a window, by 1 / that radians each. */
+#define KEPT_TURN_PARTS 16
+/* From q30 to the unit of a pair's `until`. */
+#define UNTIL_SHIFT 24
+/* Beyond every region. */
+#define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
+/* A body goes far that goes this part of its radius in its region; a gather of so many pairs of faces costs much. */
+#define FAR_PARTS         8
+#define FACE_PAIRS_COSTLY 1000000
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -48,17 +57,22 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
 static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
                                      int64_t time_q30)
 {
-    struct interfere_span span = {0, 0, time_q30, UINT32_MAX};
+    struct interfere_span span = {0, 0, time_q30, UINT32_MAX, false};
 
     span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
     span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
     return span;
 }
 
+static uint32_t face_pairs(const struct body *a, const struct body *b)
+{
+    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count;
+}
+
 /* Whether two meshes have so many faces that turns are to be cut. */
 static bool many_faces(const struct body *a, const struct body *b)
 {
-    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count >= FACE_PAIRS_MANY;
+    return face_pairs(a, b) >= FACE_PAIRS_MANY;
 }
 
 bool step_goes_far(const struct step *s, const struct pair *p)
@@ -96,37 +110,158 @@ static void shorten(struct step *s, uint32_t i)
     }
 }
 
+/* In which of the parts of its window a hit's surfaces meet. */
+static int32_t part_of(const struct step_visitor *v, const struct boyse_hit *hit)
+{
+    int32_t part = (int32_t)(((int64_t)hit->root_q30 * v->parts) >> 30);
+
+    return part < v->parts ? part : v->parts - 1;
+}
+
+/* Candidates from a time of the frame to another, to be kept with those that the pair has. */
+static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
+                     int64_t to_q30, uint32_t most)
+{
+    struct carom_world *w = s->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    struct interfere_span span = span_of(s, &w->pairs[number], from_q30, to_q30 - from_q30);
+
+    span.most = most;
+    span.more = w->meetings[number].kept;
+    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+}
+
+/*
+ * Candidates of all parts of the window but the last one, up to the first part that has a hit: then they are `enough`,
+ * for what lies behind is of no interest before the hit is answered. `from` becomes the time up to which the pair keeps
+ * them all; a pool that is too small keeps none, and that time stays.
+ */
+static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *from_q30,
+                        bool *enough)
+{
+    struct pair_work *m = &s->w->meetings[number];
+    const int32_t start_q30 = *from_q30, time_q30 = v->to_q30 - start_q30;
+
+    *enough = false;
+    for (int32_t part = 1; part < v->parts; part++) {
+        int32_t end_q30 = start_q30 + (int32_t)((int64_t)time_q30 * part / v->parts), result;
+        uint32_t until = ((uint32_t)end_q30 >> UNTIL_SHIFT) + 1;
+
+        end_q30 = (int32_t)(until << UNTIL_SHIFT);
+        if (end_q30 <= *from_q30 || end_q30 >= v->to_q30) {
+            continue;
+        }
+        result = gather_on(s, number, v, *from_q30, end_q30, UINT32_MAX);
+        *enough = v->found && part_of(v, &v->hit) < part;
+        if (result != CAROM_OK || *enough) {
+            m->until = until & 63;
+            return result;
+        }
+        *from_q30 = m->kept ? end_q30 : start_q30;
+    }
+    return CAROM_OK;
+}
+
+/* Whether bodies go far in regions that nothing was near to, and a gather costs much. */
+static bool goes_on_far(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    if (face_pairs(a, b) < FACE_PAIRS_COSTLY) {
+        return false;
+    }
+    return (step_active(s, p->a) && a->region.length_q22 > a->radius_q22 / FAR_PARTS) ||
+           (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
+}
+
+/* Whether it is likely that a part of the window is enough: what has hit or touches flies away, or hits slowly. */
+static bool goes_by_parts(const struct step *s, uint32_t number)
+{
+    const struct pair *p = &s->w->pairs[number];
+
+    return s->w->meetings[number].hits == 0 && !s->w->bodies[p->a].touched &&
+           !s->w->bodies[p->b].touched;
+}
+
+/* A pair of which one body's region lasts: it ends with the frame when something is near. */
+static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+
+    /* where bodies go far they are likely to have come near: then the frame is enough */
+    if (goes_on_far(s, p)) {
+        result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
+        from_q30 = CAROM_ONE_Q30;
+    }
+    if (result == CAROM_OK) {
+        result = m->count > ENOUGH || v->found || (from_q30 == CAROM_ONE_Q30 && !m->kept)
+                     ? INTERFERE_TOO_MANY
+                     : gather_on(s, number, v, from_q30, FOREVER_Q30, ENOUGH);
+    }
+    if (result == INTERFERE_TOO_MANY) {
+        shorten(s, p->a);
+        shorten(s, p->b);
+        result = from_q30 < CAROM_ONE_Q30
+                     ? gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX)
+                     : CAROM_OK;
+    }
+    return result;
+}
+
+/* A pair that is to be kept, from a time on to the end of both regions. */
+static int gather_regions(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+    bool enough = false;
+
+    m->kept = false;
+    m->count = m->until = 0;
+    if (goes_by_parts(s, number)) {
+        result = gather_parts(s, number, v, &from_q30, &enough);
+    }
+    if (result != CAROM_OK || enough) {
+        return result;
+    }
+    return lasts(s, p->a) || lasts(s, p->b)
+               ? gather_lasting(s, number, v, from_q30)
+               : gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
+}
+
 /* A pair that is not kept. */
 static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
     struct carom_world *w = s->w;
     const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
     const struct pair *p = &w->pairs[number];
-    bool keep = !step_goes_far(s, p);
     int32_t from_q30 = 0;
     struct interfere_span span;
-    int result;
 
+    w->meetings[number].clear = 0; /* the static check measured other candidates */
+    if (step_goes_far(s, p)) {
+        span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
+        return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
+    }
     /* a pair is gathered from the latest start of its bodies' paths on: before that it was asked */
-    for (int k = 0; keep && k < 2; k++) {
+    for (int k = 0; k < 2; k++) {
         uint32_t i = k == 0 ? p->a : p->b;
 
         if (step_active(s, i) && w->bodies[i].from_q30 > from_q30) {
             from_q30 = w->bodies[i].from_q30;
         }
     }
-    span = keep ? span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30)
-                : span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
-    w->meetings[number].clear = 0; /* the static check measured other candidates */
-    span.most = keep && (lasts(s, p->a) || lasts(s, p->b)) ? ENOUGH : UINT32_MAX;
-    result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
-    if (result == INTERFERE_TOO_MANY) {
-        shorten(s, p->a);
-        shorten(s, p->b);
-        span = span_of(s, p, from_q30, (int64_t)BODY_REGION_FRAMES << 30);
-        result = interfere_visit_pair(&w->interfere, &all, number, &span, keep, &v->base);
+    return gather_regions(s, number, v, from_q30);
+}
+
+/* Candidates that are those of a part of the window are not enough beyond it. */
+static void drop_part(struct pair_work *m, int32_t to_q30)
+{
+    if (m->until > 0 && to_q30 > (int32_t)m->until << UNTIL_SHIFT) {
+        m->kept = false;
     }
-    return result;
 }
 
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
@@ -140,6 +275,7 @@ int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
     v->number = number;
     v->found = false;
     v->error = CAROM_OK;
+    drop_part(&s->w->meetings[number], v->to_q30);
     if (s->w->meetings[number].kept) {
         interfere_visit_kept(&s->w->interfere, number, &v->base);
         result = CAROM_OK;
@@ -199,11 +335,25 @@ bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
     return late;
 }
 
-/* The earliest hit; equal times go to the first in the order of candidates. */
+/*
+ * Whether a hit comes before the best so far: in an earlier part of the window, or else earlier. Equal times
+ * go to the first in the order of candidates.
+ */
+static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
+{
+    int32_t part = part_of(v, hit), best = part_of(v, &v->hit);
+
+    if (part != best) {
+        return part < best;
+    }
+    return hit->t_q30 < v->hit.t_q30 || (hit->t_q30 == v->hit.t_q30 &&
+                                         candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
+}
+
+/* The first hit. */
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
-    struct boyse_hit *best = &v->hit;
     struct boyse_pair *pair = n > 0 ? step_set_pair(v->step->w, v->number) : NULL;
 
     for (uint32_t i = 0; i < n; i++) {
@@ -215,9 +365,8 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
         }
         hit.candidate = c[i];
         hit.touch.valid = step_put_off(pair, &hit);
-        if (!v->found || hit.t_q30 < best->t_q30 ||
-            (hit.t_q30 == best->t_q30 && candidate_compare(&c[i], &best->candidate) < 0)) {
-            *best = hit;
+        if (!v->found || is_before(v, &hit)) {
+            v->hit = hit;
             v->found = true;
         }
     }
@@ -250,20 +399,20 @@ int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
     return step_visit(s, number, v, visit_first);
 }
 
-/* Into how many parts a window is cut for the turns of both paths. */
-static int64_t parts_of_turn(const struct body *a, const struct body *b)
+/* Into how many parts of a turn of 1 / `fine` the turns of both paths are cut. */
+static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t fine)
 {
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
     int64_t u2_q30 = (path_a->turns ? path_a->u2_q30 : 0) + (path_b->turns ? path_b->u2_q30 : 0);
     int64_t turn_q30;
 
     /* a turn is 2 |u|, and the square of a sum of two no more than twice the sum of the squares */
-    if (u2_q30 * 8 * TURN_PARTS * TURN_PARTS <= CAROM_ONE_Q30 || !many_faces(a, b)) {
+    if (u2_q30 * 8 * fine * fine <= CAROM_ONE_Q30 || !many_faces(a, b)) {
         return 1;
     }
     turn_q30 = path_a->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_a->u2_q30 << 30) : 0;
     turn_q30 += path_b->turns ? 2 * (int64_t)fix_sqrt((uint64_t)path_b->u2_q30 << 30) : 0;
-    return ((turn_q30 * TURN_PARTS) >> 30) + 1;
+    return ((turn_q30 * fine) >> 30) + 1;
 }
 
 /*
@@ -275,7 +424,7 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
     int32_t radius_q22 = (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
-    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b);
+    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, TURN_PARTS);
 
     for (int k = 0; k < 3; k++) {
         way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]);
@@ -284,6 +433,14 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     parts = parts > parts_turn ? parts : parts_turn;
     parts = parts < PARTS_MAX ? parts : PARTS_MAX;
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
+}
+
+/* In how many parts the candidates of a window are gathered that are to be kept: of bodies in flight that turn. */
+static int32_t kept_parts(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    return a->in_contact || b->in_contact ? 1 : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
 }
 
 /*
@@ -298,6 +455,7 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
+    v->parts = parts > 1 ? 1 : kept_parts(s, &s->w->pairs[number]);
     if (parts > 1) {
         step_open_window(s, number, v->from_q30, v->to_q30);
     }
@@ -356,8 +514,11 @@ int step_search(struct step *s, uint32_t number)
     int result = CAROM_OK;
 
     m->hit_q30 = PAIRS_NEVER;
-    if (!step_window(s, number, &v.from_q30, &v.to_q30) || (m->kept && m->count == 0) ||
-        (v.from_q30 == 0 && stays_clear(s, number))) {
+    if (!step_window(s, number, &v.from_q30, &v.to_q30)) {
+        return CAROM_OK;
+    }
+    drop_part(m, v.to_q30);
+    if ((m->kept && m->count == 0) || (v.from_q30 == 0 && stays_clear(s, number))) {
         return CAROM_OK;
     }
     step_open_window(s, number, v.from_q30, v.to_q30);
@@ -377,7 +538,7 @@ int step_search(struct step *s, uint32_t number)
         m->hit_q30 = v.hit_q30;
         m->root_q30 = v.hit.root_q30;
         m->late = v.hit.touch.valid ? 1 : 0;
-        m->kind = v.hit.candidate.kind;
+        m->kind = (uint32_t)v.hit.candidate.kind & 3;
         m->i = v.hit.candidate.i;
         m->j = v.hit.candidate.j;
     }
