@@ -104,8 +104,9 @@ static bool begin_faces(struct rows *r, int32_t row)
             return false;
         }
         span->face = face;
-        span->pixel = r->format == CAROM_XRGB8888 ? carom_draw_palette[face->colour]
-                                                  : draw_colour(r->format, face->colour);
+        span->pixel = r->format == CAROM_XRGB8888   ? carom_draw_palette[face->colour]
+                      : r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
+                                                    : draw_colour(r->format, face->colour);
         begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
             place = &(*place)->next;
