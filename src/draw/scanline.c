@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
-/* Some compilers would rather have one copy of what two callers share. */
+/*
+ * Some compilers would rather have one copy of what two callers share; and the copy that a program's pixels
+ * do not need is to stay out of what others have in fast memory.
+ */
 #if defined __GNUC__
 #define FORCE_INLINE __attribute__((always_inline)) static inline
+#define OUT_OF_LINE  __attribute__((noinline)) static
 #else
 #define FORCE_INLINE static inline
+#define OUT_OF_LINE  static
 #endif
 
 /* The state of a walk over the rows of a part. */
@@ -291,7 +296,7 @@ FORCE_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans,
 }
 
 /* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
-static void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+OUT_OF_LINE void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
     fill_row(s, spans, x1, 2);
 }
