@@ -43,8 +43,6 @@ static const struct carom_body_def head_start = {
 static const struct carom_body_def spin_starts[] = {
     THROW(-2600, 1300, 2400, 3200, -2400, 0, 4800, -6400, 0),
     THROW(900, -600, 2700, -1600, 1200, -3464, 0, 0, 8000),
-    THROW(-300, 1900, 2100, 0, -3200, -2400, -6400, 0, 4800),
-    THROW(1500, 1500, 3200, -1600, -1200, 3464, 4619, 4619, -4619),
 };
 /* Some 3 mm over the fields of 512, 3034, 12012 and 49928 faces. */
 #define PUT(z)                                                                                     \
@@ -179,8 +177,6 @@ static const struct scene_recipe {
     {"head", &head_start, NULL, 0, 0, 0},
     {"head-spin", &spin_starts[0], NULL, 0, 0, 0},
     {"head-spin2", &spin_starts[1], NULL, 0, 0, 0},
-    {"head-spin3", &spin_starts[2], NULL, 0, 0, 0},
-    {"head-spin4", &spin_starts[3], NULL, 0, 0, 0},
     {"head48", &head_start, NULL, 0, 1, 5},
     {"head100", &head_start, NULL, 0, 3, 10},
     {"head450", &head_start, NULL, 0, 0, 0},

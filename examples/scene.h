@@ -7,7 +7,7 @@
  *   head836     with 836 on 512
  *   head48      a head of 48 faces and half the size on 128, one hit a frame
  *   head100     with 100 on 128
- *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; other ways: head-spin2 .. 4
+ *   head-spin   the head thrown at 4 units/s, turning by 8 radians/s; another way: head-spin2
  *   growth-N    the head put on fields of N = 512, 3034, 12012 or 49928 faces
  *   apart       the head a thousand units above the field
  *   box         a box of three different sides, dropped on a plane

@@ -137,8 +137,6 @@ static const struct materials {
     {"head", &field_mesh, {&head_mesh}, 0},
     {"head-spin", &field_mesh, {&head_mesh}, 0},
     {"head-spin2", &field_mesh, {&head_mesh}, 0},
-    {"head-spin3", &field_mesh, {&head_mesh}, 0},
-    {"head-spin4", &field_mesh, {&head_mesh}, 0},
     {"head48", &field128_mesh, {&head48_mesh}, 11},
     {"head100", &field128_mesh, {&head100_mesh}, 0},
     {"head450", &field386_mesh, {&head450_mesh}, 0},
