@@ -42,12 +42,25 @@ static struct carom_world *make_world(const struct first_hit_motion *motion)
 struct search {
     struct boyse_pair pair;
     struct boyse_hit best;
+    int32_t parts; /* of the window */
     bool found;
 };
 
-/* By time, then kind, then the numbers of the features. */
-static bool comes_first(const struct boyse_hit *p, const struct boyse_hit *q)
+/* In which part of the window surfaces meet. */
+static int64_t part_of(const struct search *s, const struct boyse_hit *hit)
 {
+    int64_t part = (int64_t)hit->root_q30 * s->parts / CAROM_ONE_Q30;
+
+    return part < s->parts ? part : s->parts - 1;
+}
+
+/* By the part in which surfaces meet, time, kind, then the numbers of the features. */
+static bool comes_first(const struct search *s, const struct boyse_hit *p,
+                        const struct boyse_hit *q)
+{
+    if (part_of(s, p) != part_of(s, q)) {
+        return part_of(s, p) < part_of(s, q);
+    }
     if (p->t_q30 != q->t_q30) {
         return p->t_q30 < q->t_q30;
     }
@@ -67,7 +80,7 @@ static void ask(struct search *s, uint8_t kind, uint32_t i, uint32_t j)
 
     hit.candidate = (struct candidate){0, kind, i, j};
     if (boyse_first(&s->pair, &hit.candidate, &hit, &roots) &&
-        ((void)step_put_off(&s->pair, &hit), !s->found || comes_first(&hit, &s->best))) {
+        ((void)step_put_off(&s->pair, &hit), !s->found || comes_first(s, &hit, &s->best))) {
         s->best = hit;
         s->found = true;
     }
@@ -257,7 +270,7 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion,
 void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_verdict *verdict)
 {
     struct carom_world *w = make_world(motion);
-    struct search search = {.found = false};
+    struct search search = {.parts = 1, .found = false};
     struct first_hit_track track[2];
     struct step s;
     struct step_visitor v;
@@ -278,6 +291,7 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
         step_open_window(&s, 0, 0, window_end(&s));
         v.from_q30 = 0;
         v.to_q30 = window_end(&s);
+        v.parts = search.parts = step_parts(&s, 0);
         expect(step_first_hit(&s, 0, &v), "first hit");
         if (v.found) {
             struct boyse_pair *pair = step_set_pair(w, 0);

@@ -125,6 +125,11 @@ bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32
 void step_open_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
 void step_close_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30);
 
+/*
+ * In how many parts candidates of a pair's window that are to be kept are gathered: of bodies in flight that
+ * turn. A hit whose surfaces meet in an earlier part comes first.
+ */
+int32_t step_parts(const struct step *s, uint32_t number);
 /* The first hit of a pair on the paths at hand, which a window made: v->found, v->hit but for touch. */
 int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v);
 /*

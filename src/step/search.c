@@ -435,9 +435,9 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
 }
 
-/* In how many parts the candidates of a window are gathered that are to be kept: of bodies in flight that turn. */
-static int32_t kept_parts(const struct step *s, const struct pair *p)
+int32_t step_parts(const struct step *s, uint32_t number)
 {
+    const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
     return a->in_contact || b->in_contact ? 1 : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
@@ -455,7 +455,7 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
 
     v->from_q30 = from_q30 + (int32_t)((int64_t)time_q30 * part / parts);
     v->to_q30 = from_q30 + (int32_t)((int64_t)time_q30 * (part + 1) / parts);
-    v->parts = parts > 1 ? 1 : kept_parts(s, &s->w->pairs[number]);
+    v->parts = parts > 1 ? 1 : step_parts(s, number);
     if (parts > 1) {
         step_open_window(s, number, v->from_q30, v->to_q30);
     }
