@@ -276,8 +276,8 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_HEADS_BYTES 2048
 #define CAROM_DRIFT_BYTES 24
 /*
- * What stages work in one after the other: so much, and the events that the end of a step finds; or, to solve in,
- * so much for each contact, and for as many pairs as have one.
+ * Stages work in this room one after the other. A search takes so much, beside the events that the end of a
+ * step finds; a solve takes so much for each contact, and for as many pairs as have one.
  */
 #define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
 #define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)

@@ -19,8 +19,7 @@ struct port_fb {
     int32_t stride; /* bytes a row */
     uint8_t format; /* enum port_pixels, the same numbers as enum carom_pixel_format */
     /*
-     * Of a display that is sent rows and keeps them, as the row function of struct carom_picture; else
-     * NULL.
+     * The row function of struct carom_picture, for a display that is sent rows and keeps them; else NULL.
      */
     void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
 };

@@ -237,7 +237,7 @@ static uint64_t play(const char *name, const struct carom_caps *caps)
 
 /*
  * A scene does in little memory as it does in plenty: poured heaps in little more than they use up
- * (test_world_small.c has the bytes), and a thrown head with room for one candidate, whose gathers by
+ * (tests/blocks.csv has the bytes), and a thrown head with room for one candidate, whose gathers by
  * parts of a window are never kept.
  */
 static void test_little(const char *name, struct carom_caps caps)

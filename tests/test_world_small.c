@@ -15,10 +15,6 @@
 #define FRAMES 300
 
 _Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6092, "a small world");
-/* Heaps of 16 and of 32 bodies in what they use up; host_pools.c plays them. */
-_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(17, 88, 48, 136, 0, 128) <= 45320, "pile");
-_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(33, 128, 64, 208, 0, 256) <= 70312,
-               "pile32");
 
 /* 1/4096 of a unit: a box of 1 x 0.6 x 0.3, a tetrahedron, a plane. */
 enum { X = 2048, Y = 1229, Z = 614, T = 1500, P = 20000 };

@@ -223,7 +223,7 @@ static inline const struct body_path *body_solved(const struct body *b)
     return &b->path;
 }
 
-/* What surfaces did on a body in a step; and to read it. By what they lift an island between steps. */
+/* Twice the work that moving surfaces did on a body in a step, to write and to read; and their lift of its island between steps. */
 static inline struct fix_wide *body_work2(struct body *b)
 {
     PHASE_ASSERT(b->work_phase, BODY_WORK);

@@ -26,8 +26,8 @@ struct interfere_place;
 struct pair;
 
 /*
- * What a step asks of a surface that may move. It is called through the surface, so that a program without
- * one does not link it: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, and mesh_list_face, which enters
+ * The functions that a step needs for a surface that may move. They are called through the surface, so that a
+ * program without one does not link them: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, and mesh_list_face, which enters
  * a face in z-lists, in the cells from `cells` on; false when the pool is full, with `cells` those that are done.
  */
 struct mesh_moving {

@@ -81,7 +81,7 @@ static bool rises(const struct rest *r, const struct fix_wide *limit, bool exact
     return fix_wide_sign(&sum) > 0;
 }
 
-/* What resting contacts may add to twice the energy of the bodies at hand. */
+/* Add the most that resting contacts may add to twice the energy of the island at hand. */
 static void add_lift2(const struct rest *r, struct fix_wide *sum)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {

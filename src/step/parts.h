@@ -103,11 +103,20 @@ struct step_visitor {
 /* Set up a pair with the paths of its bodies at hand, in the room there is for one. */
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number);
 
+/* Whether two meshes have so many faces that turns are to be cut. */
+bool step_many_faces(const struct body *a, const struct body *b);
+
 /*
  * Bodies that go or turn far in their regions would have candidates without number: these are gathered for the
  * paths at hand alone, and not kept.
  */
 bool step_goes_far(const struct step *s, const struct pair *p);
+
+/* In which of the parts of its window a hit's surfaces meet. */
+int32_t step_part_of(const struct step_visitor *v, const struct boyse_hit *hit);
+
+/* Drop the candidates of a part of the window when they are asked for up to a time beyond it. */
+void step_drop_part(struct pair_work *m, int32_t to_q30);
 
 /* Hand every candidate of a pair to f. */
 int step_visit(struct step *s, uint32_t number, struct step_visitor *v,

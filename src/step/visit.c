@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The candidates of a pair: those that are kept, or gathered anew for the path at hand, a part of a window
+ * or the regions of both bodies. How much is gathered changes the cost of a step, never its outcome.
+ */
+#include "parts.h"
+
+/* More candidates are too many for a region that lasts because there were none. */
+#define ENOUGH 8
+/* Two meshes have many faces with so many pairs of them; then candidates are kept while both turn by less. */
+#define FACE_PAIRS_MANY 500
+#define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 16 * 5)
+/* A body goes far that goes this part of its radius in its region; a gather of so many pairs of faces costs much. */
+#define FAR_PARTS         8
+#define FACE_PAIRS_COSTLY 1000000
+/* From q30 to the unit of a pair's `until`. */
+#define UNTIL_SHIFT 24
+/* Beyond every region. */
+#define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
+
+/* How much of a body's region is used up at a time, and what is left of it. */
+static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t *left_q30)
+{
+    const struct body *b = &s->w->bodies[i];
+    int64_t used = 0;
+
+    if (step_active(s, i)) {
+        used = b->region.elapsed_q30 + (t_q30 - b->from_q30);
+        *left_q30 = b->region.until_q30 - used < *left_q30 ? b->region.until_q30 - used : *left_q30;
+    }
+    return used;
+}
+
+/* The part of both regions' time that begins at a time of the frame and takes so much of it. */
+static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
+                                     int64_t time_q30)
+{
+    struct interfere_span span = {0, 0, time_q30, UINT32_MAX, false};
+
+    span.from_a_q30 = used_q30(s, p->a, from_q30, &span.time_q30);
+    span.from_b_q30 = used_q30(s, p->b, from_q30, &span.time_q30);
+    return span;
+}
+
+static uint32_t face_pairs(const struct body *a, const struct body *b)
+{
+    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count;
+}
+
+bool step_many_faces(const struct body *a, const struct body *b)
+{
+    return face_pairs(a, b) >= FACE_PAIRS_MANY;
+}
+
+bool step_goes_far(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+    int64_t way_q22 = (step_active(s, p->a) ? a->region.length_q22 : 0) +
+                      (step_active(s, p->b) ? b->region.length_q22 : 0);
+
+    if ((step_active(s, p->a) ? a->region.u_q30 : 0) +
+                (step_active(s, p->b) ? b->region.u_q30 : 0) >
+            TURN_KEPT_Q30 / 2 &&
+        step_many_faces(a, b)) {
+        return true;
+    }
+    return way_q22 > (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+}
+
+/* Whether a body's region lasts beyond the frame because nothing was near. */
+static bool lasts(const struct step *s, uint32_t i)
+{
+    const struct body *b = &s->w->bodies[i];
+    int64_t left_q30 = b->region.until_q30;
+
+    return step_active(s, i) && b->free && used_q30(s, i, CAROM_ONE_Q30, &left_q30) >= 0 &&
+           left_q30 > 0;
+}
+
+/* Such a region ends with the frame. */
+static void shorten(struct step *s, uint32_t i)
+{
+    if (lasts(s, i)) {
+        int64_t left_q30 = 0;
+
+        s->w->bodies[i].region.until_q30 = used_q30(s, i, CAROM_ONE_Q30, &left_q30);
+    }
+}
+
+int32_t step_part_of(const struct step_visitor *v, const struct boyse_hit *hit)
+{
+    int32_t part = (int32_t)(((int64_t)hit->root_q30 * v->parts) >> 30);
+
+    return part < v->parts ? part : v->parts - 1;
+}
+
+/* Candidates from a time of the frame to another, to be kept with those that the pair has. */
+static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
+                     int64_t to_q30, uint32_t most)
+{
+    struct carom_world *w = s->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    struct interfere_span span = span_of(s, &w->pairs[number], from_q30, to_q30 - from_q30);
+
+    span.most = most;
+    span.more = w->meetings[number].kept;
+    return interfere_visit_pair(&w->interfere, &all, number, &span, true, &v->base);
+}
+
+/*
+ * Candidates of all parts of the window but the last one, up to the first part that has a hit: then they are `enough`,
+ * for what lies behind is of no interest before the hit is answered. `from` becomes the time up to which the pair keeps
+ * them all; a pool that is too small keeps none, and that time stays.
+ */
+static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *from_q30,
+                        bool *enough)
+{
+    struct pair_work *m = &s->w->meetings[number];
+    const int32_t start_q30 = *from_q30, time_q30 = v->to_q30 - start_q30;
+
+    *enough = false;
+    for (int32_t part = 1; part < v->parts; part++) {
+        int32_t end_q30 = start_q30 + (int32_t)((int64_t)time_q30 * part / v->parts), result;
+        uint32_t until = ((uint32_t)end_q30 >> UNTIL_SHIFT) + 1;
+
+        end_q30 = (int32_t)(until << UNTIL_SHIFT);
+        if (end_q30 <= *from_q30 || end_q30 >= v->to_q30) {
+            continue;
+        }
+        result = gather_on(s, number, v, *from_q30, end_q30, UINT32_MAX);
+        *enough = v->found && step_part_of(v, &v->hit) < part;
+        if (result != CAROM_OK || *enough) {
+            m->until = until & 63;
+            return result;
+        }
+        *from_q30 = m->kept ? end_q30 : start_q30;
+    }
+    return CAROM_OK;
+}
+
+/* Whether bodies go far in regions that nothing was near to, and a gather costs much. */
+static bool goes_on_far(const struct step *s, const struct pair *p)
+{
+    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
+
+    if (face_pairs(a, b) < FACE_PAIRS_COSTLY) {
+        return false;
+    }
+    return (step_active(s, p->a) && a->region.length_q22 > a->radius_q22 / FAR_PARTS) ||
+           (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
+}
+
+/* Whether it is likely that a part of the window is enough: what has hit or touches flies away, or hits slowly. */
+static bool goes_by_parts(const struct step *s, uint32_t number)
+{
+    const struct pair *p = &s->w->pairs[number];
+
+    return s->w->meetings[number].hits == 0 && !s->w->bodies[p->a].touched &&
+           !s->w->bodies[p->b].touched;
+}
+
+/* A pair of which one body's region lasts: it ends with the frame when something is near. */
+static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+
+    /* where bodies go far they are likely to have come near: then the frame is enough */
+    if (goes_on_far(s, p)) {
+        result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
+        from_q30 = CAROM_ONE_Q30;
+    }
+    if (result == CAROM_OK) {
+        result = m->count > ENOUGH || v->found || (from_q30 == CAROM_ONE_Q30 && !m->kept)
+                     ? INTERFERE_TOO_MANY
+                     : gather_on(s, number, v, from_q30, FOREVER_Q30, ENOUGH);
+    }
+    if (result == INTERFERE_TOO_MANY) {
+        shorten(s, p->a);
+        shorten(s, p->b);
+        result = from_q30 < CAROM_ONE_Q30
+                     ? gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX)
+                     : CAROM_OK;
+    }
+    return result;
+}
+
+/* A pair that is to be kept, from a time on to the end of both regions. */
+static int gather_regions(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
+{
+    const struct pair *p = &s->w->pairs[number];
+    struct pair_work *m = &s->w->meetings[number];
+    int result = CAROM_OK;
+    bool enough = false;
+
+    m->kept = false;
+    m->count = m->until = 0;
+    if (goes_by_parts(s, number)) {
+        result = gather_parts(s, number, v, &from_q30, &enough);
+    }
+    if (result != CAROM_OK || enough) {
+        return result;
+    }
+    return lasts(s, p->a) || lasts(s, p->b)
+               ? gather_lasting(s, number, v, from_q30)
+               : gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
+}
+
+/* A pair that is not kept. */
+static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
+{
+    struct carom_world *w = s->w;
+    const struct interfere_pairs all = {w->bodies, w->pairs, w->pools[CAROM_POOL_pairs].used};
+    const struct pair *p = &w->pairs[number];
+    int32_t from_q30 = 0;
+    struct interfere_span span;
+
+    w->meetings[number].clear = 0; /* the static check measured other candidates */
+    if (step_goes_far(s, p)) {
+        span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
+        return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
+    }
+    /* a pair is gathered from the latest start of its bodies' paths on: before that it was asked */
+    for (int k = 0; k < 2; k++) {
+        uint32_t i = k == 0 ? p->a : p->b;
+
+        if (step_active(s, i) && w->bodies[i].from_q30 > from_q30) {
+            from_q30 = w->bodies[i].from_q30;
+        }
+    }
+    return gather_regions(s, number, v, from_q30);
+}
+
+void step_drop_part(struct pair_work *m, int32_t to_q30)
+{
+    if (m->until > 0 && to_q30 > (int32_t)m->until << UNTIL_SHIFT) {
+        m->kept = false;
+    }
+}
+
+int step_visit(struct step *s, uint32_t number, struct step_visitor *v,
+               void (*f)(struct candidate_visitor *, const struct candidate *, uint32_t))
+{
+    int result;
+
+    world_begin_gather(s->w);
+    v->base.visit = f;
+    v->step = s;
+    v->number = number;
+    v->found = false;
+    v->error = CAROM_OK;
+    step_drop_part(&s->w->meetings[number], v->to_q30);
+    if (s->w->meetings[number].kept) {
+        interfere_visit_kept(&s->w->interfere, number, &v->base);
+        result = CAROM_OK;
+    } else {
+        result = visit_anew(s, number, v);
+    }
+    return v->error ? v->error : result;
+}
