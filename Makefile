@@ -70,9 +70,14 @@ PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 # what the generators make, by the number of faces; without one, that of the paper
 HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
+# parts of games' scenes; a program that names none of them has none
+SHAPES := character wheel car door link ramp steps
+# and these scenes, with joints and moving parts
+GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
+    examples/scene_walker.c
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
-    $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS)))
+    $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))
 # or, on a board that says which, with indexed ones in ROM
 SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
     $(ROM_SCENES:%=build/gen/rom/%.c))
@@ -81,6 +86,8 @@ TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 # A board runs those suites for which it has room, in one image or in one each
 SUITES ?= $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
+# the board of all suites: together their arrays take more than its RAM
+CORTEX_TESTS := $(patsubst tests/test_%.c,build/mps2-an385/suite_%.elf,$(wildcard tests/test_*.c))
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
@@ -149,11 +156,11 @@ test: ## every test, here and on a board, and a scene on every board; BOARD= all
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang m68k-linux-gnu qemu-user
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf
-	@$(SUBMAKE) BOARD=mps2-an385 build/mps2-an385/tests.elf
+	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
-	    build/host/tests.elf build/host-debug/tests.elf build/mps2-an385/tests.elf \
+	    build/host/tests.elf build/host-debug/tests.elf $(CORTEX_TESTS) \
 	    && $(all_built)
 endif
 
@@ -311,7 +318,8 @@ $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))
 # Meshes: a generator prints OBJ, the converter makes it a C array.
 build/gen/head%: GENERATOR := tools/gen_head
 build/gen/field%: GENERATOR := tools/gen_field
-build/gen/%.obj: tools/gen_head tools/gen_field
+$(SHAPES:%=build/gen/%.obj): GENERATOR := tools/gen_shapes
+build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
 	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@

@@ -10,16 +10,17 @@
 #include "carom_draw.h"
 #include "port.h"
 #include "scene.h"
+#include "scene_games.h"
 #include "scene_play.h"
 
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others, nor for one that moves. */
 static uint8_t mesh_block[1];
-#define BOARD_SHEET   0
+#define BOARD_GAMES   0 /* and sheets */
 #define USER_VERTICES SCENE_HEAD_VERTICES
 #define USER_FACES    SCENE_HEAD_FACES
 #else
-#define BOARD_SHEET 1
+#define BOARD_GAMES 1
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
@@ -213,6 +214,7 @@ static struct carom_world *make(const struct scene *scene)
 struct show {
     const struct carom_camera *camera;
     struct scene_sheet *sheet;
+    const struct scene_game *game;
 };
 
 static struct carom_world *start(struct show *show)
@@ -225,10 +227,33 @@ static struct carom_world *start(struct show *show)
     world = make(&scene);
     port_print("world %lu\n",
                (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
-                                                caps->faces, caps->entries, caps->candidates));
+                                                caps->faces, caps->entries, caps->candidates,
+                                                caps->joints, caps->extras, caps->hits));
     show->camera = scene.camera;
     show->sheet = scene.sheet;
+    show->game = scene.game;
     return world;
+}
+
+static int before(const struct show *show, struct carom_world *world, int frame)
+{
+    return show->game && show->game->before ? show->game->before(world, frame)
+                                            : scene_sheet_move(show->sheet, world, frame);
+}
+
+/* Where a picture is seen from: a game's camera may go with what it looks at. */
+static const struct carom_camera *camera_of(const struct scene_game *game,
+                                            const struct carom_camera *fixed,
+                                            const struct carom_world *world)
+{
+    static struct carom_camera camera;
+
+    if (!BOARD_GAMES || !game || !game->look) {
+        return fixed;
+    }
+    camera = *fixed;
+    game->look(world, &camera);
+    return &camera;
 }
 
 /* A row of figures a frame. */
@@ -246,11 +271,12 @@ static void report(int frames)
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        if (BOARD_SHEET) {
-            expect(scene_sheet_move(show.sheet, world, frame), "scene");
+        if (BOARD_GAMES) {
+            expect(before(&show, world, frame), "scene");
         }
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+        uint32_t draw_ticks =
+            draw(world, camera_of(show.game, show.camera, world), &fb, fb.height, CAROM_DRAW_FLAT);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
@@ -283,9 +309,9 @@ static void play(int frames)
         }
         if (scene_play_draws(&play)) {
             expect(carom_stats(world, &stats), "stats");
-            draw_ticks =
-                draw(world, scene.camera, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
-                     play.lines && !fb.row ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
+            draw_ticks = draw(world, camera_of(scene.game, scene.camera, world), &fb,
+                              fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+                              play.lines && !fb.row ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
             if (!play.plain) {
                 scene_play_figures(&fb, stats.total_ticks, draw_ticks);
             }

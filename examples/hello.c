@@ -14,7 +14,8 @@ static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], mesh_block[2][CAROM_M
 
 int main(void)
 {
-    struct carom_config config = {{CAPS}, {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}, .sleep = true};
+    struct carom_config config = {
+        CAROM_CAPS(CAPS), {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}, .sleep = true};
     struct carom_mesh meshes[2];
     struct carom_body_def ground = {&meshes[0], .stationary = true, .friction_q16 = 1 << 15};
     struct carom_body_def body = {&meshes[1], .position = {{0, 0, CAROM_POSITION_MM(2000)}},

@@ -3,25 +3,7 @@
 
 #include <string.h>
 
-#define FPS 60
-#define POSITION(x, y, z)                                                                          \
-    {                                                                                              \
-        {                                                                                          \
-            CAROM_POSITION_MM(x), CAROM_POSITION_MM(y), CAROM_POSITION_MM(z)                       \
-        }                                                                                          \
-    }
-#define VELOCITY(x, y, z)                                                                          \
-    {                                                                                              \
-        {                                                                                          \
-            CAROM_VELOCITY_MM_S(x, FPS), CAROM_VELOCITY_MM_S(y, FPS), CAROM_VELOCITY_MM_S(z, FPS)  \
-        }                                                                                          \
-    }
-#define SPIN(x, y, z)                                                                              \
-    {                                                                                              \
-        {                                                                                          \
-            CAROM_SPIN_MRAD_S(x, FPS), CAROM_SPIN_MRAD_S(y, FPS), CAROM_SPIN_MRAD_S(z, FPS)        \
-        }                                                                                          \
-    }
+#include "scene_games.h"
 
 #define RESTITUTION_Q30 (CAROM_ONE_Q30 / 2)
 #define FRICTION_Q16    (1u << 15)
@@ -64,6 +46,9 @@ static const struct carom_body_def dull_start = {
     .restitution_q30 = 0,
     .friction_q16 = 1u << 16,
 };
+#ifndef SCENE_ROM
+static const struct carom_body_def still; /* a game puts its bodies in */
+#endif
 static const struct carom_body_def ground_start = {
     .stationary = true,
     .restitution_q30 = RESTITUTION_Q30,
@@ -78,7 +63,7 @@ static const struct carom_camera camera = {
 struct carom_config scene_config(void)
 {
     struct carom_config config = {
-        .caps = {SCENE_CAPS},
+        .caps = CAROM_CAPS(SCENE_CAPS),
         .gravity = {{0, 0, CAROM_GRAVITY_MM_S2(-9810, FPS)}},
         .sleep = true,
     };
@@ -173,30 +158,39 @@ static const struct scene_recipe {
     uint8_t others;                                     /* bodies but the first */
     /* what bounds a frame on a small board; 0: as the engine chooses */
     uint8_t substep_cap, sweep_cap;
+    const struct scene_game *game; /* puts the bodies in */
 } recipes[] = {
-    {"head", &head_start, NULL, 0, 0, 0},
-    {"head-spin", &spin_starts[0], NULL, 0, 0, 0},
-    {"head-spin2", &spin_starts[1], NULL, 0, 0, 0},
-    {"head48", &head_start, NULL, 0, 1, 5},
-    {"head100", &head_start, NULL, 0, 3, 10},
-    {"head450", &head_start, NULL, 0, 0, 0},
-    {"head836", &head_start, NULL, 0, 0, 0},
-    {"apart", &far_start, NULL, 0, 0, 0},
-    {"box", &box_start, NULL, 0, 0, 0},
-    {"pair", &dull_start, in_turn, 1, 3, 10},
-    {"brick", &box_start, NULL, 0, 3, 10},
-    {"boxes3", &dull_start, one_by_one, 2, 2, 6},
-    {"boxes10", &box_start, lay, 9, 0, 0},
-    {"stack10", &box_start, stack, 9, 0, 0},
-    {"pile", &head_start, pile, 15, 0, 0},
-    {"pile32", &head_start, wide_pile, 31, 0, 0},
-    {"flight32", &head_start, fly, 31, 0, 0},
-    {"growth-512", &growth_starts[0], NULL, 0, 0, 0},
-    {"growth-3034", &growth_starts[1], NULL, 0, 0, 0},
-    {"growth-12012", &growth_starts[2], NULL, 0, 0, 0},
-    {"growth-49928", &growth_starts[3], NULL, 0, 0, 0},
-    {"sheet", &box_start, NULL, 0, 0, 0},
-    {"user", &head_start, NULL, 0, 0, 0},
+    {"head", &head_start, NULL, 0, 0, 0, NULL},
+    {"head-spin", &spin_starts[0], NULL, 0, 0, 0, NULL},
+    {"head-spin2", &spin_starts[1], NULL, 0, 0, 0, NULL},
+    {"head48", &head_start, NULL, 0, 1, 5, NULL},
+    {"head100", &head_start, NULL, 0, 3, 10, NULL},
+    {"head450", &head_start, NULL, 0, 0, 0, NULL},
+    {"head836", &head_start, NULL, 0, 0, 0, NULL},
+    {"apart", &far_start, NULL, 0, 0, 0, NULL},
+    {"box", &box_start, NULL, 0, 0, 0, NULL},
+    {"pair", &dull_start, in_turn, 1, 3, 10, NULL},
+    {"brick", &box_start, NULL, 0, 3, 10, NULL},
+    {"boxes3", &dull_start, one_by_one, 2, 2, 6, NULL},
+    {"boxes10", &box_start, lay, 9, 0, 0, NULL},
+    {"stack10", &box_start, stack, 9, 0, 0, NULL},
+    {"pile", &head_start, pile, 15, 0, 0, NULL},
+    {"pile32", &head_start, wide_pile, 31, 0, 0, NULL},
+    {"flight32", &head_start, fly, 31, 0, 0, NULL},
+    {"growth-512", &growth_starts[0], NULL, 0, 0, 0, NULL},
+    {"growth-3034", &growth_starts[1], NULL, 0, 0, 0, NULL},
+    {"growth-12012", &growth_starts[2], NULL, 0, 0, 0, NULL},
+    {"growth-49928", &growth_starts[3], NULL, 0, 0, 0, NULL},
+    {"sheet", &box_start, NULL, 0, 0, 0, NULL},
+    {"user", &head_start, NULL, 0, 0, 0, NULL},
+#ifndef SCENE_ROM
+    {"door", &still, NULL, 3, 0, 0, &scene_door},
+    {"chain", &still, NULL, 19, 0, 0, &scene_chain},
+    {"crusher", &still, NULL, 2, 0, 0, &scene_crusher},
+    {"conveyor", &still, NULL, 4, 0, 0, &scene_conveyor},
+    {"car", &still, NULL, CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
+    {"walker", &still, NULL, 6, 0, 0, &scene_walker},
+#endif
 };
 
 static const struct scene_recipe *find(const char *name)
@@ -221,10 +215,11 @@ void scene_body(const struct scene *scene, int i, struct carom_body_def *def)
 /* The capacities that suffice for any scene of its kind. */
 static struct carom_caps caps_of(const struct scene *scene)
 {
-    return scene->sheet              ? (struct carom_caps){SCENE_SHEET_CAPS}
-           : scene->other_count == 0 ? (struct carom_caps){SCENE_CAPS}
-           : scene->other_count < 16 ? (struct carom_caps){SCENE_PILE_CAPS}
-                                     : (struct carom_caps){SCENE_LARGE_CAPS};
+    return scene->game               ? scene->game->caps
+           : scene->sheet            ? (struct carom_caps)CAROM_CAPS(SCENE_SHEET_CAPS)
+           : scene->other_count == 0 ? (struct carom_caps)CAROM_CAPS(SCENE_CAPS)
+           : scene->other_count < 16 ? (struct carom_caps)CAROM_CAPS(SCENE_PILE_CAPS)
+                                     : (struct carom_caps)CAROM_CAPS(SCENE_LARGE_CAPS);
 }
 
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
@@ -241,7 +236,8 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     scene->ground = ground_start;
     scene->body = *recipe->start;
     scene->other_count = recipe->others;
-    scene->camera = &camera;
+    scene->game = recipe->game;
+    scene->camera = recipe->game ? &recipe->game->camera : &camera;
     result = scene_meshes(scene, name, user, mem, bytes);
     if (result >= 0) {
         scene->body.mesh = scene->mesh[0];
@@ -259,7 +255,7 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
     struct carom_config own = *config;
     int result;
 
-    if (scene->other_count > 0 || scene->sheet) {
+    if (scene->other_count > 0 || scene->sheet || scene->game) {
         own.caps = scene->caps;
     }
     if (scene->recipe) {
@@ -270,7 +266,10 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
     if (result >= 0) {
         result = carom_body_add(*world, &scene->ground);
     }
-    for (int i = 0; i <= scene->other_count && result >= 0; i++) {
+    if (scene->game && result >= 0) {
+        result = scene->game->fill(scene, *world);
+    }
+    for (int i = 0; i <= scene->other_count && result >= 0 && !scene->game; i++) {
         struct carom_body_def def;
 
         scene_body(scene, i, &def);
@@ -281,7 +280,8 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 
 int scene_before(struct scene *scene, struct carom_world *world, int frame)
 {
-    return scene_sheet_move(scene->sheet, world, frame);
+    return scene->game && scene->game->before ? scene->game->before(world, frame)
+                                              : scene_sheet_move(scene->sheet, world, frame);
 }
 
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame)

@@ -22,6 +22,15 @@
  *   sheet       a box on a sheet of 800 faces that waves
  *   user        a mesh of the caller's in place of the head
  *
+ * and those of scene_games.h, which are not for boards with meshes in ROM:
+ *
+ *   door        a door on a hinge with limits, and a ball that opens it
+ *   chain       20 links on ball joints, which swings
+ *   crusher     a kinematic block that comes down on a box
+ *   conveyor    boxes on a belt whose surface moves
+ *   car         a car of hinges, motors and springs, ramps, things to pick up, a camera that follows
+ *   walker      someone who goes up steps, on a platform that moves, down a ramp and through a door
+ *
  * A frame is 1/60 s and a unit 1 m.
  *
  *   static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
@@ -40,7 +49,7 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
-#define SCENE_MESHES 4 /* of bodies, in one scene */
+#define SCENE_MESHES 5 /* of bodies, in one scene */
 
 /* A sheet of squares, two faces each. */
 #define SCENE_SHEET_SIDE     20
@@ -51,6 +60,8 @@ struct scene_sheet {
     uint16_t faces[SCENE_SHEET_FACES][3];
 };
 
+struct scene_game; /* scene_games.h */
+
 struct scene {
     struct carom_body_def ground, body;
     int other_count;                             /* bodies but these two */
@@ -59,7 +70,8 @@ struct scene {
     const struct scene_recipe *recipe;
     const struct carom_camera *camera;
     struct carom_caps caps;
-    struct scene_sheet *sheet; /* the ground, when it waves; else NULL */
+    struct scene_sheet *sheet;     /* the ground, when it waves; else NULL */
+    const struct scene_game *game; /* what is more than bodies; else NULL */
 };
 
 /*
@@ -123,7 +135,7 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 /* The i-th moving body as it starts, 0 being scene->body. */
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
 
-/* What happens before a frame, 1 being the first: the sheet moves. Returns CAROM_OK or an error. */
+/* What happens before a frame, 1 being the first: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
 int scene_before(struct scene *scene, struct carom_world *world, int frame);
 /* The same for scene->sheet, all that it needs of a scene. */
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame);

@@ -2,6 +2,7 @@
 /* The meshes of the scenes, built when a scene is loaded. */
 #include <string.h>
 
+#include "models.h"
 #include "scene.h"
 
 /* A box of 1 x 0.7 x 0.5 units; a quantum is 1/4096 unit. */
@@ -55,6 +56,42 @@ static const int16_t plane_vertices[4][3] = {
 static const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
 static const struct carom_mesh_raw plane_mesh = {
     plane_vertices, plane_faces, 4, 2, 12, CAROM_SURFACE,
+};
+
+/* What games play on: 64 x 64 units. */
+static const struct carom_mesh_raw yard_mesh = {
+    plane_vertices, plane_faces, 4, 2, 9, CAROM_SURFACE,
+};
+
+/* A ball of 20 faces, 1/4 unit from the middle to its corners. */
+#define NEAR_Q12 538
+#define FAR_Q12  871
+static const int16_t ball_vertices[12][3] = {
+    {-NEAR_Q12, FAR_Q12, 0},  {NEAR_Q12, FAR_Q12, 0},   {-NEAR_Q12, -FAR_Q12, 0},
+    {NEAR_Q12, -FAR_Q12, 0},  {0, -NEAR_Q12, FAR_Q12},  {0, NEAR_Q12, FAR_Q12},
+    {0, -NEAR_Q12, -FAR_Q12}, {0, NEAR_Q12, -FAR_Q12},  {FAR_Q12, 0, -NEAR_Q12},
+    {FAR_Q12, 0, NEAR_Q12},   {-FAR_Q12, 0, -NEAR_Q12}, {-FAR_Q12, 0, NEAR_Q12},
+};
+static const uint16_t ball_faces[20][3] = {
+    {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1},
+};
+static const struct carom_mesh_raw ball_mesh = {
+    ball_vertices, ball_faces, 12, 20, 12, CAROM_SOLID,
+};
+
+/* A slab of 6 x 1 x 0.2 units. */
+#define BELT_X 12288
+#define BELT_Y 2048
+#define BELT_Z 410
+static const int16_t belt_vertices[8][3] = {
+    {-BELT_X, -BELT_Y, -BELT_Z}, {BELT_X, -BELT_Y, -BELT_Z}, {BELT_X, BELT_Y, -BELT_Z},
+    {-BELT_X, BELT_Y, -BELT_Z},  {-BELT_X, -BELT_Y, BELT_Z}, {BELT_X, -BELT_Y, BELT_Z},
+    {BELT_X, BELT_Y, BELT_Z},    {-BELT_X, BELT_Y, BELT_Z},
+};
+static const struct carom_mesh_raw belt_mesh = {
+    belt_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
 /*
@@ -157,6 +194,12 @@ static const struct materials {
     {"growth-49928", &field49928_mesh, {&head_mesh}, 0},
     {"sheet", NULL, {&box_mesh}, 0},
     {"user", &field_mesh, {NULL}, 0},
+    {"door", &yard_mesh, {&door_mesh, &ball_mesh}, 0},
+    {"chain", &yard_mesh, {&link_mesh}, 0},
+    {"crusher", &yard_mesh, {&box_mesh, &ball_mesh}, 0},
+    {"car", &yard_mesh, {&car_mesh, &wheel_mesh, &ramp_mesh, &ball_mesh}, 0},
+    {"walker", &yard_mesh, {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh}, 0},
+    {"conveyor", &yard_mesh, {&box_mesh, &belt_mesh}, 0},
 };
 
 static const struct materials *find(const char *name)

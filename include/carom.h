@@ -16,6 +16,8 @@
  *   - Nothing is allocated. The caller's blocks must stay where they are while they are in use, and
  *     a world refers to the meshes that its bodies were made from.
  *   - The same calls give the same bits on every processor and compiler.
+ *   - A world is one thread's at a time. Worlds in several threads may share meshes, but for those of
+ *     carom_surface_build.
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -54,7 +56,11 @@ enum carom_error {
     CAROM_ERR_MESH_SURFACE = -17,    /* a SURFACE face that is not single-valued in z */
     CAROM_ERR_FORMAT = -18,          /* a blob or snapshot that is not whole */
     CAROM_ERR_BLOCKED = -19,         /* a surface would press a body into a stationary one */
-    CAROM_ERR_NO_ENTRIES = -20       /* a surface that moves needs a world of some entries */
+    CAROM_ERR_NO_ENTRIES = -20,      /* a surface that moves needs a world of some entries */
+    CAROM_ERR_EXTRAS_FULL = -21,     /* the pool of extras has none left for this body */
+    CAROM_ERR_OVERLAP = -22,         /* a body would cross another, or be inside it */
+    CAROM_ERR_JOINT = -23,           /* no joint of this number */
+    CAROM_ERR_JOINTS_FULL = -24
 };
 
 /* A short English text for any result. Never NULL. */
@@ -189,6 +195,9 @@ struct carom_mesh {
 #define CAROM_LESS_(a, b)               ((a) < (b) ? (a) : (b))
 #define CAROM_MORE_(a, b)               ((a) > (b) ? (a) : (b))
 
+/* The same where the counts are known only at run time. */
+size_t carom_mesh_bytes(uint32_t vertices, uint32_t faces);
+
 /*
  * Whether a raw mesh can be built: what carom_mesh_build would return.
  *   scratch  CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
@@ -243,12 +252,19 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
  * and the usage report.
  *
  *   bodies      moving and stationary
- *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not
+ *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not, or that
+ *               overlap a sensor or pass each other
  *   contacts    places within the margin, neighbouring ones merged
  *   faces       interfering faces of one frame
  *   entries     of z-lists made within a step, for surfaces that move under the bodies over them;
  *               working; none when all meshes are rigid: these bring theirs
  *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
+ *
+ * The rest may be left out, which makes them 0:
+ *
+ *   joints      between bodies, or a body and the world
+ *   extras      bodies with more than a mesh, a mass, e and mu: filters' callbacks, materials, torque, ...
+ *   hits        impacts of a frame whose place, normal and faces are noted
  *
  *   X(name, bytes for each, smallest allowed, largest allowed)
  */
@@ -258,23 +274,30 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     X(contacts, CAROM_CONTACT_BYTES, 1, 4096)                                                      \
     X(faces, CAROM_FACE_BYTES, 1, 65535)                                                           \
     X(entries, CAROM_ENTRY_BYTES, 0, 65535)                                                        \
-    X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)
+    X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)                                                 \
+    X(joints, CAROM_JOINT_BYTES, 0, 4095)                                                          \
+    X(extras, CAROM_EXTRA_BYTES, 0, 4095)                                                          \
+    X(hits, CAROM_HIT_BYTES, 0, 65535)
 
 /*
  * Bytes for one of each, its share of the lists that follow it included, where a pointer has 32 bits
  * or fewer, and 64; held by assertions.
  */
 #define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(800, 800)
+#define CAROM_BODY_BYTES           CAROM_BYTES_(816, 824)
 #define CAROM_PAIR_BYTES           CAROM_BYTES_(64, 64)
 #define CAROM_CONTACT_BYTES        CAROM_BYTES_(224, 248)
 #define CAROM_FACE_BYTES           4
 #define CAROM_ENTRY_BYTES          8
 #define CAROM_CANDIDATE_BYTES      12
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(584, 768)
-/* For any entries at all: once, and for each contact. */
+#define CAROM_JOINT_BYTES          CAROM_BYTES_(2160, 2180)
+#define CAROM_EXTRA_BYTES          CAROM_BYTES_(208, 216)
+#define CAROM_HIT_BYTES            40
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(744, 984)
+/* For any entries at all; and for each contact, where there are entries or extras. */
 #define CAROM_HEADS_BYTES 2048
 #define CAROM_DRIFT_BYTES 24
+#define CAROM_MIXED_BYTES 8 /* for extras alone */
 /*
  * Stages work in this room one after the other. A search takes so much, beside the events that the end of a
  * step finds; a solve takes so much for each contact, and for as many pairs as have one.
@@ -291,31 +314,73 @@ enum carom_pool {
 };
 
 struct carom_caps {
-    uint32_t bodies, pairs, contacts, faces, entries, candidates;
+    uint32_t bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits;
 };
+/* An initialiser of them from six to nine numbers in that order. */
+#define CAROM_CAPS(...) CAROM_CAPS_(__VA_ARGS__, 0, 0, 0, 0)
+#define CAROM_CAPS_(b, p, c, f, e, n, j, x, h, ...)                                                \
+    {                                                                                              \
+        b, p, c, f, e, n, j, x, h                                                                  \
+    }
 
 /*
- * Bytes of the block of a world. The arguments are the six capacities in the order above, so
+ * Bytes of the block of a world, a multiple of 8. The arguments are six to nine capacities in the order above, so
  *
  *   #define CAPS 2, 1, 64, 512, 256, 1024
  *   static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
- *   struct carom_config config = {.caps = {CAPS}};
+ *   struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
  */
-#define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__)
-#define CAROM_WORLD_BYTES_(b, p, c, f, e, n)                                                       \
-    ((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                              \
-     (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                              \
-     (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                                \
-     ((e) > 0 ? CAROM_HEADS_BYTES + (size_t)(c)*CAROM_DRIFT_BYTES : 0) +                           \
-     (size_t)(n)*CAROM_CANDIDATE_BYTES +                                                           \
-     CAROM_MORE_(CAROM_SOLVE_BYTES_((size_t)(p), (size_t)(c)),                                     \
-                 CAROM_FOUND_BYTES_((size_t)(b), (size_t)(p)) + CAROM_SCRATCH_BYTES))
-#define CAROM_FOUND_BYTES_(b, p) ((2 * (p) + (b)) * sizeof(struct carom_event))
-#define CAROM_SOLVE_BYTES_(p, c) ((c)*CAROM_WORK_BYTES + CAROM_LESS_(p, c) * CAROM_ROLL_BYTES)
+#define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__, 0, 0, 0, 0)
+#define CAROM_WORLD_BYTES_(b, p, c, f, e, n, j, x, h, ...)                                         \
+    (((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                             \
+      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                             \
+      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                               \
+      ((e) > 0 ? CAROM_HEADS_BYTES : 0) + ((e) + (x) > 0 ? (size_t)(c)*CAROM_DRIFT_BYTES : 0) +    \
+      ((x) > 0 ? (size_t)(c)*CAROM_MIXED_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +          \
+      (size_t)(j)*CAROM_JOINT_BYTES + (size_t)(x)*CAROM_EXTRA_BYTES +                              \
+      (size_t)(h)*CAROM_HIT_BYTES +                                                                \
+      CAROM_MORE_(CAROM_SOLVE_BYTES_((size_t)(p), (size_t)(c)),                                    \
+                  CAROM_FOUND_BYTES_((size_t)(b), (size_t)(p), (size_t)(j)) +                      \
+                      CAROM_SCRATCH_BYTES) +                                                       \
+      7) /                                                                                         \
+     8 * 8)
+#define CAROM_FOUND_BYTES_(b, p, j) ((2 * (p) + (b) + (j)) * sizeof(struct carom_event))
+#define CAROM_SOLVE_BYTES_(p, c)    ((c)*CAROM_WORK_BYTES + CAROM_LESS_(p, c) * CAROM_ROLL_BYTES)
+
+/* The same where the capacities are known only at run time; 0 for NULL. */
+size_t carom_world_bytes(const struct carom_caps *caps);
 
 /* ------------------------------------------------------------------- worlds */
 
 struct carom_world; /* lives at the start of the caller's block */
+
+/* A place where two bodies touch, or are about to: what config.contact is asked about. */
+struct carom_touch {
+    uint16_t a, b; /* body numbers */
+    uint16_t face_a,
+        face_b; /* an edge or a vertex is of the face at it that looks most at the other body */
+    carom_v3_q32 point;  /* of the world, halfway between the surfaces */
+    carom_v3_q30 normal; /* from b into a */
+    int64_t
+        speed_q40; /* at which they come together along it, units / frame; negative: they part */
+    int32_t restitution_q30; /* in/out; what is out of 0 .. 1 is cut to it */
+    uint32_t friction_q16;   /* in/out; 0 .. 4 likewise */
+};
+
+/*
+ * A function that is asked about each contact of a step, before anything is solved: where the frame begins about
+ * every place where bodies are within five skins of each other, then at each hit about those of the bodies that the
+ * hit moves. One after the other in a fixed order: by a, then b, then the features. It may change e and mu; with false it
+ * drops the contact, and then all contacts of the two bodies: until the frame ends they
+ * go through each other, whatever they hit. In the next frame it is asked again, though not about places where
+ * they are in each other already: who drops a contact drops it until they are apart, or they may stick.
+ * What a body with a one_way side is let through it passes until they are apart, asked no more.
+ * What sleeps and is touched has woken before it is asked.
+ *
+ * It must depend on nothing but its arguments, or the same calls do not give the same bits, and may call no
+ * function of this world. A step that fails is taken back and may have asked in vain; one may ask twice.
+ */
+typedef bool carom_contact_function(void *user, struct carom_touch *touch);
 
 struct carom_config {
     struct carom_caps caps;
@@ -327,6 +392,9 @@ struct carom_config {
                                 frame; what has not settled goes on in the next */
     uint32_t (*ticks)(void); /* a free-running counter for carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /* a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
+    carom_contact_function
+        *contact;       /* NULL: nobody is asked. Needs an extra: caps.extras of 1 or more */
+    void *contact_user; /* its first argument */
 };
 
 /*
@@ -339,9 +407,49 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 #define CAROM_MU_MAX_Q16 (4 << 16)
 
+/*
+ * Which bodies may touch. Two of the same group, other than 0, always do when it is positive and never when
+ * it is negative. Else each one's category must have a bit of the other one's mask. What may not
+ * touch goes through each other and costs nothing. All zero stands for the default: category 1, mask 0xffff, group 0.
+ */
+struct carom_filter {
+    uint16_t category, mask;
+    int16_t group;
+};
+
+/*
+ * A body that is solid from one side: along this axis of its mesh. What comes upon a face, an edge or a
+ * vertex of it from there is stopped: the normal at the first hit, from this body to the other, is
+ * within about 75 degrees of the axis (its cosine is 1/4 or more). What comes from anywhere else passes, until the two
+ * bodies are apart again.
+ */
+enum carom_one_way {
+    CAROM_BOTH_WAYS, /* solid from all sides */
+    CAROM_ONE_WAY_X,
+    CAROM_ONE_WAY_Y,
+    CAROM_ONE_WAY_Z,
+    CAROM_ONE_WAY_MINUS_X,
+    CAROM_ONE_WAY_MINUS_Y,
+    CAROM_ONE_WAY_MINUS_Z
+};
+
+/*
+ * Bodies start apart: what a body does that is added or set where it crosses another one that it may touch,
+ * or lies inside it. Less than about a skin, 1/2048 of a radius, is no crossing. Two stationary bodies may
+ * lie in each other, and nothing touches a sensor.
+ */
+enum carom_overlap {
+    CAROM_OVERLAP_REFUSE,   /* CAROM_ERR_OVERLAP, and nothing has changed */
+    CAROM_OVERLAP_PUSH_OUT, /* it goes the shortest way out of 27: up against gravity, and along the
+                               world's axes and between these; within 60 units and two radii. When each
+                               of them is blocked, CAROM_ERR_BLOCKED */
+    CAROM_OVERLAP_PASS      /* the two go through each other until they are apart */
+};
+
 struct carom_body_def {
     const struct carom_mesh *mesh;
     bool stationary;
+    bool kinematic;          /* goes where it is led, whatever is in the way; takes an extra */
     carom_v3_q32 position;   /* of the centre of mass; of a SURFACE's origin. Within +-4096 */
     carom_quat_q30 rotation; /* of length 1 within 2^-10; all zero means none */
     carom_v3_q40 velocity;   /* units / frame; |velocity| + radius |spin| below 64 */
@@ -349,12 +457,19 @@ struct carom_body_def {
     uint32_t mass_q20;       /* 2^-10 .. 2^10; 0: the mesh's volume, density 1 */
     int32_t restitution_q30; /* e, 0 .. 1; a pair takes the smaller of its two */
     uint32_t friction_q16;   /* mu, 0 .. 4; a pair takes the smaller of its two */
+    struct carom_filter filter;
+    bool
+        sensor; /* says what overlaps it, by CAROM_EVENT_SENSOR_BEGIN and _END, and touches nothing */
+    uint8_t one_way; /* enum carom_one_way */
+    uint8_t overlap; /* enum carom_overlap: where it crosses another body at the start */
+    void *user;      /* the caller's, see carom_body_user */
 };
 
 /*
  * Add a body. Returns its number (>= 0) or an error: CAROM_ERR_ARGUMENT for e, mu, mass or rotation
  * out of range, CAROM_ERR_RANGE for a place or speed out of range, CAROM_ERR_BODIES_FULL,
- * CAROM_ERR_NO_ENTRIES. A SURFACE must be stationary.
+ * CAROM_ERR_NO_ENTRIES; CAROM_ERR_OVERLAP, CAROM_ERR_BLOCKED as enum carom_overlap says, and
+ * CAROM_ERR_PAIRS_FULL for bodies that are to pass. A SURFACE must be stationary.
  */
 int carom_body_add(struct carom_world *world, const struct carom_body_def *def);
 /* Take a body away; what touches it wakes. Its number may be given to the next one that is added. */
@@ -368,6 +483,7 @@ struct carom_body_state {
     bool asleep;
     bool out; /* left the world's range: frozen in its last pose, touched by nothing. Also what
                  became faster than 64 units or 2^15 radians a frame */
+    uint8_t overlap; /* to carom_body_set: enum carom_overlap; carom_body_get gives REFUSE */
 };
 /* Where a body is and how it moves. */
 int carom_body_get(const struct carom_world *world, int body, struct carom_body_state *state);
@@ -387,9 +503,40 @@ const struct carom_mesh *carom_body_mesh(const struct carom_world *world, int bo
 int carom_body_count(const struct carom_world *world);
 /*
  * Place a body and wake it, with what touched it and what is near to its new place; a stationary
- * body that is set where it is wakes nothing. asleep and out are ignored.
+ * body that is set where it is wakes nothing. asleep and out are ignored. As for carom_body_add, a body that
+ * would cross another one is refused unless `overlap` says otherwise. What passes another body goes on to do so, and
+ * one that is set where it is, to change how it moves, is never refused. A kinematic body is put there at
+ * once, and goes on with the velocity and the spin, which is at most pi, in each step from then on, as if it was led.
  */
 int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
+
+struct carom_pose {
+    carom_v3_q32 position;
+    carom_quat_q30 rotation; /* of length 1 within 2^-10; all zero means none */
+};
+/*
+ * Lead a kinematic body to a pose: it is there at the end of the next step, and stands still after that until
+ * it is told to go on. On the way its centre goes straight and it turns evenly about one axis, by the
+ * shorter turn. It pushes and carries what it touches. What it would crush stops it for the rest of the step: the step
+ * reports CAROM_EVENT_BLOCKED, and carom_body_get says how far it came; it may be led on in the next one.
+ * What it would reach is asked by the step. Ends what carom_body_set led it on by.
+ *
+ *   pose  within +-4096 units; as far as a body may go in a frame: way + radius x turn below 64 units
+ *
+ * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body that is not kinematic or a rotation of another
+ *          length; CAROM_ERR_RANGE for a pose too far away or out of range.
+ */
+int carom_body_move_to(struct carom_world *world, int body, const struct carom_pose *pose);
+
+/*
+ * Which bodies a body may touch, from now on; all zero stands for the default. If it is another filter, what touches
+ * the body wakes and is near to it, and pairs are made new. Bodies that overlap when a filter lets them touch go
+ * through each other until they are apart.
+ * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_PAIRS_FULL when so many pass.
+ */
+int carom_body_set_filter(struct carom_world *world, int body, const struct carom_filter *filter);
+/* The filter of a body; CAROM_ERR_BODY. */
+int carom_body_get_filter(const struct carom_world *world, int body, struct carom_filter *filter);
 
 /*
  * Change gravity, and wake every body if it is another. CAROM_ERR_RANGE for a component beyond +-1,
@@ -456,22 +603,43 @@ enum carom_event_kind {
     CAROM_EVENT_REST,  /* a fell asleep */
     CAROM_EVENT_OUT,   /* a left the world's range and is frozen */
     CAROM_EVENT_WAKE,  /* a woke, in the step or since the one before */
-    CAROM_EVENT_CUT    /* at a hit of a and b one of them used up its hits: both, and what touched
+    CAROM_EVENT_CUT,   /* at a hit of a and b one of them used up its hits: both, and what touched
                           them, stood for the rest of the frame */
+    CAROM_EVENT_SENSOR_BEGIN, /* b began to overlap a, a sensor */
+    CAROM_EVENT_SENSOR_END, /* b no longer overlaps the sensor a. Both in one frame: b went through,
+                                 or dipped into it, within the frame */
+    CAROM_EVENT_BREAK,      /* joint a took more than it bears, and holds nothing any more */
+    CAROM_EVENT_BLOCKED /* kinematic body a would have crushed b: it stopped, see carom_body_move_to */
 };
 
 struct carom_event {
     uint8_t kind;
     uint16_t a, b;       /* body numbers; b is unused (0) for REST, OUT and WAKE */
+    uint16_t details;    /* of a HIT, for carom_event_hit; 0: none are kept */
     int64_t speed_q40;   /* HIT: approach speed along the normal, units / frame */
     int64_t impulse_q40; /* HIT: normal impulse, mass x units / frame */
 };
 
 /*
  * Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. A CUT
- * for which there is no room is left out; stats.cut_islands counts all of them.
+ * for which there is no room is left out; stats.cut_islands counts all of them. So are both events of a body that
+ * was in a sensor within the frame alone.
  */
 int carom_events(const struct carom_world *world, const struct carom_event **events);
+
+/* Where a HIT was: at the hardest impact of the pair in the frame, which the event is about. */
+struct carom_hit {
+    carom_v3_q32 point;  /* of the world, halfway between the surfaces */
+    carom_v3_q30 normal; /* from b into a */
+    uint16_t face_a,
+        face_b; /* an edge or a vertex is of the face at it that looks most at the other body */
+};
+/*
+ * The details of a HIT event of the last step. The first of a frame have them, as many as the world has `hits`.
+ * Returns CAROM_OK; CAROM_ERR_ARGUMENT for an event that has none.
+ */
+int carom_event_hit(const struct carom_world *world, const struct carom_event *event,
+                    struct carom_hit *hit);
 
 struct carom_face_ref {
     uint16_t body, face;
@@ -574,7 +742,8 @@ int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes
  * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
  * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
  * CAROM_ERR_FORMAT for bytes that are not whole, hold a value that no step could have left, or belong
- * to other bodies or surfaces elsewhere; the world is then as it was.
+ * to other bodies or surfaces elsewhere; CAROM_ERR_EXTRAS_FULL; the world is then as it was. What a body is
+ * made of is not in it: who changes mass or material has them as they were before it is taken back.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

@@ -60,19 +60,72 @@ typedef struct {
 } carom_m3_q30;
 
 /*
- * Constants from whole numbers, evaluated at compile time, exact to the last place:
+ * Constants from whole numbers, evaluated at compile time; a world unit is a metre, a unit of mass a
+ * kilogram, and fps counts frames a second. A number that is not whole, as in CAROM_POSITION_M(1.5), is a compile
+ * error: CAROM_POSITION_MM(1500) says it. A plain number with a point in the place of a fixed-point one is an error
+ * in C++, a warning of clang, and one of gcc under -Wfloat-conversion, which is worth having.
  *
- *   CAROM_RATIO(n, d, bits)       n / d with `bits` fractional bits; |n| * 2^bits must be < 2^63
- *   CAROM_POSITION_MM(mm)         millimetres to a position, a world unit being a metre
- *   CAROM_VELOCITY_MM_S(mm, fps)  millimetres a second to units a frame
- *   CAROM_GRAVITY_MM_S2(mm, fps)  millimetres a second squared to units a frame squared
- *   CAROM_SPIN_MRAD_S(mrad, fps)  milliradians a second to radians a frame
+ *   CAROM_RATIO(n, d, bits)       n / d with `bits` fractional bits; |n| * 2^bits must be < 2^63. Cut off, as
+ *                                 all that follow
+ *   CAROM_POSITION_MM, _M(n)      millimetres or metres to a position
+ *   CAROM_VELOCITY_MM_S, _M_S(n, fps)     a second to units a frame
+ *   CAROM_GRAVITY_MM_S2(n, fps)           millimetres a second squared to units a frame squared
+ *   CAROM_SPIN_MRAD_S, _DEG_S(n, fps)     milliradians or degrees a second to radians a frame
+ *   CAROM_ANGLE_MRAD, _DEG(n)             to radians with 30 fractional bits; below 2 radians
+ *   CAROM_MASS_G, _KG(n)                  to a mass
+ *   CAROM_FORCE_MN, _N(n, fps)            millinewtons or newtons to a force
+ *   CAROM_IMPULSE_MN_S, _N_S(n, fps)      newton seconds to an impulse
+ *   CAROM_TORQUE_MN_M, _N_M(n, fps)       newton metres to a torque
+ *   CAROM_TWIST_MN_M_S, _N_M_S(n, fps)    newton metre seconds to an angular impulse
  */
-#define CAROM_RATIO(n, d, bits)         ((int64_t)(n) * ((int64_t)1 << (bits)) / (int64_t)(d))
+#define CAROM_WHOLE_(n)                 ((int64_t)((n) | 0)) /* no operand of | has a point */
+#define CAROM_RATIO(n, d, bits)         (CAROM_WHOLE_(n) * ((int64_t)1 << (bits)) / CAROM_WHOLE_(d))
+#define CAROM_FPS_(fps, times)          ((int64_t)(times)*CAROM_WHOLE_(fps))
+#define CAROM_FPS2_(fps, times)         (CAROM_FPS_(fps, times) * CAROM_WHOLE_(fps))
 #define CAROM_POSITION_MM(mm)           CAROM_RATIO(mm, 1000, 32)
-#define CAROM_VELOCITY_MM_S(mm_s, fps)  CAROM_RATIO(mm_s, (int64_t)1000 * (fps), 40)
-#define CAROM_GRAVITY_MM_S2(mm_s2, fps) CAROM_RATIO(mm_s2, (int64_t)1000 * (fps) * (fps), 40)
+#define CAROM_POSITION_M(m)             CAROM_RATIO(m, 1, 32)
+#define CAROM_VELOCITY_MM_S(mm_s, fps)  CAROM_RATIO(mm_s, CAROM_FPS_(fps, 1000), 40)
+#define CAROM_VELOCITY_M_S(m_s, fps)    CAROM_RATIO(m_s, CAROM_FPS_(fps, 1), 40)
+#define CAROM_GRAVITY_MM_S2(mm_s2, fps) CAROM_RATIO(mm_s2, CAROM_FPS2_(fps, 1000), 40)
 #define CAROM_SPIN_MRAD_S(mrad_s, fps)  CAROM_VELOCITY_MM_S(mrad_s, fps)
+#define CAROM_SPIN_DEG_S(deg_s, fps)    (CAROM_DEG_Q40_(deg_s) / CAROM_FPS_(fps, 1))
+#define CAROM_ANGLE_MRAD(mrad)          ((int32_t)CAROM_RATIO(mrad, 1000, 30))
+#define CAROM_ANGLE_DEG(deg)            ((int32_t)(CAROM_DEG_Q40_(deg) / 1024))
+#define CAROM_MASS_G(g)                 ((uint32_t)CAROM_RATIO(g, 1000, 20))
+#define CAROM_MASS_KG(kg)               ((uint32_t)CAROM_RATIO(kg, 1, 20))
+#define CAROM_FORCE_MN(mn, fps)         CAROM_RATIO(mn, CAROM_FPS2_(fps, 1000), 40)
+#define CAROM_FORCE_N(n, fps)           CAROM_RATIO(n, CAROM_FPS2_(fps, 1), 40)
+#define CAROM_IMPULSE_MN_S(mn_s, fps)   CAROM_RATIO(mn_s, CAROM_FPS_(fps, 1000), 40)
+#define CAROM_IMPULSE_N_S(n_s, fps)     CAROM_RATIO(n_s, CAROM_FPS_(fps, 1), 40)
+#define CAROM_TORQUE_MN_M(mn_m, fps)    CAROM_FORCE_MN(mn_m, fps)
+#define CAROM_TORQUE_N_M(n_m, fps)      CAROM_FORCE_N(n_m, fps)
+#define CAROM_TWIST_MN_M_S(mn_m_s, fps) CAROM_IMPULSE_MN_S(mn_m_s, fps)
+#define CAROM_TWIST_N_M_S(n_m_s, fps)   CAROM_IMPULSE_N_S(n_m_s, fps)
+/* pi / 180 is 0x477D1A894.A74E4570 2^-40; of |n| below 2^27 */
+#define CAROM_DEG_Q40_(n)                                                                          \
+    (CAROM_WHOLE_(n) * 0x477D1A894 + CAROM_WHOLE_(n) * 0xA74E4570 / ((int64_t)1 << 32))
+
+/*
+ * And back, to whole numbers for a printout: to nearest. Not constant expressions.
+ *
+ *   CAROM_TO_MM(position_q32), CAROM_TO_MM_S(velocity_q40, fps), CAROM_TO_MM_S2(gravity_q40, fps),
+ *   CAROM_TO_MRAD_S(spin_q40, fps), CAROM_TO_MDEG_S(spin_q40, fps), CAROM_TO_G(mass_q20),
+ *   CAROM_TO_MN(force_q40, fps), CAROM_TO_MN_S(impulse_q40, fps); torques are as forces, angular impulses as
+ *   impulses
+ */
+#define CAROM_TO_MM(position_q32)        carom_scaled((position_q32), 1000, 32)
+#define CAROM_TO_MM_S(velocity_q40, fps) carom_scaled((velocity_q40), CAROM_FPS_(fps, 1000), 40)
+#define CAROM_TO_MM_S2(gravity_q40, fps)                                                           \
+    carom_scaled(carom_scaled((gravity_q40), CAROM_FPS_(fps, 1), 10), CAROM_FPS_(fps, 1000), 30)
+#define CAROM_TO_MRAD_S(spin_q40, fps) CAROM_TO_MM_S(spin_q40, fps)
+#define CAROM_TO_MDEG_S(spin_q40, fps)                                                             \
+    carom_scaled(carom_scaled((spin_q40), 7333860, 17), CAROM_FPS_(fps, 1), 30)
+#define CAROM_TO_G(mass_q20)            carom_scaled((mass_q20), 1000, 20)
+#define CAROM_TO_MN(force_q40, fps)     CAROM_TO_MM_S2(force_q40, fps)
+#define CAROM_TO_MN_S(impulse_q40, fps) CAROM_TO_MM_S(impulse_q40, fps)
+
+/* A fixed-point number as one of the caller's type, as in CAROM_AS(float, velocity_q40, 40). */
+#define CAROM_AS(type, v, bits) ((type)(v) / (type)((uint64_t)1 << (bits)))
 
 #ifdef __cplusplus
 extern "C" {
@@ -86,6 +139,17 @@ extern "C" {
 inline int64_t carom_dot(const int32_t a[3], const int32_t b[3])
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
+}
+
+/*
+ * v scale / 2^bits to nearest, ties upward; 1 <= bits <= 40 and |scale| < 2^23, |v| scale < 2^(62 + bits): the
+ * whole part of v / 2^bits and the rest are multiplied one by one.
+ */
+inline int64_t carom_scaled(int64_t v, int64_t scale, int bits)
+{
+    const int64_t whole = v >> bits, rest = v & (((int64_t)1 << bits) - 1);
+
+    return whole * scale + ((rest * scale + ((int64_t)1 << (bits - 1))) >> bits);
 }
 
 /* Where size counts more than speed these are called; the library has a body of each. */

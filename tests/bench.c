@@ -51,8 +51,7 @@ static size_t world_bytes(struct carom_caps *caps)
         *all[i] = (uint32_t)strtoul(at, &end, 10);
         at = end + (*end == ',');
     }
-    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
-                             caps->candidates);
+    return carom_world_bytes(caps);
 }
 
 static int64_t about_zero(struct test_random *random, int64_t most)

@@ -12,8 +12,9 @@
 #define ULP_Q40           0x1p-40
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
-/* bodies, pairs, contacts, faces, entries, candidates */
-#define CAPS CROWD_BODIES, CROWD_BODIES *(CROWD_BODIES - 1) / 2, 4096, 65535, 65535, 65535
+/* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
+#define CAPS                                                                                       \
+    CROWD_BODIES, CROWD_BODIES *(CROWD_BODIES - 1) / 2, 4096, 65535, 65535, 65535, 0, CROWD_BODIES
 
 static void gravity_of(const struct crowd *crowd, double gravity[3])
 {
@@ -24,7 +25,7 @@ static void gravity_of(const struct crowd *crowd, double gravity[3])
 
 static bool moves(const struct crowd *crowd, int body)
 {
-    return !crowd->bodies[body].def.stationary;
+    return !crowd->bodies[body].def.stationary && !crowd->bodies[body].def.kinematic;
 }
 
 static bool active(const struct crowd *crowd, int body)
@@ -41,7 +42,7 @@ struct crowd *crowd_new(void)
     struct crowd *crowd = lab_need(sizeof *crowd);
 
     crowd->config = scene_config();
-    crowd->config.caps = (struct carom_caps){CAPS};
+    crowd->config.caps = (struct carom_caps)CAROM_CAPS(CAPS);
     return crowd;
 }
 
@@ -199,8 +200,9 @@ void crowd_move(struct carom_body_def *def, const double velocity[3], const doub
 int crowd_start(struct crowd *crowd)
 {
     const struct carom_caps *caps = &crowd->config.caps;
-    size_t bytes = CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces,
-                                     caps->entries, caps->candidates);
+    size_t bytes =
+        CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
+                          caps->candidates, caps->joints, caps->extras, caps->hits);
 
     if (!crowd->block) {
         crowd->block = lab_need(bytes);

@@ -61,6 +61,7 @@ struct crowd {
     bool beside[CROWD_BODIES];                 /* who has been beside a surface */
     double substeps;                           /* of the last frame */
     long look_every; /* frames from one look for crossings to the next; 0: each */
+    bool linked;     /* bodies next to each other in number are jointed, and ignore each other */
 };
 
 /* An empty crowd: gravity of 9.81 units / s^2 at 60 frames, sleep on. */

@@ -7,6 +7,12 @@
 #include "crowd.h"
 #include "real.h"
 
+/* What nothing pushes may go through others of its kind. */
+static bool is_still(const struct crowd_body *body)
+{
+    return body->def.stationary || body->def.kinematic;
+}
+
 /* Well above the rounding of coordinates, far below the skin. */
 #define CROSSING_TOLERANCE 1e-9
 
@@ -96,7 +102,7 @@ static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
         for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
-            if (!crowd->bodies[a].def.stationary && !crowd->beside[a] &&
+            if (!is_still(&crowd->bodies[a]) && !crowd->beside[a] &&
                 !crowd->bodies[a].now.state.out) {
                 watch_surface(crowd, tally, a, b);
             }
@@ -135,7 +141,7 @@ static double skin_of(const struct crowd *crowd, int a, int b)
     for (int i = 0; i < 2; i++) {
         const struct crowd_body *body = &crowd->bodies[i == 0 ? a : b];
 
-        skin = fmax(skin, body->def.stationary ? 0 : crowd->meshes[body->mesh].skin);
+        skin = fmax(skin, is_still(body) ? 0 : crowd->meshes[body->mesh].skin);
     }
     return skin;
 }
@@ -173,7 +179,7 @@ void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
 
             /* what is out is not there for others */
             if (a->now.state.out || b->now.state.out || !(all || changed(a) || changed(b)) ||
-                (a->def.stationary && b->def.stationary)) {
+                (is_still(a) && is_still(b)) || (crowd->linked && j > 0 && i - j == 1)) {
                 continue;
             }
             found.pairs = 0;

@@ -75,7 +75,7 @@ static void build_meshes(void)
 
 static inline struct carom_world *new_world(void)
 {
-    struct carom_config config = {.caps = {CAPS}};
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
     struct carom_world *world = NULL;
 
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
@@ -90,7 +90,8 @@ static void add(struct carom_world *world, const struct carom_mesh *mesh, carom_
                                  .stationary = !moving,
                                  .position = position,
                                  .rotation = rotation,
-                                 .restitution_q30 = CAROM_ONE_Q30 / 2};
+                                 .restitution_q30 = CAROM_ONE_Q30 / 2,
+                                 .overlap = CAROM_OVERLAP_PASS};
 
     CHECK(carom_body_add(world, &def) >= 0);
 }

@@ -219,7 +219,7 @@ struct fixture *fixture_new(const struct fixture_scene *scene)
     struct fixture *f = lab_need(sizeof *f);
 
     f->scene = scene;
-    f->config.caps = (struct carom_caps){CAPS};
+    f->config.caps = (struct carom_caps)CAROM_CAPS(CAPS);
     f->config.gravity.c[2] = -lab_fixed(FIXTURE_G, 40);
     scene->make(f);
     for (int i = 0; i < f->body_count; i++) {

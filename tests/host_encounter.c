@@ -40,7 +40,7 @@ static struct crowd *load(void)
     struct crowd *crowd = crowd_new();
     struct test_random r = {12};
 
-    crowd->config.caps = (struct carom_caps){2, 1, 512, 2048, 16, 2048};
+    crowd->config.caps = (struct carom_caps)CAROM_CAPS(2, 1, 512, 2048, 16, 2048);
     crowd->config.gravity = (carom_v3_q40){{0}};
     crowd->look_every = 4;
     for (int i = 0; i < SHAPES; i++) {

@@ -121,7 +121,7 @@ static void add_pressed(struct crowd *crowd, double speed)
 
     for (int i = 0; i < 2; i++) {
         const double v[3] = {i ? -speed : speed, 0, 0};
-        struct carom_body_def *block = put(crowd, BOX, i ? 1.4 : -1.4, 0, 300);
+        struct carom_body_def *block = put(crowd, BOX, i ? 1.5 : -1.5, 0, 300);
 
         block->mass_q20 = 1000u << 20;
         block->restitution_q30 = 0;
@@ -155,7 +155,7 @@ static struct crowd *load(void)
 {
     struct crowd *crowd = crowd_new();
 
-    crowd->config.caps = (struct carom_caps){20, 100, 1024, 8192, 16, 4096};
+    crowd->config.caps = (struct carom_caps)CAROM_CAPS(20, 100, 1024, 8192, 16, 4096);
     crowd->look_every = 10;
     crowd_mesh(crowd, &lab_sheet);
     crowd_box(crowd, 1, 0.9, 0.8);

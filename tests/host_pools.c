@@ -34,7 +34,7 @@ static struct lab *load(const struct carom_caps *caps)
     return lab;
 }
 
-static const struct carom_caps large = {3, 2, 256, 2048, 65535, 65535};
+static const struct carom_caps large = CAROM_CAPS(3, 2, 256, 2048, 65535, 65535);
 
 static struct lab *load_two_fields(const struct carom_caps *caps)
 {
@@ -176,12 +176,9 @@ static void test_outputs(void)
 /* Room for exactly the peaks is enough. */
 static void test_exact(void)
 {
-    struct carom_caps caps = {good[CAROM_POOL_bodies].peak,
-                              good[CAROM_POOL_pairs].peak,
-                              good[CAROM_POOL_contacts].peak,
-                              good[CAROM_POOL_faces].peak,
-                              large.entries,
-                              good[CAROM_POOL_candidates].peak};
+    struct carom_caps caps = CAROM_CAPS(good[CAROM_POOL_bodies].peak, good[CAROM_POOL_pairs].peak,
+                                        good[CAROM_POOL_contacts].peak, good[CAROM_POOL_faces].peak,
+                                        large.entries, good[CAROM_POOL_candidates].peak);
     struct lab *lab = load_two_fields(&caps);
     int frame = 0, result = CAROM_OK;
 
@@ -263,8 +260,8 @@ int main(void)
     test_outputs();
     test_exact();
     test_bodies();
-    test_little("pile", (struct carom_caps){17, 88, 48, 136, 0, 128});
-    test_little("pile32", (struct carom_caps){33, 128, 64, 208, 0, 256});
-    test_little("head-spin2", (struct carom_caps){2, 1, 64, 1024, 0, 1});
+    test_little("pile", (struct carom_caps)CAROM_CAPS(17, 88, 48, 136, 0, 128));
+    test_little("pile32", (struct carom_caps)CAROM_CAPS(33, 128, 64, 208, 0, 256));
+    test_little("head-spin2", (struct carom_caps)CAROM_CAPS(2, 1, 64, 1024, 0, 1));
     return lab_finish();
 }

@@ -80,6 +80,7 @@ static uint64_t seed;
 
 static int query(void)
 {
+    state.overlap = CAROM_OVERLAP_PASS;
     lab_expect(carom_body_set(lab->world, SCENE_BODY, &state), "set");
     return lab_expect(carom_query_faces(lab->world, SCENE_BODY, SCENE_GROUND, pairs, PAIRS),
                       "query");

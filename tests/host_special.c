@@ -186,7 +186,7 @@ static void introduce(const struct run *r)
 static void run(struct tally *t, long number, bool told)
 {
     static struct run r;
-    struct carom_config config = {.caps = {CAPS}};
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
     int status = CAROM_OK;
     double skins;
 

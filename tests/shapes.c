@@ -178,8 +178,10 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     memset(b, 0, sizeof *b);
     memset(state, 0, sizeof *state);
     state->rotation.c[0] = CAROM_ONE_Q30;
+    b->category = 1;
+    b->mask = 0xffff;
     b->mesh = &s->mesh;
-    b->moving = moving;
+    b->moving = b->goes = moving;
     b->radius_q22 = s->mesh.radius_q22;
     if (moving) {
         body_set_mass(b, fix_scale(s->mesh.mass.volume_q32, 32));

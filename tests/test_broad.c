@@ -87,7 +87,7 @@ static void test_left_out(void)
     CHECK(pool.used == 3 && found(1, 0) && found(3, 0) && found(3, 1));
 
     begin();
-    bodies[1].moving = bodies[3].moving = false;
+    bodies[1].moving = bodies[3].moving = bodies[1].goes = bodies[3].goes = false;
     CHECK_EQ(find(BODIES), CAROM_OK);
     CHECK(pool.used == 3 && found(2, 0) && found(2, 1) && found(2, 3));
 

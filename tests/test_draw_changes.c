@@ -184,6 +184,7 @@ static void noticed(void)
         move(1, 0, Q32(-4, 1));
         EXPECT_AREA(ALL, 2 * ALL);
         /* one goes, one comes, another takes the place of that one */
+        def.overlap = CAROM_OVERLAP_PASS;
         CHECK_EQ(carom_body_remove(world_now_drawn, 1), CAROM_OK);
         EXPECT_AREA(20 * 20, ONE);
         CHECK_EQ(carom_body_add(world_now_drawn, &def), 1);

@@ -32,6 +32,7 @@ static int query_at(int64_t z_q32, uint32_t *cost)
     int count;
 
     state.position.c[2] = z_q32;
+    state.overlap = CAROM_OVERLAP_PASS;
     CHECK_EQ(carom_body_set(world, SCENE_BODY, &state), CAROM_OK);
     start = port_ticks();
     count = carom_query_faces(world, SCENE_BODY, SCENE_GROUND, pairs, ROOM);

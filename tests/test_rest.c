@@ -247,8 +247,8 @@ static void test_enter(void)
     hand.bodies[1].restitution_q30 = 3;
     hand.bodies[0].friction_q16 = 7;
     hand.bodies[1].friction_q16 = 9;
-    CHECK_EQ(rest_restitution(&hand.bodies[0], &hand.bodies[1]), 3);
-    CHECK_EQ(rest_friction(&hand.bodies[1], &hand.bodies[0]), 7);
+    CHECK_EQ(rest_restitution(&hand.rest, &hand.bodies[0], &hand.bodies[1]), 3);
+    CHECK_EQ(rest_friction(&hand.rest, &hand.bodies[1], &hand.bodies[0]), 7);
 }
 
 /*

@@ -4,7 +4,7 @@
 
 static void frame_of_sleep(const struct pair *touching, uint32_t count)
 {
-    rest_sleep(hand.bodies, hand.states, hand.rest.body_count, touching, count);
+    rest_sleep(&hand.rest, touching, count);
 }
 
 static void test_sleep(void)
@@ -59,17 +59,17 @@ static void test_islands(void)
         hand.bodies[1].in_contact = hand.bodies[2].in_contact = hand.bodies[3].in_contact = true;
         hand_set_motion(3, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 30; frame++) {
-            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+            rest_sleep(&hand.rest, island, 3);
         }
         CHECK(hand.states[1].asleep == !touching && hand.states[2].asleep == !touching);
         CHECK(!hand.states[3].asleep);
         hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 19; frame++) {
-            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+            rest_sleep(&hand.rest, island, 3);
             CHECK(!hand.states[3].asleep);
         }
         for (int frame = 0; frame < 2; frame++) {
-            rest_sleep(hand.bodies, hand.states, 4, island, 3);
+            rest_sleep(&hand.rest, island, 3);
         }
         CHECK(hand.states[1].asleep && hand.states[2].asleep && hand.states[3].asleep);
     }

@@ -25,7 +25,7 @@ static struct carom_world *world;
 /* A world with or without a floor of 8 x 8 units, which is body 0 then. */
 static void begin(bool floor, int32_t e_q30, uint32_t mu_q16)
 {
-    struct carom_config config = {.caps = {CAPS}, .sleep = true};
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .sleep = true};
     struct carom_body_def def;
 
     shape_box(&box, 12, 4096, 2868, 2048);

@@ -19,6 +19,11 @@ _Static_assert(CAROM_WORLD_BYTES(3, 2, 33, 64, 64, 128) > CAROM_WORLD_BYTES(CAPS
 _Static_assert(CAROM_WORLD_BYTES(3, 2, 32, 65, 64, 128) > CAROM_WORLD_BYTES(CAPS), "faces");
 _Static_assert(CAROM_WORLD_BYTES(3, 2, 32, 64, 65, 128) > CAROM_WORLD_BYTES(CAPS), "entries");
 _Static_assert(CAROM_WORLD_BYTES(3, 2, 32, 64, 64, 129) > CAROM_WORLD_BYTES(CAPS), "candidates");
+_Static_assert(CAROM_WORLD_BYTES(CAPS, 1) > CAROM_WORLD_BYTES(CAPS), "joints");
+_Static_assert(CAROM_WORLD_BYTES(CAPS, 0, 1) > CAROM_WORLD_BYTES(CAPS), "extras");
+_Static_assert(CAROM_WORLD_BYTES(CAPS, 0, 0, 1) > CAROM_WORLD_BYTES(CAPS), "hits");
+_Static_assert(CAROM_WORLD_BYTES(CAPS, 0, 0, 0) == CAROM_WORLD_BYTES(CAPS), "may be left out");
+_Static_assert(CAROM_WORLD_BYTES(3, 2, 33, 65, 1, 129, 1, 1, 1) % 8 == 0, "end to end");
 
 static struct shape box, ground, odd;
 static struct carom_config config;
@@ -30,7 +35,7 @@ static struct carom_world *world;
 /* A box of 1 x 0.7 x 0.5 and a plane of 4 x 4 units; nothing is in the world yet. */
 static void setup(void)
 {
-    const struct carom_caps caps = {CAPS};
+    const struct carom_caps caps = CAROM_CAPS(CAPS);
 
     shape_box(&box, 12, 4096, 2868, 2048);
     shape_plane(&ground, 12, 2, 8192);
@@ -46,6 +51,7 @@ static void setup(void)
     box_def.mesh = &box.mesh;
     box_def.position.c[2] = CAROM_RATIO(26, 100, 32);
     box_def.friction_q16 = 1 << 15;
+    box_def.overlap = CAROM_OVERLAP_PASS; /* some tests are not about where bodies are */
     def = box_def;
     world = NULL;
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
@@ -645,15 +651,15 @@ static void test_wake(void)
 
 static void test_usage(void)
 {
-    static const char *const names[] = {"bodies", "pairs",   "contacts",
-                                        "faces",  "entries", "candidates"};
-    static const uint32_t sizes[] = {CAPS};
+    static const char *const names[] = {"bodies",     "pairs",  "contacts", "faces", "entries",
+                                        "candidates", "joints", "extras",   "hits"};
+    static const uint32_t sizes[CAROM_POOL_COUNT] = {CAPS}; /* the last three: none */
     const struct carom_face_ref *faces;
     struct carom_usage usage[CAROM_POOL_COUNT], last[CAROM_POOL_COUNT];
     uint32_t most_contacts = 0, most_faces = 0;
 
     setup();
-    CHECK_EQ(CAROM_POOL_COUNT, 6);
+    CHECK_EQ(CAROM_POOL_COUNT, 9);
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
     for (int i = 0; i < CAROM_POOL_COUNT; i++) {
         CHECK(strcmp(usage[i].name, names[i]) == 0);

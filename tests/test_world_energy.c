@@ -24,7 +24,7 @@ static struct step step;
 /* Three cubes that move, of mass 1, 2 and 1, and one that stands still, all far from each other. */
 static void begin(void)
 {
-    const struct carom_config config = {.caps = {CAPS}, .gravity = {{0, 0, -ONE / 256}}};
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -ONE / 256}}};
     struct carom_body_def def;
 
     shape_box(&cube, 12, 4096, 4096, 4096);
@@ -45,7 +45,7 @@ static void begin(void)
         struct body *b = &world->bodies[i];
 
         b->in_contact = false;
-        CHECK(world_acceleration(b, &config.gravity, &b->force, &b->acceleration));
+        CHECK(world_acceleration(b, 1 << 16, &config.gravity, &b->force, &b->acceleration));
         b->acceleration_q40 = fix_length(b->acceleration.c);
     }
 }

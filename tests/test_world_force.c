@@ -25,7 +25,7 @@ static const double side[3] = {2, 1, 0.5};
 /* A box of mass 4 in the middle of the world, and one that stands still a long way off. */
 static void setup(void)
 {
-    const struct carom_config config = {.caps = {CAPS}};
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
 
     shape_box(&box, 12, 8192, 4096, 2048);
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);

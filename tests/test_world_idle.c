@@ -62,7 +62,7 @@ static void step_both(void)
 /* Both worlds; the box lies on the plane and sleeps. */
 static void setup(void)
 {
-    const struct carom_caps caps = {CAPS};
+    const struct carom_caps caps = CAROM_CAPS(CAPS);
     struct carom_body_def hovering;
     carom_v3_q40 lift;
     int frames = 0;

@@ -31,7 +31,7 @@ static struct test_random rnd;
 
 static struct carom_world *empty(bool sleep)
 {
-    struct carom_config config = {.caps = {CAPS}, .sleep = sleep};
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .sleep = sleep};
     struct carom_world *w = NULL;
 
     config.gravity.c[2] = CAROM_GRAVITY_MM_S2(-9810, 60);

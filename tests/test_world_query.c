@@ -19,8 +19,9 @@ static struct carom_face_pair pairs[ROOM];
 /* A plane as body 0 and a box as body 1, half in the plane, a corner down. */
 static struct carom_world *setup_capped(int n, uint8_t substep_cap)
 {
-    const struct carom_config config = {
-        .caps = {CAPS}, .gravity = {{0, 0, -((int64_t)1 << 31)}}, .substep_cap = substep_cap};
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS),
+                                        .gravity = {{0, 0, -((int64_t)1 << 31)}},
+                                        .substep_cap = substep_cap};
     struct carom_body_def def;
     struct carom_world *world = NULL;
 
@@ -33,6 +34,7 @@ static struct carom_world *setup_capped(int n, uint8_t substep_cap)
     def.mesh = &box.mesh;
     def.rotation = (carom_quat_q30){{900000000, 400000000, 300000000, 303000000}};
     def.restitution_q30 = CAROM_ONE_Q30 / 2;
+    def.overlap = CAROM_OVERLAP_PASS;
     CHECK_EQ(carom_body_add(world, &def), 1);
     return world;
 }

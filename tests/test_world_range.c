@@ -22,7 +22,7 @@ static struct shape box, ground;
 /* A box a few skins above a plane, near enough for the shortest region. */
 static struct carom_world *make(void)
 {
-    const struct carom_config config = {.caps = {CAPS}};
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
     struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true};
     struct carom_world *w = NULL;
 
@@ -75,8 +75,8 @@ static void test_slice_ends(void)
 static void test_merged_contacts(void)
 {
     const struct carom_config config[2] = {
-        {.caps = {CAPS}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}},
-        {.caps = {FEW}, .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}}};
+        {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}},
+        {.caps = CAROM_CAPS(FEW), .gravity = {{0, 0, -CAROM_RATIO(1, 400, 40)}}}};
     struct carom_world *w[2] = {NULL, NULL};
     struct carom_stats stats;
 

@@ -14,7 +14,7 @@
 #define AMPLE  3, 3, 64, 64, 0, 256
 #define FRAMES 300
 
-_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6092, "a small world");
+_Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6304, "a small world");
 
 /* 1/4096 of a unit: a box of 1 x 0.6 x 0.3, a tetrahedron, a plane. */
 enum { X = 2048, Y = 1229, Z = 614, T = 1500, P = 20000 };
@@ -144,7 +144,7 @@ static void check_heights(const struct carom_world *world)
 
 static void comes_to_rest(void)
 {
-    const struct carom_caps caps = {CAPS}, ample_caps = {AMPLE};
+    const struct carom_caps caps = CAROM_CAPS(CAPS), ample_caps = CAROM_CAPS(AMPLE);
     struct carom_world *world = make(block, sizeof block, &caps);
     struct carom_world *ample = make(ample_block, sizeof ample_block, &ample_caps);
     struct carom_usage usage[CAROM_POOL_COUNT];

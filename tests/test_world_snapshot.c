@@ -50,7 +50,7 @@ static struct carom_body_def floor_def, box_def;
 /* A box a little above a plane that leans by 3.6 degrees, with the same lean and some spin. */
 static void setup(void)
 {
-    const struct carom_caps caps = {CAPS};
+    const struct carom_caps caps = CAROM_CAPS(CAPS);
     const carom_quat_q30 lean = {{CAROM_ONE_Q30, CAROM_ONE_Q30 / 32, 0, 0}};
 
     shape_box(&box, 12, 4096, 2868, 2048);
@@ -88,6 +88,7 @@ static struct carom_world *make(int n)
     struct carom_world *w = empty_world(n);
 
     CHECK_EQ(carom_body_add(w, &floor_def), 0);
+    box_def.overlap = floor_def.overlap = CAROM_OVERLAP_PASS;
     CHECK_EQ(carom_body_add(w, &box_def), 1);
     CHECK_EQ(carom_body_add(w, &floor_def), 2);
     CHECK_EQ(carom_body_remove(w, 2), CAROM_OK);
@@ -509,6 +510,7 @@ static void test_layout(void)
     /* half a turn about z: (0, 0, 0, 1) */
     static const uint8_t rotation[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40};
     static const uint8_t none[72] = {0};
+    static const uint8_t through[] = {'T', 'H', 'R', '1', 1, 0, 0, 0, 1, 0, 0, 0};
     const carom_v3_q40 gravity = {{-5, 0x123456789a, 7}}, force = {{0, -1, (int64_t)1 << 36}};
     struct carom_world *w;
     struct carom_body_state s;
@@ -521,13 +523,15 @@ static void test_layout(void)
     memset(&s, 0, sizeof s);
     s.position = (carom_v3_q32){{0x123456789ab, -2, (int64_t)7 << 32}};
     s.rotation.c[3] = CAROM_ONE_Q30;
+    s.overlap = CAROM_OVERLAP_PASS; /* both are in one place */
     CHECK_EQ(carom_body_set(w, 0, &s), CAROM_OK);
     s.velocity.c[1] = -3 * ONE;
     CHECK_EQ(carom_body_set(w, 1, &s), CAROM_OK);
     CHECK_EQ(carom_world_set_gravity(w, &gravity), CAROM_OK);
     CHECK_EQ(carom_body_set_force(w, 1, &force), CAROM_OK);
     size = save(w, saved);
-    CHECK_EQ(size, AT_WARM + 4 + 4 + 8);
+    CHECK_EQ(size, AT_WARM + 4 + 4 + 12 + 8);
+    check_bytes(AT_WARM + 8, through, sizeof through);
     check_bytes(0, start, sizeof start);
     for (int k = 0; k < 3; k++) {
         CHECK_EQ(number_at(saved + AT_GRAVITY + 8 * k, 8), gravity.c[k]);

@@ -34,7 +34,7 @@ static double real(int64_t fixed, int bits)
 /* The scene `box`, with e and mu, in small pools and without sleep. */
 static void load(int32_t e_q30, uint32_t mu_q16)
 {
-    const struct carom_caps caps = {CAPS};
+    const struct carom_caps caps = CAROM_CAPS(CAPS);
 
     CHECK_EQ(scene_load(&scene, "box", NULL, mesh_block, sizeof mesh_block), CAROM_OK);
     scene.ground.restitution_q30 = scene.body.restitution_q30 = e_q30;

@@ -21,7 +21,7 @@ class Carom : public Contender
         carom_config config = {};
         carom_body_def def = {};
 
-        config.caps = {CAPS};
+        config.caps = CAROM_CAPS(CAPS);
         expect(carom_world_init(block_, sizeof block_, &config, &world_));
         def.mesh = &still.carom;
         def.stationary = true;

@@ -19,7 +19,8 @@ class Carom : public Heap
     explicit Carom(const std::vector<Start> &boxes, bool sleep = false)
     {
         const auto n = static_cast<uint32_t>(boxes.size());
-        const carom_caps caps = {n + 1, 16 * n, 24 * n < 4096 ? 24 * n : 4096, 65535, 1, 65535};
+        const carom_caps caps =
+            CAROM_CAPS(n + 1, 16 * n, 24 * n < 4096 ? 24 * n : 4096, 65535, 1, 65535);
         carom_config config = {};
         carom_body_def def = {};
 

@@ -32,21 +32,44 @@ LIBRARY = ["memcpy", "memmove", "memset", "memcmp"]
 
 # What a program does besides the one before it, and the functions that it calls for that.
 USES = [
-    ("a world and its step with meshes in ROM", "carom_world_init carom_body_add carom_world_step "
-     "carom_body_get"),
+    ("a world and its step with meshes in ROM", "carom_world_bytes carom_world_init carom_body_add "
+     "carom_world_step carom_body_get"),
     ("bodies are looked at and set and leave", "carom_body_look carom_body_mesh carom_body_count "
      "carom_body_remove carom_body_set"),
     ("forces and pushes and other gravity", "carom_world_set_gravity carom_body_set_force "
      "carom_body_push"),
-    ("events and contacts and interfering faces", "carom_events carom_contacts carom_interfering_faces"),
+    ("filters that change", "carom_body_set_filter carom_body_get_filter"),
+    ("events and contacts and interfering faces", "carom_events carom_event_hit carom_contacts "
+     "carom_interfering_faces"),
     ("statistics and texts", "carom_stats carom_usage carom_stage_name carom_result_text"),
     ("a hash of the state", "carom_world_hash"),
-    ("meshes from vertices and faces", "carom_mesh_build carom_mesh_check carom_mesh_read"),
-    ("queries", "carom_query_faces carom_query_inside"),
+    ("ids and a pointer of the caller's", "carom_body_id carom_body_number carom_body_user "
+     "carom_body_set_user"),
+    ("other masses", "carom_body_mass carom_body_set_mass"),
+    ("places and directions and velocities", "carom_body_matrix carom_body_world_point "
+     "carom_body_local_point carom_body_world_vector carom_body_local_vector "
+     "carom_body_velocity_at"),
+    ("torque and damping and twists", "carom_body_forces carom_body_set_force_at "
+     "carom_body_set_torque carom_body_set_gravity_scale carom_body_set_damping "
+     "carom_body_push_centre carom_body_twist"),
+    ("materials that change", "carom_body_material carom_body_set_material "
+     "carom_body_set_face_materials carom_world_set_combine"),
+    ("bodies that are led", "carom_body_move_to"),
+    ("joints", "carom_joint_add carom_joint_remove carom_joint_set carom_joint_get "
+     "carom_joint_count"),
+    ("meshes from vertices and faces", "carom_mesh_bytes carom_mesh_build carom_mesh_check "
+     "carom_mesh_read"),
+    ("faces of pairs and points inside", "carom_query_faces carom_query_inside"),
+    ("rays", "carom_cast_ray carom_cast_ray_all"),
+    ("meshes that are cast and overlaps", "carom_cast_mesh carom_overlap_mesh"),
+    ("closest points", "carom_closest_points"),
     ("surfaces that move", "carom_surface_build carom_surface_move carom_surface_set"),
     ("snapshots", "carom_snapshot_size carom_snapshot_save carom_snapshot_load"),
     ("drawing", "carom_draw"),
     ("drawing of what changed", "carom_draw_changes"),
+    ("picking", "carom_view_ray carom_draw_pick"),
+    ("lines and text over pictures", "carom_draw_line carom_draw_text carom_draw_ramp"),
+    ("triangles and lines for other renderers", "carom_debug_draw carom_debug_keep_line"),
 ]
 
 HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
@@ -54,6 +77,10 @@ MEMORY = [
     ("a world of the head scene", "CAROM_WORLD_BYTES(2, 1, 64, 1024, 256, 1024)"),
     ("a world of 16 boxes in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["16"]),
     ("a world of 32 mixed bodies in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["32"]),
+    ("a joint in a world", "CAROM_JOINT_BYTES"),
+    ("an extra in a world", "CAROM_EXTRA_BYTES"),
+    ("and what it adds to a contact", "CAROM_DRIFT_BYTES + CAROM_MIXED_BYTES"),
+    ("details of a hit in a world", "CAROM_HIT_BYTES"),
     ("a box as a mesh", "CAROM_MESH_BYTES(8, 12)"),
     ("the head as a mesh", "CAROM_MESH_BYTES(940, 1876)"),
     ("a moving sheet of 800 faces", "CAROM_SURFACE_BYTES(441, 800)"),
@@ -65,7 +92,8 @@ def program(calls):
     """A program that needs the functions of these names, and does nothing else."""
     path = "%s/calls.c" % FOLDER
     with open(path, "w") as file:
-        file.write('#include "carom.h"\n#include "carom_draw.h"\n'
+        file.write('#include "carom.h"\n#include "carom_body.h"\n#include "carom_joint.h"\n'
+                   '#include "carom_query.h"\n#include "carom_draw.h"\n#include "carom_debug.h"\n'
                    "typedef void any(void);\nany *const calls[] = {%s};\n" %
                    ", ".join("(any *)%s" % name for name in calls))
     return path

@@ -12,3 +12,4 @@ CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
 SCENES := head:15 head450:25 sheet:8 box:20
 PICTURES := 0
+SUITE_IMAGES := 1

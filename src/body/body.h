@@ -18,6 +18,7 @@
 #define CAROM_SRC_BODY_H
 
 #include "../mesh/mesh.h"
+#include "carom_body.h"
 #include "../num/phase.h"
 
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
@@ -28,6 +29,7 @@
 #define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
 #define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
 #define BODY_REGION_FRAMES  64
+#define BODY_ALONE          0
 
 /* What a step changes: all of it is hashed and saved. */
 struct body_state {
@@ -115,11 +117,60 @@ struct body_sweep {
     int32_t u_q30, whole_u_q30;   /* |u| of the part and of the region, rounded up */
 };
 
+/* Where the caller leads a kinematic body: nowhere, on until told otherwise, or to a pose in a frame. */
+enum body_drive_kind { BODY_DRIVE_NONE, BODY_DRIVE_ON, BODY_DRIVE_TO };
+
+struct body_drive {
+    uint8_t kind;
+    union {
+        struct {
+            carom_v3_q40 velocity, spin;
+        };
+        struct {
+            carom_v3_q32 position;
+            carom_quat_q30 rotation;
+        };
+    };
+};
+
+/* The motion of a kinematic body over a frame: 2^slice_bits equal slices of one straight way and one turn. */
+struct body_route {
+    carom_v3_q40 velocity, spin; /* units and radians a frame, world axes */
+    carom_v3_q30 u;              /* the Cayley vector of a slice, in the body's axes; |u| <= 1/8 */
+    uint8_t slice_bits;
+};
+
+/* What few bodies have: one of the pool of extras. */
+struct body_extra {
+    uint16_t body; /* whose it is */
+    bool used;
+    /* material, beside e and mu, which all bodies have */
+    uint32_t rolling_q16;          /* the arm of rolling friction over the radius */
+    carom_v3_q40 surface_velocity; /* in the mesh's axes */
+    const struct carom_material
+        *materials;               /* by face, the caller's; NULL: all faces have the body's */
+    const uint8_t *face_material; /* the number of each face's */
+    int32_t most_restitution_q30; /* of those */
+    uint32_t most_friction_q16;
+    /* what acts on it beside its force; hashed, saved */
+    carom_v3_q40 torque;
+    int32_t gravity_scale_q16;
+    int32_t linear_damping_q30, angular_damping_q30;
+    /* a kinematic body */
+    bool kinematic;
+    bool blocked;            /* step: it stopped in the frame at hand */
+    struct body_drive drive; /* saved */
+    struct body_route route; /* step: of the frame at hand; still once it was blocked */
+};
+
+/* What a body without an extra has. */
+extern const struct body_extra body_no_extra;
+
 /* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
 /*
- * A body, 584 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
+ * A body, 600 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
  * world sets outlives a step, and so do in_contact and the region with `active`, `free`, `boxed` and the
  * box: no result depends on these.
  */
@@ -127,6 +178,7 @@ struct body {
     /* world, 7 bytes */
     const struct carom_mesh *mesh; /* NULL: the place is free */
     bool moving;
+    bool goes;        /* has paths: moves, or is kinematic and led somewhere */
     bool standing;    /* still, and the path, the region and the box are those of where it is */
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
@@ -139,10 +191,13 @@ struct body {
     bool solving;     /* rest: has a contact in the solve at hand */
     bool unsettled;   /* rest: its island's last solve left places that approach */
     int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
-    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
-    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
-    bool rewound;  /* energy: is back where the frame found it */
-    bool woke;     /* wake: in the static check at hand */
+    bool touched; /* step: was in contact in the last one; energy: its island must not gain any */
+    bool
+        grounded : 1; /* energy: touches a body that stands still; the lowest of an island: any does */
+    bool rewound : 1;    /* energy: is back where the frame found it */
+    bool woke : 1;       /* wake: in the static check at hand */
+    bool sensor : 1;     /* world */
+    uint8_t one_way : 3; /* world: enum carom_one_way */
     PHASE_TAG(work_phase)
 
     /* islands, by whoever asks for them: 6 bytes with `contacts` */
@@ -171,6 +226,8 @@ struct body {
     uint8_t shorter; /* answer: slices are shorter by so many factors of 4; one less after each */
 
     uint16_t contacts; /* solve: where the island's contacts are listed */
+    uint16_t
+        joined; /* world: one more than the lowest of the bodies that joints connect it with; BODY_ALONE */
 
     /* clock, and solve while there is no path: 160 bytes */
     struct body_path path;
@@ -185,7 +242,8 @@ struct body {
 
     /* solve: before it, 72 bytes */
     carom_v3_q40 saved_momentum; /* for the energy rule */
-    carom_v3_q40 velocity, spin; /* between steps, while a snapshot is read: its force */
+    carom_v3_q40 velocity,
+        spin; /* between steps, while a snapshot is read: its forces, in all three */
 
     /* world, 24 bytes: through the centre of mass, until the caller changes it; hashed, saved */
     carom_v3_q40 force;
@@ -194,7 +252,20 @@ struct body {
         struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
         int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
     };
+
+    /* world, 16 bytes: what no solve reads */
+    uint16_t generation;     /* of the bodies that had this place, from 1 on; 0: none has */
+    uint16_t category, mask; /* which bodies it may touch */
+    int16_t group;
+    void *user;               /* the caller's */
+    struct body_extra *extra; /* NULL: none */
 };
+
+/* Whether a kinematic body is led somewhere. */
+static inline bool body_travels(const struct body *b)
+{
+    return b->goes && !b->moving;
+}
 
 /* The path of a body that has one: for all but `start`, `start_x_q32` and `turns`, which stay. */
 static inline const struct body_path *body_path(const struct body *b)
@@ -302,6 +373,19 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
  * pose at its start. body_predict sets the whole again.
  */
 void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30);
+/*
+ * The route of a kinematic body to another pose in a frame, by the shorter turn; or with a velocity and a
+ * spin of at most 3.2 radians a frame. The centre goes less than 2^7 units.
+ */
+void body_route_to(const struct body *b, const struct body_state *s, const carom_v3_q32 *position,
+                   const carom_quat_q30 *rotation, struct body_route *route);
+void body_route_on(const struct body *b, const struct body_state *s, const carom_v3_q40 *velocity,
+                   const carom_v3_q40 *spin, struct body_route *route);
+/* The path of the next slice of a body's route. */
+void body_follow(struct body *b, const struct body_state *s);
+/* How a place of a body moves on its route, `arm` from its centre in world axes. */
+void body_route_velocity(const struct body *b, const carom_v3_q40 *arm, carom_v3_q40 *v);
+
 /*
  * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
  * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.

@@ -96,8 +96,10 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 {
     bool same, full = list->pool->used == list->pool->size;
     uint32_t place = find_place(list, key, &same);
+    struct contact_mixed mixed;
     carom_v3_q40 drift;
     struct contact *c;
+    bool mixes = false;
 
     if (same && !list->contacts[place].doubted) {
         return true;
@@ -122,7 +124,10 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->side[1].body = pair->b->moving ? pair->b : NULL;
     set_arms(c, arm);
     contact_drift(pair, key, &arm[1], &drift);
-    contact_keep_drift(list, c, &drift);
+    if (pair->a->extra || pair->b->extra) {
+        mixes = contact_materials(list, pair, key, normal, &drift, &mixed);
+    }
+    contact_keep_drift(list, c, &drift, mixes ? &mixed : NULL);
     return true;
 }
 

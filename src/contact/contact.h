@@ -81,7 +81,7 @@ struct contact {
     carom_v3_q30 normal; /* N, from b into a */
     int32_t gap_q22;
     int32_t skin_q22;    /* of the pair */
-    carom_v3_q40 *drift; /* how a surface that the caller moves does there; NULL: there is none */
+    carom_v3_q40 *drift; /* how a surface moves there beside its body; NULL: not at all */
     struct contact_side side[2];
 
     /* worked out by the solver */
@@ -174,12 +174,20 @@ static inline carom_v3_q40 *contact_moment(const struct contact *c)
     return &c->work->roll->moment_q40;
 }
 
+/* e and mu of a contact of which a body's faces are of several materials. */
+struct contact_mixed {
+    int32_t restitution_q30; /* -1: there is only a drift, and both are the bodies' */
+    uint32_t friction_q16;
+};
+
 /* The contacts of a world at the present poses, sorted by key, with their pool. */
 struct contact_list {
     struct contact *contacts;
     struct pool *pool;
     carom_v3_q40 *drifts; /* as many as there is room for contacts; NULL where no surface moves */
-    uint32_t next_drift;  /* where a free one is looked for first */
+    struct contact_mixed *mixed; /* one for each of those; NULL where no body has an extra */
+    uint32_t next_drift;         /* where a free one is looked for first */
+    uint8_t restitution_rule, friction_rule; /* enum carom_combine */
 };
 
 /*
@@ -253,14 +261,43 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
 
 /*
  * How the surface of b moves at a contact, in world axes: what it moved by since the last step, a
- * frame; 0 for all else.
+ * frame; of a kinematic body, how it goes on its route; 0 for all else.
  *   arm  from b's centre to the contact
  */
 void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
                    const carom_v3_q40 *arm, carom_v3_q40 *drift);
 
-/* Remember it with the contact, when it is not 0. */
-void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift);
+/* Remember it with the contact, when it is not 0 or when there is `mixed`. */
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift,
+                        const struct contact_mixed *mixed);
+
+/* e and mu of a pair from those of both. */
+int32_t contact_mix_restitution(const struct contact_list *list, int32_t a_q30, int32_t b_q30);
+uint32_t contact_mix_friction(const struct contact_list *list, uint32_t a_q16, uint32_t b_q16);
+/* What was remembered of a contact; NULL: it is of the bodies' own e and mu. */
+static inline const struct contact_mixed *contact_mixed(const struct contact_list *list,
+                                                        const struct contact *c)
+{
+    const struct contact_mixed *mixed =
+        list->mixed && c->drift ? &list->mixed[c->drift - list->drifts] : NULL;
+
+    return mixed && mixed->restitution_q30 >= 0 ? mixed : NULL;
+}
+
+/*
+ * What the materials of a contact's faces make of it, where a body has an extra: how the surface of b moves along
+ * itself past that of a is added to the drift. Returns whether e and mu are others than the bodies'.
+ */
+bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
+                       const struct candidate *key, const carom_v3_q30 *normal, carom_v3_q40 *drift,
+                       struct contact_mixed *mixed);
+
+/*
+ * The face of a side of a contact that looks most along N, or against it for a: the face itself, one at the
+ * edge, one around the vertex. Of two that do so alike it is the one with the lower number.
+ */
+uint32_t contact_face(const struct body *b, const struct candidate *key, int side,
+                      const carom_v3_q30 *normal);
 
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How a surface that the caller moves does so at a contact. */
+/* How a surface or a body that the caller moves does so at a contact. */
 #include "contact.h"
 
 void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
@@ -11,6 +11,10 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
     int64_t local[3];
 
     *drift = (carom_v3_q40){{0, 0, 0}};
+    if (body_travels(b)) {
+        body_route_velocity(b, arm, drift);
+        return;
+    }
     if (mesh_drift_most(b->mesh) == 0) {
         return;
     }
@@ -41,10 +45,11 @@ static bool is_kept(const struct contact_list *list, const carom_v3_q40 *drift)
 }
 
 /* The contacts may go, be moved and be copied over: what none of them has is free. */
-void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift)
+void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift,
+                        const struct contact_mixed *mixed)
 {
     c->drift = NULL;
-    if ((drift->c[0] | drift->c[1] | drift->c[2]) == 0) {
+    if (!mixed && (drift->c[0] | drift->c[1] | drift->c[2]) == 0) {
         return;
     }
     while (is_kept(list, &list->drifts[list->next_drift])) {
@@ -52,4 +57,7 @@ void contact_keep_drift(struct contact_list *list, struct contact *c, const caro
     }
     c->drift = &list->drifts[list->next_drift];
     *c->drift = *drift;
+    if (list->mixed) {
+        list->mixed[list->next_drift] = mixed ? *mixed : (struct contact_mixed){-1, 0};
+    }
 }

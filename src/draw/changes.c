@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "../num/fnv.h"
 #include "draw.h"
 
 /* A part of the picture costs as much to begin as so many pixels of it to draw. */
@@ -11,27 +12,16 @@ static int32_t area(const struct carom_rect *r)
     return (r->x1 - r->x0) * (r->y1 - r->y0);
 }
 
-static struct carom_rect around(const struct carom_rect *a, const struct carom_rect *b)
-{
-    return (struct carom_rect){a->x0 < b->x0 ? a->x0 : b->x0, a->y0 < b->y0 ? a->y0 : b->y0,
-                               a->x1 > b->x1 ? a->x1 : b->x1, a->y1 > b->y1 ? a->y1 : b->y1};
-}
-
-static bool is_empty(const struct carom_rect *r)
-{
-    return r->x0 >= r->x1 || r->y0 >= r->y1;
-}
-
 /* Have the pixels of a rectangle drawn, together with those of another where that costs less. */
 static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
 {
     int i = 0;
 
-    if (is_empty(&rect)) {
+    if (draw_is_empty(&rect)) {
         return;
     }
     while (i < drawn->changed_count) {
-        struct carom_rect *other = &drawn->changed[i++], both = around(&rect, other);
+        struct carom_rect *other = &drawn->changed[i++], both = draw_around(&rect, other);
 
         if (area(&both) <= area(&rect) + area(other) + PART_PIXELS ||
             drawn->changed_count == CAROM_DRAWN_RECTS) {
@@ -43,14 +33,6 @@ static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
     drawn->changed[drawn->changed_count++] = rect;
 }
 
-static struct carom_rect on_picture(const struct draw_view *view, struct draw_rect r)
-{
-    const int32_t *middle = view->middle;
-
-    return (struct carom_rect){(int16_t)(r.x0 + middle[0]), (int16_t)(r.y0 + middle[1]),
-                               (int16_t)(r.x1 + middle[0]), (int16_t)(r.y1 + middle[1])};
-}
-
 /* -------------------------------------------------------------------- bodies */
 
 /* What goes into a picture. */
@@ -58,6 +40,7 @@ struct changes {
     struct draw_source source;
     struct draw_view view;                   /* of all of it */
     const struct carom_face_ref *refs, *end; /* interfering faces of bodies not yet looked at */
+    uint64_t lines_hash;
 };
 
 /* What is to show of a body, but for where on the picture; of one that is not there, nothing. */
@@ -68,6 +51,7 @@ static struct carom_drawn_body look(const struct draw_source *source, uint32_t n
     if (draw_look(source, number, &now.look) && now.look.mesh->surface) {
         now.moves = now.look.mesh->surface->moves;
     }
+    now.ramp = draw_paint_ramp(source->paint, number);
     return now;
 }
 
@@ -76,6 +60,7 @@ static bool same_body(const struct carom_drawn_body *before, const struct carom_
     const struct carom_body_look *a = &before->look, *b = &now->look;
 
     return a->mesh == b->mesh && a->moving == b->moving && before->moves == now->moves &&
+           before->ramp == now->ramp &&
            memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
            memcmp(&a->rotation, &b->rotation, sizeof a->rotation) == 0;
 }
@@ -99,7 +84,7 @@ static struct carom_rect find_rect(const struct changes *c, const struct carom_b
             }
         }
     }
-    return on_picture(&c->view, draw_extent_end(&extent, &c->view));
+    return draw_on_picture(&c->view, draw_extent_end(&extent, &c->view));
 }
 
 /*
@@ -122,7 +107,7 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
         now.all = before->all;
     } else if (now.look.mesh) {
         now.all = drawn->shows || now.look.moving ? find_rect(c, &now.look, NULL, 0)
-                                                  : on_picture(&c->view, c->view.rect);
+                                                  : draw_on_picture(&c->view, c->view.rect);
     }
     if (drawn->shows) {
         add_rect(drawn, same ? before->hot : before->all);
@@ -131,7 +116,69 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
     *before = now;
 }
 
+/* --------------------------------------------------------------------- lines */
+
+/* What the lines of the paint are, as a number; 0 for none. */
+static uint64_t hash_lines(const struct carom_paint *paint)
+{
+    uint64_t hash = paint && paint->line_count ? FNV_START : 0;
+
+    for (uint32_t i = 0; paint && i < paint->line_count; i++) {
+        const struct carom_paint_line *line = &paint->lines[i];
+        const carom_v3_q32 *const point[2] = {&line->from, &line->to};
+
+        for (int k = 0; k < 6 * 8; k++) {
+            hash = fnv_add(hash, (uint8_t)(point[k / 24]->c[k / 8 % 3] >> (k % 8 * 8)));
+        }
+        hash = fnv_add(fnv_add(hash, (uint8_t)line->colour), (uint8_t)(line->colour >> 8));
+    }
+    return hash;
+}
+
+/* Where the lines show: around all of them. */
+static struct carom_rect find_lines(const struct changes *c)
+{
+    const struct carom_paint *paint = c->source.paint;
+    struct carom_rect all = {0, 0, 0, 0};
+
+    for (uint32_t i = 0; paint && i < paint->line_count; i++) {
+        struct draw_vertex ends[2];
+
+        if (draw_segment(&c->view, &paint->lines[i].from, &paint->lines[i].to, ends)) {
+            draw_touch(&all, draw_on_picture(&c->view, draw_segment_rect(&c->view, ends)));
+        }
+    }
+    return all;
+}
+
+static void see_lines(const struct changes *c, struct carom_drawn *drawn)
+{
+    if (c->lines_hash != drawn->lines_hash || !drawn->shows) {
+        struct carom_rect now = find_lines(c);
+
+        if (drawn->shows) {
+            add_rect(drawn, drawn->lines);
+            add_rect(drawn, now);
+        }
+        drawn->lines = now;
+        drawn->lines_hash = c->lines_hash;
+    }
+}
+
 /* ------------------------------------------------------------------- picture */
+
+/* Whether two paints are the same but for lines and the ramps of bodies. Either may be NULL. */
+static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
+{
+    static const struct carom_paint none;
+
+    a = a ? a : &none;
+    b = b ? b : &none;
+    return a->palette == b->palette && draw_ramps(a) == draw_ramps(b) &&
+           a->hide_interfering == b->hide_interfering &&
+           a->interfering_ramp == b->interfering_ramp &&
+           memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->ambient_q30 == b->ambient_q30;
+}
 
 /* Whether the pixels are those that were drawn before, in the same way. */
 static bool same_picture(const struct carom_drawn *drawn, const struct carom_camera *camera,
@@ -143,6 +190,7 @@ static bool same_picture(const struct carom_drawn *drawn, const struct carom_cam
            old->width == picture->width && old->height == picture->height &&
            old->stride == picture->stride && old->format == picture->format &&
            old->row == picture->row && old->context == picture->context &&
+           same_paint(&drawn->paint, picture->paint) &&
            drawn->camera.focal_q16 == camera->focal_q16 &&
            memcmp(&drawn->camera.eye, &camera->eye, sizeof camera->eye) == 0 &&
            memcmp(&drawn->camera.target, &camera->target, sizeof camera->target) == 0;
@@ -161,14 +209,27 @@ static bool stands_still(const struct changes *c, const struct carom_drawn *draw
 {
     uint32_t count = body_count(c, drawn);
 
+    if (!draw_is_empty(&drawn->touched) || c->lines_hash != drawn->lines_hash) {
+        return false;
+    }
     for (uint32_t i = 0; i < count; i++) {
         const struct carom_drawn_body *before = &drawn->bodies[i], now = look(&c->source, i);
 
-        if (!same_body(before, &now) || !is_empty(&before->hot)) {
+        if (!same_body(before, &now) || !draw_is_empty(&before->hot)) {
             return false;
         }
     }
     return c->refs == c->end;
+}
+
+/* The pixels of the picture that something else has written to. */
+static struct carom_rect touched_in(const struct changes *c, const struct carom_rect *touched)
+{
+    const struct carom_rect all = draw_on_picture(&c->view, c->view.rect);
+
+    return (struct carom_rect){
+        touched->x0 > all.x0 ? touched->x0 : all.x0, touched->y0 > all.y0 ? touched->y0 : all.y0,
+        touched->x1 < all.x1 ? touched->x1 : all.x1, touched->y1 < all.y1 ? touched->y1 : all.y1};
 }
 
 /* Take down what is to be shown, and what of the picture that changes. */
@@ -182,12 +243,16 @@ static void find_changes(struct changes *c, const struct carom_camera *camera,
     for (uint32_t i = 0; i < count; i++) {
         see_body(c, drawn, i);
     }
+    see_lines(c, drawn);
+    add_rect(drawn, touched_in(c, &drawn->touched));
+    drawn->touched = (struct carom_rect){0, 0, 0, 0};
     if (!drawn->shows) {
-        add_rect(drawn, on_picture(&c->view, c->view.rect));
+        add_rect(drawn, draw_on_picture(&c->view, c->view.rect));
     }
     drawn->count = c->source.count;
     drawn->camera = *camera;
     drawn->picture = *picture;
+    drawn->paint = picture->paint ? *picture->paint : (struct carom_paint){.palette = NULL};
     drawn->style = (uint8_t)style;
 }
 
@@ -203,19 +268,21 @@ int carom_draw_changes(const struct carom_world *world, const struct carom_camer
     if (result != CAROM_OK) {
         return result;
     }
-    draw_source_init(&c.source, world);
+    draw_source_init(&c.source, world, picture->paint);
     if (c.source.count > drawn->room) {
         return CAROM_ERR_MEMORY;
     }
     same = same_picture(drawn, camera, picture, style);
     c.refs = c.source.hot;
     c.end = c.refs + c.source.hot_count;
+    c.lines_hash = hash_lines(picture->paint);
     drawn->changed_count = 0;
     if (same && stands_still(&c, drawn)) {
         return CAROM_OK;
     }
     result = draw_view_init(&c.view, camera, picture->width, picture->height);
     if (result == CAROM_OK) {
+        draw_paint_light(&c.view, picture->paint);
         drawn->shows = same;
         find_changes(&c, camera, picture, style, drawn);
     }

@@ -17,22 +17,32 @@ static int check_pixels(const struct carom_picture *picture, enum carom_draw_sty
     return (uintptr_t)picture->pixels % (uintptr_t)each != 0 ? CAROM_ERR_MEMORY : CAROM_OK;
 }
 
+int draw_check_picture(const struct carom_picture *picture, enum carom_draw_style style)
+{
+    int result;
+
+    if (picture == NULL || (picture->pixels == NULL && picture->row == NULL)) {
+        return CAROM_ERR_NULL;
+    }
+    if (picture->width < 1 || picture->width > 2 * DRAW_GUARD || picture->height < 1 ||
+        picture->height > 2 * DRAW_GUARD || picture->format > CAROM_BGR555) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    result = draw_check_paint(picture);
+    return result == CAROM_OK ? check_pixels(picture, style) : result;
+}
+
 int draw_check(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style)
 {
     if (world == NULL || camera == NULL || picture == NULL ||
-        (picture->pixels == NULL && picture->row == NULL) ||
         (style == CAROM_DRAW_FLAT && picture->workspace == NULL)) {
         return CAROM_ERR_NULL;
     }
     if (style != CAROM_DRAW_FLAT && style != CAROM_DRAW_WIRE) {
         return CAROM_ERR_ARGUMENT;
     }
-    if (picture->width < 1 || picture->width > 2 * DRAW_GUARD || picture->height < 1 ||
-        picture->height > 2 * DRAW_GUARD || picture->format > CAROM_BGR555) {
-        return CAROM_ERR_ARGUMENT;
-    }
-    return check_pixels(picture, style);
+    return draw_check_picture(picture, style);
 }
 
 int draw_part(const struct draw_source *source, struct draw_view *view,
@@ -59,6 +69,7 @@ int carom_draw(const struct carom_world *world, const struct carom_camera *camer
     if (result != CAROM_OK) {
         return result;
     }
-    draw_source_init(&source, world);
+    draw_paint_light(&view, picture->paint);
+    draw_source_init(&source, world, picture->paint);
     return draw_part(&source, &view, picture, style, draw_whole(&view, picture));
 }

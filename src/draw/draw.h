@@ -34,22 +34,14 @@
 
 #define DRAW_GUARD 1024
 
-/* Ramps of carom_draw_palette, in its order. Interfering faces are HOT. */
-enum draw_ramp {
-    DRAW_BACKGROUND, /* from the top of the picture to the bottom */
-    DRAW_STATIONARY, /* from shadow to light */
-    DRAW_MOVING,
-    DRAW_STATIONARY_HOT,
-    DRAW_MOVING_HOT,
-    DRAW_RAMPS
-};
-#define DRAW_SHADES 32
-
-/* The palette entry of a shade of a body's ramp. */
-static inline uint32_t draw_ramp_entry(bool moving, bool hot, uint32_t shade)
-{
-    return (uint32_t)(DRAW_STATIONARY + moving + 2 * hot) * DRAW_SHADES + shade;
-}
+/* Ramps of a palette. Interfering faces are HOT. */
+#define DRAW_BACKGROUND     CAROM_RAMP_BACKGROUND
+#define DRAW_STATIONARY     CAROM_RAMP_STATIONARY
+#define DRAW_MOVING         CAROM_RAMP_MOVING
+#define DRAW_STATIONARY_HOT CAROM_RAMP_STATIONARY_HOT
+#define DRAW_MOVING_HOT     CAROM_RAMP_MOVING_HOT
+#define DRAW_SHADES         CAROM_RAMP_SHADES
+#define DRAW_RAMPS          8 /* of carom_draw_palette */
 
 /* A rectangle of pixels; x1 and y1 are outside. */
 struct draw_rect {
@@ -61,11 +53,13 @@ struct draw_rect {
 struct draw_source {
     const struct carom_world *world;
     uint32_t count;                   /* numbers of bodies are below */
-    const struct carom_face_ref *hot; /* interfering faces, by body */
+    const struct carom_face_ref *hot; /* interfering faces, by body; those that are to show */
     int hot_count;
+    const struct carom_paint *paint; /* or NULL */
 };
 
-void draw_source_init(struct draw_source *source, const struct carom_world *world);
+void draw_source_init(struct draw_source *source, const struct carom_world *world,
+                      const struct carom_paint *paint);
 
 /* The mesh of a body; NULL when there is none of this number. */
 static inline const struct carom_mesh *draw_mesh(const struct draw_source *source, uint32_t number)
@@ -106,7 +100,22 @@ struct draw_view {
     struct draw_rect rect; /* the part, counted from there */
     carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
     struct draw_cover cover;
+    carom_v3_q30 light; /* towards it, in the world; its length is half of what shades differ by */
+    uint32_t shade_q24; /* of what is across it */
 };
+
+/* Ramps of a body, with its paint if it has one. */
+struct draw_coat {
+    const uint8_t *faces; /* of each face, 0: its own; or NULL */
+    uint8_t own, hot;
+};
+
+/* The usual ones. */
+static inline struct draw_coat draw_usual_coat(bool moving)
+{
+    return (struct draw_coat){NULL, (uint8_t)(DRAW_STATIONARY + moving),
+                              (uint8_t)(DRAW_STATIONARY_HOT + moving)};
+}
 
 /* A body as the camera sees it. */
 struct draw_body {
@@ -118,8 +127,10 @@ struct draw_body {
     int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
     carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
     carom_v3_q30 cover;            /* its axis, in the same */
-    uint32_t ramp;                 /* its first palette entry, and 16 shades, in q24 */
-    carom_v3_q30 light;            /* towards the light, in mesh axes; a little short */
+    uint32_t ramp;                 /* the first palette entry if it has no paint, and the view's
+                                      shade; in q24 */
+    carom_v3_q30 light;            /* the view's, in mesh axes */
+    struct draw_coat coat;
     /* view = (to_view (vertex << up) + origin) / 2^30 */
     carom_m3_q30 to_view;
     int64_t origin[3];
@@ -197,6 +208,12 @@ struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct 
 #define DRAW_CLIP_MAX 8
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
+/* The same of corners in view coordinates; these are overwritten. */
+int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
+                     struct draw_vertex out[DRAW_CLIP_MAX]);
+
+/* What points of the world that are not of a body need of one, with `shift` set. */
+void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift);
 
 /* ---- divide.c: quotients for processors that cannot divide */
 
@@ -383,14 +400,70 @@ uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *p
 
 void draw_wire(const struct draw_source *source, struct draw_view *view,
                const struct carom_picture *picture, struct draw_rect part);
+/* A line between two places in the guard band, within the view's part. */
+void draw_line(const struct draw_view *view, const struct carom_picture *picture,
+               const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour);
+
+/* ---- segment.c: lines of the world */
+
+/* A line on the picture. Returns whether anything of it is in the guard band. */
+bool draw_segment(const struct draw_view *view, const carom_v3_q32 *from, const carom_v3_q32 *to,
+                  struct draw_vertex ends[2]);
+/* Whether a point may be an end. */
+bool draw_point_in_range(const carom_v3_q32 *point);
+/* The corners of a line that is one pixel wide, counter-clockwise, a little nearer than it is. */
+void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4]);
+/* The pixels that a line may take, within the view's part; none: all zero. */
+struct draw_rect draw_segment_rect(const struct draw_view *view, const struct draw_vertex ends[2]);
+
+/* ---- rect.c: rectangles of a picture */
+
+/* Pixels of a picture from those counted from the middle; around two; whether there are none. */
+struct carom_rect draw_on_picture(const struct draw_view *view, struct draw_rect r);
+struct carom_rect draw_around(const struct carom_rect *a, const struct carom_rect *b);
+bool draw_is_empty(const struct carom_rect *r);
+/* Let what is touched, which may be NULL, hold those of a rectangle, too. */
+void draw_touch(struct carom_rect *touched, struct carom_rect r);
+
+/* ---- paint.c: what is drawn otherwise than usual */
+
+/* Whether the paint of a picture can be used: CAROM_OK, or what carom_draw returns. */
+int draw_check_paint(const struct carom_picture *picture);
+/* The light of the paint. */
+void draw_paint_light(struct draw_view *view, const struct carom_paint *paint);
+/* The ramp that paint gives a body; 0: none. */
+uint8_t draw_paint_ramp(const struct carom_paint *paint, uint32_t number);
+/* Put paint, which may be NULL, over the usual ramps of a body. */
+void draw_paint_body(struct draw_coat *coat, const struct carom_paint *paint, uint32_t number);
+/* The ramp of a face. */
+uint32_t draw_face_ramp(const struct draw_coat *coat, const struct carom_paint *paint,
+                        uint32_t face);
+/* Ramps of a paint's palette. */
+static inline uint32_t draw_ramps(const struct carom_paint *paint)
+{
+    return paint && paint->palette ? paint->ramps : DRAW_RAMPS;
+}
+
+/* ---- font.c */
+
+#define DRAW_GLYPH_WIDTH 5
+/* By character from 32 on; the last is a box. */
+extern const uint8_t draw_font[96][DRAW_GLYPH_WIDTH];
 
 /* ---- palette.c */
 
-/* A palette entry as a pixel of the format, over a whole word as often as it fits. */
-uint32_t draw_colour(uint8_t format, uint32_t index);
+static inline const uint32_t *draw_palette(const struct carom_picture *picture)
+{
+    return picture->paint && picture->paint->palette ? picture->paint->palette : carom_draw_palette;
+}
+
+/* A palette entry as a pixel of the picture, over a whole word as often as it fits. */
+uint32_t draw_colour(const struct carom_picture *picture, uint32_t index);
 
 /* ---- draw.c: a picture and its parts */
 
+/* Whether a picture's size, pixels and paint are such that it can be drawn on. */
+int draw_check_picture(const struct carom_picture *picture, enum carom_draw_style style);
 /* Whether a picture can be drawn, but for the camera. Returns what carom_draw does. */
 int draw_check(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);

@@ -10,6 +10,8 @@
 #define LEAF_ROOM                                                                                  \
     (LEAF_FACES * sizeof(struct draw_face) + LEAF_VERTICES * sizeof(struct draw_vertex))
 
+#define LINE_ROOM (2 * sizeof(struct draw_face) + 4 * sizeof(struct draw_vertex))
+
 /* Where a pass over the world is. */
 struct flat {
     const struct draw_source *source;
@@ -17,7 +19,8 @@ struct flat {
     struct draw_list list;
     struct draw_body body;
     uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
-    uint32_t *hot;  /* a bit for each face of the body: whether it interferes; or NULL */
+    uint32_t *hot;  /* a bit for each face of the body: whether it interferes; NULL for none */
+    bool painted;   /* the body, by the paint; `hot` is there then */
     uint32_t *hot_bits;
     uint16_t *rows;
     struct draw_vertex *vertices;
@@ -151,6 +154,15 @@ static inline uint32_t face_colour(const struct draw_body *body, const carom_v3_
     return ((uint32_t)(carom_dot(normal->c, body->light.c) >> 32) + body->ramp) >> 24;
 }
 
+/* The same of a face of a body that has paint. */
+static uint32_t paint_colour(const struct flat *f, uint32_t number, uint32_t colour, bool hot)
+{
+    const struct draw_coat *coat = &f->body.coat;
+    uint32_t ramp = hot ? coat->hot : draw_face_ramp(coat, f->source->paint, number);
+
+    return ramp * DRAW_SHADES + colour % DRAW_SHADES;
+}
+
 /* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
 static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
                      const struct draw_cover *cover)
@@ -170,8 +182,14 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
         if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
             uint32_t colour = face_colour(body, &face->normal);
 
-            if (f->hot && f->hot[number >> 5] >> (number & 31) & 1) {
-                colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
+            if (f->hot) {
+                bool hot = f->hot[number >> 5] >> (number & 31) & 1;
+
+                if (f->painted) {
+                    colour = paint_colour(f, number, colour, hot);
+                } else if (hot) {
+                    colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
+                }
             }
             see_face(f, number, colour, inside, cover);
         }
@@ -183,13 +201,18 @@ static void mark_hot(struct flat *f, uint32_t number)
 {
     const struct carom_face_ref *refs = f->source->hot;
     uint32_t faces = f->body.mesh->raw.face_count;
+    const size_t bytes = (faces + 31) / 32 * sizeof f->hot_bits[0];
 
     f->hot = NULL;
+    if (f->painted) {
+        f->hot = f->hot_bits;
+        memset(f->hot, 0, bytes);
+    }
     for (int i = 0; i < f->source->hot_count; i++) {
         if (refs[i].body == number && refs[i].face < faces) {
             if (f->hot == NULL) {
                 f->hot = f->hot_bits;
-                memset(f->hot, 0, (faces + 31) / 32 * sizeof f->hot[0]);
+                memset(f->hot, 0, bytes);
             }
             f->hot[refs[i].face >> 5] |= 1u << (refs[i].face & 31);
         }
@@ -200,6 +223,32 @@ static size_t room(const struct draw_list *list)
 {
     return (size_t)((const uint8_t *)(list->faces - (list->face_count - 1)) -
                     (const uint8_t *)(list->vertices + list->vertex_count));
+}
+
+/* List the lines of the paint; false when there is no room for all of them. */
+static bool see_lines(struct flat *f)
+{
+    const struct carom_paint *paint = f->source->paint;
+
+    for (uint32_t i = 0; paint && i < paint->line_count; i++) {
+        const struct carom_paint_line *line = &paint->lines[i];
+        struct draw_vertex ends[2], corner[4];
+        uint32_t at = f->list.vertex_count;
+
+        if (!draw_segment(f->view, &line->from, &line->to, ends)) {
+            continue;
+        }
+        if (room(&f->list) < LINE_ROOM || at + 4 > OUTSIDE || f->list.face_count + 2 > FACES_MAX) {
+            return false;
+        }
+        draw_ribbon(ends, corner);
+        for (int k = 0; k < 4; k++) {
+            list_vertex(&f->list, corner[k]);
+        }
+        list_face(&f->view->rect, &f->list, at, at + 1, at + 2, line->colour, false);
+        list_face(&f->view->rect, &f->list, at, at + 2, at + 3, line->colour, false);
+    }
+    return true;
 }
 
 /* List what shows in the part; false when there is no room for all of it. */
@@ -221,6 +270,8 @@ static bool see_part(struct flat *f)
             continue;
         }
         mesh = look.mesh;
+        f->painted = f->source->paint != NULL;
+        draw_paint_body(&f->body.coat, f->source->paint, i);
         mark_hot(f, i);
         memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
@@ -241,7 +292,7 @@ static bool see_part(struct flat *f)
             }
         }
     }
-    return true;
+    return see_lines(f);
 }
 
 /* -------------------------------------------------------------------- parts */

@@ -19,32 +19,72 @@
 /* DRAW_SHADES entries from `low` over `middle` to `high`. */
 #define RAMP(low, middle, high) BLEND_16(low, middle, 16), BLEND_16(middle, high, 15)
 
-/* In the order of enum draw_ramp; the rest is black, and white at the end, for the program. */
+/* Of enum carom_colour. */
+#define COLOURS 0x000000, 0xff3030, 0x30e030, 0x4080ff, 0xffe030, 0xff40ff, 0x30e8e8, 0xffffff
+
+/* In the order of enum carom_ramp; the rest is black, for the program. */
 const uint32_t carom_draw_palette[256] = {
     RAMP(0x0e1522, 0x22344c, 0x56708c), /* background */
     RAMP(0x08161c, 0x1f5a5c, 0xcdeeb0), /* stationary */
     RAMP(0x20121a, 0x94583c, 0xfff3dc), /* moving */
     RAMP(0x4a0030, 0xd01858, 0xff86ac), /* stationary, interfering */
     RAMP(0x5a1800, 0xf06000, 0xffe040), /* moving, interfering */
-    [255] = 0xffffff,
+    RAMP(0x0a1030, 0x2a5cb0, 0xcfe6ff), /* blue */
+    RAMP(0x1a0a30, 0x6c3aa8, 0xe8d0ff), /* violet */
+    [CAROM_COLOUR_BLACK] = COLOURS,
 };
 
-/* First grey of each ramp, and what it gains up to the last. */
-static const uint8_t greys[DRAW_RAMPS][2] = {{0, 1}, {2, 4}, {6, 7}, {14, 1}, {15, 0}};
-
-static uint32_t grey(uint32_t index)
+int carom_draw_ramp(uint32_t ramp[CAROM_RAMP_SHADES], uint32_t rgb)
 {
-    const uint8_t *ramp = greys[index / DRAW_SHADES];
+    if (ramp == NULL) {
+        return CAROM_ERR_NULL;
+    }
+    for (uint32_t i = 0; i < DRAW_SHADES; i++) {
+        uint32_t shade = 0;
 
+        for (int shift = 0; shift < 24; shift += 8) {
+            uint32_t full = rgb >> shift & 0xff, half = DRAW_SHADES / 2;
+            uint32_t low = full / 4, high = full + (255 - full) / 2;
+            uint32_t value = i < half ? low + (full - low) * i / half
+                                      : full + (high - full) * (i - half) / (half - 1);
+
+            shade |= value << shift;
+        }
+        ramp[i] = shade;
+    }
+    return CAROM_OK;
+}
+
+/* First grey of each usual ramp, and what it gains up to the last. */
+static const uint8_t greys[][2] = {{0, 1}, {2, 4}, {6, 7}, {14, 1}, {15, 0}};
+#define GREY_RAMPS (sizeof greys / sizeof greys[0])
+
+/* The light of a colour, by what eyes see of red, green and blue, to the nearest of 16. */
+static uint32_t grey_of(uint32_t rgb)
+{
+    uint32_t light = (rgb >> 16 & 0xff) * 77 + (rgb >> 8 & 0xff) * 150 + (rgb & 0xff) * 29;
+
+    return (light * 15 + 128 * 255) / (256 * 255);
+}
+
+static uint32_t grey(const uint32_t *palette, uint32_t index)
+{
+    const uint8_t *ramp;
+
+    if (palette != carom_draw_palette || index >= GREY_RAMPS * DRAW_SHADES) {
+        return grey_of(palette[index]);
+    }
+    ramp = greys[index / DRAW_SHADES];
     return ramp[0] +
            (ramp[1] * (index % DRAW_SHADES) * 2 + DRAW_SHADES - 1) / (2 * DRAW_SHADES - 2);
 }
 
-uint32_t draw_colour(uint8_t format, uint32_t index)
+uint32_t draw_colour(const struct carom_picture *picture, uint32_t index)
 {
-    uint32_t rgb = carom_draw_palette[index];
+    const uint32_t *palette = draw_palette(picture);
+    uint32_t rgb = palette[index];
 
-    switch (format) {
+    switch (picture->format) {
     case CAROM_PALETTE8:
         return index * 0x01010101u;
     case CAROM_RGB565:
@@ -52,7 +92,7 @@ uint32_t draw_colour(uint8_t format, uint32_t index)
     case CAROM_BGR555:
         return ((rgb << 7 & 0x7c00) | (rgb >> 6 & 0x03e0) | (rgb >> 19 & 0x001f)) * 0x00010001u;
     case CAROM_GREY4:
-        return grey(index) * 0x11111111u;
+        return grey(palette, index) * 0x11111111u;
     default:
         return rgb;
     }

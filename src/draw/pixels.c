@@ -26,7 +26,7 @@ uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *p
 {
     uint32_t shade = (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height);
 
-    return draw_colour(picture->format, DRAW_BACKGROUND * DRAW_SHADES + shade);
+    return draw_colour(picture, DRAW_BACKGROUND * DRAW_SHADES + shade);
 }
 
 /* The bytes from p to end of a word that repeats. */

@@ -10,7 +10,7 @@
  * Towards the light: (-6, -2, 3) / 7, low from the left, so that a landscape shows its relief. Short
  * of length 1 by one part in 2^20.
  */
-static const carom_v3_q30 light = {{-920349257, -306783086, 460174628}};
+static const carom_v3_q30 usual_light = {{-920349257, -306783086, 460174628}};
 
 /* Right, down and forward, unit vectors. Looking straight up or down, right is the world's x. */
 static bool camera_axes(carom_m3_q30 *axes, const struct carom_camera *camera)
@@ -49,6 +49,8 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     }
     view->eye = camera->eye;
     view->cover = (struct draw_cover){.radius2_q8 = 0};
+    view->light = usual_light;
+    view->shade_q24 = 1u << 28;
     view->middle[0] = width / 4 * 2;
     view->middle[1] = height / 2;
     view->round_q29[0] = (1 << 14) + (width - 2 * view->middle[0]) * (8 << 15);
@@ -176,6 +178,33 @@ static void place_vertices(struct draw_body *body)
     }
 }
 
+/* The view's part of a body of which shift is known. shift <= 9 and z_shift <= 5, so near is at least 2^3. */
+static void place_depth(struct draw_body *body, const struct draw_view *view)
+{
+    body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
+    body->w_shift = 14 + body->shift + view->z_shift;
+    memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
+}
+
+/* To view coordinates, from the axes in which it has the view's. */
+static void scale_to_view(struct draw_body *body, const struct draw_view *view)
+{
+    for (int k = 0; k < 3; k++) {
+        body->to_view.c[0][k] = carom_mul_q30(body->to_view.c[0][k], view->scale_q30);
+        body->to_view.c[1][k] = carom_mul_q30(body->to_view.c[1][k], view->scale_q30);
+        body->to_view.c[2][k] >>= view->z_shift;
+    }
+}
+
+void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift)
+{
+    CAROM_ASSERT(shift <= 9);
+    body->shift = shift;
+    place_depth(body, view);
+    body->to_view = view->axes;
+    scale_to_view(body, view);
+}
+
 bool draw_body_init(struct draw_body *body, const struct draw_view *view,
                     const struct carom_body_look *look)
 {
@@ -187,26 +216,20 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view,
     }
     body->mesh = look->mesh;
     body->moving = look->moving;
-    body->ramp = (draw_ramp_entry(look->moving, false, 0) << 24) + (1u << 28);
-    memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
+    body->coat = draw_usual_coat(look->moving);
+    body->ramp = ((uint32_t)body->coat.own * DRAW_SHADES << 24) + view->shade_q24;
     fix_matrix(&r, &look->rotation);
     place_eye(body, view, &r, &look->position);
-    /* shift <= 9 and z_shift <= 5, so this is at least 2^3 */
-    body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
-    body->w_shift = 14 + body->shift + view->z_shift;
+    place_depth(body, view);
     for (int k = 0; k < 3; k++) {
         carom_rotate_back(body->to_view.c[k], &r, view->axes.c[k]);
     }
-    for (int k = 0; k < 3; k++) {
-        body->to_view.c[0][k] = carom_mul_q30(body->to_view.c[0][k], view->scale_q30);
-        body->to_view.c[1][k] = carom_mul_q30(body->to_view.c[1][k], view->scale_q30);
-        body->to_view.c[2][k] >>= view->z_shift;
-    }
+    scale_to_view(body, view);
     place_vertices(body);
     for (int s = 0; s < DRAW_SIDES; s++) {
         carom_rotate_back(body->side[s].c, &r, view->side[s].c);
     }
-    carom_rotate_back(body->light.c, &r, light.c);
+    carom_rotate_back(body->light.c, &r, view->light.c);
     carom_rotate_back(body->cover.c, &r, view->cover.axis.c);
     return true;
 }
@@ -429,6 +452,18 @@ static struct draw_vertex project_clipped(const struct draw_body *body, int32_t 
     return project(body, at);
 }
 
+int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
+                     struct draw_vertex out[DRAW_CLIP_MAX])
+{
+    for (int plane = 0; plane < DRAW_SIDES; plane++) {
+        n = clip_plane(body, polygon, n, plane);
+    }
+    for (int i = 0; i < n; i++) {
+        out[i] = project_clipped(body, polygon[i]);
+    }
+    return n;
+}
+
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX])
 {
@@ -437,11 +472,5 @@ int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
     for (int i = 0; i < n; i++) {
         place(body, numbers[i], polygon[i]);
     }
-    for (int plane = 0; plane < DRAW_SIDES; plane++) {
-        n = clip_plane(body, polygon, n, plane);
-    }
-    for (int i = 0; i < n; i++) {
-        out[i] = project_clipped(body, polygon[i]);
-    }
-    return n;
+    return draw_clip_placed(body, polygon, n, out);
 }

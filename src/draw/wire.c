@@ -20,8 +20,8 @@ static void put_pixel(const struct draw_view *view, const struct carom_picture *
  * One pixel a column, or a row for a steep line, from the pixel that holds one end to the one that
  * holds the other. Starting at the lower end makes the pixels the same in either direction.
  */
-static void draw_line(const struct draw_view *view, const struct carom_picture *picture,
-                      const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour)
+void draw_line(const struct draw_view *view, const struct carom_picture *picture,
+               const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour)
 {
     int32_t from[2] = {draw_x(a->yx_q4) >> 4, (draw_y(a->yx_q4) - 7) >> 4};
     int32_t to[2] = {draw_x(b->yx_q4) >> 4, (draw_y(b->yx_q4) - 7) >> 4};
@@ -82,8 +82,8 @@ static void draw_face_wire(const struct draw_view *view, const struct carom_pict
     const struct carom_mesh *mesh = body->mesh;
     const struct carom_face *face = &mesh->faces[number];
     bool front = faces_eye(body, face);
-    uint32_t colour =
-        draw_colour(picture->format, draw_ramp_entry(body->moving, false, WIRE_SHADE));
+    uint32_t ramp = draw_face_ramp(&body->coat, picture->paint, number);
+    uint32_t colour = draw_colour(picture, ramp * DRAW_SHADES + WIRE_SHADE);
 
     for (int k = 0; k < 3; k++) {
         const struct carom_edge *edge = &mesh->edges[face->edge[k]];
@@ -116,7 +116,11 @@ static bool see_body(struct draw_body *body, const struct draw_view *view,
 {
     struct carom_body_look look;
 
-    return draw_look(source, number, &look) && draw_body_init(body, view, &look);
+    if (!draw_look(source, number, &look) || !draw_body_init(body, view, &look)) {
+        return false;
+    }
+    draw_paint_body(&body->coat, source->paint, number);
+    return true;
 }
 
 /* The interfering faces, over what was drawn of them before. */
@@ -133,12 +137,26 @@ static void draw_hot_wire(const struct carom_picture *picture, const struct draw
         }
         if (seen && refs[i].face < body.mesh->raw.face_count) {
             const uint16_t *corner = body.mesh->raw.faces[refs[i].face];
-            uint32_t entry = draw_ramp_entry(body.moving, true, WIRE_SHADE);
+            uint32_t entry = body.coat.hot * (uint32_t)DRAW_SHADES + WIRE_SHADE;
 
             for (int k = 0; k < 3; k++) {
                 draw_edge(view, picture, &body, corner[k], corner[(k + 1) % 3],
-                          draw_colour(picture->format, entry));
+                          draw_colour(picture, entry));
             }
+        }
+    }
+}
+
+static void draw_lines(const struct carom_picture *picture, const struct draw_view *view)
+{
+    const struct carom_paint *paint = picture->paint;
+
+    for (uint32_t i = 0; paint && i < paint->line_count; i++) {
+        const struct carom_paint_line *line = &paint->lines[i];
+        struct draw_vertex ends[2];
+
+        if (draw_segment(view, &line->from, &line->to, ends)) {
+            draw_line(view, picture, &ends[0], &ends[1], draw_colour(picture, line->colour));
         }
     }
 }
@@ -161,4 +179,5 @@ void draw_wire(const struct draw_source *source, struct draw_view *view,
         }
     }
     draw_hot_wire(picture, view, source);
+    draw_lines(picture, view);
 }

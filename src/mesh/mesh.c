@@ -46,3 +46,8 @@ int64_t mesh_longest(int64_t longest, const int64_t v[3])
     length = fix_length(v);
     return length > longest ? length : longest;
 }
+
+size_t carom_mesh_bytes(uint32_t vertices, uint32_t faces)
+{
+    return CAROM_MESH_BYTES(vertices, faces);
+}

@@ -37,8 +37,3 @@ int32_t pool_take(struct pool *p)
     }
     return (int32_t)(p->used - 1);
 }
-
-void pool_clear(struct pool *p)
-{
-    p->used = 0;
-}

@@ -32,6 +32,9 @@ struct pool {
 
 /* Takes the next place of the pool and returns its index, or -1 when it is full. */
 int32_t pool_take(struct pool *p);
-void pool_clear(struct pool *p);
+static inline void pool_clear(struct pool *p)
+{
+    p->used = 0;
+}
 
 #endif

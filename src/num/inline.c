@@ -7,6 +7,7 @@ extern inline int64_t carom_round(int64_t v, int s);
 extern inline int64_t carom_shl(int64_t v, int s);
 extern inline int64_t carom_abs(int64_t v);
 extern inline int32_t carom_mul_q30(int32_t a, int32_t b);
+extern inline int64_t carom_scaled(int64_t v, int64_t scale, int bits);
 extern inline int64_t carom_dot(const int32_t a[3], const int32_t b[3]);
 extern inline void carom_cross(int32_t out[3], const int32_t a[3], const int32_t b[3], int s);
 extern inline void carom_rotate(int32_t out[3], const carom_m3_q30 *m, const int32_t a[3]);

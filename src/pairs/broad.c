@@ -95,12 +95,24 @@ bool broad_boxes_meet(struct body *a, struct body *b)
     return !broad_apart(a, b);
 }
 
+bool broad_may_meet(const struct body *a, const struct body *b)
+{
+    if (a->sensor && b->sensor) {
+        return false;
+    }
+    if (a->group == b->group && a->group != 0) {
+        return a->group > 0;
+    }
+    return (a->category & b->mask) != 0 && (b->category & a->mask) != 0;
+}
+
 bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,
                    uint32_t b)
 {
     return bodies[a].mesh && bodies[a].moving && !states[a].out && bodies[b].mesh &&
            !states[b].out && (bodies[b].moving ? b < a : true) &&
-           (broad_active(&bodies[a], &states[a]) || broad_active(&bodies[b], &states[b]));
+           (broad_active(&bodies[a], &states[a]) || broad_active(&bodies[b], &states[b])) &&
+           broad_may_meet(&bodies[a], &bodies[b]);
 }
 
 int broad_pairs(struct pair *pairs, struct pool *pool, struct body *bodies,

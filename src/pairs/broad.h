@@ -53,17 +53,29 @@ struct pair_work {
     /* by the static check that a frame begins with: candidates are clear by so many 16ths of the skin */
     uint8_t clear : 4;
     /* by the answer to hits */
-    uint8_t checked : 1;  /* its contacts are those of the hit at hand */
-    uint8_t repeats;      /* how often, without any time between */
-    uint8_t hits;         /* in this frame */
+    uint8_t checked : 1; /* its contacts are those of the hit at hand */
+    uint8_t repeats : 7; /* how often, without any time between */
+    /* by whoever lets bodies pass: nothing of the pair is looked for in this frame */
+    uint8_t passes : 1;
+    uint8_t hits : 7; /* in this frame; of a sensor: that it met the other body */
+    /* by regions: one of the two is a sensor */
+    uint8_t senses : 1;
     int32_t answered_q30; /* when last */
 };
 #define PAIRS_NEVER INT32_MAX
 
-/* A moving body that is neither asleep nor frozen. */
+/* A body that moves, or is led, and is neither asleep nor frozen. */
 inline bool broad_active(const struct body *b, const struct body_state *s)
 {
-    return b->mesh && b->moving && !s->asleep && !s->out;
+    return b->mesh && b->goes && !s->asleep && !s->out;
+}
+
+/* Whether two bodies may meet: their filters, by Box2D's rule, and that two sensors do not see each other. */
+bool broad_may_meet(const struct body *a, const struct body *b);
+/* The same, and that neither is a sensor. */
+static inline bool broad_may_touch(const struct body *a, const struct body *b)
+{
+    return !a->sensor && !b->sensor && broad_may_meet(a, b);
 }
 
 /* Whether the boxes of two bodies, each grown by `margin`, overlap. */
@@ -92,7 +104,7 @@ bool broad_boxes_meet(struct body *a, struct body *b);
 
 /*
  * Whether bodies a and b may be a pair, in that order: a moves, and of two that do it is the higher
- * number; one of them is active and none is frozen.
+ * number; one of them is active and none is frozen; and they may meet.
  */
 bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,
                    uint32_t b);

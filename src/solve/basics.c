@@ -16,14 +16,46 @@ int32_t rest_within(int64_t v, int32_t most)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-int32_t rest_restitution(const struct body *a, const struct body *b)
+/* Of the faces at most, where these are of several materials. */
+static int32_t most_restitution(const struct body *b)
 {
-    return a->restitution_q30 < b->restitution_q30 ? a->restitution_q30 : b->restitution_q30;
+    return b->extra && b->extra->materials ? b->extra->most_restitution_q30 : b->restitution_q30;
 }
 
-uint32_t rest_friction(const struct body *a, const struct body *b)
+static uint32_t most_friction(const struct body *b)
 {
-    return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
+    return b->extra && b->extra->materials ? b->extra->most_friction_q16 : b->friction_q16;
+}
+
+int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b)
+{
+    if (!a->extra && !b->extra && r->list.restitution_rule == CAROM_SMALLER) { /* most are so */
+        return fix_smaller(a->restitution_q30, b->restitution_q30);
+    }
+    return contact_mix_restitution(&r->list, most_restitution(a), most_restitution(b));
+}
+
+uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b)
+{
+    if (!a->extra && !b->extra && r->list.friction_rule == CAROM_SMALLER) {
+        return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
+    }
+    return contact_mix_friction(&r->list, most_friction(a), most_friction(b));
+}
+
+int32_t rest_restitution_at(const struct rest *r, const struct contact *c)
+{
+    const struct contact_mixed *mixed = contact_mixed(&r->list, c);
+
+    return mixed ? mixed->restitution_q30
+                 : rest_restitution(r, rest_body(r, c, 0), rest_body(r, c, 1));
+}
+
+uint32_t rest_friction_at(const struct rest *r, const struct contact *c)
+{
+    const struct contact_mixed *mixed = contact_mixed(&r->list, c);
+
+    return mixed ? mixed->friction_q16 : rest_friction(r, rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
 /* v times an arm to nearest, where the product is below 2^62 */

@@ -17,6 +17,9 @@ void rest_list_islands(struct rest *r)
     for (uint32_t i = 0; i < n; i++) {
         island_join(r->bodies, &r->pairs[r->list.contacts[i].key.pair]);
     }
+    if (r->joints.calls) {
+        r->joints.calls->join(r);
+    }
     island_end(r->bodies, r->body_count);
     for (uint32_t i = 0; i < r->body_count; i++) {
         r->bodies[i].contacts = 0;
@@ -50,6 +53,8 @@ bool rest_take_island(struct rest *r)
         }
         idle = idle && c->idle;
     }
+    r->joints.first = 0;
+    idle = (!r->joints.calls || r->joints.calls->take(r)) && idle;
     for (uint32_t i = 0; i < r->count; i++) {
         rest_contact(r, i)->idle = idle;
     }

@@ -206,6 +206,10 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t impuls
                    const int64_t moment_q40[3]);
 void rest_apply(struct rest *r);
 
+/* e and mu at a contact. */
+int32_t rest_restitution_at(const struct rest *r, const struct contact *c);
+uint32_t rest_friction_at(const struct rest *r, const struct contact *c);
+
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
 /* V.N */
@@ -236,6 +240,47 @@ void rest_energy_rule(struct rest *r, bool lifts, bool lasting);
 void rest_part(struct rest *r);
 /* Whether a contact approaches by more than it was asked to and a small part of its skin a frame. */
 bool rest_approaches(struct rest *r);
+
+/*
+ * What a world calls of its joints: carom_joint_add sets it, so that who has no joints links none of it. All of it is about
+ * the island at hand, but for the first two.
+ */
+struct rest_sweep;
+struct joint_calls {
+    void (*join)(struct rest *r);            /* islands of bodies that joints hold */
+    void (*load_velocities)(struct rest *r); /* of bodies that no contact asked for */
+    void (*enter)(
+        struct rest *
+            r); /* whoever hangs on a body that newly is in contact is so too; others' joints are idle */
+    bool (*take)(struct rest *r); /* list its joints; whether all are idle */
+    bool (*take_next)(
+        struct rest *r); /* an island without contacts, which has a joint that is not idle */
+    /* before the sweeps: levers and K^-1, false when a body's turn_bits had to be raised; the largest change wanted */
+    bool (*prepare)(struct rest *r);
+    int64_t (*largest_q40)(const struct rest *r);
+    /* velocities in the unit, and no impulses; the kept ones; a larger unit; what impulses change velocities by */
+    void (*begin)(struct rest *r, const struct rest_sweep *sw);
+    void (*load_warm)(struct rest *r, const struct rest_sweep *sw);
+    void (*enlarge)(struct rest *r, const struct rest_sweep *sw, int bits);
+    void (*sum_up)(struct rest *r);
+    void (*drop)(struct rest *r); /* impulses */
+    /* a sweep: how much a velocity moved; how far it agrees with the step beyond the last one; that step */
+    int64_t (*sweep)(struct rest *r, int32_t quiet);
+    int64_t (*agrees)(const struct rest *r, int32_t most);
+    void (*accelerate)(struct rest *r, int32_t part_q30);
+    /* after them: impulses to momentum; to the bodies; what is kept of them, and the work of limits and motors */
+    void (*end)(struct rest *r, const struct rest_sweep *sw);
+    void (*apply)(struct rest *r);
+    void (*book)(struct rest *r);
+};
+
+/* Those of all worlds that have joints. */
+extern const struct joint_calls joint_calls;
+
+static inline bool rest_has_joints(const struct rest *r)
+{
+    return r->joints.first != 0;
+}
 
 /* Keep the impulses of all resting contacts for the next frame. */
 void rest_store_warm(struct rest *r);

@@ -48,11 +48,9 @@ static void load_velocities(struct rest *r)
             }
         }
     }
-}
-
-static int32_t restitution(const struct rest *r, const struct contact *c)
-{
-    return rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1));
+    if (r->joints.calls) {
+        r->joints.calls->load_velocities(r);
+    }
 }
 
 /* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
@@ -166,9 +164,11 @@ static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
 /* The wanted normal velocity after the solve. */
 static void prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
 {
-    int32_t e_q30 = restitution(r, c);
+    int32_t e_q30 = rest_restitution_at(r, c);
     bool rests = may_rest(c, e_q30);
-    int64_t rise_q40 = c->drift ? contact_rise_q40(c->drift, &c->normal) : 0;
+    /* a surface stands still within the step, and a kinematic body goes on */
+    int64_t rise_q40 =
+        c->drift && !rest_body(r, c, 1)->goes ? contact_rise_q40(c->drift, &c->normal) : 0;
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
@@ -210,6 +210,9 @@ void rest_apply(struct rest *r)
 
         rest_apply_at(r, c, contact_impulse(c)->c, rest_moment(c)->c);
     }
+    if (rest_has_joints(r)) {
+        r->joints.calls->apply(r);
+    }
 }
 
 static void impact_side(const struct contact_side *from, struct impact_side *to)
@@ -237,7 +240,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     in.normal = c->normal;
     in.velocity = *contact_velocity(c);
     in.target_q40 = c->work->target_q40;
-    in.friction_q16 = rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
+    in.friction_q16 = rest_friction_at(r, c);
     c->work = NULL; /* the elimination takes its room */
     result = impact_solve(r->gauss, &in, &out);
     if (result == CAROM_OK) {
@@ -258,6 +261,7 @@ static void prepare_masses(struct rest *r)
         for (uint32_t i = 0; i < r->count; i++) {
             fit = rest_prepare_masses(rest_contact(r, i)) && fit;
         }
+        fit = (!rest_has_joints(r) || r->joints.calls->prepare(r)) && fit;
     } while (!fit);
 }
 
@@ -304,12 +308,28 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
+/* How what the caller moves does so under the island: at one of its contacts. */
+static const carom_v3_q40 *island_drift(const struct rest *r)
+{
+    static const carom_v3_q40 none = {{0, 0, 0}};
+
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+
+        if (c->drift && rest_body(r, c, 1)->goes) {
+            return c->drift;
+        }
+    }
+    return &none;
+}
+
 /*
  * A change of velocity that is as good as none where bodies move: so many of them move nothing by a skin.
  * 0 for an island that is all but still where the frame starts: what is left of it there it creeps by.
  */
 static int64_t loose_q40(const struct rest *r, bool start)
 {
+    const carom_v3_q40 *drift = island_drift(r);
     int32_t skin_q22 = INT32_MAX;
     bool moves = !start;
 
@@ -320,7 +340,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
         skin_q22 = b->skin_q22 < skin_q22 ? b->skin_q22 : skin_q22;
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
-            v[k] = b->velocity.c[k] - (start ? b->acceleration.c[k] : 0);
+            v[k] = b->velocity.c[k] - drift->c[k] - (start ? b->acceleration.c[k] : 0);
         }
         moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) >
                  carom_shl(b->skin_q22, 18) * MOVES_SKINS;
@@ -336,7 +356,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
                             .rolls = true};
     bool impacts = prepare(r, tau_q30), lasting = lasts(r);
 
-    if (impacts && r->count == 1 && !lasting) {
+    if (impacts && r->count == 1 && !lasting && !rest_has_joints(r)) {
         int result = solve_impact(r, rest_contact(r, 0));
 
         if (result == CAROM_OK) {
@@ -353,9 +373,14 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
         rest_contact(r, i)->resting = !impacts;
     }
     rest_save_momenta(r);
-    sw.loose_q40 = few || impacts ? 0 : loose_q40(r, warm);
+    sw.loose_q40 = few || impacts || rest_has_joints(r) ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
+    if (rest_has_joints(r)) { /* the frame's end answers for their energy */
+        r->joints.calls->book(r);
+        note_unsettled(r, sw.ran_out && rest_approaches(r));
+        return CAROM_OK;
+    }
     if ((impacts || lasting) && sw.ran_out && rest_approaches(r)) {
         rest_part(r);
     }
@@ -395,10 +420,31 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm)
             place_origins(r);
         }
     }
+    r->count = 0;
+    while (result == CAROM_OK && r->joints.calls && r->joints.calls->take_next(r)) {
+        result = solve_island(r, tau_q30, warm);
+        place_origins(r);
+    }
     if (warm) {
         rest_store_warm(r);
     }
     return result;
+}
+
+int rest_project(struct rest *r)
+{
+    uint32_t used = r->list.pool->used;
+
+    r->list.pool->used = 0;
+    load_velocities(r);
+    rest_list_islands(r);
+    r->first = r->count = 0;
+    while (r->joints.calls->take_next(r)) {
+        solve_island(r, CAROM_ONE_Q30, false);
+        place_origins(r);
+    }
+    r->list.pool->used = used;
+    return CAROM_OK;
 }
 
 /* Whether a contact has a body that moves and has not taken gravity. */
@@ -415,8 +461,9 @@ FIX_APART static bool lies(const struct rest *r, const struct contact *c)
     carom_v3_q40 v;
 
     rest_relative_velocity(c, &v);
-    return may_rest(c, restitution(r, c)) ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
-                                          : fix_length(v.c) < pull / CALM_DIVISOR;
+    return may_rest(c, rest_restitution_at(r, c))
+               ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
+               : fix_length(v.c) < pull / CALM_DIVISOR;
 }
 
 /* Whether a body is on a side of the contact that newly took gravity. */
@@ -444,6 +491,9 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
                 b->in_contact = b->entering = any = true;
             }
         }
+    }
+    if (any && r->joints.calls) {
+        r->joints.calls->enter(r);
     }
     for (uint32_t i = 0; any && i < r->list.pool->used; i++) {
         r->list.contacts[i].idle = !enters(&r->list.contacts[i]);

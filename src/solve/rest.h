@@ -15,6 +15,7 @@
 #include "../contact/contact.h"
 #include "../pairs/island.h"
 #include "impact.h"
+#include "joint.h"
 
 #define REST_BITS         23
 #define REST_SWEEPS_MAX   16  /* of an impact */
@@ -22,6 +23,8 @@
 #define REST_SWEEPS_EXACT 120 /* of an impact of a body or two, without momentum */
 #define REST_SWEEPS_FEW   40 /* of resting contact at a few places, which goes on in the next frame */
 #define REST_SWEEPS_MANY  48 /* and at many */
+
+#define REST_SWEEPS_JOINTS 60 /* where there are joints */
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 
@@ -65,6 +68,8 @@ struct rest {
     uint32_t first, count;
 
     uint32_t sweeps, impacts, energy_rules; /* for the statistics */
+
+    struct joint_list joints;
 };
 
 /*
@@ -79,6 +84,12 @@ struct rest {
  * Source   paper eq. (1)-(10), and "continuous contact"
  */
 int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
+
+/*
+ * The velocities that held rows lack at the end of a frame, of joints that are not idle: paths keep places, and bend
+ * velocities. Contacts are left alone, and the impulses kept for the next frame.
+ */
+int rest_project(struct rest *r);
 
 /*
  * Bodies with a contact that is slower than 4 g h, and not idle, take the rest of the frame's
@@ -100,12 +111,15 @@ static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *
     return fix_dot_q30(v->c, n->c);
 }
 
-/* e and mu of a pair of bodies: the smaller of the two. */
-int32_t rest_restitution(const struct body *a, const struct body *b);
-uint32_t rest_friction(const struct body *a, const struct body *b);
+/* e and mu of a pair of bodies; at most, where their faces are of several materials. */
+int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b);
+uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b);
 
-/* Count quiet frames and put whole islands, bodies that touch, to sleep. */
-void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
-                const struct pair *touching, uint32_t touching_count);
+/* The islands of bodies that touch or that joints connect. */
+void rest_find_islands(struct rest *r, struct body *bodies, uint32_t body_count,
+                       const struct pair *touching, uint32_t touching_count);
+
+/* Count quiet frames and put whole islands, bodies that touch or that joints connect, to sleep. */
+void rest_sleep(struct rest *r, const struct pair *touching, uint32_t touching_count);
 
 #endif

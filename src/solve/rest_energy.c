@@ -57,11 +57,25 @@ void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times)
     }
 }
 
+/* What a kinematic body does by a part of the impulse that was wanted more than the plastic one. */
+FIX_APART static void subtract_blend2(const struct rest *r, struct fix_wide *sum, int32_t k_q30)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct contact *c = rest_contact(r, i);
+
+        for (int k = 0; c->drift && rest_body(r, c, 1)->goes && k < 3; k++) {
+            int64_t more = contact_wanted(c)->c[k] - contact_impulse(c)->c[k];
+
+            fix_wide_add_product(sum, fix_mul_q30(more, k_q30), -2 * c->drift->c[k]);
+        }
+    }
+}
+
 /*
- * Whether the energy, by all its digits or by a bound of it, is above `limit` and what surfaces that move
- * have added.
+ * Whether the energy, by all its digits or by a bound of it, is above `limit` and what is moved by the caller
+ * has added; that with a blend of impulses, if k is not 0.
  */
-static bool rises(const struct rest *r, const struct fix_wide *limit, bool exactly)
+static bool rises(const struct rest *r, const struct fix_wide *limit, bool exactly, int32_t k_q30)
 {
     struct fix_wide sum = {0, 0};
 
@@ -77,6 +91,9 @@ static bool rises(const struct rest *r, const struct fix_wide *limit, bool exact
     }
     for (uint32_t i = 0; i < r->count; i++) {
         rest_add_work2(&sum, rest_contact(r, i), -1);
+    }
+    if (k_q30 > 0) {
+        subtract_blend2(r, &sum, k_q30);
     }
     return fix_wide_sign(&sum) > 0;
 }
@@ -115,13 +132,13 @@ void rest_energy_rule(struct rest *r, bool lifts, bool lasting)
     if (lifts) {
         add_lift2(r, &limit);
     }
-    if (!rises(r, &limit, false)) {
+    if (!rises(r, &limit, false, 0)) {
         return; /* whatever it was before: not below 0 */
     }
     add_before2(r, &limit);
     slack = fix_wide_down(&limit, bits);
     fix_wide_add(&limit, &slack);
-    if (!rises(r, &limit, true)) {
+    if (!rises(r, &limit, true, 0)) {
         return;
     }
     r->energy_rules++;
@@ -134,7 +151,7 @@ void rest_energy_rule(struct rest *r, bool lifts, bool lasting)
         int32_t k_q30 = low + (high - low) / 2;
 
         apply_blend(r, k_q30, false);
-        if (rises(r, &limit, true)) {
+        if (rises(r, &limit, true, k_q30)) {
             high = k_q30;
         } else {
             low = k_q30;

@@ -86,7 +86,22 @@ static bool rolls_up(const struct rest *r, uint32_t i)
     return up;
 }
 
-/* The arm of the pair of contact i. */
+/* Rolling friction of a pair: so much of a radius for the arm, where ROLL_SKINS are CAROM_ROLLING_Q16. */
+static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
+{
+    const struct body_extra *a = rest_body(r, c, 0)->extra, *b = rest_body(r, c, 1)->extra;
+    uint64_t product;
+
+    if (!a && !b) {
+        return CAROM_ROLLING_Q16;
+    }
+    /* each is at most 2^16 */
+    product = (uint64_t)(a ? a->rolling_q16 : CAROM_ROLLING_Q16) *
+              (b ? b->rolling_q16 : CAROM_ROLLING_Q16) / CAROM_ROLLING_Q16;
+    return product < 1 << 16 ? (uint32_t)product : 1 << 16;
+}
+
+/* The arm of the pair of contact i, of ordinary rolling friction. */
 FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
 {
     const struct contact *c = rest_contact(r, i);
@@ -157,13 +172,15 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 
     c->work->roll = NULL;
     if (!leads(r, i) || !may_roll(r, i) || c->work->friction_q16 == 0 ||
-        rest_restitution(rest_body(r, c, 0), rest_body(r, c, 1)) == CAROM_ONE_Q30) {
+        rest_restitution_at(r, c) == CAROM_ONE_Q30 || rolling_q16(r, c) == 0) {
         return false;
     }
     c->work->roll = roll = &r->rolls[r->roll_count++];
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
-    roll->arm_q30 = rest_clamp(carom_shl(arm_q22(r, i), 30 - roll->unit_bits));
+    /* an arm is below 2^21 and becomes 64 times as long at most */
+    roll->arm_q30 = rest_clamp(
+        carom_shl(arm_q22(r, i) * rolling_q16(r, c) / CAROM_ROLLING_Q16, 30 - roll->unit_bits));
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sleep: what has been quiet for a while stops being computed, island by island. */
-#include "rest.h"
+#include "parts.h"
 
 static bool is_quiet(const struct body *b, const struct body_state *s)
 {
@@ -13,7 +13,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
-    if (!b->in_contact) {
+    if (!b->in_contact && b->joined == BODY_ALONE) {
         return false;
     }
     fix_matrix(&m, &s->rotation);
@@ -44,9 +44,25 @@ static void put_to_sleep(const struct body *bodies, struct body_state *states, u
     }
 }
 
-void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_count,
-                const struct pair *touching, uint32_t touching_count)
+void rest_find_islands(struct rest *r, struct body *bodies, uint32_t body_count,
+                       const struct pair *touching, uint32_t touching_count)
 {
+    island_begin(bodies, body_count);
+    for (uint32_t i = 0; i < touching_count; i++) {
+        island_join(bodies, &touching[i]);
+    }
+    if (r->joints.calls) {
+        r->bodies = bodies;
+        r->joints.calls->join(r);
+    }
+    island_end(bodies, body_count);
+}
+
+void rest_sleep(struct rest *r, const struct pair *touching, uint32_t touching_count)
+{
+    struct body *bodies = r->bodies;
+    struct body_state *states = r->states;
+    uint32_t body_count = r->body_count;
     bool any = false;
 
     for (uint32_t i = 0; i < body_count; i++) {
@@ -63,7 +79,7 @@ void rest_sleep(struct body *bodies, struct body_state *states, uint32_t body_co
     if (!any) {
         return;
     }
-    island_find(bodies, body_count, touching, touching_count);
+    rest_find_islands(r, bodies, body_count, touching, touching_count);
     for (uint32_t i = 0; i < body_count; i++) {
         if (bodies[i].island == i && island_quiet(bodies, states, i)) {
             put_to_sleep(bodies, states, i);

@@ -301,6 +301,9 @@ static bool agrees(const struct rest *r)
             sum += c->gain[k] * x >> 13; /* up to 2^47, of at most 4096 contacts */
         }
     }
+    if (rest_has_joints(r)) {
+        sum += r->joints.calls->agrees(r, WAY_MAX);
+    }
     return sum >= 0;
 }
 
@@ -395,6 +398,9 @@ static void accelerate(struct rest *r, int *age)
             rest_roll_accelerate(c, part_q30);
         }
     }
+    if (rest_has_joints(r)) {
+        r->joints.calls->accelerate(r, part_q30);
+    }
 }
 
 /* The last visit of a contact may not have gone all its way, or found it as good as at rest out there. */
@@ -418,6 +424,10 @@ FIX_APART static int most_rounds(const struct rest *r, const struct rest_sweep *
                  : r->count <= REST_FEW ? REST_SWEEPS_FEW
                                         : REST_SWEEPS_MANY;
 
+    if (rest_has_joints(r) && !sw->exact) {
+        rounds = REST_SWEEPS_JOINTS;
+    }
+
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
@@ -436,11 +446,12 @@ static bool outgrown(const struct rest *r)
 static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 {
     uint32_t n = r->count;
+    bool joints = rest_has_joints(r);
     /*
      * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
      * away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->calm && n > UNHURRIED;
+    bool hurries = may_hurry && !sw->calm && (n > UNHURRIED || (joints && !r->joints.factored));
     const int32_t quiet = sw->calm ? 0 : sw->residual / DEAD_DIVISOR;
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;
@@ -459,6 +470,11 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
                 m = rest_roll_sweep(r, i, sw->residual);
                 moved = m > moved ? m : moved;
             }
+        }
+        if (joints) {
+            int64_t m = r->joints.calls->sweep(r, quiet);
+
+            moved = m > moved ? m : moved;
         }
         ran_out = moved > sw->residual;
         if (outgrown(r) || (!ran_out && (sums == 0 || !rest_sum_up(r)))) {
@@ -487,6 +503,9 @@ static void drop(struct rest *r)
             }
         }
     }
+    if (rest_has_joints(r)) {
+        r->joints.calls->drop(r);
+    }
 }
 
 /*
@@ -499,6 +518,9 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
     rest_begin_sweeps(r, sw);
     if (warm) {
         rest_load_warm(r, sw);
+        if (rest_has_joints(r)) {
+            r->joints.calls->load_warm(r, sw);
+        }
     }
     for (int outgrew = 0; outgrew < OUTGREW_MAX; outgrew++) {
         while (!rest_sum_up(r)) {

@@ -30,6 +30,11 @@ void rest_choose_unit(const struct rest *r, struct rest_sweep *sw)
             }
         }
     }
+    if (rest_has_joints(r)) {
+        int64_t change = r->joints.calls->largest_q40(r);
+
+        largest = change > largest ? change : largest;
+    }
     sw->unit = fix_bits((uint64_t)largest) - REST_BITS;
     if (sw->unit < -4) {
         sw->unit = -4;
@@ -77,9 +82,11 @@ void rest_begin_sweeps(struct rest *r, const struct rest_sweep *sw)
     for (uint32_t i = 0; i < r->count; i++) {
         struct contact *c = rest_contact(r, i);
 
-        c->work->friction_q16 =
-            sw->frictionless ? 0 : rest_friction(rest_body(r, c, 0), rest_body(r, c, 1));
+        c->work->friction_q16 = sw->frictionless ? 0 : rest_friction_at(r, c);
         begin_contact(c, sw);
+    }
+    if (rest_has_joints(r)) {
+        r->joints.calls->begin(r, sw);
     }
 }
 
@@ -97,6 +104,9 @@ void rest_enlarge_unit(struct rest *r, struct rest_sweep *sw)
         }
         c->work->band >>= LARGER_BITS;
         c->work->normal_impulse /= 1 << LARGER_BITS;
+    }
+    if (rest_has_joints(r)) {
+        r->joints.calls->enlarge(r, sw, LARGER_BITS);
     }
 }
 
@@ -176,6 +186,9 @@ bool rest_sum_up(struct rest *r)
             }
         }
     }
+    if (rest_has_joints(r)) {
+        r->joints.calls->sum_up(r);
+    }
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
         fits = narrow(&r->bodies[i]) && fits;
     }
@@ -200,5 +213,8 @@ void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw)
         if (sw->rolls) {
             rest_roll_finish(c, sw);
         }
+    }
+    if (rest_has_joints(r)) {
+        r->joints.calls->end(r, sw);
     }
 }

@@ -13,9 +13,12 @@
 #define CALM_AFTER 1
 /* So do bodies that no solve has set right, after so many hits of a pair in a frame. */
 #define UNSETTLED_HITS 6
+/* Hits are counted so far: seven bits. */
+#define COUNT_MAX 127u
+/* A kinematic body that hits on takes what it pushes along, and stops after so many repeats. */
+#define HARD_AFTER (CALM_AFTER + SHORTER_MAX + 4)
 
-/* The hit of a pair, with the features as they meet. */
-static struct boyse_hit hit_of(struct step *s, uint32_t number)
+struct boyse_hit step_hit_of(struct step *s, uint32_t number)
 {
     const struct pair_work *m = &s->w->meetings[number];
     struct boyse_hit hit = {.candidate = {(uint16_t)number, m->kind, m->i, m->j}};
@@ -46,7 +49,7 @@ static void join(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (step_active(s, i) && !b->member) {
+    if (b->moving && step_active(s, i) && !b->member) {
         step_leave_path(s, i, s->now_q30);
         body_place(b, &s->next->bodies[i]);
         b->member = true;
@@ -68,12 +71,23 @@ static int check_with(struct step *s, uint32_t number)
     step_look_at(s, other, s->now_q30);
     contact_doubt_pair(&s->w->rest.list, (uint16_t)number);
     result = step_check_pair(s, number);
-    if (result == CAROM_OK && step_active(s, other) && !w->bodies[other].member &&
-        contact_has_pair(&w->rest.list, (uint16_t)number)) {
+    if (result == CAROM_OK && w->bodies[other].moving && step_active(s, other) &&
+        !w->bodies[other].member && contact_has_pair(&w->rest.list, (uint16_t)number)) {
         join(s, other);
         return 1;
     }
     return result;
+}
+
+/* What joints connect with the members is a member. Returns CAROM_OK. */
+static int join_connected(struct step *s)
+{
+    uint32_t other;
+
+    while (s->w->joint_steps && (other = s->w->joint_steps->connected(s)) != ISLAND_END) {
+        join(s, other);
+    }
+    return CAROM_OK;
 }
 
 /* The island of the members at hand, and all of its contacts. */
@@ -86,11 +100,12 @@ static int grow(struct step *s)
         w->meetings[n].checked = false;
     }
     while (result == 1) {
-        result = CAROM_OK;
+        result = join_connected(s);
         for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used && result >= 0; n++) {
             const struct pair *p = &w->pairs[n];
 
-            if (!w->meetings[n].checked && (w->bodies[p->a].member || w->bodies[p->b].member)) {
+            if (!w->meetings[n].checked && step_is_solid(&w->meetings[n]) &&
+                (w->bodies[p->a].member || w->bodies[p->b].member)) {
                 int grown = check_with(s, n);
 
                 w->meetings[n].checked = true;
@@ -163,13 +178,16 @@ static void leave_others_idle(struct step *s)
 
         c->idle = !w->bodies[p->a].member && !w->bodies[p->b].member;
     }
+    if (w->joint_steps) {
+        w->joint_steps->choose_members(s);
+    }
 }
 
 static int solve_island(struct step *s)
 {
     struct carom_world *w = s->w;
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
-    int result = step_settle_contacts(s);
+    int result = step_settle_contacts(s, true);
 
     leave_others_idle(s);
     if (result == CAROM_OK) {
@@ -196,7 +214,7 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
 
     if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0) ||
         (s->w->meetings[number].hits > UNSETTLED_HITS && (a->unsettled || b->unsettled))) {
-        step_calm_island(s, step_active(s, p->a) ? p->a : p->b);
+        step_calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > HARD_AFTER);
     }
     if (turn && repeats > 0) {
         a->shorter = (uint8_t)(a->shorter + (a->shorter < SHORTER_MAX));
@@ -209,7 +227,7 @@ static bool spend(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    return step_active(s, i) && ++b->events >= s->event_cap;
+    return b->moving && step_active(s, i) && ++b->events >= s->event_cap;
 }
 
 /* The island stands still for what is left of the frame. */
@@ -218,8 +236,9 @@ static void stop_island(struct step *s, const struct pair *p)
     struct carom_world *w = s->w;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].stands |= w->bodies[i].member;
+        w->bodies[i].stands |= w->bodies[i].member && w->bodies[i].moving;
     }
+    step_block_pushers(s, p);
     s->cut_short = true;
     if (step_may_note(w)) {
         step_add_event(w, CAROM_EVENT_CUT, p->a, p->b);
@@ -249,16 +268,16 @@ int step_answer(struct step *s, uint32_t number)
     struct carom_world *w = s->w;
     struct pair_work *m = &w->meetings[number];
     const struct pair p = w->pairs[number];
-    struct boyse_hit hit = hit_of(s, number);
+    struct boyse_hit hit = step_hit_of(s, number);
     uint32_t repeats;
     bool last_a, last_b;
     int result;
 
     s->now_q30 = m->hit_q30;
     repeats = m->answered_q30 == s->now_q30 ? m->repeats + 1u : 0;
-    m->repeats = (uint8_t)(repeats < UINT8_MAX ? repeats : UINT8_MAX);
+    m->repeats = (repeats < COUNT_MAX ? repeats : COUNT_MAX) & COUNT_MAX;
     m->answered_q30 = s->now_q30;
-    m->hits = m->hits < UINT8_MAX ? (uint8_t)(m->hits + 1) : UINT8_MAX;
+    m->hits = (m->hits < COUNT_MAX ? m->hits + 1u : COUNT_MAX) & COUNT_MAX;
     w->stats.hits++;
     w->stats.substeps++;
     result = gather_island(s, &p, &hit);
@@ -275,4 +294,38 @@ int step_answer(struct step *s, uint32_t number)
         stop_island(s, &p);
     }
     return go_on(s);
+}
+
+int step_rejoin(struct step *s, uint32_t body)
+{
+    struct carom_world *w = s->w;
+    int result;
+
+    w->stats.substeps++;
+    s->now_q30 = w->bodies[body].to_q30;
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body *b = &w->bodies[i];
+
+        b->member = b->woke = false;
+        if (b->mesh && b->joined == w->bodies[body].joined && b->shorter > 0) {
+            b->shorter--;
+        }
+    }
+    do {
+        join(s, body);
+        for (uint32_t i = 0; i < w->body_count; i++) {
+            if (w->bodies[i].woke) {
+                join(s, i);
+            }
+        }
+        result = grow(s);
+        if (result < 0 || !world_wake_touched(w, s->next->bodies)) {
+            break;
+        }
+        result = adopt_woken(s);
+    } while (result == CAROM_OK);
+    if (result == CAROM_OK) {
+        result = solve_island(s);
+    }
+    return result == CAROM_OK ? go_on(s) : result;
 }

@@ -35,6 +35,8 @@ static void set_own_path(const struct step *s, uint32_t i)
 
     if (b->stands || b->to_q30 == b->from_q30) {
         body_place(b, &s->next->bodies[i]);
+    } else if (!b->moving) {
+        body_follow(b, &s->next->bodies[i]);
     } else {
         body_predict(b, &s->next->bodies[i], b->to_q30 - b->from_q30, pull_on(b));
     }
@@ -87,6 +89,23 @@ void step_look_away(struct step *s, uint32_t i)
     set_own_path(s, i);
 }
 
+void step_look_ahead(struct step *s, uint32_t i, int32_t slice_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t from_q30 = path_time(b, s->now_q30), to_q30 = path_time(b, s->now_q30 + slice_q30);
+
+    step_look_away(s, i);
+    if (!b->stands) {
+        body_cut_path(b, &s->next->bodies[i], from_q30, to_q30);
+    }
+}
+
+void step_look_back(struct step *s, uint32_t i)
+{
+    step_look_away(s, i);
+    step_look_at(s, i, s->now_q30);
+}
+
 /* The slice cut where the path at hand has gone as far as one may. */
 static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 {
@@ -109,6 +128,21 @@ FIX_APART static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
                : slice_q30;
 }
 
+/* The next slice of a route, or the place where a kinematic body stopped. */
+FIX_APART static int set_route(struct step *s, uint32_t i, int32_t left_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t slice_q30 = left_q30;
+
+    if (!b->stands && slice_q30 > CAROM_ONE_Q30 >> b->extra->route.slice_bits) {
+        slice_q30 = CAROM_ONE_Q30 >> b->extra->route.slice_bits;
+    }
+    b->to_q30 = s->now_q30 + slice_q30;
+    set_own_path(s, i);
+    return slice_q30 == 0 || body_region_holds(b, slice_q30) ? CAROM_OK
+                                                             : step_set_region(s, i, slice_q30);
+}
+
 int step_set_path(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -118,14 +152,21 @@ int step_set_path(struct step *s, uint32_t i)
     b->cuts = 0;
     b->from_q30 = s->now_q30;
     b->to_q30 = CAROM_ONE_Q30;
+    if (!b->moving) {
+        return set_route(s, i, left_q30);
+    }
     /* as a frame begins what nothing has changed yet is in range */
     if (left_q30 == 0 || ((s->now_q30 > 0 || b->in_contact) && step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }
     if (!b->stands) {
-        slice_q30 = step_slice(s, i, left_q30);
-        shorter_q30 = slice_q30 >> (2 * b->shorter);
+        if (b->joined == BODY_ALONE) {
+            slice_q30 = body_slice(b, &s->next->bodies[i], left_q30);
+            shorter_q30 = slice_q30 >> (2 * b->shorter);
+        } else { /* those of a group have been shortened together */
+            slice_q30 = shorter_q30 = step_slice(s, i, left_q30);
+        }
         slice_q30 = shorter_q30 > SHORTEST_Q30 ? shorter_q30 : slice_q30;
         slice_q30 = avoid_sliver(slice_q30, left_q30);
         b->to_q30 = s->now_q30 + slice_q30;

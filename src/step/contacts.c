@@ -23,8 +23,8 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
-    return rest_restitution(a, b) == CAROM_ONE_Q30 && !a->in_contact && !b->in_contact &&
-           !step_is_touching(world_now(s->w), p);
+    return rest_restitution(&s->w->rest, a, b) == CAROM_ONE_Q30 && !a->in_contact &&
+           !b->in_contact && !step_is_touching(world_now(s->w), p);
 }
 
 /* How many 16ths of a skin are clear, as far as four bits hold. */
@@ -45,7 +45,8 @@ int step_check_pair(struct step *s, uint32_t number)
     int result;
 
     m->clear = 0;
-    if ((m->kept && m->count == 0) || s->next->bodies[p->a].out || s->next->bodies[p->b].out) {
+    if (!step_is_solid(m) || (m->kept && m->count == 0) || s->next->bodies[p->a].out ||
+        s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
     v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : BODY_MARGIN_SKINS);
@@ -58,6 +59,9 @@ int step_check_pair(struct step *s, uint32_t number)
     v.clear_q22 = skin_q22;
     v.parts = 1;
     result = step_visit(s, number, &v, visit_contacts);
+    if ((a->one_way | b->one_way) != CAROM_BOTH_WAYS) {
+        step_drop_other_side(s, number);
+    }
     if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
         m->clear = clear_parts(v.clear_q22, skin_q22) & 15;
     }
@@ -86,7 +90,7 @@ static void thin_out(struct step *s)
     list->pool->used = kept;
 }
 
-int step_settle_contacts(struct step *s)
+int step_settle_contacts(struct step *s, bool members)
 {
     struct carom_world *w = s->w;
     struct contact_list *list = &w->rest.list;
@@ -94,6 +98,9 @@ int step_settle_contacts(struct step *s)
 
     contact_merge(list);
     thin_out(s);
+    if (w->config.contact) {
+        step_ask_contacts(s, members);
+    }
     w->stats.contacts = list->pool->used;
     for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK; i++) {
         uint16_t pair = list->contacts[i].key.pair;
@@ -104,6 +111,24 @@ int step_settle_contacts(struct step *s)
     }
     step_mark(w, CAROM_STAGE_CONTACT);
     return result;
+}
+
+/* Keep where an impact was; the first of a pair takes a place while there is one. */
+static void note_details(struct carom_world *w, const struct contact *c, struct carom_event *e)
+{
+    const struct pair *p = &w->pairs[c->key.pair];
+    struct carom_hit *hit;
+
+    if (e->details == 0) {
+        e->details = (uint16_t)(pool_take(&w->pools[CAROM_POOL_hits]) + 1);
+    }
+    if (e->details > 0) {
+        hit = &w->hits[e->details - 1];
+        hit->point = contact_point(c);
+        hit->normal = c->normal;
+        hit->face_a = (uint16_t)contact_face(&w->bodies[p->a], &c->key, 0, &c->normal);
+        hit->face_b = (uint16_t)contact_face(&w->bodies[p->b], &c->key, 1, &c->normal);
+    }
 }
 
 /* The hardest impact of each pair becomes its hit event. */
@@ -132,6 +157,9 @@ static void note_hits(struct step *s)
         if (-c->speed_q40 > e->speed_q40) {
             e->speed_q40 = -c->speed_q40;
             e->impulse_q40 = rest_along_q40(contact_impulse(c), &c->normal);
+            if (w->config.caps.hits > 0) {
+                note_details(w, c, e);
+            }
         }
     }
 }
@@ -192,11 +220,15 @@ static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30
  * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
  * both bodies bend. The spins are those of the last look at the contacts; nearly all are slow by a bound of them.
  */
-static bool bends(const struct contact *c, int32_t left_q30)
+static bool bends(const struct step *s, const struct contact *c, int32_t left_q30)
 {
+    const struct body *led = &s->w->bodies[s->w->pairs[c->key.pair].b];
     int32_t most_q22 = c->skin_q22 / CHORD_BEND_DIVISOR;
     int64_t bound_q22 = 0, all_q22 = 0;
 
+    if (body_travels(led)) {
+        bound_q22 = all_q22 = bend_q22(led, fix_length_bound(led->extra->route.spin.c), left_q30);
+    }
     for (int k = 0; k < 2; k++) {
         const struct body *b = c->side[k].body;
 
@@ -217,14 +249,20 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
     int32_t slice_q30 = CAROM_ONE_Q30 - s->now_q30;
 
     for (int k = 0; k < 2; k++) {
-        if (step_active(s, both[k])) {
+        const struct body *b = &s->w->bodies[both[k]];
+
+        if (b->moving && step_active(s, both[k])) {
             slice_q30 = step_slice(s, both[k], slice_q30);
+        } else if (body_travels(b) && b->to_q30 - s->now_q30 < slice_q30) {
+            slice_q30 = b->to_q30 - s->now_q30;
         }
     }
     for (int k = 0; k < 2; k++) {
         struct body *b = &s->w->bodies[both[k]];
 
-        if (step_active(s, both[k]) && b->to_q30 != s->now_q30 + slice_q30) {
+        if (body_travels(b)) {
+            step_look_ahead(s, both[k], slice_q30);
+        } else if (step_active(s, both[k]) && b->to_q30 != s->now_q30 + slice_q30) {
             b->to_q30 = s->now_q30 + slice_q30;
             if (b->stands) {
                 body_place(b, &s->next->bodies[both[k]]);
@@ -246,6 +284,9 @@ static void forget_paths(struct step *s)
             if (c->side[k].body) {
                 c->side[k].body->to_q30 = s->now_q30;
             }
+        }
+        if (body_travels(&s->w->bodies[s->w->pairs[c->key.pair].b])) {
+            step_look_back(s, s->w->pairs[c->key.pair].b);
         }
     }
 }
@@ -288,7 +329,7 @@ static void find_chords(struct step *s)
         }
         if (asked != c->key.pair) { /* the answer is that of all contacts of a pair */
             asked = c->key.pair;
-            bent = bends(c, CAROM_ONE_Q30 - s->now_q30);
+            bent = bends(s, c, CAROM_ONE_Q30 - s->now_q30);
         }
         if (!bent) {
             continue;
@@ -310,16 +351,31 @@ static void find_chords(struct step *s)
     forget_paths(s);
 }
 
+/* Paths bend, and so anchors may be off after a solve: then there is another. */
+#define JOINT_ROUNDS 8
+
 int step_solve(struct step *s, bool warm)
 {
     struct carom_world *w = s->w;
     uint32_t impacts = w->rest.impacts;
-    int result;
+    int result = CAROM_OK;
 
-    find_chords(s);
-    PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
-    result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm);
-    note_hits(s);
+    for (int round = 0; round < JOINT_ROUNDS && result == CAROM_OK; round++) {
+        if (w->joint_steps &&
+            !w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT
+                                        : round == 0   ? JOINT_FRAME
+                                                       : JOINT_MORE) &&
+            round > 0) {
+            break;
+        }
+        find_chords(s);
+        PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
+        result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm && round == 0);
+        note_hits(s);
+        if (!w->joint_steps) {
+            break;
+        }
+    }
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);
     return result;
 }
@@ -349,19 +405,29 @@ static int find_contacts(struct step *s)
             }
         }
     }
-    return result == CAROM_OK ? step_settle_contacts(s) : result;
+    return result == CAROM_OK ? step_settle_contacts(s, false) : result;
 }
 
 int step_start_contacts(struct step *s)
 {
     int result = s->w->pools[CAROM_POOL_pairs].used > 0 ? find_contacts(s) : CAROM_OK;
+    struct carom_world *w = s->w;
+    bool joints = result == CAROM_OK && w->joint_steps && w->joint_steps->choose_all(s);
 
     if (result < 0) {
         return result;
     }
-    if (s->w->rest.list.pool->used == 0 || !rest_enter_contact(&s->w->rest, CAROM_ONE_Q30)) {
-        s->w->rest.warm_count = 0;
-        return CAROM_OK;
+    if (w->rest.list.pool->used == 0 || !rest_enter_contact(&w->rest, CAROM_ONE_Q30)) {
+        w->rest.warm_count = 0;
+        if (!joints) {
+            return CAROM_OK;
+        }
+        for (uint32_t i = 0; i < w->rest.list.pool->used; i++) {
+            w->rest.list.contacts[i].idle = true;
+        }
+    }
+    if (joints) {
+        (void)w->joint_steps->choose_all(s);
     }
     return step_solve(s, true);
 }

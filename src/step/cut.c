@@ -17,14 +17,15 @@
  */
 #define TURN2_MIN_Q30 (1 << 8)
 
-/* Whether a body's path turns and goes on behind a hit. */
+/* Whether a body's path turns and goes on behind a hit; a route stays as it is. */
 static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 {
     const struct body *b = &s->w->bodies[i];
 
-    return step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
-           b->cuts < CUTS_MAX && body_norm2_q30(&b->path) >= TURN2_MIN_Q30 &&
-           b->to_q30 - t_q30 > END_Q30 && t_q30 - b->from_q30 >= SLICE_MIN_Q30;
+    return b->moving && step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
+           b->joined == BODY_ALONE && b->cuts < CUTS_MAX &&
+           body_norm2_q30(&b->path) >= TURN2_MIN_Q30 && b->to_q30 - t_q30 > END_Q30 &&
+           t_q30 - b->from_q30 >= SLICE_MIN_Q30;
 }
 
 /*
@@ -42,7 +43,7 @@ static bool may_cut(const struct step *s, uint32_t i)
         const struct body *c = &w->bodies[k];
         bool near = true;
 
-        if (k == i || !step_active(s, k) || c->from_q30 <= b->from_q30) {
+        if (k == i || !step_active(s, k) || c->from_q30 <= b->from_q30 || !broad_may_touch(b, c)) {
             continue;
         }
         body_path_length(c, CAROM_ONE_Q30, &other_q22, &turn_q30);
@@ -93,7 +94,7 @@ static bool hits_in_the_past(const struct step *s)
 
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
         if ((w->bodies[w->pairs[n].a].member || w->bodies[w->pairs[n].b].member) &&
-            w->meetings[n].hit_q30 < s->now_q30) {
+            w->meetings[n].hit_q30 < s->now_q30 && !w->meetings[n].senses) {
             return true;
         }
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The energy of contact over a frame, island by island. */
+#include "../solve/parts.h"
 #include "../solve/rigid.h"
 #include "parts.h"
 
@@ -78,6 +79,9 @@ static struct account audit(const struct step *s, uint32_t first)
     }
     fix_wide_add(&sum.excess, &sum.kinetic);
     fix_wide_subtract(&sum.excess, &before);
+    if (s->w->joint_steps) {
+        s->w->joint_steps->add_springs2(s, first, &sum.excess);
+    }
     return sum;
 }
 
@@ -125,14 +129,14 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
     }
 }
 
-/* Whether two bodies cross, or one is in the other. */
-static bool overlap(struct step *s, struct interfere_placed a, struct interfere_placed b)
+/* Whether two bodies may not be in each other: they may touch, and do not pass in this frame. */
+static bool are_solid(const struct step *s, uint32_t i, uint32_t k)
 {
-    struct interfere *in = &s->w->interfere;
+    const struct pair p = world_name_pair(s->w, i, k);
+    uint32_t number = step_find_pair(s->w, &p);
 
-    world_begin_gather(s->w);
-    return interfere_query(in, a, b, NULL, 0) != 0 || interfere_inside(a, b) ||
-           interfere_inside(b, a);
+    return broad_may_touch(&s->w->bodies[i], &s->w->bodies[k]) &&
+           (number == UINT32_MAX || !s->w->meetings[number].passes);
 }
 
 /* A body that moved and now is where a body of another island was before; the end of islands: none. */
@@ -147,8 +151,9 @@ static uint32_t intruder(struct step *s, uint32_t body)
         const struct interfere_placed is = {other, &s->next->bodies[i]};
 
         if (broad_active(other, is.state) && other->island != b->island &&
-            moved(&before->bodies[i], is.state) &&
-            broad_near(b, was.state, other, is.state, b->skin_q22) && overlap(s, was, is)) {
+            moved(&before->bodies[i], is.state) && are_solid(s, body, i) &&
+            broad_near(b, was.state, other, is.state, b->skin_q22) &&
+            world_overlap(s->w, was, is)) {
             return i;
         }
     }
@@ -175,6 +180,9 @@ static void hold_still(struct step *s, uint32_t first)
                 uint32_t other = s->w->bodies[by].island;
 
                 rewind_island(s, other, s->w->bodies[other].grounded);
+                if (!s->w->bodies[by].moving) {
+                    step_note_blocked(s, by, i);
+                }
                 again = true;
             }
         }
@@ -195,6 +203,19 @@ static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide 
     return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
 }
 
+/* Whether an island touches a kinematic body that is led somewhere. */
+static bool is_pushed(const struct step *s, uint32_t first)
+{
+    for (uint32_t i = 0; i < s->next->touching_count; i++) {
+        const struct pair *p = &s->next->touching[i];
+
+        if (s->w->bodies[p->a].island == first && body_travels(&s->w->bodies[p->b])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void limit_island(struct step *s, uint32_t first)
 {
     struct account sum = audit(s, first);
@@ -208,7 +229,9 @@ static void limit_island(struct step *s, uint32_t first)
     if (s->w->bodies[first].grounded) {
         int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
 
-        if (factor == 0) {
+        if (factor == 0 && is_pushed(s, first)) {
+            rest_scale_grounded(&s->w->rest, first, 0); /* where it was a kinematic body may be */
+        } else if (factor == 0) {
             hold_still(s, first); /* it climbed by more than it has to give */
         } else {
             rest_scale_grounded(&s->w->rest, first, factor);
@@ -218,6 +241,54 @@ static void limit_island(struct step *s, uint32_t first)
 
         rest_scale_free(&s->w->rest, &rigid, factor_q30(&beside, &sum.excess));
     }
+}
+
+/* A factor of momenta, near 1: of an energy that is to change by what is owed. */
+#define CONSERVE_LEAST_Q30 (CAROM_ONE_Q30 - (CAROM_ONE_Q30 >> 3))
+#define CONSERVE_MOST_Q30  (CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 3))
+
+/* Whether more than a quarter of an energy is to be added to it. */
+static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owed2)
+{
+    struct fix_wide sum = fix_wide_down(energy, 2);
+
+    fix_wide_add(&sum, owed2);
+    return fix_wide_sign(&sum) < 0;
+}
+
+/*
+ * What nothing touched has the energy that it had, and what motors gave it: joints do no work. What it has too much or lacks is
+ * put right as far as its motion allows, and owed where that is not far enough: a pendulum that turns back has hardly any.
+ */
+static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
+{
+    struct account sum = audit(s, first);
+    bool grounded = s->w->bodies[first].grounded;
+    struct fix_wide energy = sum.kinetic, changed;
+    struct rest_rigid rigid;
+    int32_t factor;
+
+    fix_wide_add(owed2, &sum.excess);
+    if (!grounded) {
+        if (!rest_rigid_motion(&s->w->rest, first, &rigid)) {
+            return;
+        }
+        energy = beside2(s, &rigid, &sum.kinetic);
+    }
+    if (fix_wide_sign(&energy) <= 0 || fix_wide_sign(owed2) == 0) {
+        return;
+    }
+    factor = lacks_much(&energy, owed2) ? CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
+    factor = fix_larger(factor, CONSERVE_LEAST_Q30);
+    if (grounded) {
+        rest_scale_grounded(&s->w->rest, first, factor);
+    } else {
+        rest_scale_free(&s->w->rest, &rigid, factor);
+    }
+    changed = sum.kinetic;
+    sum = audit(s, first);
+    fix_wide_subtract(&changed, &sum.kinetic);
+    fix_wide_subtract(owed2, &changed);
 }
 
 /*
@@ -239,7 +310,7 @@ static void give_back_gravity(struct step *s, uint32_t first)
     }
 }
 
-void step_calm_island(struct step *s, uint32_t body)
+void step_calm_island(struct step *s, uint32_t body, bool hard)
 {
     uint32_t first = s->w->bodies[body].island;
     bool grounded = false;
@@ -250,7 +321,9 @@ void step_calm_island(struct step *s, uint32_t body)
 
         grounded |= s->w->bodies[p->a].island == first && !s->w->bodies[p->b].moving;
     }
-    (void)rest_unite(&s->w->rest, first, grounded);
+    if (!grounded || !step_carry_island(s, first, hard)) {
+        (void)rest_unite(&s->w->rest, first, grounded);
+    }
     s->w->stats.calmed++;
 }
 
@@ -258,7 +331,7 @@ void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;
 
-    if (s->next->touching_count == 0) {
+    if (s->next->touching_count == 0 && !w->joint_steps) {
         return; /* nothing was in contact */
     }
     island_begin(w->bodies, w->body_count);
@@ -274,18 +347,32 @@ void step_limit_energy(struct step *s)
         island_join(w->bodies, p);
         w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
     }
+    if (w->joint_steps) {
+        w->rest.joints.calls->join(&w->rest);
+        w->joint_steps->ground(s);
+    }
     island_end(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[w->bodies[i].island].touched |= w->bodies[i].touched;
         w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].island == i && w->bodies[i].touched) {
+        struct fix_wide *owed = NULL;
+
+        if (w->bodies[i].mesh && w->bodies[i].island == i && w->joint_steps) {
+            owed = w->joint_steps->owed2(s, i);
+        }
+        if (owed && !w->bodies[i].touched) {
+            conserve_island(s, i, owed);
+        } else if (w->bodies[i].island == i && w->bodies[i].touched) {
             if (s->cut_short && !w->bodies[i].grounded) {
                 give_back_gravity(s, i);
             }
-            if (may_gain(s, i)) {
+            if (owed || may_gain(s, i)) {
                 limit_island(s, i);
+            }
+            if (owed) {
+                *owed = (struct fix_wide){0, 0};
             }
         }
     }

@@ -11,7 +11,8 @@ void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
 {
     struct carom_event *e = &w->events[w->event_count];
 
-    if (w->event_count < 3 * w->config.caps.pairs + 2 * w->config.caps.bodies) {
+    if (w->event_count <
+        3 * w->config.caps.pairs + 2 * w->config.caps.bodies + w->config.caps.joints) {
         w->event_count++;
         memset(e, 0, sizeof *e);
         e->kind = kind;

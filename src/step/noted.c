@@ -31,7 +31,8 @@ int step_note_faces(struct step *s)
     for (uint32_t n = 0; n < s->w->pools[CAROM_POOL_pairs].used && result == CAROM_OK; n++) {
         const struct pair *p = &s->w->pairs[n];
 
-        if (!step_active(s, p->a) && !step_active(s, p->b)) {
+        if (!step_is_solid(&s->w->meetings[n]) ||
+            (!step_active(s, p->a) && !step_active(s, p->b))) {
             continue;
         }
         if (step_goes_far(s, p)) { /* what it has of a path has ended */

@@ -7,13 +7,19 @@
  *
  *   step      the frame on one page
  *   clock     paths: set, left at a time, looked at in a place; the ends of slices
+ *   act       damping and torque, where the frame begins
  *   slice     the longest slice of a body, ticks
  *   regions   regions of bodies, and the pairs that these make
  *   search    the next hit of a pair
  *   cut       paths that are set again for the hit they lead to
+ *   pass      hits that nothing answers: of sensors, and from the side on which a body is not solid
+ *   side      from which side bodies are solid
+ *   ask       what the caller says of contacts
  *   answer    a hit: the island that it belongs to, its contacts, the solve, and the last resort
  *   contacts  the static check, chords, and what contacts leave behind
+ *   joints    what of them a step solves, and where they are going to be
  *   energy    of contact over the frame; rigid: the motion of an island as one body
+ *   led       kinematic bodies: their paths, what they take along, what stops them
  *   finish    events, statistics
  *   noted     the list of interfering faces
  */
@@ -31,8 +37,10 @@ struct step {
     struct world_state *next;
     int32_t now_q30;    /* of the last event */
     uint32_t active;    /* bodies that are awake */
+    bool rare;          /* there are extras, joints or pairs that may pass: most worlds have none */
     bool single;        /* regions last no longer than the frame */
     bool pairs_changed; /* interfering faces are others */
+    bool broke;         /* finish: some joint */
     bool cut_short;     /* some island stands still for a part of the frame */
     uint32_t event_cap; /* hits of a body */
 };
@@ -44,6 +52,9 @@ inline bool step_active(const struct step *s, uint32_t i)
 
 /* Start the next state as a copy of the current one, with nothing found yet. */
 void step_begin(struct step *s, struct carom_world *w);
+
+/* Damp bodies, and give them the angular momentum of their torques. */
+void step_act(struct step *s);
 
 /* Book the ticks since the last mark on a stage. */
 void step_mark(struct carom_world *w, enum carom_stage stage);
@@ -164,6 +175,30 @@ enum step_event step_next(const struct step *s, uint32_t *number);
  */
 int step_cut(struct step *s, uint32_t number, bool *tried);
 
+/* The hit of a pair, with the features as they meet. */
+struct boyse_hit step_hit_of(struct step *s, uint32_t number);
+
+/* Whether two bodies are solid to each other in this frame: neither is a sensor, and they do not pass. */
+static inline bool step_is_solid(const struct pair_work *m)
+{
+    return !m->senses && !m->passes;
+}
+/* Whether nothing is to answer the hit of a pair, which then passes until the frame ends. */
+bool step_let_pass(struct step *s, uint32_t number);
+/* Whether both bodies of a pair are solid along N, which points from b into a. */
+bool step_solid_along(const struct step *s, const struct pair *p, const carom_v3_q30 *normal,
+                      int32_t t_q30);
+/* Drop the contacts of a pair on those sides of a body from which it is not solid. */
+void step_drop_other_side(struct step *s, uint32_t number);
+/* Bodies that were added or set into a sensor have met it. */
+void step_sense_start(struct step *s);
+/* Which pairs go through each other when the frame ends, and what sensors found. */
+int step_finish_through(struct step *s);
+extern const struct step_joint_calls step_joint_calls;
+
+/* The end of a slice of a body that joints connect: its group leaves its paths, and joints are solved. */
+int step_rejoin(struct step *s, uint32_t body);
+
 /* Answer the hit of a pair. */
 int step_answer(struct step *s, uint32_t number);
 
@@ -172,8 +207,10 @@ int step_start_contacts(struct step *s);
 
 /* Take the contacts of a pair into the list in the place of those it has there. */
 int step_check_pair(struct step *s, uint32_t number);
-/* Sort out the contacts of the list: each place once, and which pairs touch. */
-int step_settle_contacts(struct step *s);
+/* Sort out the contacts of the list: each place once, and which pairs touch. Those of members may be new. */
+int step_settle_contacts(struct step *s, bool members);
+/* Ask the caller about the contacts of the list, or those of members alone. */
+void step_ask_contacts(struct step *s, bool members);
 /* Solve those contacts that are not idle. */
 int step_solve(struct step *s, bool warm);
 
@@ -203,9 +240,36 @@ void step_limit_energy(struct step *s);
 
 /*
  * The last resort for an island that a solve did not part: at rest when it touches what stands still,
- * else in its motion as one rigid body.
+ * else in its motion as one rigid body. `hard`: see step_carry_island.
  */
-void step_calm_island(struct step *s, uint32_t body);
+void step_calm_island(struct step *s, uint32_t body, bool hard);
+
+/* ---------------------------------------------------------------- kinematic bodies */
+
+/* The routes of kinematic bodies for the frame, where their clocks begin; and the poses they were led to. */
+void step_begin_routes(struct carom_world *w);
+void step_end_routes(struct step *s);
+
+/*
+ * The path of a kinematic body from now on for a slice, which must not be longer than what is left of its
+ * own; back to where it is now.
+ */
+void step_look_ahead(struct step *s, uint32_t i, int32_t slice_q30);
+void step_look_back(struct step *s, uint32_t i);
+
+/*
+ * The last resort for an island that kinematic bodies push: it goes along with one of them as one rigid
+ * body, where that approaches nothing else; or all of them stop, and the island with them. `hard`: it has
+ * gone along already. False when none pushes it.
+ */
+bool step_carry_island(struct step *s, uint32_t first, bool hard);
+/* The kinematic bodies that touch members, and that of the pair, stop for what is left of the frame. */
+void step_block_pushers(struct step *s, const struct pair *p);
+/* Say that a kinematic body was blocked by a body, once a frame. */
+void step_note_blocked(struct step *s, uint32_t i, uint32_t by);
+
+/* What lies on a kinematic body that is led somewhere has not been quiet. */
+void step_keep_awake(struct step *s);
 
 /* ------------------------------------------------------------------------ finish */
 

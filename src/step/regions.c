@@ -56,6 +56,15 @@ uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
     return is_at(w, place, p->a, p->b) ? place : UINT32_MAX;
 }
 
+/* What is kept of a pair that is new. */
+static struct pair_work new_meeting(const struct carom_world *w, const struct pair *p)
+{
+    return (struct pair_work){.hit_q30 = PAIRS_NEVER,
+                              .answered_q30 = -1,
+                              .senses = w->bodies[p->a].sensor || w->bodies[p->b].sensor,
+                              .passes = w->passing && world_goes_through(w, world_now(w), p)};
+}
+
 static int insert_pair(struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)
 {
     struct pool *pool = &w->pools[CAROM_POOL_pairs];
@@ -67,7 +76,7 @@ static int insert_pair(struct carom_world *w, uint32_t place, uint32_t a, uint32
     memmove(&w->pairs[place + 1], &w->pairs[place], behind * sizeof *w->pairs);
     memmove(&w->meetings[place + 1], &w->meetings[place], behind * sizeof *w->meetings);
     w->pairs[place] = (struct pair){(uint16_t)a, (uint16_t)b};
-    w->meetings[place] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
+    w->meetings[place] = new_meeting(w, &w->pairs[place]);
     renumber(w, place, 1);
     return CAROM_OK;
 }
@@ -92,12 +101,13 @@ static bool are_near(const struct step *s, uint32_t a, uint32_t b)
 {
     struct body *bodies = s->w->bodies;
 
-    return broad_is_pair(bodies, s->next->bodies, a, b) && broad_boxes_meet(&bodies[a], &bodies[b]);
+    return broad_is_pair(bodies, s->next->bodies, a, b) &&
+           broad_boxes_meet(&bodies[a], &bodies[b]) && !world_ignores(s->w, a, b);
 }
 
 /*
  * The pairs of a body whose region is new: they are gathered when somebody asks for them. One that has hit in
- * this frame stays, for what it has counted must not depend on regions.
+ * this frame stays, for what it has counted must not depend on regions; nor must it whether it passes.
  */
 static int set_pairs(struct step *s, uint32_t i)
 {
@@ -110,7 +120,7 @@ static int set_pairs(struct step *s, uint32_t i)
 
         if (p->a == i || p->b == i) {
             w->meetings[n].kept = false;
-            if (w->meetings[n].hits == 0 && !are_near(s, p->a, p->b)) {
+            if (w->meetings[n].hits == 0 && !w->meetings[n].passes && !are_near(s, p->a, p->b)) {
                 remove_pair(w, n);
             }
         }
@@ -174,7 +184,7 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : BENT_FRAMES;
 
     /* where nothing is near, a new region costs less than to ask whether the old one holds */
-    if (slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
+    if (!b->moving || slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
@@ -231,7 +241,13 @@ int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
 static int32_t foresee(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
-    int32_t slice_q30 = step_slice(s, i, CAROM_ONE_Q30 - s->now_q30);
+    int32_t slice_q30;
+
+    if (!b->moving) {
+        body_follow(b, &s->next->bodies[i]);
+        return b->to_q30;
+    }
+    slice_q30 = step_slice(s, i, CAROM_ONE_Q30 - s->now_q30);
 
     body_predict(b, &s->next->bodies[i], slice_q30, b->touched ? NULL : &b->acceleration);
     return slice_q30;
@@ -242,10 +258,26 @@ int step_adopt(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
     int result;
 
-    b->from_q30 = b->to_q30 = s->now_q30;
+    if (b->moving) {
+        b->from_q30 = b->to_q30 = s->now_q30;
+    }
     result = step_set_region(s, i, foresee(s, i));
     body_place(b, &s->next->bodies[i]);
     return result;
+}
+
+/* Pairs whose joints let them ignore each other are none. */
+static void drop_ignored(struct carom_world *w)
+{
+    struct pool *pool = &w->pools[CAROM_POOL_pairs];
+    uint32_t kept = 0;
+
+    for (uint32_t n = 0; n < pool->used; n++) {
+        if (!world_ignores(w, w->pairs[n].a, w->pairs[n].b)) {
+            w->pairs[kept++] = w->pairs[n];
+        }
+    }
+    pool->used = kept;
 }
 
 /* Regions of all, and all pairs. */
@@ -266,8 +298,9 @@ static int begin_all(struct step *s)
     pool_clear(&w->pools[CAROM_POOL_candidates]);
     result = broad_pairs(w->pairs, &w->pools[CAROM_POOL_pairs], w->bodies, s->next->bodies,
                          w->body_count);
+    drop_ignored(w);
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        w->meetings[n] = (struct pair_work){.hit_q30 = PAIRS_NEVER, .answered_q30 = -1};
+        w->meetings[n] = new_meeting(w, &w->pairs[n]);
     }
     w->interfere.stale = false;
     s->pairs_changed = true;
@@ -286,7 +319,7 @@ static int begin_one(struct step *s, uint32_t i)
         begin_standing(s, i);
         return set_pairs(s, i);
     }
-    if (b->active) { /* its path stayed within its region */
+    if (b->active && b->moving) { /* its path stayed within its region */
         if (s->w->pools[CAROM_POOL_pairs].used > 0) {
             body_place(b, &s->next->bodies[i]);
             CAROM_ASSERT(body_region_holds(b, 0));
@@ -294,6 +327,20 @@ static int begin_one(struct step *s, uint32_t i)
         return CAROM_OK;
     }
     return step_adopt(s, i);
+}
+
+/* Pairs that go through each other since an earlier frame. */
+static void mark_passes(struct carom_world *w)
+{
+    const struct world_state *now = world_now(w);
+
+    for (uint32_t i = 0; i < now->through_count; i++) {
+        uint32_t number = step_find_pair(w, &world_through(w, now)[i]);
+
+        if (number != UINT32_MAX) {
+            w->meetings[number].passes = true;
+        }
+    }
 }
 
 int step_begin_regions(struct step *s)
@@ -308,7 +355,11 @@ int step_begin_regions(struct step *s)
             w->meetings[n].hit_q30 = PAIRS_NEVER;
             w->meetings[n].answered_q30 = -1;
             w->meetings[n].hits = w->meetings[n].clear = 0;
+            w->meetings[n].passes = false;
             w->meetings[n].kept = w->meetings[n].kept && w->meetings[n].until == 0;
+        }
+        if (w->passing) {
+            mark_passes(w);
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
             result = w->bodies[i].mesh ? begin_one(s, i) : CAROM_OK;

@@ -93,11 +93,12 @@ static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
                                          candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
 }
 
-/* The first hit. */
+/* The first hit. A sensor is met where the surfaces meet, for nothing is answered. */
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
     struct boyse_pair *pair = n > 0 ? step_set_pair(v->step->w, v->number) : NULL;
+    bool senses = v->step->w->meetings[v->number].senses;
 
     for (uint32_t i = 0; i < n; i++) {
         struct boyse_hit hit;
@@ -107,7 +108,10 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
             continue;
         }
         hit.candidate = c[i];
-        hit.touch.valid = step_put_off(pair, &hit);
+        if (senses) {
+            hit.t_q30 = hit.root_q30;
+        }
+        hit.touch.valid = !senses && step_put_off(pair, &hit);
         if (!v->found || is_before(v, &hit)) {
             v->hit = hit;
             v->found = true;
@@ -165,7 +169,7 @@ static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t
 static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t radius_q22 = (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+    int32_t radius_q22 = (b->goes && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
     int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, TURN_PARTS);
 
@@ -257,7 +261,7 @@ int step_search(struct step *s, uint32_t number)
     int result = CAROM_OK;
 
     m->hit_q30 = PAIRS_NEVER;
-    if (!step_window(s, number, &v.from_q30, &v.to_q30)) {
+    if (m->passes || !step_window(s, number, &v.from_q30, &v.to_q30)) {
         return CAROM_OK;
     }
     step_drop_part(m, v.to_q30);

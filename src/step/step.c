@@ -28,7 +28,9 @@ static uint32_t count_active(const struct carom_world *w)
 FIX_APART static void forget(struct carom_world *w)
 {
     w->event_count = 0;
+    w->rest.joints.states = w->now->joints;
     w->interfere.stale = true;
+    pool_clear(&w->pools[CAROM_POOL_hits]);
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);
     pool_clear(&w->pools[CAROM_POOL_contacts]);
@@ -56,7 +58,7 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
         const struct body_state *from = &now->bodies[i];
         struct body_state *to = &next->bodies[i];
 
-        if (w->bodies[i].moving && !(from->asleep && to->asleep && !to->woken)) {
+        if (w->bodies[i].goes && !(from->asleep && to->asleep && !to->woken)) {
             *to = *from;
         }
         begin_clock(&w->bodies[i]);
@@ -73,10 +75,14 @@ void step_begin(struct step *s, struct carom_world *w)
     s->active = count_active(w);
     s->cut_short = s->pairs_changed = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
+    s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
     copy_bodies(w, next);
+    if (s->rare && w->pools[CAROM_POOL_extras].used > 0) {
+        step_begin_routes(w);
+    }
     memcpy(next->warm, now->warm, now->warm_count * sizeof *next->warm);
     next->warm_count = now->warm_count;
-    next->touching_count = 0;
+    next->touching_count = next->through_count = 0;
 
     w->rest.pairs = w->pairs;
     w->rest.bodies = w->bodies;
@@ -84,12 +90,19 @@ void step_begin(struct step *s, struct carom_world *w)
     w->rest.body_count = w->body_count;
     w->rest.warm = next->warm;
     w->rest.warm_count = next->warm_count;
+    if (s->rare && w->joint_steps) {
+        w->joint_steps->begin(s);
+    }
     w->rest.sweeps = w->rest.impacts = w->rest.energy_rules = 0;
     w->interfere.gathers = w->interfere.candidate_count = 0;
     memset(&w->stats, 0, sizeof w->stats);
     w->stats.substeps = 1;
     w->event_count = 0;
     pool_clear(&w->pools[CAROM_POOL_contacts]);
+    pool_clear(&w->pools[CAROM_POOL_hits]);
+    if (s->rare) {
+        step_act(s);
+    }
 }
 
 /* The paths of all that move, at the start of the frame, and the first hits on them. */
@@ -111,6 +124,7 @@ static int set_out(struct step *s)
 /* The end of a body's slice: the next one begins. */
 static int end_slice(struct step *s, uint32_t i)
 {
+    int32_t before_q30 = s->now_q30;
     int result;
 
     for (uint32_t k = 0; k < s->w->body_count; k++) {
@@ -124,6 +138,9 @@ static int end_slice(struct step *s, uint32_t i)
     step_leave_path(s, i, s->now_q30);
     result = step_set_path(s, i);
     step_mark(s->w, CAROM_STAGE_PREDICT);
+    if (s->w->bodies[i].sensor) {
+        s->now_q30 = before_q30; /* to all others it was no event */
+    }
     return result == CAROM_OK ? step_search_members(s) : result;
 }
 
@@ -138,7 +155,11 @@ static int run(struct step *s)
         bool cut = false;
 
         if (event == STEP_SLICE) {
-            result = end_slice(s, number);
+            result = s->w->bodies[number].joined == BODY_ALONE ? end_slice(s, number)
+                                                               : step_rejoin(s, number);
+            continue;
+        }
+        if (step_let_pass(s, number)) {
             continue;
         }
         result = step_cut(s, number, &cut);
@@ -157,6 +178,12 @@ static void arrive(struct step *s)
             step_leave_path(s, i, CAROM_ONE_Q30);
         }
     }
+    if (s->rare) {
+        step_end_routes(s);
+        if (s->w->joint_steps) {
+            s->w->joint_steps->project(s);
+        }
+    }
     step_mark(s->w, CAROM_STAGE_ADVANCE);
 }
 
@@ -168,6 +195,24 @@ static void stop_clock(struct step *s, uint32_t i)
     if (b->stands && step_active(s, i)) {
         body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
         b->from_q30 = b->to_q30 = CAROM_ONE_Q30;
+    }
+}
+
+/*
+ * What a surface of another velocity carries, however slowly, is not at rest: a contact that moves holds off
+ * sleep.
+ */
+static void keep_carried_awake(struct step *s)
+{
+    const struct contact_list *list = &s->w->rest.list;
+
+    for (uint32_t i = 0; i < list->pool->used; i++) {
+        const struct contact *c = &list->contacts[i];
+        const struct pair *p = &s->w->pairs[c->key.pair];
+
+        if (c->drift && (c->drift->c[0] | c->drift->c[1] | c->drift->c[2]) != 0) {
+            s->next->bodies[p->a].quiet = s->next->bodies[p->b].quiet = 0;
+        }
     }
 }
 
@@ -186,11 +231,23 @@ static int finish(struct step *s)
         (void)step_retire(s, i);
     }
     if (w->config.sleep) {
-        rest_sleep(w->bodies, s->next->bodies, w->body_count, s->next->touching,
-                   s->next->touching_count);
+        if (s->rare && w->pools[CAROM_POOL_extras].used > 0) {
+            keep_carried_awake(s);
+            step_keep_awake(s);
+        }
+        rest_sleep(&w->rest, s->next->touching, s->next->touching_count);
     }
     step_drop_warm(s);
-    return step_finish_events(s);
+    result = step_finish_events(s);
+    s->broke = false;
+    if (!s->rare) {
+        return result;
+    }
+    if (result == CAROM_OK && w->passing) {
+        result = step_finish_through(s);
+    }
+    s->broke = w->joint_steps && w->joint_steps->break_joints(s);
+    return result;
 }
 
 /* Whether a step would find nothing, and leave the state as it is. */
@@ -203,7 +260,7 @@ static bool is_idle(const struct carom_world *w)
             return false;
         }
     }
-    return now->warm_count == 0;
+    return now->warm_count == 0 && !w->sense_anew;
 }
 
 /* A frame in which nothing is awake: what the first one finds stays true of those that follow. */
@@ -234,6 +291,9 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
     s.single = single;
     result = step_begin_regions(&s);
     if (result == CAROM_OK) {
+        if (s.rare && w->sense_anew) {
+            step_sense_start(&s);
+        }
         result = step_start_contacts(&s);
     }
     if (result == CAROM_OK) {
@@ -252,7 +312,14 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
     }
     *cut_short = s.cut_short;
     w->now = s.next;
+    w->sense_anew = false;
     world_halt_surfaces(w);
+    if (s.rare) {
+        if (s.broke) {
+            w->joint_steps->regroup(w);
+        }
+        world_halt_routes(w);
+    }
     step_mark(w, CAROM_STAGE_COMMIT);
     step_finish_stats(w);
     return result;
@@ -267,7 +334,6 @@ static bool may_be_less(int error)
 
 int carom_world_step(struct carom_world *w)
 {
-    bool cut_short = false;
     int status = CAROM_OK;
 
     if (!w) {
@@ -279,13 +345,15 @@ int carom_world_step(struct carom_world *w)
     if (w->idle || is_idle(w)) {
         step_idle(w);
     } else {
+        bool cut_short = false;
+
         status = step_frame(w, false, &cut_short);
         if (may_be_less(status)) {
             status = step_frame(w, true, &cut_short);
         }
-    }
-    if (cut_short && status == CAROM_OK) {
-        status = CAROM_SUBSTEP_CAP;
+        if (cut_short && status == CAROM_OK) {
+            status = CAROM_SUBSTEP_CAP;
+        }
     }
     if (status >= 0 && w->config.budget_ticks && w->stats.total_ticks > w->config.budget_ticks) {
         status |= CAROM_OVER_BUDGET;

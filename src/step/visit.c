@@ -64,7 +64,7 @@ bool step_goes_far(const struct step *s, const struct pair *p)
         step_many_faces(a, b)) {
         return true;
     }
-    return way_q22 > (b->moving && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+    return way_q22 > (b->goes && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
 }
 
 /* Whether a body's region lasts beyond the frame because nothing was near. */

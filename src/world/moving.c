@@ -45,6 +45,15 @@ static void shift(const struct lift *l, struct body_state *s, int64_t way_q32)
     }
 }
 
+/* Whether bodies may touch, and do not go through each other at present. */
+static bool solid(const struct lift *l, uint32_t i, uint32_t k)
+{
+    const struct pair p = world_name_pair(l->w, i, k);
+
+    return broad_may_touch(&l->w->bodies[i], &l->w->bodies[k]) &&
+           !world_goes_through(l->w, world_now(l->w), &p);
+}
+
 static bool movable(const struct lift *l, uint32_t i)
 {
     return l->w->bodies[i].mesh && l->w->bodies[i].moving && !l->states[i].out;
@@ -140,8 +149,9 @@ static int find_lifts(struct lift *l)
         struct body *b = &w->bodies[i];
         int64_t height_q32 = clear_q32(l, b);
 
-        if (movable(l, i) && broad_near(surface, &l->states[l->surface], b, &l->states[i],
-                                        (int32_t)(height_q32 >> 10))) {
+        if (movable(l, i) && solid(l, i, l->surface) &&
+            broad_near(surface, &l->states[l->surface], b, &l->states[i],
+                       (int32_t)(height_q32 >> 10))) {
             struct body_state raised = l->states[i];
 
             shift(l, &raised, height_q32);
@@ -190,7 +200,7 @@ static int pair_lifted(struct lift *l)
     for (uint32_t a = 0; a < w->body_count; a++) {
         for (uint32_t b = 0; b < w->body_count && movable(l, a) && result == CAROM_OK; b++) {
             bool pair = w->bodies[b].mesh && b != l->surface && !l->states[b].out &&
-                        (w->bodies[b].moving ? b < a : true);
+                        (w->bodies[b].moving ? b < a : true) && solid(l, a, b);
             int64_t most = lift_of(w, a);
 
             most = pair && w->bodies[b].moving && lift_of(w, b) > most ? lift_of(w, b) : most;
@@ -309,7 +319,7 @@ static int move(struct carom_world *w, int body, const int16_t (*vertices)[3], b
     if (!w || !vertices) {
         return CAROM_ERR_NULL;
     }
-    if (!world_has_body(w, body)) {
+    if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
     s = w->bodies[body].mesh->surface;

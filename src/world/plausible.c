@@ -15,22 +15,6 @@
 /* What lies on a surface that moves may be this far above it, q22. */
 #define SURFACE_GAP_Q22 ((int32_t)32 << 22)
 
-/* Whether the squared length of n numbers in q30 is 1 within 2^-bits. */
-static bool is_unit(const int32_t *v, int n, int bits)
-{
-    int64_t square_q60 = 0;
-
-    for (int k = 0; k < n; k++) {
-        int32_t most = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> bits);
-
-        if (v[k] > most || v[k] < -most) {
-            return false;
-        }
-        square_q60 += (int64_t)v[k] * v[k];
-    }
-    return carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << (60 - bits);
-}
-
 /* What sleeps has no momenta, and is neither out nor woken since the last step. */
 static bool flags_plausible(const struct body *b, const struct body_state *s)
 {
@@ -43,13 +27,28 @@ static bool flags_plausible(const struct body *b, const struct body_state *s)
 }
 
 static bool body_plausible(const struct body *b, const struct body_state *s,
-                           const carom_v3_q40 *gravity, const carom_v3_q40 *force)
+                           const carom_v3_q40 *gravity, const struct carom_forces *forces)
 {
-    carom_v3_q40 acceleration;
+    const carom_v3_q40 *force = &forces->force;
 
-    return is_unit(s->rotation.c, 4, ROTATION_BITS) && world_in_range(b, s) &&
+    return world_is_unit(s->rotation.c, 4, ROTATION_BITS) && world_in_range(b, s) &&
            flags_plausible(b, s) && (b->moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
-           world_acceleration(b, gravity, force, &acceleration);
+           (b->moving || !world_forces_need_extra(forces)) &&
+           world_check_forces(b, gravity, forces) == CAROM_OK;
+}
+
+bool world_drive_plausible(const struct body *b, const struct body_state *s,
+                           const struct body_drive *drive)
+{
+    if (drive->kind == BODY_DRIVE_NONE) {
+        return true;
+    }
+    if (drive->kind == BODY_DRIVE_ON) {
+        return world_drive_in_range(b, &drive->velocity, &drive->spin) &&
+               (fix_sum(drive->velocity.c) | fix_sum(drive->spin.c)) != 0;
+    }
+    return drive->kind == BODY_DRIVE_TO && world_is_unit(drive->rotation.c, 4, ROTATION_BITS) &&
+           world_leads(drive, s) && world_pose_in_reach(b, s, &drive->position, &drive->rotation);
 }
 
 /* As broad.h names a pair. */
@@ -92,7 +91,7 @@ FIX_APART static bool impulse_plausible(const struct carom_world *w, const struc
     if (parts.normal_q40 > most_q40 || parts.normal_q40 < -IMPULSE_NOISE_Q40) {
         return false;
     }
-    across_q40 = parts.normal_q40 / (1 << 16) * rest_friction(a, b);
+    across_q40 = parts.normal_q40 / (1 << 16) * rest_friction(&w->rest, a, b);
     across_q40 += across_q40 / 64 + most_q40 / (1 << 20) + IMPULSE_NOISE_Q40;
     return world_each_within(parts.tangent.c, across_q40);
 }
@@ -136,7 +135,7 @@ static bool warm_plausible(const struct carom_world *w, const struct world_state
             t++;
         }
         if (t == end || order(t->a, t->b, i->a, i->b) != 0 || !arm_plausible(w, i) ||
-            !is_unit(i->normal.c, 3, NORMAL_BITS) || !impulse_plausible(w, i) ||
+            !world_is_unit(i->normal.c, 3, NORMAL_BITS) || !impulse_plausible(w, i) ||
             !(awake(w, s, i->a) || awake(w, s, i->b)) || repeats(s->warm, i)) {
             return false;
         }
@@ -144,10 +143,10 @@ static bool warm_plausible(const struct carom_world *w, const struct world_state
     return true;
 }
 
-static bool touching_plausible(const struct carom_world *w, const struct world_state *s)
+static bool pairs_plausible(const struct carom_world *w, const struct pair *list, uint32_t count)
 {
-    for (uint32_t i = 0; i < s->touching_count; i++) {
-        const struct pair *p = &s->touching[i];
+    for (uint32_t i = 0; i < count; i++) {
+        const struct pair *p = &list[i];
 
         if (!pair_plausible(w, p->a, p->b) || (i > 0 && order(p[-1].a, p[-1].b, p->a, p->b) >= 0)) {
             return false;
@@ -156,9 +155,27 @@ static bool touching_plausible(const struct carom_world *w, const struct world_s
     return true;
 }
 
-carom_v3_q40 *world_force_read(const struct carom_world *w, uint32_t body)
+struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body)
 {
-    return &w->bodies[body].velocity;
+    const struct body *b = &w->bodies[body];
+    struct carom_forces f;
+
+    memset(&f, 0, sizeof f);
+    f.force = b->velocity;
+    f.torque = b->saved_momentum;
+    f.gravity_scale_q16 = (int32_t)b->spin.c[0];
+    f.linear_damping_q30 = (int32_t)b->spin.c[1];
+    f.angular_damping_q30 = (int32_t)b->spin.c[2];
+    return f;
+}
+
+void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f)
+{
+    struct body *b = &w->bodies[body];
+
+    b->velocity = f->force;
+    b->saved_momentum = f->torque;
+    b->spin = (carom_v3_q40){{f->gravity_scale_q16, f->linear_damping_q30, f->angular_damping_q30}};
 }
 
 bool world_plausible(const struct carom_world *w, const struct world_state *s,
@@ -168,10 +185,12 @@ bool world_plausible(const struct carom_world *w, const struct world_state *s,
         return false;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].mesh &&
-            !body_plausible(&w->bodies[i], &s->bodies[i], gravity, world_force_read(w, i))) {
+        const struct carom_forces forces = world_forces_read(w, i);
+
+        if (w->bodies[i].mesh && !body_plausible(&w->bodies[i], &s->bodies[i], gravity, &forces)) {
             return false;
         }
     }
-    return touching_plausible(w, s) && warm_plausible(w, s);
+    return pairs_plausible(w, s->touching, s->touching_count) &&
+           pairs_plausible(w, world_through(w, s), s->through_count) && warm_plausible(w, s);
 }

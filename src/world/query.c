@@ -2,13 +2,13 @@
 /* What is asked of a world between its steps: how two bodies lie to each other. */
 #include "world.h"
 
-/* What is wrong with a question about two bodies. */
-static int check_bodies(const struct carom_world *w, int a, int b)
+/* What is wrong with a question about two bodies; makes them numbers. */
+static int check_bodies(const struct carom_world *w, int *a, int *b)
 {
-    if (!world_has_body(w, a) || !world_has_body(w, b)) {
+    if (!world_find_body(w, a) || !world_find_body(w, b)) {
         return CAROM_ERR_BODY;
     }
-    return a == b ? CAROM_ERR_ARGUMENT : CAROM_OK;
+    return *a == *b ? CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
 static struct interfere_placed placed(const struct carom_world *w, int body)
@@ -24,7 +24,7 @@ int carom_query_faces(struct carom_world *w, int a, int b, struct carom_face_pai
     if (!w || (!out && room > 0)) {
         return CAROM_ERR_NULL;
     }
-    result = check_bodies(w, a, b);
+    result = check_bodies(w, &a, &b);
     return result < 0 ? result
                       : interfere_query(&w->interfere, placed(w, a), placed(w, b), out,
                                         room < INT32_MAX ? room : INT32_MAX);
@@ -37,6 +37,6 @@ int carom_query_inside(const struct carom_world *w, int a, int b)
     if (!w) {
         return CAROM_ERR_NULL;
     }
-    result = check_bodies(w, a, b);
+    result = check_bodies(w, &a, &b);
     return result < 0 ? result : interfere_inside(placed(w, a), placed(w, b));
 }

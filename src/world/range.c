@@ -12,13 +12,49 @@ bool world_each_within(const int64_t v[3], int64_t limit)
     return true;
 }
 
+bool world_is_unit(const int32_t *v, int n, int bits)
+{
+    int64_t square_q60 = 0;
+
+    for (int k = 0; k < n; k++) {
+        int32_t most = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> bits);
+
+        if (v[k] > most || v[k] < -most) {
+            return false;
+        }
+        square_q60 += (int64_t)v[k] * v[k];
+    }
+    return carom_abs(square_q60 - ((int64_t)1 << 60)) < (int64_t)1 << (60 - bits);
+}
+
+bool world_rotation_valid(carom_quat_q30 *q)
+{
+    int64_t square_q60 = 0;
+
+    if ((q->c[0] | q->c[1] | q->c[2] | q->c[3]) == 0) {
+        q->c[0] = CAROM_ONE_Q30;
+        return true;
+    }
+    for (int k = 0; k < 4; k++) {
+        if (carom_abs(q->c[k]) > CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10)) {
+            return false;
+        }
+        square_q60 += (int64_t)q->c[k] * q->c[k];
+    }
+    if (carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 51) {
+        return false;
+    }
+    body_normalise(q);
+    return true;
+}
+
 bool world_gravity_in_range(const carom_v3_q40 *gravity)
 {
     return world_each_within(gravity->c, (int64_t)1 << 40);
 }
 
-bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
-                        const carom_v3_q40 *force, carom_v3_q40 *out)
+bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
+                        const carom_v3_q40 *gravity, const carom_v3_q40 *force, carom_v3_q40 *out)
 {
     carom_v3_q40 sum = {{0, 0, 0}};
 
@@ -27,7 +63,9 @@ bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
         return false;
     }
     for (int k = 0; b->moving && k < 3; k++) {
-        sum.c[k] = gravity->c[k] + fix_mul_scaled(force->c[k], b->inverse_mass);
+        sum.c[k] = gravity_scale_q16 == 1 << 16 ? gravity->c[k]
+                                                : fix_mul(gravity->c[k], gravity_scale_q16, 16);
+        sum.c[k] += fix_mul_scaled(force->c[k], b->inverse_mass);
     }
     *out = sum;
     return world_gravity_in_range(&sum);
@@ -38,9 +76,16 @@ void world_accelerate(struct carom_world *w, uint32_t body)
     struct body *b = &w->bodies[body];
 
     if (b->mesh) {
-        world_acceleration(b, &w->config.gravity, &b->force, &b->acceleration);
+        int32_t scale_q16 = b->extra ? b->extra->gravity_scale_q16 : 1 << 16;
+
+        world_acceleration(b, scale_q16, &w->config.gravity, &b->force, &b->acceleration);
         b->acceleration_q40 = fix_length(b->acceleration.c);
     }
+}
+
+int64_t world_most_angular_q40(const struct body *b)
+{
+    return fix_mul_scaled(fix_mul((int64_t)BODY_SPEED_LIMIT << 40, b->radius_q22, 22), b->mass);
 }
 
 bool world_position_in_range(const carom_v3_q32 *p)
@@ -48,25 +93,46 @@ bool world_position_in_range(const carom_v3_q32 *p)
     return world_each_within(p->c, (int64_t)BODY_WORLD_LIMIT << 32);
 }
 
-/*
- * Whether every point of a body, of radius r, is slower than the limit: |v| + r |w| < 64, and |w| <
- * 64 when it is given. No impact can then make the centre faster than that within a frame, because
- * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
- */
-static bool points_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
+/* Below 2^48, to nearest: fix_length and one step of Newton's, for the digits that it leaves out. */
+static int64_t exact_length(const int64_t v[3])
 {
-    const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
+    int64_t length = fix_length(v);
+    struct fix_wide excess = fix_wide_mul(-length, length);
 
-    return world_each_within(v->c, limit_q40) &&
-           fix_length(v->c) + fix_mul(fix_length(w->c), b->radius_q22, 22) < limit_q40;
+    if (length > 0) {
+        fix_wide_add_dot(&excess, v, v);
+        length += fix_mul_scaled(1, fix_wide_over(&excess, 2 * length));
+    }
+    return length;
 }
 
+/*
+ * Whether every point of a body, of radius r, is slower than the limit: |v| + r |w| < 64, and |w| <
+ * 64. No impact can then make the centre faster than that within a frame, because
+ * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
+ */
 bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
 {
     const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
+    int64_t turn_q40;
 
-    return world_each_within(w->c, limit_q40) && fix_length(w->c) < limit_q40 &&
-           points_in_range(b, v, w);
+    if (!world_each_within(v->c, limit_q40) || !world_each_within(w->c, limit_q40)) {
+        return false;
+    }
+    turn_q40 = exact_length(w->c);
+    return turn_q40 < limit_q40 &&
+           exact_length(v->c) + fix_mul(turn_q40, b->radius_q22, 22) < limit_q40;
+}
+
+void world_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
+                      const carom_v3_q40 *w)
+{
+    body_set_motion(b, s, v, w);
+    if (!world_in_range(b, s)) {
+        for (int k = 0; k < 3; k++) {
+            s->momentum.c[k] -= s->momentum.c[k] / (1 << 25);
+        }
+    }
 }
 
 /* Of the mean square of the speeds that points turn with, at most: they are below 2^10. */
@@ -77,7 +143,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     const int64_t angular_limit_q40 = (int64_t)1 << 62;
     int64_t momentum_limit_q40 =
         b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
-    carom_v3_q40 v, w, still = {{0, 0, 0}};
+    carom_v3_q40 v, w;
     int64_t by_mass[3] = {0, 0, 0};
     struct fix_wide sum = {0, 0};
     carom_m3_q30 r;
@@ -90,8 +156,9 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     /* a thin body may spin faster about its axis than any that is made */
     fix_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
-    if (!points_in_range(b, &v, &still) || fix_length(s->angular.c) >= angular_limit_q40 ||
-        (b->moving && !body_spin_fits(b, s, &r))) {
+    if (!world_each_within(v.c, (int64_t)BODY_SPEED_LIMIT << 40) ||
+        fix_length(v.c) >= (int64_t)BODY_SPEED_LIMIT << 40 ||
+        fix_length(s->angular.c) >= angular_limit_q40 || (b->moving && !body_spin_fits(b, s, &r))) {
         return false;
     }
     body_spin(b, s, &r, &w);
@@ -100,4 +167,19 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     }
     fix_wide_add_dot(&sum, by_mass, w.c);
     return fix_wide_bits(&sum) <= 80 + SQUARE_BITS;
+}
+
+bool world_momenta_in_range(const struct body *b, const struct body_state *s)
+{
+    carom_v3_q40 v, w;
+    carom_m3_q30 r;
+
+    fix_matrix(&r, &s->rotation);
+    /* |L| <= m r^2 |w| and r |w| < 64 */
+    if (!world_in_range(b, s) || fix_length(s->angular.c) > world_most_angular_q40(b)) {
+        return false;
+    }
+    body_velocity(b, s, &v);
+    body_spin(b, s, &r, &w);
+    return world_motion_in_range(b, &v, &w);
 }

@@ -26,11 +26,18 @@ const char *carom_result_text(int result)
         "the data is truncated, altered or of another kind",
         "a surface would press a body into a stationary one",
         "a surface that moves needs a world of some entries",
+        "the pool of extras has none left for this body",
+        "the body would cross another, or be inside it",
+        "no joint of this number",
+        "the pool of joints is full",
     };
     const int count = (int)(sizeof errors / sizeof errors[0]);
 
     if (result < 0) {
         return result > -count ? errors[-result] : errors[0];
+    }
+    if (result > (CAROM_OVER_BUDGET | CAROM_SUBSTEP_CAP)) {
+        return "ok, a number or a count";
     }
     switch (result & (CAROM_OVER_BUDGET | CAROM_SUBSTEP_CAP)) {
     case 0:
@@ -59,6 +66,20 @@ int carom_events(const struct carom_world *w, const struct carom_event **events)
     }
     *events = w->events;
     return (int)w->event_count;
+}
+
+int carom_event_hit(const struct carom_world *w, const struct carom_event *event,
+                    struct carom_hit *hit)
+{
+    if (!w || !event || !hit) {
+        return CAROM_ERR_NULL;
+    }
+    if (event->kind != CAROM_EVENT_HIT || event->details == 0 ||
+        event->details > w->pools[CAROM_POOL_hits].used) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    *hit = w->hits[event->details - 1];
+    return CAROM_OK;
 }
 
 int carom_interfering_faces(const struct carom_world *w, const struct carom_face_ref **faces)

@@ -11,12 +11,24 @@
  *   u32 count of touching pairs; each: u16 a, b
  *   u64 for each body that is a surface of carom_surface_build: FNV-1a of its vertices and of those of
  *       the last step, int16 x, y, z each; the caller has put the surface there before it is loaded
+ *   where each kinematic body is led: u8 0 nowhere, 1 on, 2 to a pose; 1: velocity 3 x i64, spin 3 x i64;
+ *       2: position 3 x i64, rotation 4 x i32
+ *   what only some worlds have, each after a tag of four bytes:
+ *   "FLT1", when a body has a filter of its own; each body: u16 category, mask, group
+ *   "THR1", when pairs go through each other: u32 count; each: u16 a, b
+ *   a world that has had joints: u32 of their places; each: u8 0 free, 1 there; then, if there: u8 broken, limited, motor,
+ *       spring, seven i64 of the drive, 6 x i64 impulses, push and moment 3 x i64 each, axial i64, owed i64 and u64
+ *   if something acts on a body beside its force: u32 tag, u32 count of such bodies; each, by number: u16 body,
+ *       torque 3 x i64, i32 gravity scale, linear and angular damping
  *   u64 FNV-1a of all bytes before
  */
 #include "../num/fnv.h"
 #include "world.h"
 
-#define MAGIC 0x32534d43u /* "CMS2" */
+#define FILTERS      0x31544c46u /* "FLT1" */
+#define THROUGH      0x31524854u /* "THR1" */
+#define MAGIC        0x32534d43u /* "CMS2" */
+#define FORCES_MAGIC 0x31434f46u /* "FOC1" */
 
 /* Bytes going out or coming in; `bytes` may be NULL when only their number or hash is wanted. */
 struct stream {
@@ -25,6 +37,7 @@ struct stream {
     size_t size, at;
     uint64_t fnv;
     carom_v3_q40 gravity; /* that was read */
+    size_t drives;        /* where those of kinematic bodies begin */
     bool loading, failed;
 };
 
@@ -114,14 +127,18 @@ static void vector32(struct stream *s, int32_t *v, int n)
 static void stream_body(struct stream *s, const struct carom_world *w, uint32_t i,
                         struct body_state *state)
 {
+    static const struct carom_forces forces = {.gravity_scale_q16 = 1 << 16};
     struct body *b = &w->bodies[i];
 
-    expect(s, b->mesh ? (b->moving ? 2 : 1) : 0, 1);
+    expect(s, !b->mesh ? 0 : b->moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
     if (b->mesh) {
         vector64(s, state->position.c);
         vector64(s, state->momentum.c);
         vector64(s, state->angular.c);
-        vector64(s, s->loading ? world_force_read(w, i)->c : b->force.c);
+        if (s->loading) {
+            world_keep_forces(w, i, &forces);
+        }
+        vector64(s, s->loading ? b->velocity.c : b->force.c);
         vector32(s, state->rotation.c, 4);
         number8(s, &state->asleep);
         number8(s, &state->out);
@@ -181,6 +198,241 @@ static void stream_surface(struct stream *s, const struct carom_mesh *mesh)
     }
 }
 
+/*
+ * Whether there is a section of what few worlds have: one that is written when it is `wanted`, or comes
+ * next of what is read.
+ */
+static bool section(struct stream *s, uint32_t tag, bool wanted)
+{
+    if (s->loading) {
+        wanted = s->size - s->at > 12;
+        for (uint32_t i = 0; i < 4 && wanted; i++) {
+            wanted = s->in[s->at + i] == (uint8_t)(tag >> 8 * i);
+        }
+    }
+    if (wanted) {
+        expect(s, tag, 4);
+    }
+    return wanted;
+}
+
+/* The next body from `i` on that more acts on than its force, or the end of all. */
+static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
+{
+    for (; i < w->body_count; i++) {
+        struct carom_forces f = world_forces(&w->bodies[i]);
+
+        if (w->bodies[i].mesh && world_forces_need_extra(&f)) {
+            break;
+        }
+    }
+    return i;
+}
+
+/* What acts on a body beside its force. */
+static void stream_forces(struct stream *s, const struct carom_world *w, uint32_t i)
+{
+    struct carom_forces f = s->loading ? world_forces_read(w, i) : world_forces(&w->bodies[i]);
+
+    vector64(s, f.torque.c);
+    number32(s, &f.gravity_scale_q16);
+    number32(s, &f.linear_damping_q30);
+    number32(s, &f.angular_damping_q30);
+    if (s->loading) {
+        world_keep_forces(w, i, &f);
+        s->failed |= !world_forces_need_extra(&f);
+    }
+}
+
+static void stream_all_forces(struct stream *s, const struct carom_world *w)
+{
+    uint32_t count = 0, next = 0;
+
+    for (uint32_t i = s->loading ? w->body_count : next_acted_on(w, 0); i < w->body_count;
+         i = next_acted_on(w, i + 1)) {
+        count++;
+    }
+    if (!section(s, FORCES_MAGIC, count > 0)) {
+        return;
+    }
+    count = stream_count(s, count, w->body_count);
+    s->failed |= count == 0;
+    for (uint32_t n = 0; n < count && !s->failed; n++) {
+        uint16_t body = (uint16_t)(s->loading ? 0 : next_acted_on(w, next));
+
+        number16(s, &body);
+        if (body < next || body >= w->body_count || !w->bodies[body].mesh) {
+            s->failed = true;
+            return;
+        }
+        stream_forces(s, w, body);
+        next = body + 1u;
+    }
+}
+
+static bool has_filter(const struct body *b)
+{
+    return b->mesh && !(b->category == 1 && b->mask == 0xffff && b->group == 0);
+}
+
+/* Filters that are read wait in the box, which the next step sets anew, until all is read. */
+static void stream_filters(struct stream *s, const struct carom_world *w)
+{
+    bool any = false;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        any = any || has_filter(&w->bodies[i]);
+    }
+    any = section(s, FILTERS, any);
+    for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
+        struct body *b = &w->bodies[i];
+        uint16_t parts[3] = {b->category, b->mask, (uint16_t)b->group};
+
+        if (s->loading) {
+            parts[0] = 1;
+            parts[1] = 0xffff;
+            parts[2] = 0;
+        }
+        for (int k = 0; k < 3 && any && b->mesh; k++) {
+            number16(s, &parts[k]);
+        }
+        for (int k = 0; k < 3 && s->loading; k++) {
+            b->box_q18[0][k] = parts[k];
+        }
+    }
+}
+
+/* A filter that was read becomes the body's. */
+static void keep_filter(struct body *b)
+{
+    b->category = (uint16_t)b->box_q18[0][0];
+    b->mask = (uint16_t)b->box_q18[0][1];
+    b->group = (int16_t)(b->box_q18[0][2] < 0x8000 ? b->box_q18[0][2] : b->box_q18[0][2] - 0x10000);
+}
+
+static void stream_through(struct stream *s, const struct carom_world *w, struct world_state *state)
+{
+    struct pair *list;
+    uint32_t count = state->through_count;
+
+    if (s->loading) {
+        state->through_count = 0;
+    }
+    if (section(s, THROUGH, count > 0)) {
+        state->through_count = stream_count(s, count, w->config.caps.pairs - state->touching_count);
+        list = world_through(w, state);
+        for (uint32_t i = 0; i < state->through_count && !s->failed; i++) {
+            number16(s, &list[i].a);
+            number16(s, &list[i].b);
+        }
+        s->failed = s->failed || state->through_count == 0;
+    }
+}
+
+static void stream_drive(struct stream *s, struct body_drive *drive)
+{
+    number8(s, &drive->kind);
+    if (drive->kind == BODY_DRIVE_ON) {
+        vector64(s, drive->velocity.c);
+        vector64(s, drive->spin.c);
+    } else if (drive->kind == BODY_DRIVE_TO) {
+        vector64(s, drive->position.c);
+        vector32(s, drive->rotation.c, 4);
+    }
+}
+
+/*
+ * Where kinematic bodies are led. What is read is passed over at first; asked whether it is plausible when all
+ * poses are known to be; and taken when that is so.
+ */
+enum drives { DRIVES_PASS, DRIVES_ASK, DRIVES_TAKE };
+
+static void stream_drives(struct stream *s, const struct carom_world *w,
+                          const struct world_state *state, enum drives what)
+{
+    s->drives = s->at;
+    for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
+        struct body *b = &w->bodies[i];
+        struct body_drive drive = {.kind = BODY_DRIVE_NONE};
+
+        if (!b->mesh || !world_is_kinematic(b)) {
+            continue;
+        }
+        drive = s->loading ? drive : b->extra->drive;
+        stream_drive(s, &drive);
+        if (what == DRIVES_TAKE) {
+            b->extra->drive = drive;
+            b->goes = drive.kind != BODY_DRIVE_NONE;
+        } else if (what == DRIVES_ASK) {
+            s->failed |= !world_drive_plausible(b, &state->bodies[i], &drive);
+        }
+    }
+}
+
+static void flag(struct stream *s, bool *v)
+{
+    uint8_t read = *v;
+
+    number8(s, &read);
+    if (s->loading) {
+        s->failed = s->failed || read > 1;
+        *v = read != 0;
+    }
+}
+
+static void stream_joint(struct stream *s, struct joint_state *state)
+{
+    struct carom_joint_drive *d = &state->drive;
+    int64_t low = (int64_t)state->owed2.lo;
+
+    number8(s, &state->broken);
+    flag(s, &d->limited);
+    flag(s, &d->motor);
+    flag(s, &d->spring);
+    number64(s, &d->lower_q32);
+    number64(s, &d->upper_q32);
+    number64(s, &d->motor_speed_q40);
+    number64(s, &d->motor_most_q40);
+    number64(s, &d->rest_q32);
+    number64(s, &d->stiffness_q40);
+    number64(s, &d->damping_q40);
+    for (int i = 0; i < JOINT_ROWS; i++) {
+        number64(s, &state->impulse_q40[i]);
+    }
+    vector64(s, state->push.c);
+    vector64(s, state->moment.c);
+    number64(s, &state->axial_q40);
+    number64(s, &state->owed2.hi);
+    number64(s, &low);
+    if (s->loading) {
+        state->owed2.lo = (uint64_t)low;
+    }
+}
+
+static void stream_joints(struct stream *s, const struct carom_world *w, struct world_state *state)
+{
+    const struct joint_list *list = &w->rest.joints;
+
+    expect(s, list->count, 4);
+    for (uint32_t i = 0; i < list->count && !s->failed; i++) {
+        expect(s, list->joints[i].used, 1);
+        if (list->joints[i].used) {
+            stream_joint(s, &state->joints[i]);
+            s->failed = s->failed || (s->loading && !w->joint_steps->plausible(&list->joints[i],
+                                                                               &state->joints[i]));
+        }
+    }
+}
+
+/* Read them again. */
+static bool drives_again(struct stream *s, const struct carom_world *w,
+                         const struct world_state *state, enum drives what)
+{
+    s->at = s->drives;
+    stream_drives(s, w, state, what);
+    return !s->failed;
+}
+
 /* The whole state, out of or into `state`. */
 static void stream_state(struct stream *s, const struct carom_world *w, struct world_state *state)
 {
@@ -207,6 +459,15 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
         if (w->bodies[i].mesh && w->bodies[i].mesh->surface) {
             stream_surface(s, w->bodies[i].mesh);
         }
+    }
+    stream_drives(s, w, state, DRIVES_PASS);
+    if (w->rest.joints.calls && !s->failed) {
+        stream_joints(s, w, state);
+    }
+    if (!s->failed) {
+        stream_filters(s, w);
+        stream_through(s, w, state);
+        stream_all_forces(s, w);
     }
     check = s->fnv;
     if (word(s, check, 8) != check) {
@@ -263,11 +524,25 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     return size;
 }
 
+/* Whether there are extras for all bodies that are to have one. */
+static bool extras_suffice(const struct carom_world *w)
+{
+    const struct pool *pool = &w->pools[CAROM_POOL_extras];
+    uint32_t missing = 0;
+
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        const struct carom_forces f = world_forces_read(w, i);
+
+        missing += w->bodies[i].mesh && !w->bodies[i].extra && world_forces_need_extra(&f);
+    }
+    return missing <= pool->size - pool->used;
+}
+
 int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
 {
     struct world_state *next;
     struct stream s;
-    bool good;
+    bool good, fits;
 
     if (!w || !in) {
         return CAROM_ERR_NULL;
@@ -280,19 +555,31 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     s.loading = true;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
     stream_state(&s, w, next);
-    good = !s.failed && s.at == bytes && world_plausible(w, next, &s.gravity);
+    good = !s.failed && s.at == bytes && world_plausible(w, next, &s.gravity) &&
+           drives_again(&s, w, next, DRIVES_ASK);
+    fits = !good || extras_suffice(w);
+    good = good && fits;
     if (good) {
         w->now = next;
         w->config.gravity = s.gravity;
+        w->passing |= next->through_count > 0;
+        (void)drives_again(&s, w, next, DRIVES_TAKE);
     }
     /* a step relies on what stands still being the same in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (good && w->bodies[i].mesh) {
-            w->bodies[i].force = *world_force_read(w, i);
+            keep_filter(&w->bodies[i]);
+            const struct carom_forces f = world_forces_read(w, i);
+
+            (void)world_set_forces(w, i, &f);
         }
         world_put(w, i, &world_now(w)->bodies[i]);
     }
+    if (good && w->joint_steps) {
+        w->joint_steps->regroup(w);
+    }
     w->idle = false;
     w->interfere.stale = true;
-    return good ? CAROM_OK : CAROM_ERR_FORMAT;
+    w->sense_anew = false;
+    return good ? CAROM_OK : fits ? CAROM_ERR_FORMAT : CAROM_ERR_EXTRAS_FULL;
 }

@@ -8,7 +8,7 @@ static void find_islands(struct carom_world *w)
     const struct world_state *now = world_now(w);
 
     w->idle = false;
-    island_find(w->bodies, w->body_count, now->touching, now->touching_count);
+    rest_find_islands(&w->rest, w->bodies, w->body_count, now->touching, now->touching_count);
 }
 
 static bool sleeps(const struct body *b, const struct body_state *s)
@@ -52,6 +52,7 @@ void world_wake_around(struct carom_world *w, uint32_t body)
     const struct body *b = &w->bodies[body];
 
     w->interfere.stale = true;
+    w->sense_anew = w->sensors > 0;
     world_wake_island(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {
         const struct pair *p = &now->touching[i];
@@ -64,7 +65,7 @@ void world_wake_around(struct carom_world *w, uint32_t body)
         const struct body *other = &w->bodies[i];
         int32_t skin_q22 = b->skin_q22 > other->skin_q22 ? b->skin_q22 : other->skin_q22;
 
-        if (sleeps(other, &now->bodies[i]) &&
+        if (sleeps(other, &now->bodies[i]) && broad_may_touch(b, other) &&
             broad_near(b, &now->bodies[body], other, &now->bodies[i],
                        BODY_MARGIN_SKINS * skin_q22)) {
             wake_island(w, now->bodies, i);

@@ -14,6 +14,13 @@ _Static_assert(OF_CONTACT <= CAROM_CONTACT_BYTES, "CAROM_CONTACT_BYTES");
 _Static_assert(sizeof(struct carom_face_ref) <= CAROM_FACE_BYTES, "CAROM_FACE_BYTES");
 _Static_assert(sizeof(struct zentry) <= CAROM_ENTRY_BYTES, "CAROM_ENTRY_BYTES");
 _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDATE_BYTES");
+_Static_assert(sizeof(struct body_extra) <= CAROM_EXTRA_BYTES, "CAROM_EXTRA_BYTES");
+_Static_assert(sizeof(struct joint) + 2 * sizeof(struct joint_state) + sizeof(struct pair) +
+                       JOINT_ROWS * sizeof(struct joint_row) + JOINT_ROOM * sizeof(int32_t) <=
+                   CAROM_JOINT_BYTES,
+               "CAROM_JOINT_BYTES");
+_Static_assert(sizeof(struct carom_hit) <= CAROM_HIT_BYTES, "CAROM_HIT_BYTES");
+_Static_assert(sizeof(struct contact_mixed) <= CAROM_MIXED_BYTES, "CAROM_MIXED_BYTES");
 /* ... and what its array may take for being rounded up to 8 bytes, */
 #define ROUNDING(type)                                                                             \
     (sizeof(type) % 8 == 0 ? 0 : sizeof(type) % 4 == 0 ? 4 : sizeof(type) % 2 == 0 ? 6 : 7)
@@ -22,7 +29,8 @@ _Static_assert(sizeof(struct candidate) <= CAROM_CANDIDATE_BYTES, "CAROM_CANDIDA
      ROUNDING(struct contact_roll) + ROUNDING(struct body) + 3 * ROUNDING(struct pair) +           \
      ROUNDING(struct pair_work) + 2 * ROUNDING(struct body_state) +                                \
      2 * ROUNDING(struct rest_warm) + ROUNDING(struct carom_event) + ROUNDING(struct contact) +    \
-     ROUNDING(struct carom_face_ref) + ROUNDING(struct zentry) + ROUNDING(struct candidate))
+     ROUNDING(struct carom_face_ref) + ROUNDING(struct zentry) + ROUNDING(struct candidate) +      \
+     ROUNDING(struct body_extra))
 /* less what a body, a pair and a contact leave of theirs: there is one of each at least. */
 _Static_assert(sizeof(struct carom_world) + ROUNDINGS + OF_BODY + OF_PAIR + OF_CONTACT <=
                    CAROM_WORLD_FIXED_BYTES + CAROM_BODY_BYTES + CAROM_PAIR_BYTES +
@@ -45,10 +53,12 @@ static bool capacities_in_range(const struct carom_caps *caps)
 #undef IN_RANGE
 }
 
-static size_t bytes_for(const struct carom_caps *caps)
+size_t carom_world_bytes(const struct carom_caps *caps)
 {
-    return CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces, caps->entries,
-                             caps->candidates);
+    return !caps ? 0
+                 : CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces,
+                                     caps->entries, caps->candidates, caps->joints, caps->extras,
+                                     caps->hits);
 }
 
 /*
@@ -61,7 +71,7 @@ static void carve_shared(struct carom_world *w, struct arena *arena)
     const struct carom_caps *caps = &w->config.caps;
     size_t works = caps->contacts * sizeof *w->rest.works;
     size_t solve = works + CAROM_LESS_(caps->pairs, caps->contacts) * sizeof *w->rest.rolls;
-    size_t found = CAROM_FOUND_BYTES_(caps->bodies, caps->pairs);
+    size_t found = CAROM_FOUND_BYTES_(caps->bodies, caps->pairs, caps->joints);
     uint8_t *room;
 
     w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
@@ -88,8 +98,11 @@ static void carve(struct carom_world *w, struct arena *arena)
         s->touching = arena_carve(arena, caps->pairs * sizeof *s->touching);
     }
     w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
-    if (caps->entries > 0) { /* surfaces that move need some */
+    if (caps->entries + caps->extras > 0) { /* what moves as the caller says */
         w->rest.list.drifts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.drifts);
+    }
+    if (caps->extras > 0) {
+        w->rest.list.mixed = arena_carve(arena, caps->contacts * sizeof *w->rest.list.mixed);
     }
     w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
     w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
@@ -99,6 +112,18 @@ static void carve(struct carom_world *w, struct arena *arena)
     }
     w->interfere.candidates =
         arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
+    w->hits = arena_carve(arena, caps->hits * sizeof *w->hits);
+    w->extras = arena_carve(arena, caps->extras * sizeof *w->extras);
+    w->rest.joints.joints = arena_carve(arena, caps->joints * sizeof *w->rest.joints.joints);
+    w->rest.joints.rows =
+        arena_carve(arena, caps->joints * JOINT_ROWS * sizeof *w->rest.joints.rows);
+    w->rest.joints.room_size = caps->joints * JOINT_ROOM;
+    w->rest.joints.room =
+        arena_carve(arena, caps->joints * JOINT_ROOM * sizeof *w->rest.joints.room);
+    w->ignored = arena_carve(arena, caps->joints * sizeof *w->ignored);
+    for (int i = 0; i < 2; i++) {
+        w->states[i].joints = arena_carve(arena, caps->joints * sizeof *w->states[i].joints);
+    }
 }
 
 int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
@@ -110,13 +135,13 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
     if (!mem || !config || !world) {
         return CAROM_ERR_NULL;
     }
-    if (!capacities_in_range(&config->caps)) {
+    if (!capacities_in_range(&config->caps) || (config->contact && config->caps.extras == 0)) {
         return CAROM_ERR_ARGUMENT;
     }
     if (!world_gravity_in_range(&config->gravity)) {
         return CAROM_ERR_RANGE;
     }
-    if ((uintptr_t)mem % 8 != 0 || bytes < bytes_for(&config->caps)) {
+    if ((uintptr_t)mem % 8 != 0 || bytes < carom_world_bytes(&config->caps)) {
         return CAROM_ERR_MEMORY;
     }
     arena_init(&arena, mem, bytes);
@@ -141,35 +166,13 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 /* ------------------------------------------------------------------ bodies */
 
-/* Length 1 within 2^-10; all zero stands for no rotation. */
-static bool rotation_valid(carom_quat_q30 *q)
+int world_set_mass(struct body *b, uint32_t mass_q20)
 {
-    int64_t square_q60 = 0;
-
-    if ((q->c[0] | q->c[1] | q->c[2] | q->c[3]) == 0) {
-        q->c[0] = CAROM_ONE_Q30;
-        return true;
-    }
-    for (int k = 0; k < 4; k++) {
-        if (carom_abs(q->c[k]) > CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10)) {
-            return false;
-        }
-        square_q60 += (int64_t)q->c[k] * q->c[k];
-    }
-    if (carom_abs(square_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 51) {
-        return false;
-    }
-    body_normalise(q);
-    return true;
-}
-
-static int set_mass(struct body *b, const struct carom_body_def *def)
-{
-    int64_t mass_q32 = def->mass_q20 ? (int64_t)def->mass_q20 << 12 : def->mesh->mass.volume_q32;
-    const int32_t *inverse = def->mesh->inverse.m;
+    int64_t mass_q32 = mass_q20 ? (int64_t)mass_q20 << 12 : b->mesh->mass.volume_q32;
+    const int32_t *inverse = b->mesh->inverse.m;
 
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
-        return def->mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
+        return mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
     if ((inverse[0] | inverse[1] | inverse[2]) == 0) { /* the diagonal has the largest entry */
         return CAROM_ERR_RANGE;
@@ -188,8 +191,10 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
     s->position = def->position;
     s->rotation = def->rotation;
     if (def->restitution_q30 < 0 || def->restitution_q30 > CAROM_ONE_Q30 ||
-        def->friction_q16 > CAROM_MU_MAX_Q16 || !rotation_valid(&s->rotation) ||
-        (!def->stationary && def->mesh->raw.kind != CAROM_SOLID)) {
+        def->friction_q16 > CAROM_MU_MAX_Q16 || !world_rotation_valid(&s->rotation) ||
+        (!def->stationary && def->mesh->raw.kind != CAROM_SOLID) ||
+        def->one_way > CAROM_ONE_WAY_MINUS_Z || def->overlap > CAROM_OVERLAP_PASS ||
+        (def->stationary && def->kinematic)) {
         return CAROM_ERR_ARGUMENT;
     }
     if (!world_position_in_range(&def->position) ||
@@ -198,21 +203,28 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
         return CAROM_ERR_RANGE;
     }
     b->mesh = def->mesh;
-    b->moving = !def->stationary;
+    b->user = def->user;
+    b->moving = b->goes = !def->stationary && !def->kinematic;
+    b->sensor = def->sensor;
+    b->one_way = (uint8_t)def->one_way & 7u;
+    world_filter(b, &def->filter);
     b->restitution_q30 = def->restitution_q30;
     b->friction_q16 = def->friction_q16;
     b->radius_q22 = def->mesh->radius_q22;
+    if (def->kinematic && !world_drive_in_range(b, &def->velocity, &def->spin)) {
+        return CAROM_ERR_RANGE;
+    }
     if (b->moving) {
         b->unit_bits = (int8_t)fix_bits((uint64_t)b->radius_q22);
         b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
         if (!world_motion_in_range(b, &def->velocity, &def->spin)) {
             return CAROM_ERR_RANGE;
         }
-        result = set_mass(b, def);
+        result = world_set_mass(b, def->mass_q20);
         if (result < 0) {
             return result;
         }
-        body_set_motion(b, s, &def->velocity, &def->spin);
+        world_set_motion(b, s, &def->velocity, &def->spin);
     }
     return result;
 }
@@ -223,6 +235,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     struct body made;
     struct body_state state;
     uint32_t place = 0;
+    uint16_t last;
     int result;
 
     if (!w || !def || !def->mesh) {
@@ -236,6 +249,15 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     if (result < 0) {
         return result;
     }
+    if (pool->used < pool->size) {
+        if (def->kinematic && !world_may_have_extra(w)) {
+            return CAROM_ERR_EXTRAS_FULL;
+        }
+        result = world_settle(w, &made, UINT32_MAX, &state, def->overlap);
+        if (result < 0) {
+            return result;
+        }
+    }
     if (pool_take(pool) < 0) {
         return CAROM_ERR_BODIES_FULL;
     }
@@ -245,10 +267,23 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     if (place == w->body_count) {
         w->body_count++;
     }
+    last = w->bodies[place].generation;
     w->bodies[place] = made;
+    w->bodies[place].generation = last < UINT16_MAX ? (uint16_t)(last + 1) : 1;
     world_put(w, place, &state);
+    if (def->kinematic) {
+        struct body_drive drive = world_drive_on(&def->velocity, &def->spin);
+
+        world_extra(w, place)->kinematic = true;
+        world_drive(w, place, &drive);
+    }
     if (made.mesh->surface) {
         mesh_surface_halt(made.mesh->surface);
+    }
+    w->sensors = (uint16_t)(w->sensors + made.sensor);
+    w->passing |= made.sensor || made.one_way != CAROM_BOTH_WAYS;
+    if (def->overlap == CAROM_OVERLAP_PASS) {
+        world_let_pass(w, place);
     }
     world_wake_around(w, place);
     return (int)place;
@@ -261,31 +296,47 @@ void world_put(struct carom_world *w, uint32_t body, const struct body_state *st
     world_accelerate(w, body);
 }
 
-int carom_body_remove(struct carom_world *w, int body)
+void world_forget_impulses(struct carom_world *w, uint32_t body)
 {
-    struct world_state *s;
+    struct world_state *s = w->now;
     uint32_t kept = 0;
 
-    if (!w) {
-        return CAROM_ERR_NULL;
-    }
-    if (!world_has_body(w, body)) {
-        return CAROM_ERR_BODY;
-    }
-    s = w->now;
-    world_wake_around(w, (uint32_t)body);
-    interfere_forget_lists(&w->interfere);
-    memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    for (int i = 0; i < 2; i++) {
-        memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
-    }
     for (uint32_t i = 0; i < s->warm_count; i++) {
         if (s->warm[i].a != body && s->warm[i].b != body) {
             s->warm[kept++] = s->warm[i];
         }
     }
     s->warm_count = kept;
-    kept = 0;
+}
+
+int carom_body_remove(struct carom_world *w, int body)
+{
+    struct world_state *s;
+    uint32_t kept = 0;
+    uint16_t generation;
+
+    if (!w) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_find_body(w, &body)) {
+        return CAROM_ERR_BODY;
+    }
+    s = w->now;
+    world_wake_around(w, (uint32_t)body);
+    if (w->joint_steps) {
+        w->joint_steps->forget_body(w, (uint16_t)body);
+    }
+    interfere_forget_lists(&w->interfere);
+    world_drop_through(w, s, (uint32_t)body);
+    w->sensors = (uint16_t)(w->sensors - w->bodies[body].sensor);
+    world_drop_extra(w, (uint32_t)body);
+    generation = w->bodies[body].generation;
+    memset(&w->bodies[body], 0, sizeof w->bodies[body]);
+    w->bodies[body].generation = generation; /* ids of it name no body from here on */
+    for (int i = 0; i < 2; i++) {
+        memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
+    }
+    world_forget_impulses(w, (uint32_t)body);
     for (uint32_t i = 0; i < s->touching_count; i++) {
         if (s->touching[i].a != body && s->touching[i].b != body) {
             s->touching[kept++] = s->touching[i];
@@ -296,25 +347,38 @@ int carom_body_remove(struct carom_world *w, int body)
     return CAROM_OK;
 }
 
+void world_motion(const struct body *b, const struct body_state *s, carom_v3_q40 *velocity,
+                  carom_v3_q40 *spin)
+{
+    carom_m3_q30 r;
+
+    if (world_is_kinematic(b) && b->extra->drive.kind == BODY_DRIVE_ON) {
+        *velocity = b->extra->drive.velocity;
+        *spin = b->extra->drive.spin;
+        return;
+    }
+    fix_matrix(&r, &s->rotation);
+    body_velocity(b, s, velocity);
+    body_spin(b, s, &r, spin);
+}
+
 int carom_body_get(const struct carom_world *w, int body, struct carom_body_state *out)
 {
     const struct body_state *s;
-    carom_m3_q30 r;
 
     if (!w || !out) {
         return CAROM_ERR_NULL;
     }
-    if (!world_has_body(w, body)) {
+    if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
     s = &world_now(w)->bodies[body];
     out->position = s->position;
     out->rotation = s->rotation;
-    fix_matrix(&r, &s->rotation);
-    body_velocity(&w->bodies[body], s, &out->velocity);
-    body_spin(&w->bodies[body], s, &r, &out->spin);
+    world_motion(&w->bodies[body], s, &out->velocity, &out->spin);
     out->asleep = s->asleep;
     out->out = s->out;
+    out->overlap = CAROM_OVERLAP_REFUSE;
     return CAROM_OK;
 }
 
@@ -325,20 +389,20 @@ int carom_body_look(const struct carom_world *w, int body, struct carom_body_loo
     if (!w || !out) {
         return CAROM_ERR_NULL;
     }
-    if (!world_has_body(w, body)) {
+    if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
     s = &world_now(w)->bodies[body];
     out->mesh = w->bodies[body].mesh;
     out->position = s->position;
     out->rotation = s->rotation;
-    out->moving = w->bodies[body].moving;
+    out->moving = w->bodies[body].moving || world_is_kinematic(&w->bodies[body]);
     return CAROM_OK;
 }
 
 const struct carom_mesh *carom_body_mesh(const struct carom_world *w, int body)
 {
-    return w && world_has_body(w, body) ? w->bodies[body].mesh : NULL;
+    return w && world_find_body(w, &body) ? w->bodies[body].mesh : NULL;
 }
 
 int carom_body_count(const struct carom_world *w)
@@ -350,21 +414,30 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
 {
     struct body_state state;
     carom_quat_q30 q;
+    int result;
+    bool led;
 
     if (!w || !in) {
         return CAROM_ERR_NULL;
     }
-    if (!world_has_body(w, body)) {
+    if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
+    led = world_is_kinematic(&w->bodies[body]);
     q = in->rotation;
-    if (!rotation_valid(&q)) {
+    if (!world_rotation_valid(&q) || in->overlap > CAROM_OVERLAP_PASS) {
         return CAROM_ERR_ARGUMENT;
     }
     if (!world_position_in_range(&in->position) ||
         (w->bodies[body].moving &&
-         !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
+         !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin)) ||
+        (led && !world_drive_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
+    }
+    if (led) {
+        struct body_drive drive = world_drive_on(&in->velocity, &in->spin);
+
+        world_drive(w, (uint32_t)body, &drive);
     }
     state = world_now(w)->bodies[body];
     if (!w->bodies[body].moving &&
@@ -376,9 +449,20 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     state.rotation = q;
     state.out = 0;
     if (w->bodies[body].moving) {
-        body_set_motion(&w->bodies[body], &state, &in->velocity, &in->spin);
+        world_set_motion(&w->bodies[body], &state, &in->velocity, &in->spin);
+    }
+    if (memcmp(&state.position, &world_now(w)->bodies[body].position, sizeof state.position) != 0 ||
+        memcmp(&state.rotation, &world_now(w)->bodies[body].rotation, sizeof q) != 0 ||
+        world_now(w)->bodies[body].out) {
+        result = world_settle(w, &w->bodies[body], (uint32_t)body, &state, in->overlap);
+        if (result < 0) {
+            return result;
+        }
     }
     world_put(w, (uint32_t)body, &state);
+    if (in->overlap == CAROM_OVERLAP_PASS) {
+        world_let_pass(w, (uint32_t)body);
+    }
     world_wake_around(w, (uint32_t)body);
     return CAROM_OK;
 }

@@ -17,6 +17,9 @@ struct world_state {
     uint32_t warm_count;
     struct pair *touching; /* pairs that touched, in order: for events, and to wake islands */
     uint32_t touching_count;
+    /* pairs that go through each other, in order, at the end of that room: world_through */
+    uint32_t through_count;
+    struct joint_state *joints;
 };
 
 /*
@@ -32,7 +35,7 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 560 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
+/* 616 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
 struct carom_world {
     /* world: what the caller gave, and the arrays in the block; 84 bytes */
     struct carom_config config; /* gravity: the present one */
@@ -51,9 +54,6 @@ struct carom_world {
     struct world_state *now; /* which of the two is current */
     struct world_state states[2];
 
-    /* all stages: how much of each capacity is used; 96 bytes */
-    struct pool pools[CAROM_POOL_COUNT];
-
     /* interfere, 144 bytes */
     struct interfere interfere;
 
@@ -64,6 +64,48 @@ struct carom_world {
     uint32_t event_count;
     struct carom_stats stats;
     uint32_t start_tick, mark_tick; /* of the step, and of its last stage mark */
+
+    /* all stages: how much of each capacity is used; 144 bytes */
+    struct pool pools[CAROM_POOL_COUNT];
+
+    /* world: by the optional capacities; 16 bytes */
+    struct body_extra *extras;
+    struct carom_hit *hits; /* contacts: those of the events, in their order */
+
+    /* through: 4 bytes */
+    uint16_t sensors; /* so many bodies are */
+    bool passing;     /* pairs may go through each other: there is or was a reason for it */
+    bool sense_anew;  /* bodies were added or set: what sleeps may overlap another sensor now */
+
+    struct pair *ignored; /* pairs whose joints let them ignore each other, in order */
+    uint32_t ignored_count;
+    const struct step_joint_calls *joint_steps; /* NULL while there was no joint yet */
+};
+
+/*
+ * What a step calls of joints: carom_joint_add sets it, so that who has no joints links none of it.
+ */
+struct step;
+struct step_joint_calls {
+    void (*begin)(struct step *s); /* the next state of joints, before anything is solved */
+    /* the longest slice of a body, which is that of all it is connected with */
+    int32_t (*slice)(const struct step *s, uint32_t i, int32_t left_q30);
+    /* the joints to be solved: of all that is awake, whether there are any; of the members */
+    bool (*choose_all)(struct step *s);
+    void (*choose_members)(struct step *s);
+    uint32_t (*connected)(const struct step *s); /* a body that is to be a member, or ISLAND_END */
+    bool (*measure)(struct step *s,
+                    enum joint_solve solve); /* before a solve; whether it is needed */
+    void (*project)(struct step *s);
+    bool (*break_joints)(struct step *s);
+    /* energy of an island: what springs took up; what is owed; whether it hangs on what stands still */
+    void (*add_springs2)(const struct step *s, uint32_t first, struct fix_wide *sum);
+    struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
+    void (*ground)(struct step *s);
+    /* between steps: a body goes; joints came back from a snapshot */
+    void (*forget_body)(struct carom_world *w, uint16_t body);
+    void (*regroup)(struct carom_world *w);
+    bool (*plausible)(const struct joint *j, const struct joint_state *state); /* what was read */
 };
 
 /* Whoever looks for candidates has the scratch from here on. */
@@ -94,19 +136,37 @@ static inline struct world_state *world_next(struct carom_world *w)
 /* Whether a state's place and speed are within what the formats hold. */
 bool world_in_range(const struct body *b, const struct body_state *s);
 
+/* Whether a rotation has length 1 within 2^-10, which it is given exactly; all zero becomes no rotation. */
+bool world_rotation_valid(carom_quat_q30 *q);
+
 /* Whether each coordinate is within BODY_WORLD_LIMIT. */
 bool world_position_in_range(const carom_v3_q32 *p);
-/* The force that a body is to have: it waits in the velocity, which is a step's, until all is read. */
-carom_v3_q40 *world_force_read(const struct carom_world *w, uint32_t body);
+/*
+ * What is to act on a body waits in its velocity, its spin and what a solve saves, which are a step's, until
+ * all of a snapshot is read.
+ */
+struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body);
+void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f);
 /* Whether a state that was read, with those forces and this gravity, could be what a step has left. */
 bool world_plausible(const struct carom_world *w, const struct world_state *s,
                      const carom_v3_q40 *gravity);
 
-/* Whether there is a body of this number. */
-static inline bool world_has_body(const struct carom_world *w, int body)
-{
-    return (uint32_t)body < w->body_count && w->bodies[body].mesh; /* none has a number of 2^31 */
-}
+/* An id is a body's number with its generation above. */
+#define WORLD_NUMBER_BITS 12
+
+/*
+ * Whether there is a body of this number or id; makes it the number. Every public function that takes a
+ * body asks this first.
+ */
+bool world_find_body(const struct carom_world *w, int *body);
+
+/*
+ * The extra of a body: one is taken from the pool if it has none, NULL when the pool is full. A new one
+ * changes nothing: each field is set to what a body without an extra has.
+ */
+struct body_extra *world_extra(struct carom_world *w, uint32_t body);
+/* Give it back, if there is any. */
+void world_drop_extra(struct carom_world *w, uint32_t body);
 
 /* Whether each component is at most `limit` in size. */
 bool world_each_within(const int64_t v[3], int64_t limit);
@@ -114,12 +174,37 @@ bool world_each_within(const int64_t v[3], int64_t limit);
 /* Whether a body may be given this velocity and spin. */
 bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w);
 
+/*
+ * Give a body's state a velocity and a spin that it may be given. Momenta are rounded, and what a step finds at
+ * the limit leaves the world: just below it the momentum is 2^-25 of itself less.
+ */
+void world_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
+                      const carom_v3_q40 *w);
+
 /* Whether each component of a gravity is within +-1. */
 bool world_gravity_in_range(const carom_v3_q40 *gravity);
 
-/* What gravity and a force give a body, 0 for one that stands still; false when out of range. */
-bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
-                        const carom_v3_q40 *force, carom_v3_q40 *out);
+/*
+ * What gravity, so many times, and a force give a body, 0 for one that stands still; false when out of
+ * range.
+ */
+bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
+                        const carom_v3_q40 *gravity, const carom_v3_q40 *force, carom_v3_q40 *out);
+
+/* What acts on a body; on one without an extra but for its force. */
+struct carom_forces world_forces(const struct body *b);
+bool world_forces_need_extra(const struct carom_forces *f);
+/* Give it that; false when it needs an extra and there is none. */
+bool world_set_forces(struct carom_world *w, uint32_t body, const struct carom_forces *f);
+/* Whether they are within their ranges, for a body that moves; with gravity, for any: an error or CAROM_OK. */
+int world_check_forces(const struct body *b, const carom_v3_q40 *gravity,
+                       const struct carom_forces *f);
+/* (a b - c d) / 2^32 to nearest; false when that has more than 61 bits. */
+bool world_cross_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q40, int64_t *out);
+/* 64 m r, the most angular momentum that can be given: at most 2^61. */
+int64_t world_most_angular_q40(const struct body *b);
+/* Whether a moving body's momenta are those of a motion that could be given. */
+bool world_momenta_in_range(const struct body *b, const struct body_state *s);
 
 /*
  * Give a body a state, in both of the world's: a step need not copy what stands still. What follows
@@ -127,8 +212,26 @@ bool world_acceleration(const struct body *b, const carom_v3_q40 *gravity,
  */
 void world_put(struct carom_world *w, uint32_t body, const struct body_state *state);
 
+/* Set the mass of a body that moves, see carom_body_def; CAROM_OK or an error. */
+int world_set_mass(struct body *b, uint32_t mass_q20);
+
+/* Forget the impulses that a body's contacts kept for the next step: they are none of those to come. */
+void world_forget_impulses(struct carom_world *w, uint32_t body);
+
 /* Set what gravity and force give a body in a frame, after one of them has changed. */
 void world_accelerate(struct carom_world *w, uint32_t body);
+
+/* Whether a joint lets the bodies of a pair ignore each other. */
+static inline bool world_ignores(const struct carom_world *w, uint32_t a, uint32_t b)
+{
+    uint32_t place;
+
+    if (w->ignored_count == 0) {
+        return false;
+    }
+    place = broad_place_of(w->ignored, w->ignored_count, a, b);
+    return place < w->ignored_count && w->ignored[place].a == a && w->ignored[place].b == b;
+}
 
 /* Wake every body. */
 void world_wake_all(struct carom_world *world);
@@ -141,6 +244,68 @@ void world_wake_around(struct carom_world *world, uint32_t body);
 
 /* Wake the islands that have a contact in the list; returns whether there was any. */
 bool world_wake_touched(struct carom_world *world, struct body_state *states);
+
+/*
+ * Pairs that overlap and do not touch: a sensor and who is in it, a body and the surface that is solid from its
+ * other side, and bodies that a filter let touch, or that were set into each other, until they are apart. They share
+ * the room of the pairs that touch: these come first.
+ */
+static inline struct pair *world_through(const struct carom_world *w, const struct world_state *s)
+{
+    return s->touching + w->config.caps.pairs - s->through_count;
+}
+/* Two bodies as the pair that broad makes of them; a pair needs one that moves. */
+struct pair world_name_pair(const struct carom_world *w, uint32_t i, uint32_t k);
+/* Whether a pair goes through; note that it does: CAROM_OK or CAROM_ERR_PAIRS_FULL. */
+bool world_goes_through(const struct carom_world *w, const struct world_state *s,
+                        const struct pair *p);
+int world_note_through(const struct carom_world *w, struct world_state *s, const struct pair *p);
+/* Take out the pairs of a body. */
+void world_drop_through(const struct carom_world *w, struct world_state *s, uint32_t body);
+
+/* Whether two bodies cross, or one is inside the other. Takes the scratch. */
+bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b);
+
+/*
+ * What is to become of a body that is about to be in a state (`place` is its number, or UINT32_MAX): if it
+ * crosses others that it may touch, by more than about a skin, CAROM_ERR_OVERLAP; it is pushed out; or they are
+ * going to pass, for which there is room.
+ */
+int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
+                 struct body_state *state, int overlap);
+/* Let a body and those that it crosses pass each other: those for which world_settle found room. */
+void world_let_pass(struct carom_world *w, uint32_t body);
+
+/* Give a body a filter: all zero is the default. */
+void world_filter(struct body *b, const struct carom_filter *filter);
+
+/* Whether a body that has none could have one. */
+static inline bool world_may_have_extra(const struct carom_world *w)
+{
+    return w->pools[CAROM_POOL_extras].used < w->pools[CAROM_POOL_extras].size;
+}
+
+/* Whether a body is kinematic; whether one may be given this velocity and spin, or led to a pose in a frame. */
+bool world_is_kinematic(const struct body *b);
+/* How a body moves; one that is led on, as it is led. */
+void world_motion(const struct body *b, const struct body_state *s, carom_v3_q40 *velocity,
+                  carom_v3_q40 *spin);
+#define WORLD_ROUTE_SPIN_MAX_Q40 3454217652358LL /* pi */
+bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w);
+bool world_pose_in_reach(const struct body *b, const struct body_state *s,
+                         const carom_v3_q32 *position, const carom_quat_q30 *rotation);
+/* Whether a drive leads a body anywhere; the one of a velocity and a spin; and lead a body from now on. */
+bool world_leads(const struct body_drive *drive, const struct body_state *s);
+struct body_drive world_drive_on(const carom_v3_q40 *v, const carom_v3_q40 *w);
+void world_drive(struct carom_world *w, uint32_t body, const struct body_drive *drive);
+/* Whether a drive that was read is one that leads the body somewhere, and in range. */
+bool world_drive_plausible(const struct body *b, const struct body_state *s,
+                           const struct body_drive *drive);
+/* Bodies that were led to a pose are there, or were stopped, and stand still. */
+void world_halt_routes(struct carom_world *w);
+
+/* Whether the squared length of n numbers in q30 is 1 within 2^-bits. */
+bool world_is_unit(const int32_t *v, int n, int bits);
 
 /* Surfaces that were moved stand still again. */
 void world_halt_surfaces(struct carom_world *world);

@@ -16,7 +16,7 @@ static struct carom_world *world;
 int EXPORT(begin)(void)
 {
     const struct carom_config config = {
-        {CAPS}, {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}, .sleep = false};
+        CAROM_CAPS(CAPS), {{0, 0, CAROM_GRAVITY_MM_S2(-9810, 60)}}, .sleep = false};
     const struct carom_body_def ground = {
         .mesh = &plane, .stationary = true, .friction_q16 = 32768};
     int result = carom_mesh_build(&plane, &plane_raw, plane_block, sizeof plane_block);

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * models.h - raw meshes for games' scenes, as tools/gen_shapes makes them: closed, z up, a unit being a metre,
+ * 1024 quanta to a unit or fewer. What a program does not name is not linked.
+ *
+ *   static _Alignas(8) uint8_t wheel_block[CAROM_MESH_BYTES(WHEEL_VERTICES, WHEEL_FACES)];
+ *   struct carom_mesh wheel;
+ *
+ *   carom_mesh_build(&wheel, &wheel_mesh, wheel_block, sizeof wheel_block);
+ */
+#ifndef CAROM_MODELS_H
+#define CAROM_MODELS_H
+
+#include "carom.h"
+
+extern const struct carom_mesh_raw character_mesh; /* a capsule, 1.75 high, about its middle */
+extern const struct carom_mesh_raw wheel_mesh;     /* of 16 sides, 0.2 wide along y */
+extern const struct carom_mesh_raw car_mesh;       /* 3.5 long along x, without wheels */
+extern const struct carom_mesh_raw door_mesh;      /* 0.9 wide along x; its hinge is the z axis */
+extern const struct carom_mesh_raw link_mesh;      /* a chain's, 0.5 long along x */
+extern const struct carom_mesh_raw ramp_mesh;      /* 2 long along x, to a height of 0.5 */
+extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of 0.6 */
+
+#define CHARACTER_VERTICES 50
+#define CHARACTER_FACES    96
+#define WHEEL_VERTICES     32
+#define WHEEL_FACES        60
+#define CAR_VERTICES       22
+#define CAR_FACES          40
+#define DOOR_VERTICES      8
+#define DOOR_FACES         12
+#define LINK_VERTICES      32
+#define LINK_FACES         64
+#define RAMP_VERTICES      6
+#define RAMP_FACES         8
+#define STEPS_VERTICES     20
+#define STEPS_FACES        36
+
+#endif

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scene_games.h - scenes that are more than bodies: joints, bodies that are led, belts, sensors, rays. Each
+ * is a function that puts the bodies and joints into a world and one that goes on before each frame.
+ */
+#ifndef CAROM_SCENE_GAMES_H
+#define CAROM_SCENE_GAMES_H
+
+#include "carom_joint.h"
+#include "scene.h"
+
+#define FPS 60
+#define POSITION(x, y, z)                                                                          \
+    {                                                                                              \
+        {                                                                                          \
+            CAROM_POSITION_MM(x), CAROM_POSITION_MM(y), CAROM_POSITION_MM(z)                       \
+        }                                                                                          \
+    }
+#define VELOCITY(x, y, z)                                                                          \
+    {                                                                                              \
+        {                                                                                          \
+            CAROM_VELOCITY_MM_S(x, FPS), CAROM_VELOCITY_MM_S(y, FPS), CAROM_VELOCITY_MM_S(z, FPS)  \
+        }                                                                                          \
+    }
+#define SPIN(x, y, z)                                                                              \
+    {                                                                                              \
+        {                                                                                          \
+            CAROM_SPIN_MRAD_S(x, FPS), CAROM_SPIN_MRAD_S(y, FPS), CAROM_SPIN_MRAD_S(z, FPS)        \
+        }                                                                                          \
+    }
+
+struct scene_game {
+    struct carom_caps caps;
+    struct carom_camera camera;
+    /* Add the bodies but the ground, and the joints. Returns >= 0 or an error. */
+    int (*fill)(const struct scene *scene, struct carom_world *world);
+    /* What happens before a frame, 1 being the first; NULL: nothing. Returns >= 0 or an error. */
+    int (*before)(struct carom_world *world, int frame);
+    /* Take the camera along; NULL: it stays. */
+    void (*look)(const struct carom_world *world, struct carom_camera *camera);
+};
+
+extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
+    scene_walker;
+
+/* Numbers of bodies and joints, in the order in which `fill` adds them. */
+enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
+enum { DOOR_HINGE };
+#define DOOR_OPEN_MRAD 1400
+#define CHAIN_LINKS    20
+enum { CRUSHER_BLOCK = SCENE_BODY, CRUSHER_BOX };
+enum { CONVEYOR_BELT = SCENE_BODY, CONVEYOR_BOX };
+#define CONVEYOR_BOXES  4
+#define CONVEYOR_MM_S   1000
+#define CRUSHER_FRAMES  240 /* down and up */
+#define CRUSHER_WAY_MM  1400
+#define CRUSHER_HIGH_MM 2000
+
+/* The car: each wheel has a hub; the front ones turn about the upright, the rear ones go up and down. */
+#define CAR_WHEELS  4
+#define CAR_PICKUPS 3
+enum {
+    CAR_CHASSIS = SCENE_BODY,
+    CAR_HUB,
+    CAR_WHEEL = CAR_HUB + CAR_WHEELS,
+    CAR_RAMP = CAR_WHEEL + CAR_WHEELS,
+    CAR_PICKUP = CAR_RAMP + 2
+};
+enum { CAR_MOUNT, CAR_AXLE = CAR_MOUNT + CAR_WHEELS }; /* joints */
+enum { WALKER = SCENE_BODY, WALKER_STEPS, WALKER_PLATFORM, WALKER_RAMP, WALKER_DOOR };
+
+/* What puts parts into a world: after the first error it adds nothing more. */
+struct scene_parts {
+    const struct scene *scene;
+    struct carom_world *world;
+    int result;
+};
+/* A body of the scene's i-th mesh, whose origin is at def->position. Returns its number. */
+int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def *def);
+/* A joint. Returns its number. */
+int scene_joint(struct scene_parts *parts, const struct carom_joint_def *def);
+
+#endif

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* Text over a picture that is drawn. */
+#include "draw.h"
+
+#define PLACE_MAX 16384
+#define SCALE_MAX 64
+#define GLYPH_BOX 95 /* in the place of 127; of all characters that there are not */
+
+/* A line of text on the picture. */
+struct writing {
+    const struct carom_picture *picture;
+    const char *text, *end; /* its characters */
+    int32_t x, scale;       /* where the first cell begins */
+    struct draw_rect rect;  /* its cells, as far as they are in the picture */
+    int pixel_shift;
+    bool opaque;
+    uint32_t colour, paper; /* pixels */
+};
+
+static const uint8_t *glyph_of(char character)
+{
+    int number = character;
+
+    return draw_font[number >= 32 && number <= 126 ? number - 32 : GLYPH_BOX];
+}
+
+static int32_t clamp(int64_t v, int32_t low, int32_t high)
+{
+    return v < low ? low : v > high ? high : (int32_t)v;
+}
+
+/* Pixels from <= x < to of a row, as far as they are in the picture. */
+static void run(const struct writing *w, uint8_t *row, int64_t from, int64_t to, uint32_t pixel)
+{
+    draw_run(row, w->pixel_shift, clamp(from, w->rect.x0, w->rect.x1),
+             clamp(to, w->rect.x0, w->rect.x1), pixel);
+}
+
+/* The pixels of a row of the picture that are in row `line` of the glyphs. */
+static void write_row(const struct writing *w, int32_t y, int32_t line)
+{
+    const struct carom_picture *picture = w->picture;
+    int64_t x = w->x;
+    uint8_t *row = picture->pixels;
+
+    if (picture->row) {
+        row = picture->row(picture->context, w->rect.x0, w->rect.x1, y);
+    } else {
+        row += (size_t)y * (size_t)picture->stride;
+    }
+    if (w->opaque) {
+        run(w, row, w->rect.x0, w->rect.x1, w->paper);
+    }
+    for (const char *c = w->text; c < w->end && x < w->rect.x1 && line < 8; c++) {
+        const uint8_t *glyph = glyph_of(*c);
+
+        for (int column = 0; column < DRAW_GLYPH_WIDTH; column++) {
+            if (glyph[column] >> line & 1) {
+                int64_t from = x + column * w->scale;
+
+                run(w, row, from, from + w->scale, w->colour);
+            }
+        }
+        x += CAROM_TEXT_WIDTH * w->scale;
+    }
+}
+
+/* A line of text of which the top is at y. */
+static void write_line(struct writing *w, int64_t y, struct carom_rect *touched)
+{
+    const struct carom_picture *picture = w->picture;
+    int64_t cells = w->end - w->text;
+    struct draw_rect *r = &w->rect;
+
+    r->x0 = clamp(w->x, 0, picture->width);
+    r->x1 = clamp(w->x + cells * CAROM_TEXT_WIDTH * w->scale, 0, picture->width);
+    r->y0 = clamp(y, 0, picture->height);
+    r->y1 = clamp(y + CAROM_TEXT_HEIGHT * w->scale, 0, picture->height);
+    if (r->x0 >= r->x1) {
+        return;
+    }
+    for (int32_t at = r->y0; at < r->y1; at++) {
+        write_row(w, at, (int32_t)((at - y) / w->scale));
+    }
+    draw_touch(touched,
+               (struct carom_rect){(int16_t)r->x0, (int16_t)r->y0, (int16_t)r->x1, (int16_t)r->y1});
+}
+
+static int check_text(const struct carom_picture *picture, const struct carom_text *where,
+                      const char *text)
+{
+    uint32_t colours;
+    int result;
+
+    if (where == NULL || text == NULL) {
+        return CAROM_ERR_NULL;
+    }
+    /* rows are as FLAT has them, pixels are of either style */
+    result = draw_check_picture(picture, CAROM_DRAW_FLAT);
+    if (result != CAROM_OK) {
+        return result;
+    }
+    colours = draw_ramps(picture->paint) * DRAW_SHADES;
+    if (where->x < -PLACE_MAX || where->x > PLACE_MAX || where->y < -PLACE_MAX ||
+        where->y > PLACE_MAX || where->scale > SCALE_MAX || where->colour >= colours ||
+        (where->opaque ? where->paper >= colours : picture->row != NULL)) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    return CAROM_OK;
+}
+
+int carom_draw_text(const struct carom_picture *picture, const struct carom_text *where,
+                    const char *text, struct carom_rect *touched)
+{
+    int result = check_text(picture, where, text);
+    struct writing w;
+    ptrdiff_t longest = 0;
+    int64_t y;
+
+    if (result != CAROM_OK) {
+        return result;
+    }
+    w = (struct writing){.picture = picture,
+                         .x = where->x,
+                         .scale = where->scale ? where->scale : 1,
+                         .pixel_shift = draw_pixel_shift(picture->format),
+                         .opaque = where->opaque,
+                         .colour = draw_colour(picture, where->colour),
+                         .paper = where->opaque ? draw_colour(picture, where->paper) : 0};
+    y = where->y;
+    for (;;) {
+        w.text = w.end = text;
+        while (*w.end != '\0' && *w.end != '\n') {
+            w.end++;
+        }
+        longest = w.end - text > longest ? w.end - text : longest;
+        write_line(&w, y, touched);
+        if (*w.end == '\0') {
+            return longest < INT_MAX ? (int)longest : INT_MAX;
+        }
+        text = w.end + 1;
+        y += CAROM_TEXT_HEIGHT * w.scale;
+    }
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A ray in the frame of a mesh. It is carried over from the place of it that is nearest to the body, so that
+ * what is rounded off there is not multiplied by how far away it begins.
+ */
+#include "query.h"
+
+/* Places and ways between bodies and rays in q14: below 2^30. */
+#define FAR_SHIFT 18
+
+/* n / d in q30, for 0 <= n <= d; d > 0. */
+static int32_t part_q30(int64_t n, int64_t d)
+{
+    int shift = fix_bits((uint64_t)d) - 32;
+
+    if (shift > 0) {
+        n >>= shift;
+        d >>= shift;
+    }
+    return n >= d ? CAROM_ONE_Q30 : (int32_t)((uint64_t)n * CAROM_ONE_Q30 / (uint64_t)d);
+}
+
+/*
+ * Where the ray is nearest to a point, as a part of its way; any part would do. Bounds: `to` and the way are
+ * below 2^30 in q14, so sums of three products are below 2^61.
+ */
+static int32_t nearest_q30(const int64_t to_q32[3], const carom_v3_q32 *way)
+{
+    int64_t along = 0, square = 0;
+
+    for (int k = 0; k < 3; k++) {
+        int32_t d = (int32_t)(way->c[k] >> FAR_SHIFT), x = (int32_t)(to_q32[k] >> FAR_SHIFT);
+
+        along += (int64_t)d * x;
+        square += (int64_t)d * d;
+    }
+    return along <= 0 || square == 0 ? 0 : part_q30(along, square);
+}
+
+/* Whether the box around the ray and the one around the body's sphere are apart. */
+static bool boxes_apart(const struct carom_ray *ray, const struct body *body,
+                        const struct body_state *state)
+{
+    int64_t radius_q32 = (int64_t)body->mesh->radius_q22 << 10;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t start = ray->from.c[k] - state->position.c[k], end = start + ray->way.c[k];
+
+        if ((start > radius_q32 && end > radius_q32) ||
+            (start < -radius_q32 && end < -radius_q32)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/*
+ * Whether a point near which the ray is nearest to a body is outside of its sphere: with some room for a
+ * part that is rounded. Components are below 2^22 in q12 when this may be false.
+ */
+static bool outside(const int64_t at_q32[3], int32_t radius_q22)
+{
+    int64_t limit = (radius_q22 >> 10) + (radius_q22 >> 12) + 16, square = 0;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t x = at_q32[k] >> 20;
+
+        if (carom_abs(x) > limit) {
+            return true;
+        }
+        square += x * x;
+    }
+    return square > limit * limit;
+}
+
+/*
+ * d / along in q30, |d| <= |along|: of more than 32 bits those are used that count most.
+ * Bounds: below 2^62 after the shift; half of the divisor makes it nearest.
+ */
+static int32_t slope(int64_t d, int64_t along, int shift)
+{
+    int64_t n = (d >> shift) * CAROM_ONE_Q30, by = along >> shift;
+
+    if (by < 0) {
+        n = -n;
+        by = -by;
+    }
+    n = n + by / 2;
+    n = n / by - (n % by < 0);
+    return (int32_t)(n > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : n < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : n);
+}
+
+/* The main axis: the one that a vector is most along. */
+static int main_axis(const int64_t d[3])
+{
+    int axis = carom_abs(d[1]) > carom_abs(d[0]) ? 1 : 0;
+
+    return carom_abs(d[2]) > carom_abs(d[axis]) ? 2 : axis;
+}
+
+/* The ray through `at`, a part t of the way, in the mesh's coordinates; false when it has no direction left. */
+static bool set_ray(struct query_ray *ray, const int64_t at_q32[3], const int64_t way_q32[3],
+                    int32_t t_q30)
+{
+    const int z = main_axis(way_q32), up = ray->mesh->raw.quantum_bits - 2;
+    int shift = fix_bits((uint64_t)carom_abs(way_q32[z])) - 32;
+
+    if (way_q32[z] == 0) {
+        return false;
+    }
+    shift = shift > 0 ? shift : 0;
+    ray->axis[2] = z;
+    ray->axis[0] = fix_next(z);
+    ray->axis[1] = fix_next(ray->axis[0]);
+    for (int i = 0; i < 2; i++) {
+        ray->slope_q30[i] = slope(way_q32[ray->axis[i]], way_q32[z], shift);
+        ray->at_q30[i] = carom_shl(at_q32[ray->axis[i]], up) -
+                         fix_mul_q30(carom_shl(at_q32[z], up), ray->slope_q30[i]);
+    }
+    ray->start_q32 = at_q32[z] - fix_mul_q30(way_q32[z], t_q30);
+    ray->up = way_q32[z] > 0;
+    ray->length_q32 = carom_abs(way_q32[z]);
+    ray->end_q32 = ray->length_q32;
+    return true;
+}
+
+bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struct body *body,
+                 const struct body_state *state)
+{
+    const int32_t *q = state->rotation.c;
+    int64_t at[3], way[3];
+    int32_t t_q30;
+
+    if (boxes_apart(ray, body, state)) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        at[k] = state->position.c[k] - ray->from.c[k];
+    }
+    t_q30 = nearest_q30(at, &ray->way);
+    for (int k = 0; k < 3; k++) {
+        at[k] = fix_mul_q30(ray->way.c[k], t_q30) - at[k];
+        way[k] = ray->way.c[k];
+    }
+    if (outside(at, body->mesh->radius_q22)) {
+        return false;
+    }
+    if ((q[1] | q[2] | q[3]) != 0) { /* most ground is not turned */
+        carom_m3_q30 r;
+
+        fix_matrix(&r, &state->rotation);
+        fix_rotate_back(at, &r, at);
+        fix_rotate_back(way, &r, way);
+    }
+    for (int k = 0; k < 3; k++) {
+        at[k] += carom_shl(body->mesh->mass.centre.c[k], 10);
+    }
+    out->mesh = body->mesh;
+    return set_ray(out, at, way, t_q30);
+}

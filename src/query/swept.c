@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The first hit of a mesh on a way: by the candidates and the collision test of a step, in parts of the
+ * way of about a radius each. Bodies of a world are asked by copies of what the test needs, and
+ * candidates go into a few places of the stack: nothing that a step has kept is touched, but the list of
+ * a surface that moves.
+ */
+#include "query.h"
+#include "../contact/contact.h"
+
+#define CANDIDATES 32
+/* A way is at most so many radii long, and cut into parts of a half of one. */
+#define WAY_RADII    512
+#define TURN_MAX_Q30 (CAROM_ONE_Q30 / 4)
+
+struct swept {
+    struct candidate_visitor base;
+    struct carom_world *w;
+    const struct carom_mesh_way *way;
+    struct body bodies[2]; /* the mesh on a part of its way, and the body at hand */
+    struct body_state state;
+    int32_t length_q30;       /* of a part */
+    int32_t from_q30, to_q30; /* the part at hand */
+    bool set;                 /* the pair of the scratch is that of both */
+
+    /* the first hit */
+    bool found;
+    uint16_t body;
+    struct boyse_hit hit;
+};
+
+/* ---------------------------------------------------------------------- ways */
+
+/* The path of the mesh over a part of its way. */
+static void set_path(struct swept *s, int32_t from_q30, int32_t to_q30)
+{
+    struct body *a = &s->bodies[0];
+    struct body_path *path = &a->path;
+
+    body_place(a, &s->state);
+    for (int k = 0; k < 3; k++) {
+        path->v.c[k] = carom_shl(s->way->way.c[k], 8);
+        path->u.c[k] = s->way->turn.c[k];
+    }
+    path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
+    path->u2_q30 = (int32_t)carom_round(carom_dot(path->u.c, path->u.c), 30);
+    if (from_q30 > 0 || to_q30 < CAROM_ONE_Q30) {
+        body_cut_path(a, &s->state, from_q30, to_q30);
+    }
+}
+
+/* In no part does the mesh go farther than half of its radius. */
+static int check_way(struct swept *s)
+{
+    int64_t length_q32 = fix_length(s->way->way.c);
+    int64_t radius_q32 = (int64_t)s->bodies[0].radius_q22 << 10;
+
+    if (!world_each_within(s->way->way.c, (int64_t)BODY_WORLD_LIMIT << 32) ||
+        fix_largest(s->way->turn.c) > TURN_MAX_Q30 ||
+        carom_dot(s->way->turn.c, s->way->turn.c) > (int64_t)TURN_MAX_Q30 * TURN_MAX_Q30 ||
+        length_q32 > WAY_RADII * radius_q32) {
+        return CAROM_ERR_RANGE;
+    }
+    s->length_q30 = CAROM_ONE_Q30 / (int32_t)(2 * length_q32 / radius_q32 + 1);
+    return CAROM_OK;
+}
+
+/* Whether the spheres of both, and some skins, stay apart on the path at hand. */
+static bool stays_apart(const struct swept *s, const struct body *b, const struct body_state *at)
+{
+    const struct body *a = &s->bodies[0];
+    int64_t reach_q32 = ((int64_t)a->radius_q22 + b->radius_q22) << 10;
+
+    reach_q32 += (int64_t)(a->skin_q22 + b->skin_q22) << 13;
+    for (int k = 0; k < 3; k++) {
+        int64_t start = carom_shl(body_path(a)->origin_q22[k], 10) - at->position.c[k];
+        int64_t end = start + (body_path(a)->v.c[k] >> 8);
+
+        if ((start > reach_q32 && end > reach_q32) || (start < -reach_q32 && end < -reach_q32)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---------------------------------------------------------------------- hits */
+
+static bool is_before(const struct swept *s, const struct boyse_hit *hit, uint16_t body)
+{
+    if (hit->t_q30 != s->hit.t_q30 || body != s->body) {
+        return hit->t_q30 < s->hit.t_q30 || (hit->t_q30 == s->hit.t_q30 && body < s->body);
+    }
+    return candidate_compare(&hit->candidate, &s->hit.candidate) < 0;
+}
+
+static void visit_swept(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
+{
+    struct swept *s = (struct swept *)self;
+    struct boyse_pair *pair = world_pair(s->w);
+    uint16_t body = s->bodies[1].island; /* its number in the world */
+    uint32_t roots = 0;
+
+    if (n > 0 && !s->set) {
+        boyse_pair_begin(pair, &s->bodies[0], &s->bodies[1]);
+        s->set = true;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        struct boyse_hit hit;
+
+        boyse_pair_for(pair, &c[i]);
+        if (boyse_first(pair, &c[i], &hit, &roots)) {
+            hit.candidate = c[i];
+            if (!s->found || is_before(s, &hit, body)) {
+                s->found = true;
+                s->body = body;
+                s->hit = hit;
+            }
+        }
+    }
+}
+
+/* A body of the world, as the collision test needs it. */
+static void copy_body(struct swept *s, uint32_t i)
+{
+    const struct body *from = &s->w->bodies[i];
+    struct body *b = &s->bodies[1];
+
+    memset(b, 0, sizeof *b);
+    b->mesh = from->mesh;
+    b->moving = from->moving;
+    b->radius_q22 = from->radius_q22;
+    b->skin_q22 = from->skin_q22;
+    b->island = (uint16_t)i;
+    body_place(b, &world_now(s->w)->bodies[i]);
+    body_region_begin(b, &world_now(s->w)->bodies[i], CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
+}
+
+/* The mesh on a part of its way against one body. */
+static int ask_body(struct swept *s, uint32_t i)
+{
+    static const struct pair pair = {0, 1};
+    const struct interfere_pairs all = {s->bodies, &pair, 1};
+    const struct interfere_span span = {0, 0, CAROM_ONE_Q30, UINT32_MAX, false};
+    struct candidate candidates[CANDIDATES];
+    struct pool pool = {CANDIDATES, 0, 0, 0};
+    struct pair_work meeting = {0};
+    struct interfere work = s->w->interfere;
+    int result;
+
+    copy_body(s, i);
+    s->set = false;
+    work.candidates = candidates;
+    work.candidate_pool = &pool;
+    work.meetings = &meeting;
+    result = interfere_visit_pair(&work, &all, 0, &span, false, &s->base);
+    s->w->interfere.listed = work.listed;
+    s->w->interfere.area = work.area;
+    return result;
+}
+
+/* The first hit on the part of the way at hand. */
+static int ask_part(struct swept *s, const struct carom_query_filter *filter)
+{
+    const struct carom_world *w = s->w;
+    struct body_state start = s->state;
+    int result = CAROM_OK;
+
+    set_path(s, s->from_q30, s->to_q30);
+    for (int k = 0; k < 3; k++) {
+        start.position.c[k] = carom_shl(body_path(&s->bodies[0])->origin_q22[k], 10);
+    }
+    start.rotation = body_path(&s->bodies[0])->q;
+    body_region_begin(&s->bodies[0], &start, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        if (w->bodies[i].mesh && !stays_apart(s, &w->bodies[i], &world_now(w)->bodies[i]) &&
+            query_wants(w, filter, i)) {
+            result = ask_body(s, i);
+        }
+    }
+    return result;
+}
+
+/* -------------------------------------------------------------------- results */
+
+/* The face at a feature that looks most along a direction of the world. */
+static uint16_t face_of(const struct body *b, bool vertex, uint32_t feature,
+                        const carom_v3_q30 *along)
+{
+    const struct carom_mesh *mesh = b->mesh;
+    uint32_t first = vertex ? mesh->ring_start[feature] : 0;
+    uint32_t end = vertex ? mesh->ring_start[feature + 1] : 1;
+    int64_t most = INT64_MIN;
+    uint16_t best = 0;
+    int32_t n[3];
+
+    carom_rotate_back(n, &b->path.start.r, along->c);
+    for (uint32_t r = first; r < end; r++) {
+        const struct carom_edge *edge = &mesh->edges[vertex ? mesh->ring[r] >> 1 : feature];
+
+        for (int side = 0; side < 2; side++) {
+            if (edge->face[side] != CAROM_NO_FACE &&
+                carom_dot(n, mesh->faces[edge->face[side]].normal.c) > most) {
+                most = carom_dot(n, mesh->faces[edge->face[side]].normal.c);
+                best = edge->face[side];
+            }
+        }
+    }
+    return best;
+}
+
+static void set_faces(const struct swept *s, struct carom_mesh_hit *out)
+{
+    const struct candidate *c = &s->hit.candidate;
+    const struct body *a = &s->bodies[0], *b = &s->bodies[1];
+    carom_v3_q30 against;
+
+    for (int k = 0; k < 3; k++) {
+        against.c[k] = -out->normal.c[k];
+    }
+    if (c->kind == CANDIDATE_VERTEX_FACE) {
+        out->own_face = face_of(a, true, c->i, &against);
+        out->face = (uint16_t)c->j;
+    } else if (c->kind == CANDIDATE_FACE_VERTEX) {
+        out->own_face = (uint16_t)c->j;
+        out->face = face_of(b, true, c->i, &out->normal);
+    } else {
+        out->own_face = face_of(a, false, c->i, &against);
+        out->face = face_of(b, false, c->j, &out->normal);
+    }
+}
+
+/* All about the hit: the pair is set up again, on the path for the normal, then where it is. */
+static void complete(struct swept *s, struct carom_mesh_hit *out)
+{
+    struct boyse_pair *pair = world_pair(s->w);
+    struct boyse_touch touch;
+    carom_v3_q40 arm[2];
+    carom_v3_q32 way;
+
+    copy_body(s, s->body);
+    set_path(s, s->from_q30, s->to_q30);
+    boyse_pair_init(pair, &s->bodies[0], &s->bodies[1]);
+    boyse_touch(pair, &s->hit.candidate, s->hit.root_q30, &touch);
+    out->normal = touch.normal;
+    out->body = s->body;
+    out->t_q30 = s->from_q30 + (int32_t)((int64_t)(s->to_q30 - s->from_q30) * s->hit.t_q30 >> 30);
+    set_path(s, 0, CAROM_ONE_Q30);
+    way = body_way_at(&s->bodies[0], out->t_q30);
+    out->rotation = body_rotation_at(&s->bodies[0], out->t_q30);
+    for (int k = 0; k < 3; k++) {
+        out->position.c[k] = s->state.position.c[k] + way.c[k];
+    }
+    s->state.position = out->position;
+    s->state.rotation = out->rotation;
+    body_place(&s->bodies[0], &s->state);
+    boyse_pair_init(pair, &s->bodies[0], &s->bodies[1]);
+    contact_place(pair, &s->hit.candidate, &out->normal, arm);
+    for (int k = 0; k < 3; k++) {
+        out->point.c[k] = out->position.c[k] + (arm[0].c[k] >> 8);
+    }
+    set_faces(s, out);
+}
+
+static bool begins_in_overlap(struct swept *s, const struct carom_query_filter *filter)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (query_wants(s->w, filter, i) && query_overlaps(s->w, &s->bodies[0], &s->state, i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Parts of the way, one after the other, up to the first that has a hit. */
+static int ask_way(struct swept *s, const struct carom_query_filter *filter)
+{
+    int result = CAROM_OK;
+
+    while (s->from_q30 < CAROM_ONE_Q30 && !s->found && result == CAROM_OK) {
+        s->from_q30 = s->to_q30;
+        s->to_q30 = s->length_q30 < CAROM_ONE_Q30 - s->from_q30 ? s->from_q30 + s->length_q30
+                                                                : CAROM_ONE_Q30;
+        result = s->from_q30 < CAROM_ONE_Q30 ? ask_part(s, filter) : CAROM_OK;
+    }
+    return result;
+}
+
+int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,
+                    const struct carom_mesh_way *way, const struct carom_query_filter *filter,
+                    struct carom_mesh_hit *hit)
+{
+    struct swept s = {.base = {visit_swept}, .w = world, .way = way};
+    int result;
+
+    if (!world || !mesh || !mesh->mesh || !way || !hit) {
+        return CAROM_ERR_NULL;
+    }
+    result = query_put(mesh, &s.bodies[0], &s.state);
+    result = result < 0 ? result : check_way(&s);
+    if (result < 0) {
+        return result;
+    }
+    if (begins_in_overlap(&s, filter)) {
+        return CAROM_ERR_OVERLAP;
+    }
+    world_begin_gather(world);
+    result = ask_way(&s, filter);
+    if (result == CAROM_OK && s.found) {
+        complete(&s, hit);
+        result = 1;
+    }
+    return result;
+}

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/* The joints of an island, for whoever solves it. */
+#include "joint_parts.h"
+
+#define FOR_JOINTS(r, j) for (struct joint *j = at(r, (r)->joints.first); j; j = at(r, j->next))
+
+static inline struct joint *at(const struct rest *r, uint16_t i)
+{
+    return i == 0 ? NULL : &r->joints.joints[i - 1];
+}
+
+static inline struct joint_state *state_of(const struct rest *r, const struct joint *j)
+{
+    return &r->joints.states[j - r->joints.joints];
+}
+
+static void join(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->joints.count; i++) {
+        const struct joint *j = &r->joints.joints[i];
+
+        if (joint_holds(&r->joints, i) && j->b != JOINT_WORLD) {
+            island_join(r->bodies, &(struct pair){j->a, j->b});
+        }
+    }
+}
+
+/* Velocities of bodies that joints hold, where no contact asked for them. */
+static void load_velocities(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->joints.count; i++) {
+        const struct joint *j = &r->joints.joints[i];
+
+        for (int s = 0; s < 2 && joint_holds(&r->joints, i) && !j->work.idle; s++) {
+            struct body *b = j->work.lever[s].body;
+            const struct body_state *state = &r->states[s == 0 ? j->a : j->b];
+
+            if (b && !b->solving) {
+                b->solving = true;
+                body_velocity(b, state, &b->velocity);
+                body_spin(b, state, &b->path.start.r, &b->spin);
+            }
+        }
+    }
+}
+
+static bool take(struct rest *r)
+{
+    bool idle = true;
+
+    r->joints.first = 0;
+    for (uint32_t i = r->joints.count; i-- > 0;) {
+        struct joint *j = &r->joints.joints[i];
+
+        if (joint_holds(&r->joints, i) && r->bodies[j->a].island == r->island) {
+            j->next = r->joints.first;
+            r->joints.first = (uint16_t)(i + 1);
+            idle = idle && j->work.idle;
+        }
+    }
+    return idle;
+}
+
+static bool take_next(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->joints.count; i++) {
+        if (joint_holds(&r->joints, i) && !r->joints.joints[i].work.idle) {
+            r->island = r->bodies[r->joints.joints[i].a].island;
+            r->count = 0;
+            return !take(r);
+        }
+    }
+    return false;
+}
+
+/* Bodies that joints connect take gravity together, or what hangs on the others would be left behind. */
+static void enter(struct rest *r)
+{
+    bool again = true;
+
+    while (again) {
+        again = false;
+        for (uint32_t i = 0; i < r->joints.count; i++) {
+            const struct joint *j = &r->joints.joints[i];
+            struct body *a = &r->bodies[j->a];
+            struct body *b = j->b == JOINT_WORLD ? NULL : &r->bodies[j->b];
+
+            if (!joint_holds(&r->joints, i) || !b || !b->moving || a->entering == b->entering) {
+                continue;
+            }
+            b = a->entering ? b : a;
+            if (!b->in_contact) {
+                b->in_contact = b->entering = again = true;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < r->joints.count; i++) {
+        struct joint *j = &r->joints.joints[i];
+
+        j->chosen = j->chosen &&
+                    (r->bodies[j->a].entering || (j->b != JOINT_WORLD && r->bodies[j->b].entering));
+    }
+}
+
+/* The lightest body of the island's joints. */
+static const struct body *lightest_of(const struct rest *r)
+{
+    const struct body *lightest = NULL;
+
+    FOR_JOINTS(r, j)
+    {
+        for (int s = 0; s < 2; s++) {
+            const struct body *b = j->work.lever[s].body;
+
+            if (b && (!lightest || fix_mul_scaled((int64_t)1 << 40, b->mass) <
+                                       fix_mul_scaled((int64_t)1 << 40, lightest->mass))) {
+                lightest = b;
+            }
+        }
+    }
+    return lightest;
+}
+
+static bool prepare(struct rest *r)
+{
+    const struct body *lightest = lightest_of(r);
+    bool fit = true;
+
+    FOR_JOINTS(r, j)
+    {
+        fit = joint_prepare(j, lightest) && fit;
+    }
+    r->joints.factored = fit && joint_factor(r);
+    return fit;
+}
+
+static int64_t largest_q40(const struct rest *r)
+{
+    int64_t most = 0;
+
+    FOR_JOINTS(r, j)
+    {
+        int64_t own = joint_largest_q40(j);
+
+        most = own > most ? own : most;
+    }
+    return most;
+}
+
+static void drop(struct rest *r)
+{
+    FOR_JOINTS(r, j)
+    {
+        memset(j->work.impulse, 0, sizeof j->work.impulse);
+    }
+}
+
+static void begin(struct rest *r, const struct rest_sweep *sw)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_begin(j, state_of(r, j), sw);
+    }
+    drop(r);
+}
+
+static void load_warm(struct rest *r, const struct rest_sweep *sw)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_load(j, state_of(r, j), sw);
+    }
+}
+
+static void enlarge(struct rest *r, const struct rest_sweep *sw, int bits)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_begin(j, state_of(r, j), sw);
+        for (int i = 0; i < j->work.rows; i++) {
+            j->work.impulse[i] /= (int64_t)1 << bits;
+        }
+    }
+}
+
+static void sum_up(struct rest *r)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_sum_up(j);
+    }
+}
+
+/* All that always holds at once; each joint whose coordinate is driven besides, or each joint where there is no room. */
+static int64_t sweep(struct rest *r, int32_t quiet)
+{
+    int64_t most = 0;
+
+    FOR_JOINTS(r, j)
+    {
+        if (!r->joints.factored || j->work.held < j->work.rows) {
+            int64_t moved = joint_sweep(j, quiet);
+
+            most = moved > most ? moved : most;
+        }
+    }
+    if (r->joints.factored) {
+        int64_t moved = joint_solve_held(r, quiet);
+
+        most = moved > most ? moved : most;
+    }
+    return most;
+}
+
+static int64_t agrees(const struct rest *r, int32_t most)
+{
+    int64_t sum = 0;
+
+    FOR_JOINTS(r, j)
+    {
+        for (int i = 0; i < j->work.rows; i++) {
+            int64_t x = (int64_t)j->work.gain[i] + j->work.way[i];
+
+            if (x > most || x < -most) {
+                return INT64_MIN / 2;
+            }
+            sum += j->work.gain[i] * x >> 13;
+        }
+    }
+    return sum;
+}
+
+static void accelerate(struct rest *r, int32_t part_q30)
+{
+    FOR_JOINTS(r, j)
+    {
+        struct joint_work *w = &j->work;
+
+        for (int i = 0; i < w->rows; i++) {
+            w->way[i] = part_q30 == 0 ? 0 : carom_mul_q30(w->way[i] + w->gain[i], part_q30);
+            w->impulse[i] += w->way[i];
+            w->gain[i] = 0;
+        }
+    }
+}
+
+static void end(struct rest *r, const struct rest_sweep *sw)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_end(j, sw);
+    }
+}
+
+static void apply(struct rest *r)
+{
+    FOR_JOINTS(r, j)
+    {
+        joint_apply(r, j);
+    }
+}
+
+/* What the last row's impulse has done but for a spring's own: limits, motors and damping. */
+static void book_work(struct rest *r, struct joint *j)
+{
+    struct joint_work *w = &j->work;
+    int last = w->rows - 1;
+    int64_t before_q40 = w->speed_q40, after_q40, p_q40 = w->row_q40[last];
+
+    for (int s = 0; s < 2; s++) {
+        struct body *b = w->lever[s].body;
+
+        if (b) {
+            body_velocity(b, &r->states[s == 0 ? j->a : j->b], &b->velocity);
+            body_spin(b, &r->states[s == 0 ? j->a : j->b], &b->path.start.r, &b->spin);
+        }
+    }
+    after_q40 = joint_speed_q40(j, last);
+    if (w->law.spring) {
+        struct fix_wide own = fix_wide_mul(w->half_stiff_q40, after_q40 - before_q40);
+
+        p_q40 += w->elastic_q40 + fix_wide_shift(&own, 40);
+    }
+    fix_wide_add_product(&r->bodies[j->a].work2, p_q40, before_q40 + after_q40);
+}
+
+static void book(struct rest *r)
+{
+    FOR_JOINTS(r, j)
+    {
+        struct joint_state *state = state_of(r, j);
+        struct joint_work *w = &j->work;
+
+        w->idle = true;
+        for (int k = 0; k < 3; k++) {
+            state->push.c[k] += w->push.c[k];
+            state->moment.c[k] += w->moment.c[k];
+        }
+        if (w->held < w->rows) {
+            state->axial_q40 += w->row_q40[w->rows - 1];
+            if (r->joints.solve != JOINT_PROJECT) {
+                book_work(r, j);
+            }
+        }
+        for (int i = 0; i < JOINT_ROWS && r->joints.solve <= JOINT_MORE; i++) {
+            int64_t kept = r->joints.solve == JOINT_MORE ? state->impulse_q40[i] : 0;
+
+            state->impulse_q40[i] = kept + (i < w->rows ? w->row_q40[i] : 0);
+        }
+    }
+}
+
+const struct joint_calls joint_calls = {
+    .join = join,
+    .load_velocities = load_velocities,
+    .enter = enter,
+    .take = take,
+    .take_next = take_next,
+    .prepare = prepare,
+    .largest_q40 = largest_q40,
+    .begin = begin,
+    .load_warm = load_warm,
+    .enlarge = enlarge,
+    .sum_up = sum_up,
+    .drop = drop,
+    .sweep = sweep,
+    .agrees = agrees,
+    .accelerate = accelerate,
+    .end = end,
+    .apply = apply,
+    .book = book,
+};

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * All held rows of an island's joints at once: A x = what they lack, A_rs being what an impulse along row s changes V of row r by. A is
+ * symmetric and positive definite, and most of it is 0: joints meet where they share a body. Cholesky's factors of it, A = C
+ * C^T, are kept by rows from the first joint that shares a body on, so that a chain takes six numbers a row. With a
+ * diagonal near 1 no entry of C is above 1.
+ *
+ * Where the room is short, joints are swept one by one.
+ */
+#include "joint_parts.h"
+
+/* A pivot below this says nothing that the rows before it do not: the row has no impulse of its own. */
+#define PIVOT_MIN_Q60 ((int64_t)1 << 36)
+
+static struct joint *next_of(const struct rest *r, const struct joint *j)
+{
+    return j->next == 0 ? NULL : &r->joints.joints[j->next - 1];
+}
+
+static struct joint *first_of(const struct rest *r)
+{
+    return r->joints.first == 0 ? NULL : &r->joints.joints[r->joints.first - 1];
+}
+
+static bool shares_body(const struct joint_work *a, const struct joint_work *b)
+{
+    for (int s = 0; s < 2; s++) {
+        const struct body *own = a->lever[s].body;
+
+        if (own && (own == b->lever[0].body || own == b->lever[1].body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The place of each row and the first that it meets. Returns false when the room is short. */
+static bool lay_out(struct rest *r)
+{
+    uint32_t place = 0, used = 0;
+
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        struct joint_work *w = &j->work;
+        uint32_t first = place;
+
+        w->row_at = (uint16_t)place;
+        for (struct joint *k = first_of(r); k != j && first == place; k = next_of(r, k)) {
+            first = shares_body(&k->work, w) ? k->work.row_at : place;
+        }
+        for (int i = 0; i < w->held; i++, place++) {
+            struct joint_row *row = &r->joints.rows[place];
+
+            row->first = (uint16_t)first;
+            row->start = used;
+            used += place - first + 1;
+        }
+    }
+    return used <= r->joints.room_size;
+}
+
+/* An entry of A, q30. */
+static int64_t entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k)
+{
+    int64_t sum = 0;
+
+    for (int s = 0; s < 2; s++) {
+        const struct joint_lever *own = &a->lever[s];
+
+        for (int t = 0; t < 2 && own->body; t++) {
+            const struct joint_lever *other = &b->lever[t];
+            int64_t part = 0;
+
+            if (other->body != own->body) {
+                continue;
+            }
+            if (!joint_is_angular(a, i) && !joint_is_angular(b, k)) {
+                part = fix_round_shift(carom_round(carom_dot(a->direction[i], b->direction[k]), 30),
+                                       -a->down - b->down);
+            }
+            part += fix_round_shift(carom_dot(own->turn[i], other->turn[k]),
+                                    -(32 - 2 * own->body->turn_bits));
+            part = fix_mul_q30(part, own->share_q30);
+            sum += s == t ? part : -part;
+        }
+    }
+    return sum;
+}
+
+/* Sum of products of the rows i and k from the first column of both up to `end`. */
+static int64_t product_q60(const struct rest *r, const struct joint_row *i,
+                           const struct joint_row *k, uint32_t end)
+{
+    uint32_t from = i->first > k->first ? i->first : k->first;
+    const int32_t *a = &r->joints.room[i->start + from - i->first];
+    const int32_t *b = &r->joints.room[k->start + from - k->first];
+    int64_t sum = 0;
+
+    /* rows of C have length 1 at most, but for rounding */
+    for (uint32_t n = from; n < end; n++) {
+        sum += (int64_t)*a++ * *b++;
+    }
+    return sum;
+}
+
+/* Row i of joint j, whose rows before it are done. */
+static void factor_row(struct rest *r, const struct joint *j, int i)
+{
+    const struct joint_work *w = &j->work;
+    uint32_t place = w->row_at + (uint32_t)i;
+    struct joint_row *row = &r->joints.rows[place];
+    int32_t *c = &r->joints.room[row->start];
+    int64_t pivot_q60;
+
+    memset(c, 0, (place - row->first + 1) * sizeof *c);
+    for (struct joint *k = first_of(r); k; k = next_of(r, k)) {
+        uint32_t end = k == j ? (uint32_t)i : k->work.held;
+
+        for (uint32_t n = 0; n < end && k->work.row_at + n >= row->first; n++) {
+            c[k->work.row_at + n - row->first] =
+                rest_within(entry_q30(w, i, &k->work, (int)n), CAROM_ONE_Q30);
+        }
+        if (k == j) {
+            break;
+        }
+    }
+    for (uint32_t n = row->first; n < place; n++) {
+        const struct joint_row *other = &r->joints.rows[n];
+        int64_t left = carom_shl(c[n - row->first], 30) - product_q60(r, row, other, n);
+
+        c[n - row->first] = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
+    }
+    pivot_q60 = carom_shl(entry_q30(w, i, w, i), 30) - product_q60(r, row, row, place);
+    row->inverse = (struct fix_scaled){0, 0};
+    if (pivot_q60 > PIVOT_MIN_Q60) {
+        int64_t root = fix_sqrt((uint64_t)pivot_q60);
+
+        row->inverse = fix_scaled_inverse(fix_scale(root, 30));
+    }
+}
+
+bool joint_factor(struct rest *r)
+{
+    if (!lay_out(r)) {
+        return false;
+    }
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        for (int i = 0; i < j->work.held; i++) {
+            factor_row(r, j, i);
+        }
+    }
+    return true;
+}
+
+/* x with C C^T x = what rows hold, in place. */
+static void substitute(struct rest *r, uint32_t n)
+{
+    struct joint_row *rows = r->joints.rows;
+
+    for (uint32_t i = 0; i < n; i++) {
+        const int32_t *c = &r->joints.room[rows[i].start];
+        int64_t sum = rows[i].x;
+
+        for (uint32_t k = rows[i].first; k < i; k++) {
+            sum -= fix_mul_q30(rows[k].x, *c++);
+        }
+        rows[i].x = fix_mul_scaled(sum, rows[i].inverse);
+    }
+    for (uint32_t i = n; i-- > 0;) {
+        const int32_t *c = &r->joints.room[rows[i].start];
+
+        rows[i].x = fix_mul_scaled(rows[i].x, rows[i].inverse);
+        for (uint32_t k = rows[i].first; k < i; k++) {
+            rows[k].x -= fix_mul_q30(rows[i].x, *c++);
+        }
+    }
+}
+
+int64_t joint_solve_held(struct rest *r, int32_t quiet)
+{
+    struct joint_row *rows = r->joints.rows;
+    int32_t moved = 0;
+    uint32_t n = 0;
+
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        for (int i = 0; i < j->work.held; i++, n++) {
+            int32_t lack = -joint_present(&j->work, i);
+
+            moved = fix_larger(moved, fix_abs32(lack));
+            rows[n].x = carom_shl(lack, JOINT_FINE_BITS);
+        }
+    }
+    if (moved < quiet) {
+        return 0;
+    }
+    substitute(r, n);
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        int64_t change[JOINT_ROWS] = {0};
+
+        for (int i = 0; i < j->work.held; i++) {
+            change[i] = rows[j->work.row_at + i].x;
+        }
+        joint_push(&j->work, change);
+    }
+    return moved;
+}

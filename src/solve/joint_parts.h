@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* joint_parts - what the files that solve joints share; one joint each. parts.h says what is called when. */
+#ifndef CAROM_SRC_JOINT_PARTS_H
+#define CAROM_SRC_JOINT_PARTS_H
+
+#include "parts.h"
+
+/* Levers and K^-1; `lightest` gives the unit of mass. */
+bool joint_prepare(struct joint *j, const struct body *lightest);
+/* Factors of what all held rows of the island do to each other; false when the room is short. The solution with them: how
+ * much a velocity moved. */
+bool joint_factor(struct rest *r);
+int64_t joint_solve_held(struct rest *r, int32_t quiet);
+/* V - wanted V of a row by now, of the last one V; and what changes of impulses do. */
+int32_t joint_present(const struct joint_work *w, int row);
+void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
+/* V of a row, q40. */
+int64_t joint_speed_q40(const struct joint *j, int row);
+int64_t joint_largest_q40(const struct joint *j);
+void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
+void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
+void joint_sum_up(const struct joint *j);
+int64_t joint_sweep(struct joint *j, int32_t quiet);
+void joint_end(struct joint *j, const struct rest_sweep *sw);
+void joint_apply(struct rest *r, const struct joint *j);
+
+static inline bool joint_is_angular(const struct joint_work *w, int row)
+{
+    return (w->angular >> row & 1) != 0;
+}
+
+#endif

@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: MIT */
+/* The rows of a joint before the sweeps: levers, K and its inverse, velocities; and impulses after them. */
+#include "joint_parts.h"
+
+#define TURN_BITS_MAX 14
+/* A pivot below this part of the largest one: the row says nothing that others do not. */
+#define PIVOT_MIN_Q30 (1 << 8)
+
+/* ------------------------------------------------------------------------ levers */
+
+/*
+ * V of a row by du, with 31 - turn_bits fractional bits. A linear row: d.(column x arm); an angular one:
+ * d.column at the arm of 2^length_bits.
+ */
+static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lever, int row, int j)
+{
+    const struct body *b = lever->body;
+    const int32_t *column = body_solved(b)->columns[j], *d = w->direction[row];
+    int down = b->turn_bits - 31 + b->mesh->spread.e[j];
+
+    if (joint_is_angular(w, row)) {
+        /* q30 over 2^e, times 2^(length_bits - 22) */
+        return fix_round_shift(carom_dot(d, column), -(down + 30 + 22 - w->length_bits));
+    }
+    {
+        int64_t cross[3], sum = 0;
+
+        fix_cross(cross, column, lever->arm);
+        for (int k = 0; k < 3; k++) {
+            sum += fix_mul(cross[k], d[k], 30);
+        }
+        return fix_round_shift(sum, -(down + lever->arm_bits + w->down));
+    }
+}
+
+/* Returns false when a place moves by more than turn_bits say: then all must be prepared anew. */
+static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
+{
+    for (int row = 0; row < w->rows; row++) {
+        for (int j = 0; j < 3; j++) {
+            int64_t turn = turn_of(w, lever, row, j);
+
+            if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
+                if (lever->body->turn_bits < TURN_BITS_MAX) {
+                    lever->body->turn_bits++;
+                    return false;
+                }
+                turn = rest_within(turn, CAROM_ONE_Q30 - 1);
+            }
+            lever->turn[row][j] = (int32_t)turn;
+        }
+    }
+    return true;
+}
+
+/* Each body's share of the lightest one's mass. */
+static void prepare_joint_shares(struct joint_work *w, const struct body *lightest)
+{
+    int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->mass);
+
+    w->lighter = lightest;
+    for (int s = 0; s < 2; s++) {
+        const struct body *own = w->lever[s].body;
+
+        if (own) {
+            w->lever[s].share_q30 =
+                own->mass.m == lightest->mass.m && own->mass.e == lightest->mass.e
+                    ? CAROM_ONE_Q30
+                    : (int32_t)(fix_mul_scaled(unit_q40, own->inverse_mass) >> 10);
+        }
+    }
+}
+
+/* ----------------------------------------------------------------------------- K */
+
+/* An entry of K, q30. */
+static int64_t entry_q30(const struct joint_work *w, int i, int k)
+{
+    int64_t sum = 0;
+
+    for (int s = 0; s < 2; s++) {
+        const struct joint_lever *lever = &w->lever[s];
+        int64_t own = 0;
+
+        if (!lever->body) {
+            continue;
+        }
+        if (!joint_is_angular(w, i) && !joint_is_angular(w, k)) {
+            own = carom_round(carom_dot(w->direction[i], w->direction[k]), 30);
+            own = fix_round_shift(own, -2 * w->down);
+        }
+        own += fix_round_shift(carom_dot(lever->turn[i], lever->turn[k]),
+                               -(32 - 2 * lever->body->turn_bits));
+        sum += fix_mul_q30(own, lever->share_q30);
+    }
+    return sum;
+}
+
+/* By how many bits the largest diagonal entry of the linear or the angular rows is above 1. */
+static int bits_above(const struct joint_work *w, bool angular)
+{
+    int64_t most = 0;
+
+    for (int i = 0; i < w->rows; i++) {
+        if (joint_is_angular(w, i) == angular) {
+            int64_t own = entry_q30(w, i, i);
+
+            most = own > most ? own : most;
+        }
+    }
+    return most > 0 ? fix_bits((uint64_t)most) - 30 : 0;
+}
+
+/* Half of n bits, rounded up. */
+static int half_up(int n)
+{
+    return n >= 0 ? (n + 1) / 2 : -(-n / 2);
+}
+
+/*
+ * Turn a positive definite matrix into its inverse, in place: pivot by pivot, d = 1 / m_kk, m_ij -= m_ik m_kj d.
+ * The entries of the inverse are below 2^30 over the least eigenvalue, which PIVOT_MIN_Q30 bounds. A row whose pivot is too
+ * small gets none.
+ */
+static void invert(int64_t m[JOINT_ROWS][JOINT_ROWS], int n)
+{
+    bool without[JOINT_ROWS] = {false};
+
+    for (int k = 0; k < n; k++) {
+        struct fix_scaled d;
+
+        if (m[k][k] < PIVOT_MIN_Q30) {
+            without[k] = true;
+            for (int i = 0; i < n; i++) {
+                m[i][k] = m[k][i] = 0;
+            }
+            continue;
+        }
+        d = fix_scaled_inverse(fix_scale(m[k][k], 30));
+        for (int i = 0; i < n; i++) {
+            struct fix_scaled part;
+
+            if (i == k) {
+                continue;
+            }
+            part = fix_scale(fix_mul_scaled(m[i][k], d), 30);
+            for (int j = 0; j < n; j++) {
+                if (j != k) {
+                    m[i][j] -= fix_mul_scaled(m[k][j], part);
+                }
+            }
+        }
+        for (int i = 0; i < n; i++) {
+            if (i != k) {
+                m[i][k] = -fix_mul_scaled(m[i][k], d);
+                m[k][i] = fix_mul_scaled(m[k][i], d);
+            }
+        }
+        m[k][k] = fix_mul_scaled(CAROM_ONE_Q30, d);
+    }
+    for (int k = 0; k < n; k++) {
+        m[k][k] = without[k] ? 0 : m[k][k];
+    }
+}
+
+/* K^-1, to 30 bits of its largest entry. */
+static void invert_k(struct joint_work *w)
+{
+    int64_t k_q30[JOINT_ROWS][JOINT_ROWS];
+    uint64_t all = 0;
+    int n = w->rows, over, last = n - 1;
+
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k <= i; k++) {
+            k_q30[i][k] = k_q30[k][i] = entry_q30(w, i, k);
+        }
+    }
+    invert(k_q30, n);
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < n; k++) {
+            all |= (uint64_t)carom_abs(k_q30[i][k]);
+        }
+    }
+    over = fix_bits(all) > 30 ? fix_bits(all) - 30 : 0;
+    w->inverse_bits = (int8_t)(30 - over);
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < n; k++) {
+            w->inverse[i][k] = (int32_t)(k_q30[i][k] >> over);
+        }
+    }
+    for (int i = 0; i < n && w->held < n; i++) {
+        /* a row of K^-1 is no longer than some 2^3 times the last one's own entry where K is near 1 */
+        w->ratio_q28[i] =
+            w->inverse[last][last] > 0
+                ? rest_clamp(carom_shl(w->inverse[i][last], 28) / w->inverse[last][last])
+                : 0;
+    }
+}
+
+bool joint_prepare(struct joint *j, const struct body *lightest)
+{
+    struct joint_work *w = &j->work;
+
+    prepare_joint_shares(w, lightest);
+    w->down = 0;
+    w->length_bits = (w->lever[0].body ? w->lever[0].body : w->lever[1].body)->unit_bits;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int s = 0; s < 2; s++) {
+            if (w->lever[s].body && !prepare_turns(w, &w->lever[s])) {
+                return false;
+            }
+        }
+        if (pass == 0) {
+            w->down = (int8_t)half_up(bits_above(w, false));
+            w->length_bits = (int8_t)(w->length_bits - half_up(bits_above(w, true)));
+        }
+    }
+    invert_k(w);
+    for (int i = 0; i < w->held; i++) {
+        w->change_q40[i] = w->wanted_q40[i] - (w->by_speed ? joint_speed_q40(j, i) : 0);
+    }
+    if (w->held < w->rows) {
+        w->speed_q40 = joint_speed_q40(j, w->held);
+    }
+    return true;
+}
+
+/* -------------------------------------------------------------------- velocities */
+
+/* w x r at a lever */
+static void turn_velocity(const struct joint_lever *lever, const int64_t spin_q40[3],
+                          int64_t out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        int m = fix_next(k), n = fix_next(m);
+
+        out[k] = fix_mul(spin_q40[m], lever->arm[n], lever->arm_bits) -
+                 fix_mul(spin_q40[n], lever->arm[m], lever->arm_bits);
+    }
+}
+
+int64_t joint_speed_q40(const struct joint *j, int row)
+{
+    const struct joint_work *w = &j->work;
+    int64_t sum = 0;
+
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = w->lever[s].body;
+        int64_t at[3];
+
+        if (!b) {
+            continue;
+        }
+        if (joint_is_angular(w, row)) {
+            memcpy(at, b->spin.c, sizeof at);
+        } else {
+            turn_velocity(&w->lever[s], b->spin.c, at);
+            for (int k = 0; k < 3; k++) {
+                at[k] += b->velocity.c[k];
+            }
+        }
+        sum += s == 0 ? fix_dot_q30(at, w->direction[row]) : -fix_dot_q30(at, w->direction[row]);
+    }
+    return sum;
+}
+
+/* --------------------------------------------------------------------------- units */
+
+/* By how many bits a row's velocities are scaled. */
+static int row_shift(const struct joint_work *w, int row)
+{
+    return joint_is_angular(w, row) ? w->length_bits - 22 : -w->down;
+}
+
+int64_t joint_largest_q40(const struct joint *j)
+{
+    const struct joint_work *w = &j->work;
+    int64_t most = 0;
+
+    for (int i = 0; i < w->rows; i++) {
+        int64_t v =
+            i < w->held ? w->change_q40[i] : carom_abs(w->speed_q40) + carom_abs(w->least_q40);
+
+        v = carom_abs(fix_round_shift(v, row_shift(w, i)));
+        most = v > most ? v : most;
+    }
+    return most;
+}
+
+static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int unit)
+{
+    int64_t most = (int64_t)1 << 60;
+
+    v_q40 = v_q40 > most ? most : v_q40 < -most ? -most : v_q40;
+    return rest_within(
+        fix_round_shift(v_q40, row_shift(w, row) - unit < 2 ? row_shift(w, row) - unit : 2),
+        1 << 27);
+}
+
+/* An impulse of a row in the solver's units, and back. */
+static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
+{
+    struct fix_scaled by = w->lighter->inverse_mass;
+    const int64_t most = (int64_t)1 << 44;
+
+    by.e += unit + row_shift(w, row) - JOINT_FINE_BITS;
+    if (fix_bits((uint64_t)carom_abs(p_q40)) + 30 - by.e > 44) {
+        return p_q40 < 0 ? -most : most;
+    }
+    return fix_mul_scaled(p_q40, by);
+}
+
+/* What a spring gives of the impulse that leads to its own velocity: k / (k + M), M being what a velocity takes. */
+static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
+{
+    int last = w->rows - 1, bits = -2 * row_shift(w, last);
+    int64_t own_q40 = carom_shl(w->inverse[last][last], 10), k_q40;
+
+    own_q40 = fix_round_shift(own_q40, 30 - w->inverse_bits);
+    k_q40 = fix_mul_scaled(stiff_q40, w->lighter->inverse_mass);
+    if (fix_bits((uint64_t)k_q40) + bits > 60 || own_q40 == 0) {
+        return CAROM_ONE_Q30;
+    }
+    k_q40 = fix_round_shift(k_q40, bits);
+    return (int32_t)fix_mul_scaled(CAROM_ONE_Q30, fix_ratio(k_q40, k_q40 + own_q40));
+}
+
+/* Velocities to solver units; no impulses yet. */
+void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
+{
+    struct joint_work *w = &j->work;
+    struct joint_law *law = &w->law;
+    int last = w->rows - 1;
+
+    for (int i = 0; i < w->rows; i++) {
+        w->before[i] = in_units(w, i, i < w->held ? -w->change_q40[i] : w->speed_q40, sw->unit);
+        w->gain[i] = w->way[i] = 0;
+    }
+    if (w->held == w->rows) {
+        return;
+    }
+    law->low_v = in_units(w, last, w->speed_q40 + w->low_q40, sw->unit);
+    law->high_v = in_units(w, last, w->speed_q40 + w->high_q40, sw->unit);
+    law->motor_v = in_units(w, last, state->drive.motor_speed_q40, sw->unit);
+    law->most = impulse_in_units(w, last, w->most_q40, sw->unit);
+    law->spring_v = in_units(w, last, w->speed_q40 + w->spring_q40, sw->unit);
+    law->soft_q30 = w->law.spring ? softness_q30(w, w->stiff_q40) : 0;
+}
+
+void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
+{
+    for (int i = 0; i < j->work.rows; i++) {
+        j->work.impulse[i] = impulse_in_units(&j->work, i, state->impulse_q40[i], sw->unit);
+    }
+}
+
+/* An impulse of a row to momentum. */
+static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
+{
+    struct fix_scaled by = w->lighter->mass;
+
+    by.e += JOINT_FINE_BITS - unit - row_shift(w, row);
+    return fix_mul_scaled(w->impulse[row], by);
+}
+
+void joint_end(struct joint *j, const struct rest_sweep *sw)
+{
+    struct joint_work *w = &j->work;
+
+    memset(&w->push, 0, sizeof w->push);
+    memset(&w->moment, 0, sizeof w->moment);
+    for (int i = 0; i < w->rows; i++) {
+        int64_t p = impulse_q40(w, i, sw->unit);
+        int64_t *to = joint_is_angular(w, i) ? w->moment.c : w->push.c;
+
+        for (int k = 0; k < 3; k++) {
+            to[k] += fix_mul_q30(p, w->direction[i][k]);
+        }
+        w->row_q40[i] = p;
+    }
+}
+
+void joint_apply(struct rest *r, const struct joint *j)
+{
+    const struct joint_work *w = &j->work;
+    const int64_t *p = w->push.c;
+
+    for (int s = 0; s < 2; s++) {
+        const struct joint_lever *lever = &w->lever[s];
+        struct body_state *state;
+        int64_t back[3];
+
+        if (!lever->body) {
+            continue;
+        }
+        state = &r->states[s == 0 ? j->a : j->b];
+        turn_velocity(lever, p, back); /* P x r */
+        for (int k = 0; k < 3; k++) {
+            int64_t moment = w->moment.c[k] - back[k];
+
+            state->momentum.c[k] += s == 0 ? p[k] : -p[k];
+            state->angular.c[k] += s == 0 ? moment : -moment;
+        }
+    }
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+/* A joint in the sweeps: all of its rows at once, the last one by the law of its limits, motor or spring. */
+#include "joint_parts.h"
+
+/* V - wanted V of a row by now; of the last one V. */
+int32_t joint_present(const struct joint_work *w, int row)
+{
+    const struct body *a = w->lever[0].body, *b = w->lever[1].body;
+    const int32_t *d = w->direction[row];
+    uint64_t turn = (uint64_t)1 << 31;
+    int32_t way[3] = {0, 0, 0};
+    int64_t v = 0;
+
+    if (a) {
+        const struct body_path *in = body_solved(a);
+
+        turn += (uint64_t)carom_dot(w->lever[0].turn[row], in->du);
+        for (int k = 0; k < 3; k++) {
+            way[k] = in->dv[k];
+        }
+    }
+    if (b) {
+        const struct body_path *in = body_solved(b);
+
+        turn -= (uint64_t)carom_dot(w->lever[1].turn[row], in->du);
+        for (int k = 0; k < 3; k++) {
+            way[k] -= in->dv[k];
+        }
+    }
+    if (!joint_is_angular(w, row)) {
+        v = carom_round(carom_dot(d, way), 30 + REST_FINER_BITS + w->down);
+    }
+    return w->before[row] + (int32_t)v + (int32_t)((int64_t)turn >> 32);
+}
+
+/* What a change of the impulses does to a body. */
+static void push_side(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS])
+{
+    const struct joint_lever *lever = &w->lever[side];
+    struct body_path *in = body_solve(lever->body);
+    const int s = rest_turn_shift(lever->body, JOINT_FINE_BITS);
+    const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS;
+    int64_t way[3] = {0, 0, 0}, turn[3] = {0, 0, 0};
+
+    for (int i = 0; i < w->rows; i++) {
+        int64_t own = side == 0 ? change[i] : -change[i];
+
+        own = lever->share_q30 == CAROM_ONE_Q30 ? own : fix_mul_q30(own, lever->share_q30);
+        for (int k = 0; k < 3; k++) {
+            /* 8 bits more than dv and du have */
+            way[k] += joint_is_angular(w, i) ? 0 : fix_mul(own, w->direction[i][k], down - 8);
+            turn[k] += fix_mul(own, lever->turn[i][k], s - 8);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        in->used |= rest_add(&in->dv[k], (int32_t)carom_round(way[k], 8)) |
+                    rest_add(&in->du[k], (int32_t)carom_round(turn[k], 8));
+    }
+}
+
+void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
+{
+    for (int i = 0; i < w->rows; i++) {
+        w->impulse[i] += change[i];
+        w->gain[i] = rest_clamp(w->gain[i] + change[i]);
+    }
+    for (int s = 0; s < 2; s++) {
+        if (w->lever[s].body) {
+            push_side(w, s, change);
+        }
+    }
+}
+
+/*
+ * The impulse that the last row is to have, `now` being the one with which the others hold and V is v: the motor's, or the
+ * spring's, or none; and what the limits ask for beyond that.
+ */
+static int64_t by_law(const struct joint_work *w, int64_t now, int32_t v)
+{
+    const struct joint_law *law = &w->law;
+    int last = w->rows - 1, bits = w->inverse_bits - JOINT_FINE_BITS;
+    int64_t own = w->inverse[last][last], impulse = 0, least;
+
+#define LEADS_TO(wanted) (now + fix_round_shift(((int64_t)(wanted) - (v)) * own, -bits))
+    if (law->motor) {
+        impulse = LEADS_TO(law->motor_v);
+        impulse = impulse > law->most ? law->most : impulse < -law->most ? -law->most : impulse;
+    } else if (law->spring) {
+        impulse = fix_mul_q30(LEADS_TO(law->spring_v), law->soft_q30);
+    }
+    if (law->lower) {
+        least = LEADS_TO(law->low_v);
+        impulse = impulse > least ? impulse : least;
+    }
+    if (law->upper) {
+        least = LEADS_TO(law->high_v);
+        impulse = impulse < least ? impulse : least;
+    }
+#undef LEADS_TO
+    return impulse;
+}
+
+int64_t joint_sweep(struct joint *j, int32_t quiet)
+{
+    struct joint_work *w = &j->work;
+    int64_t change[JOINT_ROWS], moved = 0;
+    int32_t error[JOINT_ROWS];
+    int last = w->rows - 1;
+
+    for (int i = 0; i < w->held; i++) {
+        error[i] = -joint_present(w, i);
+        moved = fix_larger((int32_t)moved, fix_abs32(error[i]));
+    }
+    for (int i = 0; i < w->rows; i++) {
+        int64_t sum = 0;
+
+        /* below 2^30 and 2^29, six of them */
+        for (int k = 0; k < w->held; k++) {
+            sum += (int64_t)w->inverse[i][k] * error[k];
+        }
+        change[i] = fix_round_shift(sum, JOINT_FINE_BITS - w->inverse_bits);
+    }
+    if (w->held < w->rows) {
+        int64_t more =
+            by_law(w, w->impulse[last] + change[last], joint_present(w, last)) - w->impulse[last];
+
+        for (int i = 0; i < last; i++) {
+            change[i] += fix_mul(more - change[last], w->ratio_q28[i], 28);
+        }
+        change[last] = more;
+        more = carom_abs(more) >> JOINT_FINE_BITS;
+        moved = more > moved ? more : moved;
+    }
+    if (moved < quiet) {
+        return 0;
+    }
+    joint_push(w, change);
+    return moved;
+}
+
+/* -------------------------------------------------------------------------- sums */
+
+void joint_sum_up(const struct joint *j)
+{
+    const struct joint_work *w = &j->work;
+
+    for (int s = 0; s < 2; s++) {
+        const struct joint_lever *lever = &w->lever[s];
+        struct body_path *in;
+
+        if (!lever->body) {
+            continue;
+        }
+        in = body_solve(lever->body);
+        for (int i = 0; i < w->rows; i++) {
+            int64_t own = fix_mul_q30(s == 0 ? w->impulse[i] : -w->impulse[i], lever->share_q30);
+
+            for (int k = 0; k < 3; k++) {
+                if (!joint_is_angular(w, i)) {
+                    in->wide_dv[k] += fix_mul(own, w->direction[i][k],
+                                              30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS);
+                }
+                in->wide_du[k] +=
+                    fix_mul(own, lever->turn[i][k], rest_turn_shift(lever->body, JOINT_FINE_BITS));
+            }
+        }
+    }
+}

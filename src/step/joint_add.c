@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+/* A joint is added: with the first one a world learns how joints are solved. */
+#include "../solve/parts.h"
+#include "../world/joints.h"
+#include "parts.h"
+
+/* An anchor is no farther from a body's centre than so many of its radii. */
+#define ARM_RADII 64
+
+/* Its bodies become numbers. */
+static int check(const struct carom_world *w, struct carom_joint_def *def)
+{
+    int64_t length_q60 = 0;
+
+    if (!world_find_body(w, &def->a) || (def->b != CAROM_WORLD && !world_find_body(w, &def->b))) {
+        return CAROM_ERR_BODY;
+    }
+    if (def->kind > CAROM_JOINT_FIXED || def->a == def->b || !w->bodies[def->a].moving) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    if (def->kind == CAROM_JOINT_HINGE || def->kind == CAROM_JOINT_SLIDER) {
+        for (int k = 0; k < 3; k++) {
+            if (carom_abs(def->axis.c[k]) > CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10)) {
+                return CAROM_ERR_ARGUMENT;
+            }
+            length_q60 += (int64_t)def->axis.c[k] * def->axis.c[k];
+        }
+        if (carom_abs(length_q60 - ((int64_t)1 << 60)) > (int64_t)1 << 51) {
+            return CAROM_ERR_ARGUMENT;
+        }
+    }
+    if (def->most_impulse_q40 < 0 || !world_position_in_range(&def->anchor) ||
+        (def->kind == CAROM_JOINT_DISTANCE && !world_position_in_range(&def->anchor_b))) {
+        return CAROM_ERR_RANGE;
+    }
+    return world_check_drive(def->kind, &def->drive);
+}
+
+/* An anchor from a body's centre, in its mesh's axes. False when it is too far. */
+static bool set_arm(const struct carom_world *w, struct joint *j, int side,
+                    const carom_v3_q32 *anchor)
+{
+    uint16_t body = side == 0 ? j->a : j->b;
+    struct joint_pose pose = world_joint_pose(w, world_now(w)->bodies, body);
+    carom_m3_q30 r;
+
+    fix_matrix(&r, &pose.rotation);
+    for (int k = 0; k < 3; k++) {
+        j->arm[side].c[k] = carom_shl(anchor->c[k] - pose.position.c[k], 8);
+    }
+    fix_rotate_back(j->arm[side].c, &r, j->arm[side].c);
+    return body == JOINT_WORLD || !w->bodies[body].moving ||
+           fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].radius_q22, 18) * ARM_RADII;
+}
+
+/* The rotation that takes z to an axis: about z x axis, or about x where they are opposite. */
+static carom_quat_q30 to_axis(const carom_v3_q30 *axis)
+{
+    /* (1 + z.axis, z x axis), normalised */
+    const int64_t whole[3] = {axis->c[0], axis->c[1], axis->c[2]};
+    carom_quat_q30 q = {{0, CAROM_ONE_Q30, 0, 0}};
+    carom_v3_q30 n = *axis;
+    int64_t v[4], square = 0;
+    int64_t length;
+
+    (void)fix_normalise(&n, whole);
+    v[0] = (int64_t)CAROM_ONE_Q30 + n.c[2];
+    v[1] = -n.c[1];
+    v[2] = n.c[0];
+    v[3] = 0;
+    for (int k = 0; k < 3; k++) {
+        square += v[k] * v[k]; /* 2 (1 + z.axis) in q60: below 2^62 */
+    }
+    length = fix_sqrt((uint64_t)square);
+    if (v[0] < CAROM_ONE_Q30 >> 12) {
+        return q;
+    }
+    for (int k = 0; k < 4; k++) {
+        q.c[k] = (int32_t)(v[k] * CAROM_ONE_Q30 / length);
+    }
+    body_normalise(&q);
+    return q;
+}
+
+/* q conjugate times p */
+static carom_quat_q30 in_axes_of(const carom_quat_q30 *body, const carom_quat_q30 *p)
+{
+    const int32_t *q = body->c, *r = p->c;
+    carom_quat_q30 out;
+
+    for (int k = 0; k < 3; k++) {
+        int m = fix_next(k), n = fix_next(m);
+
+        out.c[1 + k] =
+            (int32_t)carom_round((int64_t)q[0] * r[1 + k] - (int64_t)q[1 + k] * r[0] -
+                                     (int64_t)q[1 + m] * r[1 + n] + (int64_t)q[1 + n] * r[1 + m],
+                                 30);
+    }
+    out.c[0] = (int32_t)carom_round((int64_t)q[0] * r[0] + carom_dot(q + 1, r + 1), 30);
+    body_normalise(&out);
+    return out;
+}
+
+static void set_frames(const struct carom_world *w, struct joint *j,
+                       const struct carom_joint_def *def)
+{
+    const carom_quat_q30 none = {{CAROM_ONE_Q30, 0, 0, 0}};
+    bool axis = def->kind == CAROM_JOINT_HINGE || def->kind == CAROM_JOINT_SLIDER;
+    carom_quat_q30 frame = axis ? to_axis(&def->axis) : none;
+    const uint16_t side[2] = {j->a, j->b};
+
+    for (int s = 0; s < 2; s++) {
+        struct joint_pose pose = world_joint_pose(w, world_now(w)->bodies, side[s]);
+
+        j->frame[s] = in_axes_of(&pose.rotation, &frame);
+    }
+}
+
+int carom_joint_add(struct carom_world *w, const struct carom_joint_def *given)
+{
+    struct carom_joint_def numbered;
+    const struct carom_joint_def *def = &numbered;
+    struct joint_list *list;
+    struct joint made;
+    uint32_t place = 0;
+    int result;
+
+    if (!w || !given) {
+        return CAROM_ERR_NULL;
+    }
+    numbered = *given;
+    result = check(w, &numbered);
+    if (result < 0) {
+        return result;
+    }
+    memset(&made, 0, sizeof made);
+    made.used = true;
+    made.kind = def->kind;
+    made.touch = def->touch;
+    made.a = (uint16_t)def->a;
+    made.b = def->b == CAROM_WORLD ? JOINT_WORLD : (uint16_t)def->b;
+    made.most_impulse_q40 = def->most_impulse_q40;
+    if (!set_arm(w, &made, 0, &def->anchor) ||
+        !set_arm(w, &made, 1, def->kind == CAROM_JOINT_DISTANCE ? &def->anchor_b : &def->anchor)) {
+        return CAROM_ERR_RANGE;
+    }
+    set_frames(w, &made, def);
+    if (pool_take(&w->pools[CAROM_POOL_joints]) < 0) {
+        return CAROM_ERR_JOINTS_FULL;
+    }
+    list = &w->rest.joints;
+    while (place < list->count && list->joints[place].used) {
+        place++;
+    }
+    list->count = place == list->count ? place + 1 : list->count;
+    list->joints[place] = made;
+    for (int k = 0; k < 2; k++) {
+        memset(&w->states[k].joints[place], 0, sizeof w->states[k].joints[place]);
+        w->states[k].joints[place].drive = def->drive;
+    }
+    list->states = w->now->joints;
+    list->calls = &joint_calls;
+    w->joint_steps = &step_joint_calls;
+    world_group_joints(w);
+    world_wake_joint(w, &list->joints[place]);
+    return (int)place;
+}

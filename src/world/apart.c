@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Bodies start apart. Whoever is added or set where it crosses another body is refused, pushed out, or
+ * passes. What is asked is exact: faces that cross, or a body inside the other one.
+ */
+#include "world.h"
+
+/* Bodies that come apart within so many skins, one way or another, hardly touch. */
+#define SHALLOW_SKINS 2
+/* A body is pushed out in steps that double from here, skins; then the way is halved so often. */
+#define FIRST_SKINS 4
+#define HALVINGS    10
+/* It goes no farther than its diameter and so many units. */
+#define WAY_MAX 60
+/* Up against gravity, and the ways from the middle of a cube to its faces, edges and corners. */
+#define WAYS 27
+
+bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b)
+{
+    struct interfere *in = &w->interfere;
+
+    /* nearly all are far from each other */
+    for (int k = 0; k < 3; k++) {
+        if (carom_abs(a.state->position.c[k] - b.state->position.c[k]) >
+            ((int64_t)a.body->radius_q22 + b.body->radius_q22) << 10) {
+            return false;
+        }
+    }
+    if (!broad_near(a.body, a.state, b.body, b.state, 0)) {
+        return false;
+    }
+    world_begin_gather(w);
+    return interfere_query(in, a, b, NULL, 0) != 0 || interfere_inside(a, b) ||
+           interfere_inside(b, a);
+}
+
+/* The direction of a way out; false when there is none of this number. */
+static bool direction(const struct carom_world *w, int way, carom_v3_q30 *out)
+{
+    int64_t v[3];
+
+    for (int k = 0, rest = way - 1; k < 3; k++, rest /= 3) {
+        v[k] = way == 0 ? -w->config.gravity.c[k] : (rest % 3 - 1) * (int64_t)CAROM_ONE_Q30;
+    }
+    return fix_normalise(out, v);
+}
+
+/* A state moved by a length along a direction; false when that is out of range. */
+static bool moved(const struct body_state *from, const carom_v3_q30 *way, int64_t length_q32,
+                  struct body_state *to)
+{
+    *to = *from;
+    for (int k = 0; k < 3; k++) {
+        to->position.c[k] += fix_mul_q30(length_q32, way->c[k]);
+    }
+    return world_position_in_range(&to->position);
+}
+
+/* Whether two bodies pass each other already, or their joint lets them ignore each other. */
+static bool already_pass(const struct carom_world *w, uint32_t place, uint32_t other)
+{
+    struct pair p;
+
+    if (place == UINT32_MAX) {
+        return false;
+    }
+    p = world_name_pair(w, place, other);
+    return world_ignores(w, p.a, p.b) || world_goes_through(w, world_now(w), &p);
+}
+
+/* Whether a body that may be elsewhere than its place says crosses a body of the world. */
+static bool crosses(struct carom_world *w, const struct body *b, uint32_t place,
+                    const struct body_state *state, uint32_t other)
+{
+    const struct interfere_placed mine = {b, state};
+    const struct interfere_placed theirs = {&w->bodies[other], &world_now(w)->bodies[other]};
+
+    if (other == place || !theirs.body->mesh || theirs.state->out ||
+        !(b->moving || theirs.body->moving) || !broad_may_touch(b, theirs.body)) {
+        return false;
+    }
+    return !already_pass(w, place, other) && world_overlap(w, mine, theirs);
+}
+
+/* Whether two bodies that cross come apart within some skins. */
+static bool is_shallow(struct carom_world *w, const struct body *b, uint32_t place,
+                       const struct body_state *state, uint32_t other)
+{
+    int32_t skin_q22 = fix_larger(b->skin_q22, w->bodies[other].skin_q22);
+    struct body_state at;
+    carom_v3_q30 to;
+
+    for (int way = 0; way < WAYS; way++) {
+        if (direction(w, way, &to) &&
+            moved(state, &to, ((int64_t)SHALLOW_SKINS * skin_q22) << 10, &at) &&
+            !crosses(w, b, place, &at, other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The first body of the world, from a number on, that a body crosses for good. */
+static uint32_t next_crossed(struct carom_world *w, const struct body *b, uint32_t place,
+                             const struct body_state *state, uint32_t from)
+{
+    while (from < w->body_count &&
+           (!crosses(w, b, place, state, from) || is_shallow(w, b, place, state, from))) {
+        from++;
+    }
+    return from;
+}
+
+/* Whether a body crosses any other, by however little. */
+static bool crosses_any(struct carom_world *w, const struct body *b, uint32_t place,
+                        const struct body_state *state)
+{
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (crosses(w, b, place, state, i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* How far a body must go along a way to be clear of all others, when it is less than `most`; else that. */
+static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t place,
+                           const struct body_state *state, const carom_v3_q30 *way,
+                           int64_t most_q32)
+{
+    int64_t inside_q32 = 0, skin_q32 = (int64_t)(b->skin_q22 > 0 ? b->skin_q22 : 256) << 10;
+    int64_t out_q32 = FIRST_SKINS * skin_q32;
+    struct body_state at;
+
+    while (out_q32 < most_q32 &&
+           (!moved(state, way, out_q32, &at) || crosses_any(w, b, place, &at))) {
+        inside_q32 = out_q32;
+        out_q32 *= 2;
+    }
+    if (out_q32 >= most_q32) {
+        out_q32 = most_q32;
+        if (!moved(state, way, out_q32 - 1, &at) || crosses_any(w, b, place, &at)) {
+            return most_q32;
+        }
+    }
+    for (int i = 0; i < HALVINGS; i++) {
+        int64_t middle_q32 = (inside_q32 + out_q32) / 2;
+
+        if (moved(state, way, middle_q32, &at) && !crosses_any(w, b, place, &at)) {
+            out_q32 = middle_q32;
+        } else {
+            inside_q32 = middle_q32;
+        }
+    }
+    return out_q32;
+}
+
+/* Move a state the shortest way out. */
+static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
+                    struct body_state *state)
+{
+    const int64_t most_q32 = ((int64_t)WAY_MAX << 32) + ((int64_t)b->radius_q22 << 11);
+    int64_t best_q32 = most_q32;
+    struct body_state at, best = *state;
+    carom_v3_q30 to;
+
+    for (int way = 0; way < WAYS; way++) {
+        if (direction(w, way, &to)) {
+            int64_t out_q32 = way_out_q32(w, b, place, state, &to, best_q32);
+
+            if (out_q32 < best_q32 && moved(state, &to, out_q32, &at)) {
+                best_q32 = out_q32;
+                best = at;
+            }
+        }
+    }
+    *state = best;
+    return best_q32 < most_q32 ? CAROM_OK : CAROM_ERR_BLOCKED;
+}
+
+/* Whether there is room for all pairs that a body is to pass. */
+static int room_to_pass(struct carom_world *w, const struct body *b, uint32_t place,
+                        const struct body_state *state)
+{
+    const struct world_state *now = world_now(w);
+    uint32_t room = w->config.caps.pairs - now->touching_count - now->through_count;
+
+    for (uint32_t i = next_crossed(w, b, place, state, 0); i < w->body_count;
+         i = next_crossed(w, b, place, state, i + 1)) {
+        if (room-- == 0) {
+            return CAROM_ERR_PAIRS_FULL;
+        }
+    }
+    return CAROM_OK;
+}
+
+int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
+                 struct body_state *state, int overlap)
+{
+    if (b->sensor || next_crossed(w, b, place, state, 0) == w->body_count) {
+        return CAROM_OK;
+    }
+    switch (overlap) {
+    case CAROM_OVERLAP_PASS:
+        return room_to_pass(w, b, place, state);
+    case CAROM_OVERLAP_PUSH_OUT:
+        return push_out(w, b, place, state);
+    default:
+        return CAROM_ERR_OVERLAP;
+    }
+}
+
+void world_let_pass(struct carom_world *w, uint32_t body)
+{
+    const struct body *b = &w->bodies[body];
+    const struct body_state *state = &world_now(w)->bodies[body];
+
+    for (uint32_t i = next_crossed(w, b, body, state, 0); i < w->body_count;
+         i = next_crossed(w, b, body, state, i + 1)) {
+        const struct pair p = world_name_pair(w, body, i);
+
+        w->passing = true;
+        (void)world_note_through(w, w->now, &p);
+    }
+}

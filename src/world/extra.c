@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* The pool of extras: what few bodies have. */
+#include "world.h"
+
+struct body_extra *world_extra(struct carom_world *w, uint32_t body)
+{
+    struct pool *pool = &w->pools[CAROM_POOL_extras];
+    struct body_extra *extra = w->bodies[body].extra;
+    uint32_t place = 0;
+
+    if (extra || pool_take(pool) < 0) {
+        return extra;
+    }
+    while (w->extras[place].used) {
+        place++;
+    }
+    extra = &w->extras[place];
+    *extra = body_no_extra;
+    extra->used = true;
+    extra->body = (uint16_t)body;
+    w->bodies[body].extra = extra;
+    return extra;
+}
+
+void world_drop_extra(struct carom_world *w, uint32_t body)
+{
+    struct body_extra *extra = w->bodies[body].extra;
+
+    if (extra) {
+        memset(extra, 0, sizeof *extra);
+        w->bodies[body].extra = NULL;
+        w->pools[CAROM_POOL_extras].used--;
+    }
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* Which bodies may touch, as their owner says. */
+#include "world.h"
+
+void world_filter(struct body *b, const struct carom_filter *filter)
+{
+    bool none = (filter->category | filter->mask | filter->group) == 0;
+
+    b->category = none ? 1 : filter->category;
+    b->mask = none ? 0xffff : filter->mask;
+    b->group = filter->group;
+}
+
+int carom_body_set_filter(struct carom_world *w, int body, const struct carom_filter *filter)
+{
+    struct body changed;
+    struct body_state state;
+    int result;
+
+    if (!w || !filter) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_find_body(w, &body)) {
+        return CAROM_ERR_BODY;
+    }
+    changed = w->bodies[body];
+    world_filter(&changed, filter);
+    if (changed.category == w->bodies[body].category && changed.mask == w->bodies[body].mask &&
+        changed.group == w->bodies[body].group) {
+        return CAROM_OK; /* nothing changed: nothing wakes */
+    }
+    state = world_now(w)->bodies[body];
+    result = world_settle(w, &changed, (uint32_t)body, &state, CAROM_OVERLAP_PASS);
+    if (result < 0) {
+        return result;
+    }
+    world_wake_around(w, (uint32_t)body);
+    world_filter(&w->bodies[body], filter);
+    world_let_pass(w, (uint32_t)body);
+    world_wake_around(w, (uint32_t)body);
+    return CAROM_OK;
+}
+
+int carom_body_get_filter(const struct carom_world *w, int body, struct carom_filter *filter)
+{
+    if (!w || !filter) {
+        return CAROM_ERR_NULL;
+    }
+    if (!world_find_body(w, &body)) {
+        return CAROM_ERR_BODY;
+    }
+    filter->category = w->bodies[body].category;
+    filter->mask = w->bodies[body].mask;
+    filter->group = w->bodies[body].group;
+    return CAROM_OK;
+}

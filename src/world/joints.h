@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* joints - what the calls about joints and the step share of them. */
+#ifndef CAROM_SRC_WORLD_JOINTS_H
+#define CAROM_SRC_WORLD_JOINTS_H
+
+#include "world.h"
+
+struct joint_pose world_joint_pose(const struct carom_world *w, const struct body_state *states,
+                                   uint16_t body);
+/* CAROM_OK, or what is wrong with a drive. */
+int world_check_drive(uint8_t kind, const struct carom_joint_drive *d);
+/* Find which bodies joints connect, and which pairs ignore each other, after a joint came, went or broke. */
+void world_group_joints(struct carom_world *w);
+/* Take a joint away; groups are to be found anew. */
+void world_drop_joint(struct carom_world *w, uint32_t joint);
+/* Whether a state that was read could be what a step has left. */
+bool world_joint_plausible(const struct joint *j, const struct joint_state *state);
+void world_wake_joint(struct carom_world *w, const struct joint *j);
+
+#endif

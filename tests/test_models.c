@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* The meshes of examples/models.h: closed, of the size and the volume that they are made for. */
+#include "models.h"
+#include "test.h"
+
+static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(CHARACTER_VERTICES, CHARACTER_FACES)];
+
+/* Volumes and sides in thousandths, by hand; what rounding to quanta may change is below a hundredth of them. */
+static const struct {
+    const struct carom_mesh_raw *raw;
+    int vertices, faces;
+    int32_t volume, side[3];
+} models[] = {
+    {&wheel_mesh, WHEEL_VERTICES, WHEEL_FACES, 75, {700, 200, 700}}, /* 8 0.35^2 sin 22.5 0.2 */
+    {&door_mesh, DOOR_VERTICES, DOOR_FACES, 90, {900, 50, 2000}},
+    {&ramp_mesh, RAMP_VERTICES, RAMP_FACES, 500, {2000, 1000, 500}},    /* half of a box */
+    {&steps_mesh, STEPS_VERTICES, STEPS_FACES, 450, {1200, 1000, 600}}, /* 10 of 0.3 x 0.15 */
+};
+
+static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
+{
+    struct carom_mesh mesh;
+
+    CHECK_EQ(raw->vertex_count, vertices);
+    CHECK_EQ(raw->face_count, faces);
+    CHECK_EQ(raw->kind, CAROM_SOLID);
+    CHECK_EQ(carom_mesh_build(&mesh, raw, block, sizeof block), CAROM_OK);
+    /* one closed piece without a hole, but the link, which has one: V - E + F = 2 - 2 holes */
+    CHECK_EQ(vertices - (int)mesh.edge_count + faces, raw == &link_mesh ? 0 : 2);
+    CHECK(mesh.mass.volume_q32 > 0);
+}
+
+static void closed(void)
+{
+    check(&character_mesh, CHARACTER_VERTICES, CHARACTER_FACES);
+    check(&wheel_mesh, WHEEL_VERTICES, WHEEL_FACES);
+    check(&car_mesh, CAR_VERTICES, CAR_FACES);
+    check(&door_mesh, DOOR_VERTICES, DOOR_FACES);
+    check(&link_mesh, LINK_VERTICES, LINK_FACES);
+    check(&ramp_mesh, RAMP_VERTICES, RAMP_FACES);
+    check(&steps_mesh, STEPS_VERTICES, STEPS_FACES);
+}
+
+static void sizes(void)
+{
+    for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
+        struct carom_mesh mesh;
+
+        CHECK_EQ(carom_mesh_build(&mesh, models[i].raw, block, sizeof block), CAROM_OK);
+        CHECK_NEAR(mesh.mass.volume_q32 * 1000 >> 32, models[i].volume, models[i].volume / 50 + 1);
+        for (int k = 0; k < 3; k++) {
+            int32_t side = (mesh.box[1][k] - mesh.box[0][k]) * 1000 >> mesh.raw.quantum_bits;
+
+            CHECK_NEAR(side, models[i].side[k], 3);
+        }
+    }
+}
+
+const struct test tests_models[] = {{"models/closed", closed}, {"models/sizes", sizes}, {0}};
