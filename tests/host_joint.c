@@ -374,6 +374,100 @@ static void test_random(long worlds)
                worlds, frames, crossed, errors, capped, all.apart, all.frame, all.axes);
 }
 
+/* How a kinematic body goes about: to and fro along a way, and about an axis. */
+struct wander {
+    double centre[3], way[3], rate, axis[3], angle, turn_rate;
+};
+
+static void wander(struct crowd *crowd, int body, const struct wander *w, long frame)
+{
+    struct carom_pose pose;
+
+    for (int k = 0; k < 3; k++) {
+        pose.position.c[k] = lab_fixed(w->centre[k] + w->way[k] * sin(w->rate * (double)frame), 32);
+    }
+    pose.rotation =
+        lab_turn(w->axis[0], w->axis[1], w->axis[2], w->angle * sin(w->turn_rate * (double)frame));
+    lab_expect(carom_body_move_to(crowd->world, body, &pose), "move");
+}
+
+/*
+ * Random bodies that hang on a kinematic body and on each other by random joints. It goes about at random above the
+ * ground: so high that they touch nothing, or so low that they drag.
+ */
+static void play_led(long n, bool drags, struct seen *all, struct crowd_tally *t)
+{
+    static const double axis[3] = {0, 0, 1};
+    uint64_t random = (uint64_t)n * 104729 + 11;
+    struct crowd *crowd = begin(true);
+    struct wander w;
+    struct seen seen = {0};
+    int count = 1 + (int)(lab_random(&random, 0, 1) * 4);
+    double z = drags ? 0.9 : 9;
+
+    for (int k = 0; k < 3; k++) {
+        w.centre[k] = k == 2 ? z : 0;
+        w.way[k] = lab_random(&random, -1, 1) * (k == 2 && drags ? 0.3 : 2);
+        w.axis[k] = lab_random(&random, -1, 1);
+    }
+    w.rate = lab_random(&random, 0.002, 0.03);
+    w.angle = drags ? 0 : lab_random(&random, 0, 1.5);
+    w.turn_rate = lab_random(&random, 0.002, 0.1);
+    crowd_body(crowd, crowd_box(crowd, 0.5, 0.5, 0.5))->kinematic = true;
+    crowd_place(&crowd->bodies[1].def, 0, 0, z);
+    for (int i = 0; i < count; i++) {
+        double side[3];
+
+        for (int k = 0; k < 3; k++) {
+            side[k] = lab_random(&random, 0.2, 0.8);
+        }
+        crowd_place(crowd_body(crowd, crowd_box(crowd, side[0], side[1], side[2])), 1.2 * (i + 1),
+                    0, z + lab_random(&random, -0.2, 0.4));
+    }
+    crowd_surface(crowd, lab_random(&random, 0, 0.8), lab_random(&random, 0, 1));
+    lab_expect(crowd_start(crowd), "led");
+    for (int i = 0; i < count; i++) {
+        int kind = (int)(lab_random(&random, 0, 1) * 5);
+        struct carom_joint_def def =
+            joint(kind, i + 2, i + 1, 1.2 * i + 0.6, lab_random(&random, -0.3, 0.3), z + 0.1);
+
+        def.anchor_b = def.anchor;
+        def.anchor_b.c[0] -= lab_fixed(0.3, 32);
+        def.drive.limited = kind == CAROM_JOINT_DISTANCE || kind == CAROM_JOINT_SLIDER;
+        def.drive.lower_q32 = lab_fixed(kind == CAROM_JOINT_SLIDER ? -0.3 : 0.2, 32);
+        def.drive.upper_q32 = lab_fixed(0.6, 32);
+        add(crowd, &def);
+    }
+    for (long frame = 1; frame <= 300; frame++) {
+        int result;
+
+        wander(crowd, 1, &w, frame);
+        result = crowd_step(crowd, t);
+        lab_expect(result < 0 ? result : CAROM_OK, "step");
+        look(crowd, axis, &seen, n * 1000 + frame);
+    }
+    if (seen.apart > all->apart) {
+        *all = seen;
+    }
+    all->axes = fmax(all->axes, seen.axes);
+    crowd_free(crowd);
+}
+
+static void test_led(long worlds, bool drags)
+{
+    struct seen all = {0};
+    struct crowd_tally t = {0};
+
+    for (long n = 1; n <= worlds; n++) {
+        play_led(n, drags, &all, &t);
+    }
+    lab_report(t.crossed == 0 && t.inside == 0 && all.apart < 8 && all.axes < 1e-3,
+               drags ? "joint/led_drags" : "joint/led",
+               "%ld worlds, %ld frames: %ld cross, %ld inside, %ld capped; anchors %.1f skins "
+               "(%ld), axes %.1e",
+               worlds, t.frames, t.crossed, t.inside, t.capped, all.apart, all.frame, all.axes);
+}
+
 int main(int argc, char **argv)
 {
     bool all = argc > 1 && strcmp(argv[1], "long") == 0;
@@ -386,5 +480,7 @@ int main(int argc, char **argv)
     test_chain(all ? frames : frames / 4, true);
     test_chain(all ? frames : frames / 4, false);
     test_random(all ? WORLDS_LONG : WORLDS);
+    test_led(all ? WORLDS_LONG : WORLDS, false);
+    test_led(all ? WORLDS_LONG : WORLDS, true);
     return lab_finish();
 }

@@ -22,24 +22,14 @@ static int bits_of_way(const struct body *b, const carom_v3_q40 *velocity)
     return bits;
 }
 
-/* q1^-1 q2, the one of the two with the same meaning that has no negative first number. */
-static void turn_between(const carom_quat_q30 *from, const carom_quat_q30 *to, int64_t out[4])
+/* The turn from one rotation to another: of the two quaternions that mean it the one whose first number is not negative. */
+static void shorter_turn(const carom_quat_q30 *from, const carom_quat_q30 *to, int64_t out[4])
 {
-    const int32_t *p = from->c, *q = to->c;
+    carom_quat_q30 turn;
 
-    /* products are below 2^60, four of them below 2^62 */
-    out[0] = carom_round((int64_t)p[0] * q[0] + (int64_t)p[1] * q[1] + (int64_t)p[2] * q[2] +
-                             (int64_t)p[3] * q[3],
-                         30);
-    for (int k = 1; k <= 3; k++) {
-        int i = k < 3 ? k + 1 : 1, j = i < 3 ? i + 1 : 1;
-
-        out[k] = carom_round((int64_t)p[0] * q[k] - (int64_t)q[0] * p[k] -
-                                 ((int64_t)p[i] * q[j] - (int64_t)p[j] * q[i]),
-                             30);
-    }
-    for (int k = 3; out[0] < 0 && k >= 0; k--) {
-        out[k] = -out[k];
+    fix_turn_between(&turn, from, to);
+    for (int k = 0; k < 4; k++) {
+        out[k] = turn.c[0] < 0 ? -(int64_t)turn.c[k] : turn.c[k];
     }
 }
 
@@ -81,7 +71,7 @@ void body_route_to(const struct body *b, const struct body_state *s, const carom
     for (int k = 0; k < 3; k++) {
         route->velocity.c[k] = carom_shl(position->c[k] - s->position.c[k], 8);
     }
-    turn_between(&s->rotation, rotation, turn_q30);
+    shorter_turn(&s->rotation, rotation, turn_q30);
     bits = bits_of_way(b, &route->velocity);
     for (int k = 0; k < bits; k++) {
         halve(turn_q30);

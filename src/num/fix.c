@@ -353,6 +353,22 @@ void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q)
     }
 }
 
+void fix_turn_between(carom_quat_q30 *out, const carom_quat_q30 *from, const carom_quat_q30 *to)
+{
+    const int32_t *p = from->c, *q = to->c;
+
+    /* products are below 2^60.01, four of them below 2^63 */
+    for (int k = 0; k < 3; k++) {
+        int i = fix_next(k), j = fix_next(i);
+
+        out->c[1 + k] =
+            (int32_t)carom_round((int64_t)p[0] * q[1 + k] - (int64_t)q[0] * p[1 + k] -
+                                     (int64_t)p[1 + i] * q[1 + j] + (int64_t)p[1 + j] * q[1 + i],
+                                 30);
+    }
+    out->c[0] = (int32_t)carom_round((int64_t)p[0] * q[0] + carom_dot(p + 1, q + 1), 30);
+}
+
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3])
 {
     int64_t r[3];

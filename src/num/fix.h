@@ -241,6 +241,12 @@ bool fix_normalise(carom_v3_q30 *out, const int64_t v[3]);
 /* The matrix of a rotation. Range: components below 2^31, so that two products are below 2^63. */
 void fix_matrix(carom_m3_q30 *m, const carom_quat_q30 *q);
 
+/*
+ * The rotation that leads from one to the other, in the axes of `from`: from^-1 to, within 2 units of the last place.
+ * Range: lengths up to 1.001.
+ */
+void fix_turn_between(carom_quat_q30 *out, const carom_quat_q30 *from, const carom_quat_q30 *to);
+
 /* out = m v / 2^30 and its transpose, for int64 vectors of any format; out may be v. */
 void fix_rotate(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);
 void fix_rotate_back(int64_t out[3], const carom_m3_q30 *m, const int64_t v[3]);

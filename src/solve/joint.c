@@ -4,13 +4,6 @@
 
 extern inline bool joint_holds(const struct joint_list *list, uint32_t i);
 
-int joint_held_rows(uint8_t kind)
-{
-    static const uint8_t rows[] = {3, 5, 5, 0, 6};
-
-    return rows[kind];
-}
-
 bool joint_has_coordinate(uint8_t kind)
 {
     return kind == CAROM_JOINT_HINGE || kind == CAROM_JOINT_SLIDER || kind == CAROM_JOINT_DISTANCE;
@@ -73,24 +66,6 @@ carom_v3_q30 joint_axis(const struct joint *j, const struct joint_pose *pose_b)
 
     fix_matrix(&m, &axes);
     return (carom_v3_q30){{m.c[0][2], m.c[1][2], m.c[2][2]}};
-}
-
-/* The rotation of a's axes against b's, in b's. */
-static carom_quat_q30 between(const carom_quat_q30 *a, const carom_quat_q30 *b)
-{
-    const int32_t *p = a->c, *q = b->c;
-    carom_quat_q30 out;
-
-    for (int k = 0; k < 3; k++) {
-        int m = fix_next(k), n = fix_next(m);
-
-        out.c[1 + k] =
-            (int32_t)carom_round((int64_t)q[0] * p[1 + k] - (int64_t)q[1 + k] * p[0] -
-                                     (int64_t)q[1 + m] * p[1 + n] + (int64_t)q[1 + n] * p[1 + m],
-                                 30);
-    }
-    out.c[0] = (int32_t)carom_round((int64_t)q[0] * p[0] + carom_dot(q + 1, p + 1), 30);
-    return out;
 }
 
 #define ANGLE_PI_Q40 3454217652358
@@ -188,9 +163,10 @@ static void measure_turn(const struct joint *j, const carom_quat_q30 *a, const c
         out->row_q40[3] = -carom_round(carom_dot(z, y), 20);
         out->row_q40[4] = carom_round(carom_dot(z, x), 20);
     } else {
-        carom_quat_q30 q = between(a, b);
+        carom_quat_q30 q;
         int first = j->kind == CAROM_JOINT_SLIDER ? 2 : 3;
 
+        fix_turn_between(&q, b, a);
         for (int k = 0; k < 3; k++) {
             out->row_q40[first + k] = carom_shl(q.c[0] < 0 ? -q.c[1 + k] : q.c[1 + k], 11);
         }
@@ -226,8 +202,9 @@ void joint_measure(const struct joint *j, const struct joint_pose pose[2], struc
         measure_turn(j, &a, &b, &axes, out);
     }
     if (j->kind == CAROM_JOINT_HINGE) {
-        carom_quat_q30 q = between(&a, &b);
+        carom_quat_q30 q;
 
+        fix_turn_between(&q, &b, &a);
         out->coordinate_q40 = twist_q40(&q);
     }
 }

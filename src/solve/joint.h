@@ -8,7 +8,7 @@
  * inverted before the sweeps, and where the last row is limited the others follow it.
  *
  * Units. A linear row counts velocities over 2^down, an angular one at an arm of 2^length_bits of q22, so that K is
- * near 1. Impulses of a row are counted in the unit of velocity times the lighter body's mass, over
+ * near 1. Impulses of a row are counted in the unit of velocity times the mass of the island's lightest body, over
  * 2^JOINT_FINE_BITS.
  */
 #ifndef CAROM_SRC_JOINT_H
@@ -24,7 +24,7 @@
 /* What a row impulse does to one of the two bodies. */
 struct joint_lever {
     struct body *body; /* NULL: does not answer */
-    int32_t share_q30; /* the lighter body's mass over this one's */
+    int32_t share_q30; /* the lightest body's mass over this one's */
     /* from the centre of mass to the joint's point, in units of 2^-arm_bits */
     int32_t arm[3];
     int32_t arm_bits;
@@ -55,12 +55,13 @@ struct joint_row {
 /* What a solve works out. */
 struct joint_work {
     struct joint_lever lever[2];
-    const struct body *lighter; /* of those that answer */
-    uint8_t rows, held;         /* of these so many always hold: all, or all but the last */
-    uint8_t angular;            /* a bit for each row */
-    uint16_t row_at;            /* its first one among the island's */
-    bool idle;                  /* solved, or not to be solved now */
-    bool by_speed;              /* the slice is too short to measure: V of a row is its change */
+    const struct body *led;      /* b, where it is a kinematic body on its way; else NULL */
+    const struct body *lightest; /* of the island's bodies that answer: the unit of mass */
+    uint8_t rows, held;          /* of these so many always hold: all, or all but the last */
+    uint8_t angular;             /* a bit for each row */
+    uint16_t row_at;             /* its first one among the island's */
+    bool idle;                   /* solved, or not to be solved now */
+    bool by_speed;               /* the slice is too short to measure: V of a row is its change */
     int8_t down, length_bits;
     int8_t inverse_bits;                     /* fractional bits of the inverse */
     int32_t direction[JOINT_ROWS][3];        /* q30 */
@@ -69,7 +70,8 @@ struct joint_work {
     struct joint_law law;
     /* before the solve: what V of a row must change by on the present paths, less V itself where it is by_speed */
     int64_t wanted_q40[JOINT_ROWS];
-    int64_t change_q40[JOINT_ROWS], speed_q40; /* that change, and V of the last row */
+    int64_t change_q40[JOINT_ROWS]; /* that change */
+    int64_t speed_q40[JOINT_ROWS];  /* V before the solve */
     /* what V of the last row must change by for the limits and the spring; the motor's impulse, the spring's by V; the
      * largest of these changes */
     int64_t low_q40, high_q40, most_q40, spring_q40, stiff_q40, least_q40;
@@ -151,8 +153,7 @@ struct joint_error {
     int64_t coordinate_q40;
 };
 
-/* Rows that always hold; and whether there is a coordinate. */
-int joint_held_rows(uint8_t kind);
+/* Whether a kind has a coordinate. */
 bool joint_has_coordinate(uint8_t kind);
 bool joint_is_driven(const struct joint *j, const struct joint_state *s);
 

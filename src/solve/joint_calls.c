@@ -260,28 +260,50 @@ static void apply(struct rest *r)
     }
 }
 
-/* What the last row's impulse has done but for a spring's own: limits, motors and damping. */
-static void book_work(struct rest *r, struct joint *j)
+/* The velocities of a joint's bodies after a solve. */
+static void refresh(const struct rest *r, struct joint *j)
 {
-    struct joint_work *w = &j->work;
-    int last = w->rows - 1;
-    int64_t before_q40 = w->speed_q40, after_q40, p_q40 = w->row_q40[last];
-
     for (int s = 0; s < 2; s++) {
-        struct body *b = w->lever[s].body;
+        struct body *b = j->work.lever[s].body;
 
         if (b) {
             body_velocity(b, &r->states[s == 0 ? j->a : j->b], &b->velocity);
             body_spin(b, &r->states[s == 0 ? j->a : j->b], &b->path.start.r, &b->spin);
         }
     }
-    after_q40 = joint_speed_q40(j, last);
+}
+
+/* Limits, motors and damping do work by the last row's impulse: all of it but a spring's own, which add_springs2 counts. */
+static void book_drive(struct rest *r, const struct joint *j)
+{
+    const struct joint_work *w = &j->work;
+    int last = w->rows - 1;
+    int64_t before_q40 = w->speed_q40[last], p_q40 = w->row_q40[last];
+    int64_t after_q40 = joint_speed_q40(w, last);
+
     if (w->law.spring) {
         struct fix_wide own = fix_wide_mul(w->half_stiff_q40, after_q40 - before_q40);
 
         p_q40 += w->elastic_q40 + fix_wide_shift(&own, 40);
     }
     fix_wide_add_product(&r->bodies[j->a].work2, p_q40, before_q40 + after_q40);
+}
+
+/*
+ * A kinematic body does work by whatever holds the other one to it: an impulse P changes twice the kinetic energy of the
+ * bodies that answer by P (V + V'), without the kinematic body's part of V. Of the last row book_drive has the rest.
+ */
+static void book_led(struct rest *r, const struct joint *j)
+{
+    const struct joint_work *w = &j->work;
+    struct fix_wide *sum = &r->bodies[j->a].work2;
+
+    for (int i = 0; i < w->rows; i++) {
+        fix_wide_add_product(sum, w->row_q40[i], -2 * joint_led_speed_q40(w, i));
+        if (i < w->held) {
+            fix_wide_add_product(sum, w->row_q40[i], w->speed_q40[i] + joint_speed_q40(w, i));
+        }
+    }
 }
 
 static void book(struct rest *r)
@@ -296,11 +318,13 @@ static void book(struct rest *r)
             state->push.c[k] += w->push.c[k];
             state->moment.c[k] += w->moment.c[k];
         }
-        if (w->held < w->rows) {
-            state->axial_q40 += w->row_q40[w->rows - 1];
-            if (r->joints.solve != JOINT_PROJECT) {
-                book_work(r, j);
-            }
+        state->axial_q40 += w->held < w->rows ? w->row_q40[w->held] : 0;
+        refresh(r, j);
+        if (w->held < w->rows && r->joints.solve != JOINT_PROJECT) {
+            book_drive(r, j);
+        }
+        if (w->led) {
+            book_led(r, j);
         }
         for (int i = 0; i < JOINT_ROWS && r->joints.solve <= JOINT_MORE; i++) {
             int64_t kept = r->joints.solve == JOINT_MORE ? state->impulse_q40[i] : 0;

@@ -58,34 +58,6 @@ static bool lay_out(struct rest *r)
     return used <= r->joints.room_size;
 }
 
-/* An entry of A, q30. */
-static int64_t entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k)
-{
-    int64_t sum = 0;
-
-    for (int s = 0; s < 2; s++) {
-        const struct joint_lever *own = &a->lever[s];
-
-        for (int t = 0; t < 2 && own->body; t++) {
-            const struct joint_lever *other = &b->lever[t];
-            int64_t part = 0;
-
-            if (other->body != own->body) {
-                continue;
-            }
-            if (!joint_is_angular(a, i) && !joint_is_angular(b, k)) {
-                part = fix_round_shift(carom_round(carom_dot(a->direction[i], b->direction[k]), 30),
-                                       -a->down - b->down);
-            }
-            part += fix_round_shift(carom_dot(own->turn[i], other->turn[k]),
-                                    -(32 - 2 * own->body->turn_bits));
-            part = fix_mul_q30(part, own->share_q30);
-            sum += s == t ? part : -part;
-        }
-    }
-    return sum;
-}
-
 /* Sum of products of the rows i and k from the first column of both up to `end`. */
 static int64_t product_q60(const struct rest *r, const struct joint_row *i,
                            const struct joint_row *k, uint32_t end)
@@ -117,7 +89,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
 
         for (uint32_t n = 0; n < end && k->work.row_at + n >= row->first; n++) {
             c[k->work.row_at + n - row->first] =
-                rest_within(entry_q30(w, i, &k->work, (int)n), CAROM_ONE_Q30);
+                rest_within(joint_entry_q30(w, i, &k->work, (int)n), CAROM_ONE_Q30);
         }
         if (k == j) {
             break;
@@ -129,7 +101,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
 
         c[n - row->first] = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
     }
-    pivot_q60 = carom_shl(entry_q30(w, i, w, i), 30) - product_q60(r, row, row, place);
+    pivot_q60 = carom_shl(joint_entry_q30(w, i, w, i), 30) - product_q60(r, row, row, place);
     row->inverse = (struct fix_scaled){0, 0};
     if (pivot_q60 > PIVOT_MIN_Q60) {
         int64_t root = fix_sqrt((uint64_t)pivot_q60);

@@ -7,6 +7,8 @@
 
 /* Levers and K^-1; `lightest` gives the unit of mass. */
 bool joint_prepare(struct joint *j, const struct body *lightest);
+/* By how much an impulse of 1 along row k of b changes V of row i of a, q30: an entry of K, where both are one joint. */
+int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k);
 /* Factors of what all held rows of the island do to each other; false when the room is short. The solution with them: how
  * much a velocity moved. */
 bool joint_factor(struct rest *r);
@@ -14,8 +16,9 @@ int64_t joint_solve_held(struct rest *r, int32_t quiet);
 /* V - wanted V of a row by now, of the last one V; and what changes of impulses do. */
 int32_t joint_present(const struct joint_work *w, int row);
 void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
-/* V of a row, q40. */
-int64_t joint_speed_q40(const struct joint *j, int row);
+/* V of a row, q40; and the part of it that is a kinematic body's. */
+int64_t joint_speed_q40(const struct joint_work *w, int row);
+int64_t joint_led_speed_q40(const struct joint_work *w, int row);
 int64_t joint_largest_q40(const struct joint *j);
 void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
 void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);

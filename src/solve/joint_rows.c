@@ -58,7 +58,7 @@ static void prepare_joint_shares(struct joint_work *w, const struct body *lighte
 {
     int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->mass);
 
-    w->lighter = lightest;
+    w->lightest = lightest;
     for (int s = 0; s < 2; s++) {
         const struct body *own = w->lever[s].body;
 
@@ -73,25 +73,29 @@ static void prepare_joint_shares(struct joint_work *w, const struct body *lighte
 
 /* ----------------------------------------------------------------------------- K */
 
-/* An entry of K, q30. */
-static int64_t entry_q30(const struct joint_work *w, int i, int k)
+int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k)
 {
     int64_t sum = 0;
 
     for (int s = 0; s < 2; s++) {
-        const struct joint_lever *lever = &w->lever[s];
-        int64_t own = 0;
+        const struct joint_lever *own = &a->lever[s];
 
-        if (!lever->body) {
-            continue;
+        for (int t = 0; t < 2 && own->body; t++) {
+            const struct joint_lever *other = &b->lever[t];
+            int64_t part = 0;
+
+            if (other->body != own->body) {
+                continue;
+            }
+            if (!joint_is_angular(a, i) && !joint_is_angular(b, k)) {
+                part = fix_round_shift(carom_round(carom_dot(a->direction[i], b->direction[k]), 30),
+                                       -a->down - b->down);
+            }
+            part += fix_round_shift(carom_dot(own->turn[i], other->turn[k]),
+                                    -(32 - 2 * own->body->turn_bits));
+            part = fix_mul_q30(part, own->share_q30);
+            sum += s == t ? part : -part;
         }
-        if (!joint_is_angular(w, i) && !joint_is_angular(w, k)) {
-            own = carom_round(carom_dot(w->direction[i], w->direction[k]), 30);
-            own = fix_round_shift(own, -2 * w->down);
-        }
-        own += fix_round_shift(carom_dot(lever->turn[i], lever->turn[k]),
-                               -(32 - 2 * lever->body->turn_bits));
-        sum += fix_mul_q30(own, lever->share_q30);
     }
     return sum;
 }
@@ -103,7 +107,7 @@ static int bits_above(const struct joint_work *w, bool angular)
 
     for (int i = 0; i < w->rows; i++) {
         if (joint_is_angular(w, i) == angular) {
-            int64_t own = entry_q30(w, i, i);
+            int64_t own = joint_entry_q30(w, i, w, i);
 
             most = own > most ? own : most;
         }
@@ -172,7 +176,7 @@ static void invert_k(struct joint_work *w)
 
     for (int i = 0; i < n; i++) {
         for (int k = 0; k <= i; k++) {
-            k_q30[i][k] = k_q30[k][i] = entry_q30(w, i, k);
+            k_q30[i][k] = k_q30[k][i] = joint_entry_q30(w, i, w, k);
         }
     }
     invert(k_q30, n);
@@ -216,11 +220,9 @@ bool joint_prepare(struct joint *j, const struct body *lightest)
         }
     }
     invert_k(w);
-    for (int i = 0; i < w->held; i++) {
-        w->change_q40[i] = w->wanted_q40[i] - (w->by_speed ? joint_speed_q40(j, i) : 0);
-    }
-    if (w->held < w->rows) {
-        w->speed_q40 = joint_speed_q40(j, w->held);
+    for (int i = 0; i < w->rows; i++) {
+        w->speed_q40[i] = joint_speed_q40(w, i);
+        w->change_q40[i] = w->wanted_q40[i] - (w->by_speed ? w->speed_q40[i] : 0);
     }
     return true;
 }
@@ -239,27 +241,49 @@ static void turn_velocity(const struct joint_lever *lever, const int64_t spin_q4
     }
 }
 
-int64_t joint_speed_q40(const struct joint *j, int row)
+/* The velocity of a body that answers at a lever, or its spin. */
+static void own_velocity(const struct joint_lever *lever, bool angular, int64_t out[3])
 {
-    const struct joint_work *w = &j->work;
-    int64_t sum = 0;
+    const struct body *b = lever->body;
+
+    if (angular) {
+        memcpy(out, b->spin.c, sizeof b->spin.c);
+        return;
+    }
+    turn_velocity(lever, b->spin.c, out);
+    for (int k = 0; k < 3; k++) {
+        out[k] += b->velocity.c[k];
+    }
+}
+
+int64_t joint_led_speed_q40(const struct joint_work *w, int row)
+{
+    const struct joint_lever *lever = &w->lever[1];
+    carom_v3_q40 arm, v;
+
+    if (!w->led) {
+        return 0;
+    }
+    v = w->led->extra->route.spin;
+    if (!joint_is_angular(w, row)) {
+        for (int k = 0; k < 3; k++) {
+            arm.c[k] = fix_round_shift(lever->arm[k], 40 - lever->arm_bits);
+        }
+        body_route_velocity(w->led, &arm, &v);
+    }
+    return -fix_dot_q30(v.c, w->direction[row]);
+}
+
+int64_t joint_speed_q40(const struct joint_work *w, int row)
+{
+    int64_t sum = joint_led_speed_q40(w, row), at[3];
 
     for (int s = 0; s < 2; s++) {
-        const struct body *b = w->lever[s].body;
-        int64_t at[3];
-
-        if (!b) {
-            continue;
+        if (w->lever[s].body) {
+            own_velocity(&w->lever[s], joint_is_angular(w, row), at);
+            sum +=
+                s == 0 ? fix_dot_q30(at, w->direction[row]) : -fix_dot_q30(at, w->direction[row]);
         }
-        if (joint_is_angular(w, row)) {
-            memcpy(at, b->spin.c, sizeof at);
-        } else {
-            turn_velocity(&w->lever[s], b->spin.c, at);
-            for (int k = 0; k < 3; k++) {
-                at[k] += b->velocity.c[k];
-            }
-        }
-        sum += s == 0 ? fix_dot_q30(at, w->direction[row]) : -fix_dot_q30(at, w->direction[row]);
     }
     return sum;
 }
@@ -279,7 +303,7 @@ int64_t joint_largest_q40(const struct joint *j)
 
     for (int i = 0; i < w->rows; i++) {
         int64_t v =
-            i < w->held ? w->change_q40[i] : carom_abs(w->speed_q40) + carom_abs(w->least_q40);
+            i < w->held ? w->change_q40[i] : carom_abs(w->speed_q40[i]) + carom_abs(w->least_q40);
 
         v = carom_abs(fix_round_shift(v, row_shift(w, i)));
         most = v > most ? v : most;
@@ -300,7 +324,7 @@ static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int 
 /* An impulse of a row in the solver's units, and back. */
 static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
 {
-    struct fix_scaled by = w->lighter->inverse_mass;
+    struct fix_scaled by = w->lightest->inverse_mass;
     const int64_t most = (int64_t)1 << 44;
 
     by.e += unit + row_shift(w, row) - JOINT_FINE_BITS;
@@ -317,7 +341,7 @@ static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
     int64_t own_q40 = carom_shl(w->inverse[last][last], 10), k_q40;
 
     own_q40 = fix_round_shift(own_q40, 30 - w->inverse_bits);
-    k_q40 = fix_mul_scaled(stiff_q40, w->lighter->inverse_mass);
+    k_q40 = fix_mul_scaled(stiff_q40, w->lightest->inverse_mass);
     if (fix_bits((uint64_t)k_q40) + bits > 60 || own_q40 == 0) {
         return CAROM_ONE_Q30;
     }
@@ -333,17 +357,17 @@ void joint_begin(struct joint *j, const struct joint_state *state, const struct 
     int last = w->rows - 1;
 
     for (int i = 0; i < w->rows; i++) {
-        w->before[i] = in_units(w, i, i < w->held ? -w->change_q40[i] : w->speed_q40, sw->unit);
+        w->before[i] = in_units(w, i, i < w->held ? -w->change_q40[i] : w->speed_q40[i], sw->unit);
         w->gain[i] = w->way[i] = 0;
     }
     if (w->held == w->rows) {
         return;
     }
-    law->low_v = in_units(w, last, w->speed_q40 + w->low_q40, sw->unit);
-    law->high_v = in_units(w, last, w->speed_q40 + w->high_q40, sw->unit);
+    law->low_v = in_units(w, last, w->speed_q40[last] + w->low_q40, sw->unit);
+    law->high_v = in_units(w, last, w->speed_q40[last] + w->high_q40, sw->unit);
     law->motor_v = in_units(w, last, state->drive.motor_speed_q40, sw->unit);
     law->most = impulse_in_units(w, last, w->most_q40, sw->unit);
-    law->spring_v = in_units(w, last, w->speed_q40 + w->spring_q40, sw->unit);
+    law->spring_v = in_units(w, last, w->speed_q40[last] + w->spring_q40, sw->unit);
     law->soft_q30 = w->law.spring ? softness_q30(w, w->stiff_q40) : 0;
 }
 
@@ -357,7 +381,7 @@ void joint_load(struct joint *j, const struct joint_state *state, const struct r
 /* An impulse of a row to momentum. */
 static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
 {
-    struct fix_scaled by = w->lighter->mass;
+    struct fix_scaled by = w->lightest->mass;
 
     by.e += JOINT_FINE_BITS - unit - row_shift(w, row);
     return fix_mul_scaled(w->impulse[row], by);

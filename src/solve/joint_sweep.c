@@ -40,6 +40,8 @@ static void push_side(const struct joint_work *w, int side, const int64_t change
     struct body_path *in = body_solve(lever->body);
     const int s = rest_turn_shift(lever->body, JOINT_FINE_BITS);
     const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS;
+    /* bits more than dv and du have, as far as the shift of du leaves any */
+    const int finer = s > 8 ? 8 : s - 1;
     int64_t way[3] = {0, 0, 0}, turn[3] = {0, 0, 0};
 
     for (int i = 0; i < w->rows; i++) {
@@ -47,14 +49,13 @@ static void push_side(const struct joint_work *w, int side, const int64_t change
 
         own = lever->share_q30 == CAROM_ONE_Q30 ? own : fix_mul_q30(own, lever->share_q30);
         for (int k = 0; k < 3; k++) {
-            /* 8 bits more than dv and du have */
             way[k] += joint_is_angular(w, i) ? 0 : fix_mul(own, w->direction[i][k], down - 8);
-            turn[k] += fix_mul(own, lever->turn[i][k], s - 8);
+            turn[k] += fix_mul(own, lever->turn[i][k], s - finer);
         }
     }
     for (int k = 0; k < 3; k++) {
         in->used |= rest_add(&in->dv[k], (int32_t)carom_round(way[k], 8)) |
-                    rest_add(&in->du[k], (int32_t)carom_round(turn[k], 8));
+                    rest_add(&in->du[k], (int32_t)fix_round_shift(turn[k], -finer));
     }
 }
 

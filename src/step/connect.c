@@ -18,10 +18,18 @@
 /* What is left at the end of a slice: this part of a skin. */
 #define LEFT_DIVISOR 16
 
-/* A body of a joint that moves and is awake; JOINT_WORLD: it does not. */
+/* A body of a joint that moves and is awake; JOINT_WORLD and kinematic bodies do not answer. */
 static bool answers(const struct step *s, uint16_t body)
 {
-    return body != JOINT_WORLD && step_active(s, body);
+    return body != JOINT_WORLD && s->w->bodies[body].moving && step_active(s, body);
+}
+
+/* The kinematic body of a joint that is on its way; NULL: there is none. */
+static const struct body *led_by(const struct step *s, const struct joint *j)
+{
+    const struct body *b = j->b == JOINT_WORLD ? NULL : &s->w->bodies[j->b];
+
+    return b && body_travels(b) && !b->stands ? b : NULL;
 }
 
 /* ------------------------------------------------------------------------ slices */
@@ -29,26 +37,47 @@ static bool answers(const struct step *s, uint16_t body)
 /* What joints hold turns by so much in a slice at most: anchors part by what that bends, and solves see it as straight. */
 #define TURN_MOST_Q30 (CAROM_ONE_Q30 / 8)
 
+/* As much of a time as a spin may go on for. */
+static int32_t slice_of_spin(const carom_v3_q40 *spin, int32_t left_q30)
+{
+    int64_t rate_q40 = fix_length(spin->c);
+
+    return fix_mul_q30(rate_q40, left_q30) > (int64_t)TURN_MOST_Q30 << 10
+               ? (int32_t)(((int64_t)TURN_MOST_Q30 << 30) / (rate_q40 >> 10))
+               : left_q30;
+}
+
 /* The longest slice of a body by itself. */
 static int32_t own_slice(const struct body *b, const struct body_state *state, int32_t left_q30)
 {
     carom_m3_q30 r;
     carom_v3_q40 spin;
-    int64_t rate_q40;
 
     fix_matrix(&r, &state->rotation);
     body_spin(b, state, &r, &spin);
-    rate_q40 = fix_length(spin.c);
-    if (fix_mul_q30(rate_q40, left_q30) > (int64_t)TURN_MOST_Q30 << 10) {
-        left_q30 = (int32_t)(((int64_t)TURN_MOST_Q30 << 30) / (rate_q40 >> 10));
+    return slice_of_spin(&spin, left_q30) >> (2 * b->shorter);
+}
+
+/* The longest slice by the kinematic bodies that lead a group. */
+static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+        const struct body *led = joint_holds(list, i) ? led_by(s, j) : NULL;
+
+        if (led && s->w->bodies[j->a].joined == group) {
+            left_q30 = slice_of_spin(&led->extra->route.spin, left_q30);
+        }
     }
-    return left_q30 >> (2 * b->shorter);
+    return left_q30;
 }
 
 static int32_t slice(const struct step *s, uint32_t i, int32_t left_q30)
 {
     uint16_t group = s->w->bodies[i].joined;
-    int32_t least_q30 = left_q30;
+    int32_t least_q30 = led_slice(s, group, left_q30);
 
     for (uint32_t k = 0; k < s->w->body_count && group != BODY_ALONE; k++) {
         if (s->w->bodies[k].mesh && s->w->bodies[k].joined == group && step_active(s, k)) {
@@ -61,11 +90,37 @@ static int32_t slice(const struct step *s, uint32_t i, int32_t left_q30)
 
 /* ----------------------------------------------------------------------- measure */
 
+/* Where a kinematic body is at a time: its route goes on as it does now. */
+static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t slice_q30 = CAROM_ONE_Q30 >> b->extra->route.slice_bits, from_q30 = b->to_q30;
+    bool placed = b->placed;
+    struct body_state state;
+
+    step_look_away(s, i);
+    state = step_state_at(s, i, t_q30 < from_q30 ? t_q30 : from_q30);
+    for (; from_q30 < t_q30; from_q30 += slice_q30) {
+        int32_t part_q30 = t_q30 - from_q30 < slice_q30 ? t_q30 - from_q30 : slice_q30;
+
+        body_follow(b, &state);
+        body_advance(b, &state, part_q30 << b->extra->route.slice_bits, slice_q30, NULL);
+    }
+    step_look_away(s, i);
+    if (placed) {
+        step_look_at(s, i, s->now_q30);
+    }
+    return (struct joint_pose){state.position, state.rotation};
+}
+
 /* Where a body is, or is going to be at the end of a slice that begins now. */
 static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
 {
-    struct joint_pose pose = world_joint_pose(s->w, s->next->bodies, i);
+    struct joint_pose pose = world_joint_pose(s->next->bodies, i);
 
+    if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].stands) {
+        return led_pose(s, i, s->now_q30 + slice_q30);
+    }
     if (answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].stands) {
         struct body *b = &s->w->bodies[i];
         carom_v3_q32 way;
@@ -147,6 +202,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     struct joint_error at, to;
     int64_t off_q40 = 0, skin_q40 = INT64_MAX;
 
+    w->led = led_by(s, j);
     for (int k = 0; k < 2; k++) {
         bool own = answers(s, side[k]) && !s->w->bodies[side[k]].stands;
 
@@ -342,11 +398,9 @@ static bool break_joints(struct step *s)
 
 /* Add `times` twice what a spring has stored: k x^2, q80. */
 static void add_spring2(struct fix_wide *sum, const struct joint *j,
-                        const struct joint_state *state, const struct carom_world *w,
-                        const struct body_state *bodies, int times)
+                        const struct joint_state *state, const struct body_state *bodies, int times)
 {
-    struct joint_pose pose[2] = {world_joint_pose(w, bodies, j->a),
-                                 world_joint_pose(w, bodies, j->b)};
+    struct joint_pose pose[2] = {world_joint_pose(bodies, j->a), world_joint_pose(bodies, j->b)};
     struct joint_error error;
     struct fix_wide pull;
     int64_t x_q40;
@@ -367,8 +421,8 @@ static void add_springs2(const struct step *s, uint32_t first, struct fix_wide *
 
         if (joint_holds(list, i) && s->w->bodies[j->a].island == first &&
             s->next->joints[i].drive.spring) {
-            add_spring2(sum, j, &list->states[i], s->w, s->next->bodies, 1);
-            add_spring2(sum, j, &list->states[i], s->w, world_now(s->w)->bodies, -1);
+            add_spring2(sum, j, &list->states[i], s->next->bodies, 1);
+            add_spring2(sum, j, &list->states[i], world_now(s->w)->bodies, -1);
         }
     }
 }
@@ -394,7 +448,26 @@ static struct fix_wide *owed2(const struct step *s, uint32_t first)
     return keeper ? &keeper->owed2 : NULL;
 }
 
-/* Whether an island hangs on what stands still; the lowest body's `grounded`. */
+/* Whether a joint leads an island along with a kinematic body. */
+static bool leads(const struct step *s, uint32_t first)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (joint_holds(list, i) && s->w->bodies[j->a].island == first && j->b != JOINT_WORLD &&
+            body_travels(&s->w->bodies[j->b])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/*
+ * Bodies that hang on what does not answer are grounded; those that hang on a kinematic body are touched as well: it
+ * gives them whatever energy its way takes, and to keep theirs would hold it back.
+ */
 static void ground(struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -404,11 +477,35 @@ static void ground(struct step *s)
 
         if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].moving)) {
             s->w->bodies[j->a].grounded = true;
+            s->w->bodies[j->a].touched |= j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b]);
+        }
+    }
+}
+
+/* What a kinematic body leads along has not been quiet. */
+static void keep_awake(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (joint_holds(list, i) && j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b])) {
+            s->next->bodies[j->a].quiet = 0;
         }
     }
 }
 
 /* --------------------------------------------------------------------------- calls */
+
+static void wake_led(struct carom_world *w, uint16_t body)
+{
+    for (uint32_t i = 0; i < w->rest.joints.count; i++) {
+        if (joint_holds(&w->rest.joints, i) && w->rest.joints.joints[i].b == body) {
+            world_wake_joint(w, &w->rest.joints.joints[i]);
+        }
+    }
+}
 
 static void forget_body(struct carom_world *w, uint16_t body)
 {
@@ -434,6 +531,9 @@ const struct step_joint_calls step_joint_calls = {
     .add_springs2 = add_springs2,
     .owed2 = owed2,
     .ground = ground,
+    .leads = leads,
+    .keep_awake = keep_awake,
+    .wake_led = wake_led,
     .forget_body = forget_body,
     .regroup = world_group_joints,
     .plausible = world_joint_plausible,

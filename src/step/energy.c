@@ -203,7 +203,7 @@ static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide 
     return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
 }
 
-/* Whether an island touches a kinematic body that is led somewhere. */
+/* Whether an island touches a kinematic body that is led somewhere, or a joint leads it along with one. */
 static bool is_pushed(const struct step *s, uint32_t first)
 {
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
@@ -213,7 +213,7 @@ static bool is_pushed(const struct step *s, uint32_t first)
             return true;
         }
     }
-    return false;
+    return s->w->joint_steps && s->w->joint_steps->leads(s, first);
 }
 
 static void limit_island(struct step *s, uint32_t first)

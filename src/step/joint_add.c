@@ -41,7 +41,7 @@ static bool set_arm(const struct carom_world *w, struct joint *j, int side,
                     const carom_v3_q32 *anchor)
 {
     uint16_t body = side == 0 ? j->a : j->b;
-    struct joint_pose pose = world_joint_pose(w, world_now(w)->bodies, body);
+    struct joint_pose pose = world_joint_pose(world_now(w)->bodies, body);
     carom_m3_q30 r;
 
     fix_matrix(&r, &pose.rotation);
@@ -82,25 +82,6 @@ static carom_quat_q30 to_axis(const carom_v3_q30 *axis)
     return q;
 }
 
-/* q conjugate times p */
-static carom_quat_q30 in_axes_of(const carom_quat_q30 *body, const carom_quat_q30 *p)
-{
-    const int32_t *q = body->c, *r = p->c;
-    carom_quat_q30 out;
-
-    for (int k = 0; k < 3; k++) {
-        int m = fix_next(k), n = fix_next(m);
-
-        out.c[1 + k] =
-            (int32_t)carom_round((int64_t)q[0] * r[1 + k] - (int64_t)q[1 + k] * r[0] -
-                                     (int64_t)q[1 + m] * r[1 + n] + (int64_t)q[1 + n] * r[1 + m],
-                                 30);
-    }
-    out.c[0] = (int32_t)carom_round((int64_t)q[0] * r[0] + carom_dot(q + 1, r + 1), 30);
-    body_normalise(&out);
-    return out;
-}
-
 static void set_frames(const struct carom_world *w, struct joint *j,
                        const struct carom_joint_def *def)
 {
@@ -110,9 +91,10 @@ static void set_frames(const struct carom_world *w, struct joint *j,
     const uint16_t side[2] = {j->a, j->b};
 
     for (int s = 0; s < 2; s++) {
-        struct joint_pose pose = world_joint_pose(w, world_now(w)->bodies, side[s]);
+        struct joint_pose pose = world_joint_pose(world_now(w)->bodies, side[s]);
 
-        j->frame[s] = in_axes_of(&pose.rotation, &frame);
+        fix_turn_between(&j->frame[s], &pose.rotation, &frame);
+        body_normalise(&j->frame[s]);
     }
 }
 

@@ -69,6 +69,9 @@ void step_keep_awake(struct step *s)
             s->next->bodies[p->a].quiet = 0;
         }
     }
+    if (s->w->joint_steps) {
+        s->w->joint_steps->keep_awake(s);
+    }
 }
 
 /* ------------------------------------------------------------------- stopping */

@@ -12,12 +12,10 @@ static bool has_joint(const struct carom_world *w, int joint)
            w->rest.joints.joints[joint].used;
 }
 
-struct joint_pose world_joint_pose(const struct carom_world *w, const struct body_state *states,
-                                   uint16_t body)
+struct joint_pose world_joint_pose(const struct body_state *states, uint16_t body)
 {
     struct joint_pose pose = {{{0, 0, 0}}, {{CAROM_ONE_Q30, 0, 0, 0}}};
 
-    (void)w;
     if (body != JOINT_WORLD) {
         pose.position = states[body].position;
         pose.rotation = states[body].rotation;
@@ -196,8 +194,7 @@ static int64_t speed_q40(const struct carom_world *w, const struct joint *j)
 {
     const struct body_state *states = world_now(w)->bodies;
     const uint16_t side[2] = {j->a, j->b};
-    struct joint_pose pose[2] = {world_joint_pose(w, states, j->a),
-                                 world_joint_pose(w, states, j->b)};
+    struct joint_pose pose[2] = {world_joint_pose(states, j->a), world_joint_pose(states, j->b)};
     carom_v3_q30 axis = joint_axis(j, &pose[1]);
     int64_t apart[3], v[2][3] = {{0, 0, 0}, {0, 0, 0}}, spin[2][3] = {{0, 0, 0}, {0, 0, 0}};
     carom_v3_q32 at[2] = {joint_anchor(j, 0, &pose[0]), joint_anchor(j, 1, &pose[1])};
@@ -209,12 +206,20 @@ static int64_t speed_q40(const struct carom_world *w, const struct joint *j)
         carom_m3_q30 r;
         carom_v3_q40 own, turn;
 
-        if (side[s] == JOINT_WORLD || !w->bodies[side[s]].moving) {
+        if (side[s] == JOINT_WORLD) {
             continue;
         }
         fix_matrix(&r, &states[side[s]].rotation);
-        body_velocity(&w->bodies[side[s]], &states[side[s]], &own);
-        body_spin(&w->bodies[side[s]], &states[side[s]], &r, &turn);
+        if (w->bodies[side[s]].moving) {
+            body_velocity(&w->bodies[side[s]], &states[side[s]], &own);
+            body_spin(&w->bodies[side[s]], &states[side[s]], &r, &turn);
+        } else if (world_is_kinematic(&w->bodies[side[s]]) &&
+                   w->bodies[side[s]].extra->drive.kind == BODY_DRIVE_ON) {
+            own = w->bodies[side[s]].extra->drive.velocity;
+            turn = w->bodies[side[s]].extra->drive.spin;
+        } else {
+            continue;
+        }
         memcpy(spin[s], turn.c, sizeof spin[s]);
         for (int k = 0; k < 3; k++) {
             int m = fix_next(k), n = fix_next(m);
@@ -250,8 +255,8 @@ int carom_joint_get(const struct carom_world *w, int joint, struct carom_joint_s
     }
     j = &w->rest.joints.joints[joint];
     state = &world_now(w)->joints[joint];
-    pose[0] = world_joint_pose(w, world_now(w)->bodies, j->a);
-    pose[1] = world_joint_pose(w, world_now(w)->bodies, j->b);
+    pose[0] = world_joint_pose(world_now(w)->bodies, j->a);
+    pose[1] = world_joint_pose(world_now(w)->bodies, j->b);
     joint_measure(j, pose, &error);
     out->kind = j->kind;
     out->broken = state->broken != 0;

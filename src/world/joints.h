@@ -5,8 +5,7 @@
 
 #include "world.h"
 
-struct joint_pose world_joint_pose(const struct carom_world *w, const struct body_state *states,
-                                   uint16_t body);
+struct joint_pose world_joint_pose(const struct body_state *states, uint16_t body);
 /* CAROM_OK, or what is wrong with a drive. */
 int world_check_drive(uint8_t kind, const struct carom_joint_drive *d);
 /* Find which bodies joints connect, and which pairs ignore each other, after a joint came, went or broke. */

@@ -27,10 +27,13 @@ void world_drive(struct carom_world *w, uint32_t body, const struct body_drive *
 
     b->extra->drive = *drive;
     b->goes = world_leads(drive, &world_now(w)->bodies[body]);
-    if (b->goes) {
-        w->idle = false;
-    } else {
+    if (!b->goes) {
         b->extra->drive.kind = BODY_DRIVE_NONE;
+        return;
+    }
+    w->idle = false;
+    if (w->joint_steps) {
+        w->joint_steps->wake_led(w, (uint16_t)body);
     }
 }
 

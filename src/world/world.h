@@ -102,6 +102,9 @@ struct step_joint_calls {
     void (*add_springs2)(const struct step *s, uint32_t first, struct fix_wide *sum);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
     void (*ground)(struct step *s);
+    bool (*leads)(const struct step *s, uint32_t first); /* whether kinematic bodies lead it */
+    void (*keep_awake)(struct step *s);                  /* what kinematic bodies lead */
+    void (*wake_led)(struct carom_world *w, uint16_t body);
     /* between steps: a body goes; joints came back from a snapshot */
     void (*forget_body)(struct carom_world *w, uint16_t body);
     void (*regroup)(struct carom_world *w);
