@@ -3,8 +3,8 @@
  * carom_joint.h - joints: ball, hinge, slider, distance, fixed; between two bodies, or a body and the world.
  *
  * A world has room for `joints` of its capacities. Joints are solved in the sweeps that solve contacts, with
- * impulses kept from frame to frame. A frame ends with the anchors where they belong, to a small part of a skin;
- * within it they part by as much as the paths of the two bodies bend. The impulses of the last frame, what may be
+ * impulses kept from frame to frame. A frame ends with the anchors within a skin or two of each other, and within
+ * some skins while many bodies fall on others at once; README says how far apart they were seen. The impulses of the last frame, what may be
  * set here, and what of the energy a group of joints owes are part of the state: hashed and saved.
  *
  * Energy: while nothing touches a group of jointed bodies it has at the end of each frame the energy that it
@@ -48,10 +48,11 @@ struct carom_joint_drive {
 };
 
 struct carom_joint_def {
-    uint8_t kind;        /* enum carom_joint_kind */
-    bool touch;          /* whether its bodies may touch each other; else they ignore each other */
-    int a, b;            /* a moves; b is another body, or CAROM_WORLD */
-    carom_v3_q32 anchor; /* in the world as its bodies are now; within +-4096 */
+    uint8_t kind; /* enum carom_joint_kind */
+    bool touch;   /* whether its bodies may touch each other; else they ignore each other */
+    int a,
+        b; /* a moves; b is another body, a kinematic one that leads a along too, or CAROM_WORLD */
+    carom_v3_q32 anchor;   /* in the world as its bodies are now; within +-4096 */
     carom_v3_q32 anchor_b; /* the anchor on b of a distance joint */
     carom_v3_q30 axis;     /* of a hinge or a slider, in the world; its length is 1 within 2^-10 */
     struct carom_joint_drive drive;
@@ -66,7 +67,8 @@ struct carom_joint_def {
 int carom_joint_add(struct carom_world *world, const struct carom_joint_def *def);
 /*
  * Take a joint away. carom_body_remove takes those of a body along. Two bodies that ignored each other and
- * overlap pass through each other until they are apart. CAROM_ERR_JOINT for a number that is free.
+ * overlap pass through each other until they are apart; so they do when the joint breaks. CAROM_ERR_JOINT for a
+ * number that is free; CAROM_ERR_PAIRS_FULL when there is no room to let them pass: the joint stays.
  */
 int carom_joint_remove(struct carom_world *world, int joint);
 

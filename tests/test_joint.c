@@ -8,10 +8,11 @@
 #include "shapes.h"
 #include "test.h"
 
-#define CAPS 4, 4, 24, 32, 0, 32, 3, 1
-#define UNIT ((int64_t)1 << 32)
-#define ONE  ((int64_t)1 << 40)
-#define FALL (ONE / 367) /* 9.81 m / s^2 at 60 frames */
+#define PAIRS 4
+#define CAPS  4, PAIRS, 24, 32, 0, 32, 3, 1
+#define UNIT  ((int64_t)1 << 32)
+#define ONE   ((int64_t)1 << 40)
+#define FALL  (ONE / 367) /* 9.81 m / s^2 at 60 frames */
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], copy[CAROM_WORLD_BYTES(CAPS)];
 static uint8_t snapshot[2048];
@@ -20,17 +21,22 @@ static struct carom_world *world;
 static struct carom_body_def def;
 
 /* Sides of 1, 1/2 and 1/4. */
-static void setup(int64_t gravity_q40)
+static void setup_pairs(int64_t gravity_q40, uint32_t pairs)
 {
-    const struct carom_config config = {.caps = CAROM_CAPS(CAPS),
-                                        .gravity = {{0, 0, -gravity_q40}}};
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -gravity_q40}}};
 
+    config.caps.pairs = pairs;
     shape_box(&box, 12, 4096, 2048, 1024);
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
     memset(&def, 0, sizeof def);
     def.mesh = &box.mesh;
     def.mass_q20 = 1 << 20;
     def.friction_q16 = 1 << 15;
+}
+
+static void setup(int64_t gravity_q40)
+{
+    setup_pairs(gravity_q40, PAIRS);
 }
 
 static int add(int64_t x, int64_t y, int64_t z)
@@ -329,11 +335,26 @@ static void test_spring(void)
     CHECK(turns >= 19 && turns <= 21); /* two a period, ten periods */
 }
 
+static int hits_in(int frames)
+{
+    int hits = 0;
+
+    for (int i = 0; i < frames; i++) {
+        const struct carom_event *events;
+
+        step(1);
+        for (int k = carom_events(world, &events) - 1; k >= 0; k--) {
+            hits += events[k].kind == CAROM_EVENT_HIT;
+        }
+    }
+    return hits;
+}
+
 /* Bodies of a joint ignore each other unless they are to touch. */
 static void test_ignore(void)
 {
     for (int touch = 0; touch < 2; touch++) {
-        int a, b, hits = 0;
+        int a, b;
         struct carom_joint_def j;
 
         setup(0);
@@ -344,19 +365,72 @@ static void test_ignore(void)
         j.touch = touch;
         CHECK_EQ(carom_joint_add(world, &j), 0);
         set_motion(a, -ONE / 60, 0, 0, 0, 0, 0);
-        for (int i = 0; i < 40; i++) {
-            const struct carom_event *events;
-            int n;
-
-            step(1);
-            n = carom_events(world, &events);
-            for (int k = 0; k < n; k++) {
-                hits += events[k].kind == CAROM_EVENT_HIT;
-            }
-        }
-        CHECK((hits > 0) == (touch != 0));
+        CHECK((hits_in(40) > 0) == (touch != 0));
         CHECK((joint_of(0).coordinate_q32 < -UNIT / 2) == (touch == 0));
     }
+}
+
+/*
+ * Two bodies that ignored each other and overlap when their joint goes pass each other until they are apart, whether it is
+ * taken away or breaks: a box falls through a ledge that it would else lie on, and then on the next one.
+ */
+static void test_parts(void)
+{
+    for (int breaks = 0; breaks < 2; breaks++) {
+        int a, size;
+        struct carom_joint_def j;
+
+        setup(FALL);
+        a = add(UNIT / 3, 0, UNIT * 3 / 8);
+        def.stationary = true;
+        j = joint(CAROM_JOINT_SLIDER, a, add(0, 0, 0), 0, 0, 0);
+        add(0, 0, -UNIT * 2);
+        j.most_impulse_q40 = breaks ? ONE / 1000 : 0;
+        CHECK_EQ(carom_joint_add(world, &j), 0);
+        CHECK_EQ(hits_in(14), 0);
+        CHECK(carom_abs(state_of(a).position.c[2]) < UNIT / 4);
+        if (breaks) {
+            const carom_v3_q40 push = {{ONE / 500, 0, 0}};
+            const carom_v3_q32 centre = state_of(a).position;
+
+            CHECK_EQ(carom_body_push(world, a, &push, &centre), CAROM_OK);
+            CHECK_EQ(hits_in(1), 0);
+            CHECK(joint_of(0).broken);
+        } else {
+            CHECK_EQ(carom_joint_remove(world, 0), CAROM_OK);
+        }
+        size = carom_snapshot_save(world, snapshot, sizeof snapshot);
+        CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)size), CAROM_OK);
+        CHECK_EQ(hits_in(15), 0);
+        CHECK(state_of(a).position.c[2] < -UNIT / 4);
+        CHECK(hits_in(40) > 0);
+        CHECK(state_of(a).position.c[2] > -UNIT * 2);
+    }
+}
+
+/* No room to let them pass: the joint stays. */
+static void test_parts_without_room(void)
+{
+    int a, b;
+    struct carom_joint_def j;
+
+    setup_pairs(0, 1);
+    a = add(UNIT * 3 / 4, 0, 0);
+    b = add(-UNIT * 3 / 4, 0, 0);
+    j = joint(CAROM_JOINT_SLIDER, a, b, 0, 0, 0);
+    j.axis = (carom_v3_q30){{CAROM_ONE_Q30, 0, 0}};
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    set_motion(a, -ONE / 20, 0, 0, 0, 0, 0);
+    step(15);
+    set_motion(a, 0, 0, 0, 0, 0, 0);
+    set_motion(b, 0, 0, 0, 0, 0, 0);
+    def.overlap = CAROM_OVERLAP_PASS;
+    add(0, UNIT * 40, 0);
+    add(0, UNIT * 40, 0);
+    CHECK_EQ(carom_joint_remove(world, 0), CAROM_ERR_PAIRS_FULL);
+    CHECK_EQ(joint_of(0).kind, CAROM_JOINT_SLIDER);
+    CHECK_EQ(carom_body_remove(world, 3), CAROM_OK);
+    CHECK_EQ(carom_joint_remove(world, 0), CAROM_OK);
 }
 
 /* A joint that takes more than it bears breaks, says so, and holds nothing. */
@@ -498,6 +572,8 @@ const struct test tests_joint[] = {
     {"joint/distance", test_distance},
     {"joint/spring", test_spring},
     {"joint/ignore", test_ignore},
+    {"joint/parts", test_parts},
+    {"joint/parts_without_room", test_parts_without_room},
     {"joint/breaks", test_breaks},
     {"joint/snapshot", test_snapshot},
     {"joint/refuses", test_refuses},

@@ -374,12 +374,12 @@ static void project(struct step *s)
 }
 
 /* Joints that took more than they bear hold nothing any more. */
-static bool break_joints(struct step *s)
+static int break_joints(struct step *s)
 {
     struct joint_list *list = &s->w->rest.joints;
-    bool any = false;
+    int result = CAROM_OK;
 
-    for (uint32_t i = 0; i < list->count; i++) {
+    for (uint32_t i = 0; i < list->count && result == CAROM_OK; i++) {
         const struct joint *j = &list->joints[i];
         struct joint_state *state = &s->next->joints[i];
 
@@ -388,10 +388,11 @@ static bool break_joints(struct step *s)
             state->broken = 1;
             memset(state->impulse_q40, 0, sizeof state->impulse_q40);
             step_add_event(s->w, CAROM_EVENT_BREAK, (uint16_t)i, 0);
-            any = true;
+            s->broke = true;
+            result = world_part_joint(s->w, s->next, j);
         }
     }
-    return any;
+    return result;
 }
 
 /* ------------------------------------------------------------------------- energy */

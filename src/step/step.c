@@ -246,8 +246,7 @@ static int finish(struct step *s)
     if (result == CAROM_OK && w->passing) {
         result = step_finish_through(s);
     }
-    s->broke = w->joint_steps && w->joint_steps->break_joints(s);
-    return result;
+    return result == CAROM_OK && w->joint_steps ? w->joint_steps->break_joints(s) : result;
 }
 
 /* Whether a step would find nothing, and leave the state as it is. */

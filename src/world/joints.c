@@ -136,6 +136,24 @@ void world_wake_joint(struct carom_world *w, const struct joint *j)
     }
 }
 
+int world_part_joint(struct carom_world *w, struct world_state *state, const struct joint *j)
+{
+    struct interfere_placed a, b;
+    struct pair p;
+
+    if (j->touch || j->b == JOINT_WORLD) {
+        return CAROM_OK;
+    }
+    p = world_name_pair(w, j->a, j->b);
+    a = (struct interfere_placed){&w->bodies[p.a], &state->bodies[p.a]};
+    b = (struct interfere_placed){&w->bodies[p.b], &state->bodies[p.b]};
+    if (!world_overlap(w, a, b)) {
+        return CAROM_OK;
+    }
+    w->passing = true;
+    return world_note_through(w, state, &p);
+}
+
 void world_drop_joint(struct carom_world *w, uint32_t i)
 {
     struct joint_list *list = &w->rest.joints;
@@ -150,15 +168,22 @@ void world_drop_joint(struct carom_world *w, uint32_t i)
 
 int carom_joint_remove(struct carom_world *w, int joint)
 {
+    int result = CAROM_OK;
+
     if (!w) {
         return CAROM_ERR_NULL;
     }
     if (!has_joint(w, joint)) {
         return CAROM_ERR_JOINT;
     }
-    world_drop_joint(w, (uint32_t)joint);
-    world_group_joints(w);
-    return CAROM_OK;
+    if (joint_holds(&w->rest.joints, (uint32_t)joint)) {
+        result = world_part_joint(w, w->now, &w->rest.joints.joints[joint]);
+    }
+    if (result == CAROM_OK) {
+        world_drop_joint(w, (uint32_t)joint);
+        world_group_joints(w);
+    }
+    return result;
 }
 
 int carom_joint_set(struct carom_world *w, int joint, const struct carom_joint_drive *drive)

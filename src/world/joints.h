@@ -10,6 +10,11 @@ struct joint_pose world_joint_pose(const struct body_state *states, uint16_t bod
 int world_check_drive(uint8_t kind, const struct carom_joint_drive *d);
 /* Find which bodies joints connect, and which pairs ignore each other, after a joint came, went or broke. */
 void world_group_joints(struct carom_world *w);
+/*
+ * The bodies of a joint that is about to hold nothing: where they ignored each other and overlap they pass each other
+ * until they are apart. CAROM_OK or CAROM_ERR_PAIRS_FULL.
+ */
+int world_part_joint(struct carom_world *w, struct world_state *state, const struct joint *j);
 /* Take a joint away; groups are to be found anew. */
 void world_drop_joint(struct carom_world *w, uint32_t joint);
 /* Whether a state that was read could be what a step has left. */

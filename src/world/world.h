@@ -97,7 +97,7 @@ struct step_joint_calls {
     bool (*measure)(struct step *s,
                     enum joint_solve solve); /* before a solve; whether it is needed */
     void (*project)(struct step *s);
-    bool (*break_joints)(struct step *s);
+    int (*break_joints)(struct step *s); /* CAROM_OK or CAROM_ERR_PAIRS_FULL */
     /* energy of an island: what springs took up; what is owed; whether it hangs on what stands still */
     void (*add_springs2)(const struct step *s, uint32_t first, struct fix_wide *sum);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
