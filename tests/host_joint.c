@@ -4,7 +4,7 @@
  * worlds of random joints. Anchors, axes, energy and crossings are judged in double precision from what the public
  * interface says.
  *
- *   host_joint.elf [long]
+ *   host_joint.elf [long | led WORLD | drags WORLD]
  */
 #include <math.h>
 #include <stdio.h>
@@ -453,19 +453,45 @@ static void play_led(long n, bool drags, struct seen *all, struct crowd_tally *t
     crowd_free(crowd);
 }
 
+static void report_led(bool drags, long worlds, const struct seen *all, const struct crowd_tally *t)
+{
+    lab_report(t->crossed == 0 && t->inside == 0 && all->apart < 8 && all->axes < 1e-3,
+               drags ? "joint/led_drags" : "joint/led",
+               "%ld worlds, %ld frames: %ld cross, %ld inside, %ld capped; anchors %.1f skins "
+               "(%ld), axes %.1e",
+               worlds, t->frames, t->crossed, t->inside, t->capped, all->apart, all->frame,
+               all->axes);
+}
+
 static void test_led(long worlds, bool drags)
 {
     struct seen all = {0};
     struct crowd_tally t = {0};
 
     for (long n = 1; n <= worlds; n++) {
+        long before = t.crossed + t.inside;
+
         play_led(n, drags, &all, &t);
+        if (t.crossed + t.inside > before) {
+            printf("# world %ld crosses\n", n);
+        }
     }
-    lab_report(t.crossed == 0 && t.inside == 0 && all.apart < 8 && all.axes < 1e-3,
-               drags ? "joint/led_drags" : "joint/led",
-               "%ld worlds, %ld frames: %ld cross, %ld inside, %ld capped; anchors %.1f skins "
-               "(%ld), axes %.1e",
-               worlds, t.frames, t.crossed, t.inside, t.capped, all.apart, all.frame, all.axes);
+    report_led(drags, worlds, &all, &t);
+}
+
+/* One world of led bodies again. */
+static int again(long n, bool drags)
+{
+    struct seen seen = {0};
+    struct crowd_tally t = {0};
+
+    play_led(n, drags, &seen, &t);
+    report_led(drags, 1, &seen, &t);
+    if (t.crossed > 0) {
+        printf("# crosses from frame %ld on, %d and %d, by %.2e skins\n", t.crossed_first,
+               t.crossed_pair[0], t.crossed_pair[1], t.crossed_skins);
+    }
+    return lab_finish();
 }
 
 int main(int argc, char **argv)
@@ -473,6 +499,9 @@ int main(int argc, char **argv)
     bool all = argc > 1 && strcmp(argv[1], "long") == 0;
     long frames = all ? FRAMES_LONG : FRAMES;
 
+    if (argc > 2) {
+        return again(atol(argv[2]), strcmp(argv[1], "drags") == 0);
+    }
     test_pendulum(frames, CAROM_JOINT_HINGE);
     test_pendulum(frames, CAROM_JOINT_BALL);
     test_motor(frames);

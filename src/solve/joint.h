@@ -62,6 +62,7 @@ struct joint_work {
     uint16_t row_at;             /* its first one among the island's */
     bool idle;                   /* solved, or not to be solved now */
     bool by_speed;               /* the slice is too short to measure: V of a row is its change */
+    bool torn;                   /* apart by some skins at the end of the slice */
     int8_t down, length_bits;
     int8_t inverse_bits;                     /* fractional bits of the inverse */
     int32_t direction[JOINT_ROWS][3];        /* q30 */

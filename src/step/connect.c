@@ -17,6 +17,8 @@
 #define RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
 /* What is left at the end of a slice: this part of a skin. */
 #define LEFT_DIVISOR 16
+/* A kinematic body that would leave so many skins stops. */
+#define TORN_SKINS 4
 
 /* A body of a joint that moves and is awake; JOINT_WORLD and kinematic bodies do not answer. */
 static bool answers(const struct step *s, uint16_t body)
@@ -243,6 +245,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         }
         measure_drive(j, state, at.coordinate_q40, change_q40, slice_q30, solve);
     }
+    w->torn = !w->by_speed && off_q40 > TORN_SKINS * skin_q40;
     return off_q40 > skin_q40 / LEFT_DIVISOR;
 }
 
@@ -449,20 +452,60 @@ static struct fix_wide *owed2(const struct step *s, uint32_t first)
     return keeper ? &keeper->owed2 : NULL;
 }
 
-/* Whether a joint leads an island along with a kinematic body. */
-static bool leads(const struct step *s, uint32_t first)
+/* Whether a joint holds a body to a kinematic one that travels. */
+static bool is_led(const struct step *s, uint32_t i)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    const struct joint *j = &list->joints[i];
+
+    return joint_holds(list, i) && j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b]);
+}
+
+static uint32_t find_led(const struct step *s, uint32_t first, uint32_t led)
 {
     const struct joint_list *list = &s->w->rest.joints;
 
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (joint_holds(list, i) && s->w->bodies[j->a].island == first && j->b != JOINT_WORLD &&
-            body_travels(&s->w->bodies[j->b])) {
-            return true;
+        if (is_led(s, i) && s->w->bodies[j->a].island == first &&
+            (led == ISLAND_END || j->b == led)) {
+            return j->a;
         }
     }
-    return false;
+    return ISLAND_END;
+}
+
+/* What leads members stops. */
+static void block_leaders(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (is_led(s, i) && is_member(s, list->joints[i].a)) {
+            step_block(s, list->joints[i].b, list->joints[i].a);
+        }
+    }
+}
+
+/*
+ * Kinematic bodies that lead others where these cannot go stop: what a solve has left over of their joints is more than
+ * some skins.
+ */
+static bool yield(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    bool any = false;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (!j->work.idle && j->work.led && j->work.torn) {
+            step_block(s, j->b, j->a);
+            any = true;
+        }
+    }
+    return any;
 }
 
 /*
@@ -478,7 +521,7 @@ static void ground(struct step *s)
 
         if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].moving)) {
             s->w->bodies[j->a].grounded = true;
-            s->w->bodies[j->a].touched |= j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b]);
+            s->w->bodies[j->a].touched |= is_led(s, i);
         }
     }
 }
@@ -489,10 +532,8 @@ static void keep_awake(struct step *s)
     const struct joint_list *list = &s->w->rest.joints;
 
     for (uint32_t i = 0; i < list->count; i++) {
-        const struct joint *j = &list->joints[i];
-
-        if (joint_holds(list, i) && j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b])) {
-            s->next->bodies[j->a].quiet = 0;
+        if (is_led(s, i)) {
+            s->next->bodies[list->joints[i].a].quiet = 0;
         }
     }
 }
@@ -532,7 +573,9 @@ const struct step_joint_calls step_joint_calls = {
     .add_springs2 = add_springs2,
     .owed2 = owed2,
     .ground = ground,
-    .leads = leads,
+    .led_by = find_led,
+    .block_leaders = block_leaders,
+    .yield = yield,
     .keep_awake = keep_awake,
     .wake_led = wake_led,
     .forget_body = forget_body,

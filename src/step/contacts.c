@@ -354,26 +354,43 @@ static void find_chords(struct step *s)
 /* Paths bend, and so anchors may be off after a solve: then there is another. */
 #define JOINT_ROUNDS 8
 
+/* Solve until joints hold at the end of the slice as well; false: they do not after some rounds. */
+static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
+{
+    struct carom_world *w = s->w;
+    int result = CAROM_OK;
+
+    *held = true;
+    for (int round = 0; round < JOINT_ROUNDS && result == CAROM_OK; round++) {
+        enum joint_solve solve = s->now_q30 > 0 ? JOINT_HIT : first ? JOINT_FRAME : JOINT_MORE;
+
+        if (w->joint_steps && !w->joint_steps->measure(s, solve) && round > 0) {
+            return CAROM_OK;
+        }
+        find_chords(s);
+        PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
+        result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm && first);
+        note_hits(s);
+        if (!w->joint_steps) {
+            return result;
+        }
+        first = false;
+    }
+    *held = false;
+    return result;
+}
+
 int step_solve(struct step *s, bool warm)
 {
     struct carom_world *w = s->w;
     uint32_t impacts = w->rest.impacts;
-    int result = CAROM_OK;
+    bool held;
+    int result = solve_rounds(s, warm, true, &held);
 
-    for (int round = 0; round < JOINT_ROUNDS && result == CAROM_OK; round++) {
-        if (w->joint_steps &&
-            !w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT
-                                        : round == 0   ? JOINT_FRAME
-                                                       : JOINT_MORE) &&
-            round > 0) {
-            break;
-        }
-        find_chords(s);
-        PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
-        result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm && round == 0);
-        note_hits(s);
-        if (!w->joint_steps) {
-            break;
+    if (!held && result == CAROM_OK) {
+        (void)w->joint_steps->measure(s, s->now_q30 > 0 ? JOINT_HIT : JOINT_MORE);
+        if (w->joint_steps->yield(s)) {
+            result = solve_rounds(s, false, false, &held);
         }
     }
     step_mark(w, w->rest.impacts > impacts ? CAROM_STAGE_IMPACT : CAROM_STAGE_REST);

@@ -213,7 +213,7 @@ static bool is_pushed(const struct step *s, uint32_t first)
             return true;
         }
     }
-    return s->w->joint_steps && s->w->joint_steps->leads(s, first);
+    return s->w->joint_steps && s->w->joint_steps->led_by(s, first, ISLAND_END) != ISLAND_END;
 }
 
 static void limit_island(struct step *s, uint32_t first)

@@ -86,8 +86,7 @@ void step_note_blocked(struct step *s, uint32_t i, uint32_t by)
     extra->blocked = true;
 }
 
-/* A kinematic body stops for what is left of the frame. */
-static void block(struct step *s, uint32_t i, uint32_t by)
+void step_block(struct step *s, uint32_t i, uint32_t by)
 {
     struct body *b = &s->w->bodies[i];
 
@@ -100,6 +99,21 @@ static void block(struct step *s, uint32_t i, uint32_t by)
     step_note_blocked(s, i, by);
 }
 
+/* A body of an island that a kinematic one pushes by contact or leads by a joint; ISLAND_END: it does neither. */
+static uint32_t pushed_by(const struct step *s, uint32_t first, uint32_t led)
+{
+    const struct carom_world *w = s->w;
+
+    for (uint32_t n = 0; n < w->rest.list.pool->used; n++) {
+        const struct pair *p = &w->pairs[w->rest.list.contacts[n].key.pair];
+
+        if (w->bodies[p->a].island == first && p->b == led) {
+            return p->a;
+        }
+    }
+    return w->joint_steps ? w->joint_steps->led_by(s, first, led) : ISLAND_END;
+}
+
 void step_block_pushers(struct step *s, const struct pair *p)
 {
     const struct carom_world *w = s->w;
@@ -110,11 +124,14 @@ void step_block_pushers(struct step *s, const struct pair *p)
 
         if (w->bodies[q->a].member && body_travels(&w->bodies[q->b]) && c->drift &&
             contact_rise_q40(c->drift, &c->normal) > 0) {
-            block(s, q->b, q->a);
+            step_block(s, q->b, q->a);
         }
     }
+    if (w->joint_steps) {
+        w->joint_steps->block_leaders(s);
+    }
     if (body_travels(&w->bodies[p->b])) {
-        block(s, p->b, p->a);
+        step_block(s, p->b, p->a);
     }
 }
 
@@ -200,15 +217,15 @@ bool step_carry_island(struct step *s, uint32_t first, bool hard)
     const struct carom_world *w = s->w;
 
     for (int stop = hard; stop < 2; stop++) {
-        for (uint32_t n = 0; n < w->rest.list.pool->used; n++) {
-            const struct pair *p = &w->pairs[w->rest.list.contacts[n].key.pair];
-            const struct body *led = &w->bodies[p->b];
+        for (uint32_t i = 0; i < w->body_count; i++) {
+            const struct body *led = &w->bodies[i];
+            uint32_t by = body_travels(led) && !led->stands ? pushed_by(s, first, i) : ISLAND_END;
 
-            if (w->bodies[p->a].island != first || !body_travels(led) || led->stands) {
+            if (by == ISLAND_END) {
                 continue;
             }
             if (stop) {
-                block(s, p->b, p->a);
+                step_block(s, i, by);
             } else if (is_free_to_go(s, first, led)) {
                 go_along(s, first, led);
                 return true;

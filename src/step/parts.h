@@ -263,7 +263,9 @@ void step_look_back(struct step *s, uint32_t i);
  * gone along already. False when none pushes it.
  */
 bool step_carry_island(struct step *s, uint32_t first, bool hard);
-/* The kinematic bodies that touch members, and that of the pair, stop for what is left of the frame. */
+/* A kinematic body stops for what is left of the frame, since another is in its way. */
+void step_block(struct step *s, uint32_t i, uint32_t by);
+/* So do those that push or lead members, and that of the pair. */
 void step_block_pushers(struct step *s, const struct pair *p);
 /* Say that a kinematic body was blocked by a body, once a frame. */
 void step_note_blocked(struct step *s, uint32_t i, uint32_t by);

@@ -102,8 +102,11 @@ struct step_joint_calls {
     void (*add_springs2)(const struct step *s, uint32_t first, struct fix_wide *sum);
     struct fix_wide *(*owed2)(const struct step *s, uint32_t first);
     void (*ground)(struct step *s);
-    bool (*leads)(const struct step *s, uint32_t first); /* whether kinematic bodies lead it */
-    void (*keep_awake)(struct step *s);                  /* what kinematic bodies lead */
+    /* a body of an island that a kinematic body leads, or any of them does (ISLAND_END); ISLAND_END: there is none */
+    uint32_t (*led_by)(const struct step *s, uint32_t first, uint32_t led);
+    void (*block_leaders)(struct step *s); /* of members */
+    bool (*yield)(struct step *s);         /* whether what leads had to stop after a solve */
+    void (*keep_awake)(struct step *s);    /* what kinematic bodies lead */
     void (*wake_led)(struct carom_world *w, uint16_t body);
     /* between steps: a body goes; joints came back from a snapshot */
     void (*forget_body)(struct carom_world *w, uint16_t body);
