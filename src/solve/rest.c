@@ -378,6 +378,10 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     rest_apply(r);
     if (rest_has_joints(r)) { /* the frame's end answers for their energy */
         r->joints.calls->book(r);
+        if (sw.ran_out && rest_approaches(r)) {
+            r->joints.first = 0; /* nothing may cross, whatever that pulls apart */
+            rest_part(r);
+        }
         note_unsettled(r, sw.ran_out && rest_approaches(r));
         return CAROM_OK;
     }
