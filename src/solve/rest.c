@@ -25,13 +25,9 @@
 /* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
-/* Velocities of the bodies that have contacts, each once; but for those that rest_enter_contact has left. */
-static void load_velocities(struct rest *r)
+/* Velocities of the bodies that have contacts, each once. */
+static void load_contacts(struct rest *r)
 {
-    if (r->loaded) {
-        r->loaded = false;
-        return;
-    }
     for (uint32_t i = 0; i < r->body_count; i++) {
         r->bodies[i].solving = r->bodies[i].entering = false;
     }
@@ -48,6 +44,15 @@ static void load_velocities(struct rest *r)
             }
         }
     }
+}
+
+/* The same of all bodies to be solved; but for what rest_enter_contact has left, which came before joints were measured. */
+static void load_velocities(struct rest *r)
+{
+    if (!r->loaded) {
+        load_contacts(r);
+    }
+    r->loaded = false;
     if (r->joints.calls) {
         r->joints.calls->load_velocities(r);
     }
@@ -481,7 +486,7 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    load_velocities(r);
+    load_contacts(r);
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 
