@@ -52,10 +52,10 @@ static bool take(struct rest *r)
     for (uint32_t i = r->joints.count; i-- > 0;) {
         struct joint *j = &r->joints.joints[i];
 
-        if (joint_holds(&r->joints, i) && r->bodies[j->a].island == r->island) {
+        if (joint_holds(&r->joints, i) && r->bodies[j->a].island == r->island && !j->work.idle) {
             j->next = r->joints.first;
             r->joints.first = (uint16_t)(i + 1);
-            idle = idle && j->work.idle;
+            idle = false;
         }
     }
     return idle;

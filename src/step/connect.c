@@ -284,7 +284,19 @@ static void begin(struct step *s)
     }
 }
 
-/* All joints of bodies that are awake, whose bodies are looked at where they are. */
+/* Bodies of a chosen joint are looked at where they are. */
+static void place_sides(struct step *s, const struct joint *j)
+{
+    const uint16_t side[2] = {j->a, j->b};
+
+    for (int k = 0; k < 2; k++) {
+        if (j->chosen && answers(s, side[k])) {
+            body_place(&s->w->bodies[side[k]], &s->next->bodies[side[k]]);
+        }
+    }
+}
+
+/* All joints of bodies that are awake. */
 static bool choose_all(struct step *s)
 {
     struct joint_list *list = &s->w->rest.joints;
@@ -292,15 +304,10 @@ static bool choose_all(struct step *s)
 
     for (uint32_t i = 0; i < list->count; i++) {
         struct joint *j = &list->joints[i];
-        const uint16_t side[2] = {j->a, j->b};
 
         j->chosen = joint_holds(list, i) && (answers(s, j->a) || answers(s, j->b));
-        for (int k = 0; j->chosen && k < 2; k++) {
-            any = true;
-            if (answers(s, side[k])) {
-                body_place(&s->w->bodies[side[k]], &s->next->bodies[side[k]]);
-            }
-        }
+        any = any || j->chosen;
+        place_sides(s, j);
     }
     return any;
 }
@@ -344,6 +351,19 @@ static uint32_t connected(const struct step *s)
 
 /* ---------------------------------------------------------------------------- end */
 
+/* Whether nothing touched the bodies that joints connect with one, and all of them went their way. */
+static bool group_is_free(const struct step *s, uint16_t group)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        const struct body *b = &s->w->bodies[i];
+
+        if (b->mesh && b->joined == group && (!step_active(s, i) || b->in_contact || b->stands)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Velocities as the joints have them where the bodies are at the end, in groups that nothing touched. */
 static void project(struct step *s)
 {
@@ -352,27 +372,20 @@ static void project(struct step *s)
 
     for (uint32_t i = 0; i < list->count; i++) {
         struct joint *j = &list->joints[i];
-        const uint16_t side[2] = {j->a, j->b};
 
-        j->chosen = joint_holds(list, i);
-        for (int k = 0; k < 2 && j->chosen; k++) {
-            const struct body *b = side[k] == JOINT_WORLD ? NULL : &s->w->bodies[side[k]];
-
-            j->chosen =
-                !b || !b->moving || (step_active(s, side[k]) && !b->in_contact && !b->stands);
-        }
-        for (int k = 0; k < 2 && j->chosen; k++) {
-            any = true;
-            if (answers(s, side[k])) {
-                body_place(&s->w->bodies[side[k]], &s->next->bodies[side[k]]);
-            }
-        }
+        j->chosen = joint_holds(list, i) && group_is_free(s, s->w->bodies[j->a].joined);
+        any = any || j->chosen;
+        place_sides(s, j);
     }
     if (any) {
         s->now_q30 = CAROM_ONE_Q30;
         measure(s, JOINT_PROJECT);
         PHASE_BEGIN(s->w->scratch_phase, WORLD_SOLVE);
         rest_project(&s->w->rest);
+        for (uint32_t i = 0; i < list->count; i++) {
+            place_sides(
+                s, &list->joints[i]); /* a solve leaves no path, and what falls asleep needs one */
+        }
     }
 }
 
@@ -488,9 +501,26 @@ static void block_leaders(struct step *s)
     }
 }
 
+/* Kinematic bodies that lead a group stop. */
+static bool block_group(struct step *s, uint16_t group)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    bool any = false;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (s->w->bodies[j->a].joined == group && joint_holds(list, i) && led_by(s, j)) {
+            step_block(s, j->b, j->a);
+            any = true;
+        }
+    }
+    return any;
+}
+
 /*
- * Kinematic bodies that lead others where these cannot go stop: what a solve has left over of their joints is more than
- * some skins.
+ * Kinematic bodies that lead others where these cannot go stop: what a solve has left over of a joint of theirs is more
+ * than some skins. Whether any did.
  */
 static bool yield(struct step *s)
 {
@@ -500,9 +530,8 @@ static bool yield(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (!j->work.idle && j->work.led && j->work.torn) {
-            step_block(s, j->b, j->a);
-            any = true;
+        if (!j->work.idle && j->work.torn) {
+            any = block_group(s, s->w->bodies[j->a].joined) || any;
         }
     }
     return any;
