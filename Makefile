@@ -71,7 +71,7 @@ PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
 # parts of games' scenes; a program that names none of them has none
-SHAPES := character wheel car door link ramp steps
+SHAPES := character wheel car door link ramp steps jump tower mat yard
 # and these scenes, with joints and moving parts
 GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
     examples/scene_walker.c
@@ -324,7 +324,7 @@ build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes
 	@echo '  mesh  $@'
 	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@
 
-build/gen/field%: CONVERT := --surface
+build/gen/field% build/gen/yard%: CONVERT := --surface
 build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
@@ -374,7 +374,7 @@ build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/s
 build/tools/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  cc    $< for tools'
-	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -MMD -MP -c -o $@ $<
+	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -Iport -MMD -MP -c -o $@ $<
 
 TOOL_ENGINE := $(filter-out src/draw/%,$(wildcard src/*/*.c))
 build/tools/libengine.a: $(TOOL_ENGINE:%.c=build/tools/%.o)

@@ -100,12 +100,13 @@ static int crusher_fill(const struct scene *scene, struct carom_world *world)
 }
 
 /* Down for half of the time and up again: what is in the way stops the block, until it goes up. */
-static int crusher_before(struct carom_world *world, int frame)
+static int crusher_before(struct carom_world *world, int frame, uint32_t keys)
 {
     struct carom_pose pose = {.position = POSITION(0, 0, CRUSHER_HIGH_MM)};
     int phase = frame % CRUSHER_FRAMES;
     int down = phase < CRUSHER_FRAMES / 2 ? phase : CRUSHER_FRAMES - phase;
 
+    (void)keys;
     pose.position.c[2] -= CAROM_POSITION_MM(CRUSHER_WAY_MM) * down / (CRUSHER_FRAMES / 2);
     return carom_body_move_to(world, CRUSHER_BLOCK, &pose);
 }

@@ -175,10 +175,11 @@ static int walk_on(struct carom_world *world, int frame)
     return result >= 0 ? carom_body_move_to(world, WALKER, &pose) : result;
 }
 
-static int before(struct carom_world *world, int frame)
+static int before(struct carom_world *world, int frame, uint32_t keys)
 {
     int result = lead_platform(world, frame);
 
+    (void)keys;
     result = result >= 0 ? lead_door(world, frame) : result;
     return result >= 0 ? walk_on(world, frame) : result;
 }
