@@ -222,17 +222,16 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
 {
     static struct carom_drawn_body bodies[BODIES_OF(SCENE_LARGE_CAPS)];
     static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(SCENE_LARGE_CAPS)};
-    struct carom_picture picture = {.pixels = fb->pixels,
-                                    .width = fb->width,
-                                    .height = height,
-                                    .stride = fb->stride,
-                                    .format = fb->format,
-                                    .row = fb->row,
-                                    .workspace = draw_block,
-                                    .workspace_bytes = sizeof draw_block,
-                                    .paint = BOARD_GAMES && show->game && show->game->paints
-                                                 ? scene_paint(show->game)
-                                                 : NULL};
+    struct carom_picture picture = {
+        .pixels = fb->pixels,
+        .width = fb->width,
+        .height = height,
+        .stride = fb->stride,
+        .format = fb->format,
+        .row = fb->row,
+        .workspace = draw_block,
+        .workspace_bytes = sizeof draw_block,
+        .paint = BOARD_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL};
     uint32_t start = port_ticks();
 
     if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {

@@ -329,35 +329,22 @@ static void say(const struct carom_world *world, char text[SCENE_TEXT])
 /* Squares of two faces. */
 static const uint8_t yard_faces[512] = {ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS};
 /* Two sides of 9 faces, and around the outline two an edge: windows in front of and behind the roof. */
-static const uint8_t car_faces[40] = {SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED),
-                                      SIX(SCENE_RED), SIX(SCENE_RED), TWO(SCENE_RED),
-                                      GLASS,          TWO(SCENE_RED), GLASS,
-                                      TWO(SCENE_RED)};
+static const uint8_t car_faces[40] = {
+    SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED),
+    TWO(SCENE_RED), GLASS,          TWO(SCENE_RED), GLASS,          TWO(SCENE_RED)};
 static const struct carom_body_paint paints[] = {
-    [SCENE_GROUND] = {yard_faces, 0},
-    [CAR_CHASSIS] = {car_faces, 0},
-    [CAR_HUB] = {NULL, SCENE_RED},
-    [CAR_HUB + 1] = {NULL, SCENE_RED},
-    [CAR_HUB + 2] = {NULL, SCENE_RED},
-    [CAR_HUB + 3] = {NULL, SCENE_RED},
-    [CAR_WHEEL] = {NULL, SCENE_DARK},
-    [CAR_WHEEL + 1] = {NULL, SCENE_DARK},
-    [CAR_WHEEL + 2] = {NULL, SCENE_DARK},
-    [CAR_WHEEL + 3] = {NULL, SCENE_DARK},
-    [CAR_RAMP] = {NULL, SCENE_WOOD},
-    [CAR_RAMP + 1] = {NULL, SCENE_WOOD},
-    [CAR_RAMP + 2] = {NULL, SCENE_WOOD},
-    [CAR_TOWER] = {NULL, SCENE_WOOD},
-    [CAR_TOWER + 1] = {NULL, SCENE_WOOD},
-    [CAR_TOWER + 2] = {NULL, SCENE_WOOD},
-    [CAR_PICKUP] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 1] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 2] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 3] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 4] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 5] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 6] = {NULL, SCENE_YELLOW},
-    [CAR_PICKUP + 7] = {NULL, SCENE_YELLOW},
+    [SCENE_GROUND] = {yard_faces, 0},        [CAR_CHASSIS] = {car_faces, 0},
+    [CAR_HUB] = {NULL, SCENE_RED},           [CAR_HUB + 1] = {NULL, SCENE_RED},
+    [CAR_HUB + 2] = {NULL, SCENE_RED},       [CAR_HUB + 3] = {NULL, SCENE_RED},
+    [CAR_WHEEL] = {NULL, SCENE_DARK},        [CAR_WHEEL + 1] = {NULL, SCENE_DARK},
+    [CAR_WHEEL + 2] = {NULL, SCENE_DARK},    [CAR_WHEEL + 3] = {NULL, SCENE_DARK},
+    [CAR_RAMP] = {NULL, SCENE_WOOD},         [CAR_RAMP + 1] = {NULL, SCENE_WOOD},
+    [CAR_RAMP + 2] = {NULL, SCENE_WOOD},     [CAR_TOWER] = {NULL, SCENE_WOOD},
+    [CAR_TOWER + 1] = {NULL, SCENE_WOOD},    [CAR_TOWER + 2] = {NULL, SCENE_WOOD},
+    [CAR_PICKUP] = {NULL, SCENE_YELLOW},     [CAR_PICKUP + 1] = {NULL, SCENE_YELLOW},
+    [CAR_PICKUP + 2] = {NULL, SCENE_YELLOW}, [CAR_PICKUP + 3] = {NULL, SCENE_YELLOW},
+    [CAR_PICKUP + 4] = {NULL, SCENE_YELLOW}, [CAR_PICKUP + 5] = {NULL, SCENE_YELLOW},
+    [CAR_PICKUP + 6] = {NULL, SCENE_YELLOW}, [CAR_PICKUP + 7] = {NULL, SCENE_YELLOW},
 };
 
 const struct scene_game scene_car = {
