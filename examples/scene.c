@@ -189,7 +189,7 @@ static const struct scene_recipe {
     {"crusher", &still, NULL, 2, 0, 0, &scene_crusher},
     {"conveyor", &still, NULL, 4, 0, 0, &scene_conveyor},
     {"car", &still, NULL, CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
-    {"walker", &still, NULL, 6, 0, 0, &scene_walker},
+    {"walker", &still, NULL, WALKER_CRATE - 1, 0, 0, &scene_walker},
 #endif
 };
 

@@ -49,7 +49,7 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
-#define SCENE_MESHES 5 /* of bodies, in one scene */
+#define SCENE_MESHES 6 /* of bodies, in one scene */
 
 /* A sheet of squares, two faces each. */
 #define SCENE_SHEET_SIDE     20

@@ -198,7 +198,10 @@ static const struct materials {
     {"chain", &flat_mesh, {&link_mesh}, 0},
     {"crusher", &flat_mesh, {&box_mesh, &ball_mesh}, 0},
     {"car", &yard_mesh, {&car_mesh, &wheel_mesh, &jump_mesh, &ball_mesh, &tower_mesh}, 0},
-    {"walker", &yard_mesh, {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh}, 0},
+    {"walker",
+     &yard_mesh,
+     {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh, &mat_mesh},
+     0},
     {"conveyor", &flat_mesh, {&box_mesh, &belt_mesh}, 0},
 };
 

@@ -319,21 +319,15 @@ static void say(const struct carom_world *world, char text[SCENE_TEXT])
     text = scene_say_number(text, (int)(dm_s * 36 / 100), " km/h");
 }
 
-#define GLASS       SCENE_DARK, SCENE_DARK
-#define TWO(ramp)   ramp, ramp
-#define SIX(ramp)   TWO(ramp), TWO(ramp), TWO(ramp)
-#define GREEN_A     TWO(SCENE_GREEN), TWO(SCENE_MEADOW)
-#define GREEN_B     TWO(SCENE_MEADOW), TWO(SCENE_GREEN)
-#define ROW(square) square, square, square, square, square, square, square, square
-#define ROWS        ROW(GREEN_A), ROW(GREEN_B)
-/* Squares of two faces. */
-static const uint8_t yard_faces[512] = {ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS};
+#define GLASS     SCENE_DARK, SCENE_DARK
+#define TWO(ramp) ramp, ramp
+#define SIX(ramp) TWO(ramp), TWO(ramp), TWO(ramp)
 /* Two sides of 9 faces, and around the outline two an edge: windows in front of and behind the roof. */
 static const uint8_t car_faces[40] = {
     SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED),
     TWO(SCENE_RED), GLASS,          TWO(SCENE_RED), GLASS,          TWO(SCENE_RED)};
 static const struct carom_body_paint paints[] = {
-    [SCENE_GROUND] = {yard_faces, 0},        [CAR_CHASSIS] = {car_faces, 0},
+    [SCENE_GROUND] = {scene_yard_faces, 0},  [CAR_CHASSIS] = {car_faces, 0},
     [CAR_HUB] = {NULL, SCENE_RED},           [CAR_HUB + 1] = {NULL, SCENE_RED},
     [CAR_HUB + 2] = {NULL, SCENE_RED},       [CAR_HUB + 3] = {NULL, SCENE_RED},
     [CAR_WHEEL] = {NULL, SCENE_DARK},        [CAR_WHEEL + 1] = {NULL, SCENE_DARK},

@@ -8,6 +8,7 @@
 #define CAROM_SCENE_GAMES_H
 
 #include "carom_joint.h"
+#include "models.h"
 #include "scene.h"
 
 #define FPS 60
@@ -69,6 +70,8 @@ enum scene_ramp {
     SCENE_MEADOW = CAROM_RAMP_BLUE,
     SCENE_DARK = CAROM_RAMP_VIOLET
 };
+/* The squares of the yard, in two greens. */
+extern const uint8_t scene_yard_faces[YARD_FACES];
 /* How a game looks; it is there once, and good until the next call. */
 const struct carom_paint *scene_paint(const struct scene_game *game);
 /* Write a number and some words; returns where the text goes on. */
@@ -104,7 +107,17 @@ enum {
     CAR_PICKUP = CAR_TOWER + CAR_TOWERS
 };
 enum { CAR_MOUNT, CAR_AXLE = CAR_MOUNT + CAR_WHEELS }; /* joints */
-enum { WALKER = SCENE_BODY, WALKER_STEPS, WALKER_PLATFORM, WALKER_RAMP, WALKER_DOOR };
+enum {
+    WALKER = SCENE_BODY,
+    WALKER_STEPS,
+    WALKER_PLATFORM,
+    WALKER_RAMP,
+    WALKER_DOOR,
+    WALKER_MAT,
+    WALKER_WALL,
+    WALKER_BLOCK = WALKER_WALL + 2,
+    WALKER_CRATE
+};
 
 /* What puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

@@ -45,6 +45,14 @@ int scene_game_before(const struct scene_game *game, struct carom_world *world, 
 
 /* --------------------------------------------------------------------- pictures */
 
+#define TWO(ramp)   ramp, ramp
+#define GREEN_A     TWO(SCENE_GREEN), TWO(SCENE_MEADOW)
+#define GREEN_B     TWO(SCENE_MEADOW), TWO(SCENE_GREEN)
+#define ROW(square) square, square, square, square, square, square, square, square
+#define ROWS        ROW(GREEN_A), ROW(GREEN_B)
+/* Squares of two faces. */
+const uint8_t scene_yard_faces[YARD_FACES] = {ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS};
+
 const struct carom_paint *scene_paint(const struct scene_game *game)
 {
     static const uint32_t rgb[] = {
