@@ -214,12 +214,33 @@ static int drive(struct carom_world *world, uint32_t keys)
     return result;
 }
 
+/* Who is stuck, or lies on the roof, is lifted: up to a speed, and turned until the z axis points up. */
+static int lift(struct carom_world *world)
+{
+    static const int64_t up_q40[3] = {0, 0, CAROM_TWIST_N_M_S(3, FPS)};
+    const carom_v3_q40 impulse = {{0, 0, CAROM_IMPULSE_N_S(CHASSIS_KG, FPS)}};
+    struct carom_body_state car;
+    carom_v3_q40 twist;
+    int64_t z_q40[3];
+    int result = carom_body_get(world, CAR_CHASSIS, &car);
+
+    result = result < 0 ? result : carom_body_world_vector(world, CAR_CHASSIS, up_q40, z_q40);
+    if (result < 0 || car.velocity.c[2] > CAROM_VELOCITY_MM_S(2000, FPS)) {
+        return result;
+    }
+    /* the cross product of its z axis and the world's */
+    twist = (carom_v3_q40){{z_q40[1], -z_q40[0], 0}};
+    result = carom_body_push_centre(world, CAR_CHASSIS, &impulse);
+    return result < 0 ? result : carom_body_twist(world, CAR_CHASSIS, &twist);
+}
+
 static int before(struct carom_world *world, int frame, uint32_t keys)
 {
     int result = pick_up(world);
 
     (void)frame;
-    return result < 0 ? result : drive(world, keys);
+    result = result < 0 ? result : drive(world, keys);
+    return result >= 0 && keys & PORT_PAD_A ? lift(world) : result;
 }
 
 /* Places on the round that it drives by itself, to the left, a twelfth of a turn from one to the next. */

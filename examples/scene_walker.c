@@ -242,6 +242,12 @@ static int slide(struct walk *walk, carom_v3_q32 way)
     return met;
 }
 
+/* Nobody stands on what was met. */
+static bool is_steep(const struct walk *walk)
+{
+    return walk->hit.normal.c[2] < STEEP_Q30;
+}
+
 /* Whether the walker stands, and the way that the ground takes it along; or an error. */
 static int stands(struct walk *walk, carom_v3_q32 *way)
 {
@@ -249,7 +255,7 @@ static int stands(struct walk *walk, carom_v3_q32 *way)
     carom_v3_q40 velocity;
     int met = carom_cast_mesh(walk->world, &walk->mesh, &down, &others, &walk->hit);
 
-    if (met != 1 || walk->hit.normal.c[2] < STEEP_Q30) {
+    if (met != 1 || is_steep(walk)) {
         return met < 0 ? met : 0;
     }
     met = carom_body_velocity_at(walk->world, walk->hit.body, &walk->hit.point, &velocity);
@@ -259,21 +265,26 @@ static int stands(struct walk *walk, carom_v3_q32 *way)
     return met < 0 ? met : 1;
 }
 
-/* Up by a step as far as there is room, on, and down onto what is there; where there is nothing it begins to fall. */
-static int walk_on(struct walk *walk, const carom_v3_q32 *way, int64_t fall_q32)
+/*
+ * Up by a step as far as there is room, on, and down onto what is there. Where there is nothing to stand on the way
+ * is gone as it is, and a fall begins.
+ */
+static int walk_on(struct walk *walk, carom_v3_q32 way, int64_t fall_q32)
 {
     const carom_v3_q32 up = POSITION(0, 0, STEP_MM), from = walk->mesh.position;
     carom_v3_q32 down = POSITION(0, 0, -STEP_MM);
     int result = sweep(walk, &up);
 
-    result = result < 0 ? result : slide(walk, *way);
+    result = result < 0 ? result : slide(walk, way);
     if (result < 0) {
         return result;
     }
     down.c[2] += from.c[2] - walk->mesh.position.c[2];
     result = sweep(walk, &down);
-    if (result == 0) {
-        walk->mesh.position.c[2] = from.c[2] + fall_q32;
+    if (result == 0 || (result == 1 && is_steep(walk))) {
+        walk->mesh.position = from;
+        way.c[2] = fall_q32;
+        result = slide(walk, way);
     }
     return result;
 }
@@ -316,12 +327,14 @@ static int go(struct walk *walk, uint32_t keys, struct carom_body_state *state)
     }
     state->spin = (carom_v3_q40){{0, 0, turn(walk, keys)}};
     if (standing && !(keys & PORT_PAD_A)) {
-        result = walk_on(walk, &way, gravity_q32);
+        result = walk_on(walk, way, gravity_q32);
     } else {
-        for (int k = 0; k < 3 && !standing; k++) { /* as it went before */
-            way.c[k] = state->velocity.c[k] >> 8;
+        if (!standing && !(keys & (PORT_PAD_UP | PORT_PAD_DOWN))) { /* as it went before */
+            way.c[0] = state->velocity.c[0] >> 8;
+            way.c[1] = state->velocity.c[1] >> 8;
         }
-        way.c[2] = standing ? CAROM_VELOCITY_MM_S(JUMP_MM_S, FPS) >> 8 : way.c[2] + gravity_q32;
+        way.c[2] = standing ? CAROM_VELOCITY_MM_S(JUMP_MM_S, FPS) >> 8
+                            : (state->velocity.c[2] >> 8) + gravity_q32;
         result = slide(walk, way);
     }
     for (int k = 0; k < 3; k++) {
@@ -403,9 +416,7 @@ static uint32_t script(const struct carom_world *world, int frame)
     keys |= 32 * aside > along ? PORT_PAD_LEFT : -32 * aside > along ? PORT_PAD_RIGHT : 0;
     keys |= along > 2 * aside && along > -2 * aside ? PORT_PAD_UP : 0;
     /* jump in front of the block */
-    keys |= way_mm[0] < -1000 && at_mm[1] < BLOCK_Y_MM + 300 && at_mm[0] > 900 && at_mm[0] < 1000
-                ? PORT_PAD_A
-                : 0;
+    keys |= at_mm[1] < BLOCK_Y_MM + 300 && at_mm[0] > 500 && at_mm[0] < 1000 ? PORT_PAD_A : 0;
     return keys;
 }
 
