@@ -233,30 +233,44 @@ static void test_car_pad(void)
     drive(PORT_PAD_RIGHT, -1);
 }
 
-/* The camera is 6.6 units behind and above the car, unless a tower stands there: then the ray brings it nearer. */
+static bool is_no_part(void *context, int body)
+{
+    (void)context;
+    return body < CAR_CHASSIS || body >= CAR_RAMP;
+}
+
+/*
+ * The camera is 6.62 m behind and above the car, 5.6 back, 1.9 aside and 3 up, unless a tower stands there: then the ray
+ * brings it nearer. Nothing but the car itself is ever between the two.
+ */
 static void test_car_camera(void)
 {
-    const int64_t away_q32 = CAROM_POSITION_MM(5000);
+    static const struct carom_query_filter others = {.wants = is_no_part};
     int near = 0, far = 0;
 
     begin("car");
-    while (frame < 6 * SECOND) {
+    while (frame < 5 * SECOND) {
         struct carom_camera camera = *scene.camera;
-        int64_t most_q32 = 0;
+        struct carom_ray ray;
+        struct carom_ray_hit hit;
+        int64_t square = 0;
 
         step();
         scene.game->look(world, &camera);
+        ray.from = camera.target;
         for (int k = 0; k < 3; k++) {
-            const int64_t d = camera.eye.c[k] - camera.target.c[k];
+            const int64_t mm = CAROM_TO_MM(camera.eye.c[k] - camera.target.c[k]);
 
-            most_q32 = d > most_q32 ? d : -d > most_q32 ? -d : most_q32;
+            square += mm * mm;
+            ray.way.c[k] = camera.eye.c[k] - camera.target.c[k];
             CHECK_EQ(camera.target.c[k], state_of(CAR_CHASSIS).position.c[k]);
         }
-        /* one of three components is at least 6.6 / sqrt 3 */
-        near += most_q32 < away_q32 * 3 / 4;
-        far += most_q32 >= away_q32 * 3 / 4;
+        CHECK_EQ(carom_cast_ray(world, &ray, &others, &hit), 0);
+        near += square < 6300 * 6300;
+        far += square > 6500 * 6500 && square < 6700 * 6700;
     }
-    CHECK(near > 0 && far > SECOND);
+    CHECK(near > 5);
+    CHECK(far > 4 * SECOND);
 }
 
 /* ------------------------------------------------------------------- walker */
