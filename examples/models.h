@@ -20,7 +20,7 @@ extern const struct carom_mesh_raw door_mesh;      /* 0.9 wide along x; its hing
 extern const struct carom_mesh_raw link_mesh;      /* a chain's, 0.5 long along x */
 extern const struct carom_mesh_raw ramp_mesh;      /* 2 long along x, to a height of 0.5 */
 extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of 0.6 */
-extern const struct carom_mesh_raw jump_mesh;      /* a ramp 3 long along x, to a height of 0.45 */
+extern const struct carom_mesh_raw jump_mesh;      /* a ramp 3 long along x, to a height of 0.35 */
 extern const struct carom_mesh_raw tower_mesh;     /* 1.2 x 1.2, 5 high */
 extern const struct carom_mesh_raw mat_mesh;       /* 2.4 long along x, 0.03 thick */
 extern const struct carom_mesh_raw yard_mesh;      /* a surface of 48 x 48 with hills and a rim */

@@ -214,20 +214,26 @@ static int drive(struct carom_world *world, uint32_t keys)
     return result;
 }
 
-/* Who is stuck, or lies on the roof, is lifted: up to a speed, and turned until the z axis points up. */
-static int lift(struct carom_world *world)
+/*
+ * Who is stuck, or lies on the roof, is lifted and, by up or down, moved along: to 2 m/s, and turned until the z axis
+ * points up.
+ */
+static int lift(struct carom_world *world, uint32_t keys)
 {
+    const int on = !!(keys & PORT_PAD_UP) - !!(keys & PORT_PAD_DOWN);
+    const int64_t push_q40[3] = {on * CAROM_IMPULSE_N_S(CHASSIS_KG / 4, FPS), 0, 0};
     static const int64_t up_q40[3] = {0, 0, CAROM_TWIST_N_M_S(3, FPS)};
-    const carom_v3_q40 impulse = {{0, 0, CAROM_IMPULSE_N_S(CHASSIS_KG, FPS)}};
     struct carom_body_state car;
-    carom_v3_q40 twist;
+    carom_v3_q40 impulse, twist;
     int64_t z_q40[3];
     int result = carom_body_get(world, CAR_CHASSIS, &car);
 
     result = result < 0 ? result : carom_body_world_vector(world, CAR_CHASSIS, up_q40, z_q40);
+    result = result < 0 ? result : carom_body_world_vector(world, CAR_CHASSIS, push_q40, impulse.c);
     if (result < 0 || car.velocity.c[2] > CAROM_VELOCITY_MM_S(2000, FPS)) {
         return result;
     }
+    impulse.c[2] += CAROM_IMPULSE_N_S(CHASSIS_KG, FPS);
     /* the cross product of its z axis and the world's */
     twist = (carom_v3_q40){{z_q40[1], -z_q40[0], 0}};
     result = carom_body_push_centre(world, CAR_CHASSIS, &impulse);
@@ -240,7 +246,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
 
     (void)frame;
     result = result < 0 ? result : drive(world, keys);
-    return result >= 0 && keys & PORT_PAD_A ? lift(world) : result;
+    return result >= 0 && keys & PORT_PAD_A ? lift(world, keys) : result;
 }
 
 /* Places on the round that it drives by itself, to the left, a twelfth of a turn from one to the next. */

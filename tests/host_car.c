@@ -190,15 +190,15 @@ static void look_at_way(const struct car *car, double last[2], struct seen *seen
 }
 
 /*
- * The script's keys, or others, each for half a second: to a side or not, on or back, now and then up. Near the border
- * hands leave it to the script.
+ * The script's keys, or others, each for half a second: to a side or not, on or back, now and then lifted. Halfway to
+ * the border hands leave it to the script.
  */
 static uint32_t keys_of(bool hands, long frame, const double at[2], uint32_t held, uint64_t *random)
 {
     static const uint32_t sides[] = {0, PORT_PAD_LEFT, PORT_PAD_RIGHT};
     static const uint32_t ways[] = {0, PORT_PAD_UP, PORT_PAD_UP, PORT_PAD_UP, PORT_PAD_DOWN};
 
-    if (!hands || fmax(fabs(at[0]), fabs(at[1])) > HALF_YARD - 8) {
+    if (!hands || fmax(fabs(at[0]), fabs(at[1])) > HALF_YARD / 2) {
         return SCENE_NOBODY;
     }
     if (frame % 30 != 1) {

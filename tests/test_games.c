@@ -196,8 +196,8 @@ static void test_car(void)
             CHECK(carom_body_mesh(world, CAR_PICKUP) != NULL);
         }
     }
-    /* the ramp is 450 mm high, the chassis as high above what it drives on */
-    CHECK(high_q32 > CAROM_POSITION_MM(450 + 670));
+    /* the ramp is 350 mm high, the chassis as high above what it drives on */
+    CHECK(high_q32 > CAROM_POSITION_MM(350 + 670));
     CHECK(carom_body_mesh(world, CAR_PICKUP) == NULL);
     CHECK(carom_body_mesh(world, CAR_PICKUP + 1) == NULL);
     CHECK(carom_body_mesh(world, CAR_PICKUP + CAR_PICKUPS - 1) != NULL);
