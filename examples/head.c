@@ -18,11 +18,11 @@
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others, nor for one that moves. */
 static uint8_t mesh_block[1];
-#define BOARD_GAMES   0 /* and sheets */
+#define BOARD_MOVES   SCENE_GAMES /* something happens before a frame */
 #define USER_VERTICES SCENE_HEAD_VERTICES
 #define USER_FACES    SCENE_HEAD_FACES
 #else
-#define BOARD_GAMES 1
+#define BOARD_MOVES 1
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
@@ -55,6 +55,7 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 /* How many bodies the largest world holds: the first of its capacities. */
 #define FIRST_OF(first, ...) first
 #define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
+#define BODIES_MOST          SCENE_MORE_(BODIES_OF(SCENE_LARGE_CAPS), BODIES_OF(SCENE_GAME_CAPS))
 
 #define BOARD_DRAWS (BOARD_DRAW_BYTES > 0)
 
@@ -187,7 +188,7 @@ static const struct carom_camera *camera_of(const struct show *show,
 {
     static struct carom_camera camera;
 
-    if (!BOARD_GAMES || !show->game || !show->game->look) {
+    if (!SCENE_GAMES || !show->game || !show->game->look) {
         return show->camera;
     }
     camera = *show->camera;
@@ -207,7 +208,7 @@ static void say(const struct show *show, const struct carom_world *world,
                                      .paper = CAROM_COLOUR_BLACK};
     char text[SCENE_TEXT];
 
-    if (BOARD_GAMES && show->game && show->game->say) {
+    if (SCENE_GAMES && show->game && show->game->say) {
         show->game->say(world, text);
         expect(carom_draw_text(picture, &where, text, &drawn->touched), "text");
     }
@@ -220,8 +221,8 @@ static void say(const struct show *show, const struct carom_world *world,
 static uint32_t draw(const struct carom_world *world, const struct show *show,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    static struct carom_drawn_body bodies[BODIES_OF(SCENE_LARGE_CAPS)];
-    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(SCENE_LARGE_CAPS)};
+    static struct carom_drawn_body bodies[BODIES_MOST];
+    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_MOST};
     struct carom_picture picture = {
         .pixels = fb->pixels,
         .width = fb->width,
@@ -231,7 +232,7 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
         .row = fb->row,
         .workspace = draw_block,
         .workspace_bytes = sizeof draw_block,
-        .paint = BOARD_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL};
+        .paint = SCENE_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL};
     uint32_t start = port_ticks();
 
     if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
@@ -284,8 +285,8 @@ static uint32_t keys_held(void)
 
 static int before(const struct show *show, struct carom_world *world, int frame, uint32_t keys)
 {
-    return show->game ? scene_game_before(show->game, world, frame, keys)
-                      : scene_sheet_move(show->sheet, world, frame);
+    return SCENE_GAMES && show->game ? scene_game_before(show->game, world, frame, keys)
+                                     : scene_sheet_move(show->sheet, world, frame);
 }
 
 /* A row of figures a frame. */
@@ -303,7 +304,7 @@ static void report(int frames)
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        if (BOARD_GAMES) {
+        if (BOARD_MOVES) {
             expect(before(&show, world, frame, keys_held()), "scene");
         }
         status = expect(carom_world_step(world), "step");

@@ -110,7 +110,7 @@ static const struct place ramps[CAR_RAMPS] = {
 };
 /* Towers outside of it, which come between the car and where the camera would be. */
 static const struct place towers[CAR_TOWERS] = {
-    {5500, -14000, 1025033084, 319763936},
+    {7000, -13000, 1025033084, 319763936},
     {9000, 11500, 976891013, 445664022},
     {-14500, 0, 1064243069, 142497571},
 };
@@ -273,7 +273,10 @@ static void way_on(const int64_t at_mm[2], int64_t way_mm[2])
     }
 }
 
-/* Steer to where the way is; when something stops the car it goes back for a while. */
+/*
+ * Steer to where the way is; when something stops the car it goes back for a while, the other way
+ * round, and in the end is lifted.
+ */
 static uint32_t script(const struct carom_world *world, int frame)
 {
     static const int64_t ahead_q30[3] = {CAROM_ONE_Q30, 0, 0};
@@ -292,7 +295,8 @@ static uint32_t script(const struct carom_world *world, int frame)
     aside = x_q30[0] * way_mm[1] - x_q30[1] * way_mm[0];
     speed_q40 = (car.velocity.c[0] >> 30) * x_q30[0] + (car.velocity.c[1] >> 30) * x_q30[1];
     if (speed_q40 < CAROM_VELOCITY_MM_S(300, FPS) && frame % 256 >= 156) {
-        return PORT_PAD_DOWN;
+        return PORT_PAD_DOWN | (aside > 0 ? PORT_PAD_RIGHT : PORT_PAD_LEFT) |
+               (frame % 1024 >= 984 ? PORT_PAD_A : 0);
     }
     return PORT_PAD_UP | (8 * aside > along    ? PORT_PAD_LEFT
                           : -8 * aside > along ? PORT_PAD_RIGHT
