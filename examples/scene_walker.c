@@ -422,17 +422,27 @@ static uint32_t script(const struct carom_world *world, int frame)
 
 /* ------------------------------------------------------------------------- parts */
 
-/* Beside the walker and a little behind. */
+/*
+ * Beside the walker and a little behind. It goes along by steps, between which it stands still: then there is little to
+ * draw in a frame.
+ */
 static void look(const struct carom_world *world, struct carom_camera *camera)
 {
     const carom_v3_q32 away = POSITION(-2600, -5200, 2200);
+    const int64_t step_q32 = CAROM_POSITION_M(3);
     struct carom_body_state state;
 
-    if (carom_body_get(world, WALKER, &state) >= 0) {
-        for (int k = 0; k < 3; k++) {
-            camera->target.c[k] = state.position.c[k];
-            camera->eye.c[k] = state.position.c[k] + away.c[k];
-        }
+    if (carom_body_get(world, WALKER, &state) < 0) {
+        return;
+    }
+    camera->target.c[2] = CAROM_POSITION_MM(1000);
+    for (int k = 0; k < 2; k++) {
+        const int64_t from_q32 = state.position.c[k] + step_q32 / 2 + 64 * step_q32;
+
+        camera->target.c[k] = (from_q32 / step_q32 - 64) * step_q32;
+    }
+    for (int k = 0; k < 3; k++) {
+        camera->eye.c[k] = camera->target.c[k] + away.c[k];
     }
 }
 
