@@ -25,6 +25,10 @@ endif
 # the scene that a board shows when it is not told
 SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
+# scenes with joints and moving parts, and those of them that a board has in ROM
+GAME_SCENES := door chain crusher conveyor car walker
+ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
+
 # ---------------------------------------------------------------- tools, flags
 
 B := build/$(BOARD)$(if $(DEBUG),-debug)
@@ -37,6 +41,7 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
           $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
+          $(if $(ROM_GAMES),-DSCENE_ROM_GAMES -DBOARD_GAME_CAPS=$(GAME_CAPS)) \
           $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
@@ -71,8 +76,8 @@ PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
 # parts of games' scenes; a program that names none of them has none
-SHAPES := character wheel car door link ramp steps
-# and these scenes, with joints and moving parts
+SHAPES := character wheel car door link ramp steps jump tower mat yard
+# and the programs of these scenes
 GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
     examples/scene_walker.c
 # the scenes, with meshes that are indexed when a scene is loaded
@@ -80,7 +85,7 @@ SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))
 # or, on a board that says which, with indexed ones in ROM
 SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
-    $(ROM_SCENES:%=build/gen/rom/%.c))
+    $(if $(ROM_GAMES),$(GAMES)) $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 # A board runs those suites for which it has room, in one image or in one each
@@ -324,7 +329,7 @@ build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes
 	@echo '  mesh  $@'
 	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@
 
-build/gen/field%: CONVERT := --surface
+build/gen/field% build/gen/yard%: CONVERT := --surface
 build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<
@@ -374,7 +379,7 @@ build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/s
 build/tools/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  cc    $< for tools'
-	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -MMD -MP -c -o $@ $<
+	$(CC) -std=c11 -O1 -ffunction-sections -Iinclude -Isrc -Iexamples -Iport -MMD -MP -c -o $@ $<
 
 TOOL_ENGINE := $(filter-out src/draw/%,$(wildcard src/*/*.c))
 build/tools/libengine.a: $(TOOL_ENGINE:%.c=build/tools/%.o)

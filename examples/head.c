@@ -6,6 +6,8 @@
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
+ *
+ * A game of scene_games.h goes by the keys of the pad with and without play=1.
  */
 #include "carom_draw.h"
 #include "port.h"
@@ -16,11 +18,11 @@
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others, nor for one that moves. */
 static uint8_t mesh_block[1];
-#define BOARD_GAMES   0 /* and sheets */
+#define BOARD_MOVES   SCENE_GAMES /* something happens before a frame */
 #define USER_VERTICES SCENE_HEAD_VERTICES
 #define USER_FACES    SCENE_HEAD_FACES
 #else
-#define BOARD_GAMES 1
+#define BOARD_MOVES 1
 /* The largest mesh that `mesh=` may bring. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
@@ -53,6 +55,7 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 /* How many bodies the largest world holds: the first of its capacities. */
 #define FIRST_OF(first, ...) first
 #define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
+#define BODIES_MOST          SCENE_MORE_(BODIES_OF(SCENE_LARGE_CAPS), BODIES_OF(SCENE_GAME_CAPS))
 
 #define BOARD_DRAWS (BOARD_DRAW_BYTES > 0)
 
@@ -172,29 +175,71 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
+/* What frames need of a scene; a small board has no room for the rest while it steps. */
+struct show {
+    const struct carom_camera *camera;
+    struct scene_sheet *sheet;
+    const struct scene_game *game;
+};
+
+/* Where a picture is seen from: a game's camera may go with what it looks at. */
+static const struct carom_camera *camera_of(const struct show *show,
+                                            const struct carom_world *world)
+{
+    static struct carom_camera camera;
+
+    if (!SCENE_GAMES || !show->game || !show->game->look) {
+        return show->camera;
+    }
+    camera = *show->camera;
+    show->game->look(world, &camera);
+    return &camera;
+}
+
+/* What a game says, at the top; the next picture is drawn over it. */
+static void say(const struct show *show, const struct carom_world *world,
+                const struct carom_picture *picture, struct carom_drawn *drawn)
+{
+    const struct carom_text where = {.x = 2,
+                                     .y = 2,
+                                     .scale = (uint8_t)(1 + picture->width / 400),
+                                     .opaque = true,
+                                     .colour = CAROM_COLOUR_WHITE,
+                                     .paper = CAROM_COLOUR_BLACK};
+    char text[SCENE_TEXT];
+
+    if (SCENE_GAMES && show->game && show->game->say) {
+        show->game->say(world, text);
+        expect(carom_draw_text(picture, &where, text, &drawn->touched), "text");
+    }
+}
+
 /*
  * Draw what changed in the upper `height` rows of a framebuffer, if there is one; returns the ticks
  * that took.
  */
-static uint32_t draw(const struct carom_world *world, const struct carom_camera *camera,
+static uint32_t draw(const struct carom_world *world, const struct show *show,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
-    static struct carom_drawn_body bodies[BODIES_OF(SCENE_LARGE_CAPS)];
-    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_OF(SCENE_LARGE_CAPS)};
-    struct carom_picture picture = {.pixels = fb->pixels,
-                                    .width = fb->width,
-                                    .height = height,
-                                    .stride = fb->stride,
-                                    .format = fb->format,
-                                    .row = fb->row,
-                                    .workspace = draw_block,
-                                    .workspace_bytes = sizeof draw_block};
+    static struct carom_drawn_body bodies[BODIES_MOST];
+    static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_MOST};
+    struct carom_picture picture = {
+        .pixels = fb->pixels,
+        .width = fb->width,
+        .height = height,
+        .stride = fb->stride,
+        .format = fb->format,
+        .row = fb->row,
+        .workspace = draw_block,
+        .workspace_bytes = sizeof draw_block,
+        .paint = SCENE_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL};
     uint32_t start = port_ticks();
 
     if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
         return 0;
     }
-    expect(carom_draw_changes(world, camera, &picture, style, &drawn), "draw");
+    expect(carom_draw_changes(world, camera_of(show, world), &picture, style, &drawn), "draw");
+    say(show, world, &picture, &drawn);
     return port_ticks() - start;
 }
 
@@ -209,13 +254,6 @@ static struct carom_world *make(const struct scene *scene)
     expect(scene_make(scene, &config, world_block, sizeof world_block, &world), "world");
     return world;
 }
-
-/* What frames need of a scene; a small board has no room for the rest while it steps. */
-struct show {
-    const struct carom_camera *camera;
-    struct scene_sheet *sheet;
-    const struct scene_game *game;
-};
 
 static struct carom_world *start(struct show *show)
 {
@@ -235,25 +273,20 @@ static struct carom_world *start(struct show *show)
     return world;
 }
 
-static int before(const struct show *show, struct carom_world *world, int frame)
+/* Keys that are held; until the first one is, nobody plays. */
+static uint32_t keys_held(void)
 {
-    return show->game && show->game->before ? show->game->before(world, frame)
-                                            : scene_sheet_move(show->sheet, world, frame);
+    static bool played;
+    uint32_t keys = port_input();
+
+    played |= keys != 0;
+    return played ? keys : SCENE_NOBODY;
 }
 
-/* Where a picture is seen from: a game's camera may go with what it looks at. */
-static const struct carom_camera *camera_of(const struct scene_game *game,
-                                            const struct carom_camera *fixed,
-                                            const struct carom_world *world)
+static int before(const struct show *show, struct carom_world *world, int frame, uint32_t keys)
 {
-    static struct carom_camera camera;
-
-    if (!BOARD_GAMES || !game || !game->look) {
-        return fixed;
-    }
-    camera = *fixed;
-    game->look(world, &camera);
-    return &camera;
+    return SCENE_GAMES && show->game ? scene_game_before(show->game, world, frame, keys)
+                                     : scene_sheet_move(show->sheet, world, frame);
 }
 
 /* A row of figures a frame. */
@@ -265,18 +298,17 @@ static void report(int frames)
     uint32_t first;
 
     /* all of the picture, so that a frame has but what it changes to draw */
-    first = draw(world, show.camera, &fb, fb.height, CAROM_DRAW_FLAT);
+    first = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
     port_print("first picture %lu\n", cost(first));
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
         int status;
 
-        if (BOARD_GAMES) {
-            expect(before(&show, world, frame), "scene");
+        if (BOARD_MOVES) {
+            expect(before(&show, world, frame, keys_held()), "scene");
         }
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks =
-            draw(world, camera_of(show.game, show.camera, world), &fb, fb.height, CAROM_DRAW_FLAT);
+        uint32_t draw_ticks = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
 
         port_present();
         print_frame(world, frame, status, draw_ticks);
@@ -293,24 +325,30 @@ static void report(int frames)
 static void play(int frames)
 {
     struct scene scene;
+    struct show show;
     struct carom_world *world;
     struct port_fb fb = port_fb();
     struct scene_play play = {.due = port_ticks()};
     uint32_t draw_ticks = 0;
     struct carom_stats stats;
+    int age = 0; /* frames since the scene began */
 
     load(&scene);
     world = make(&scene);
+    show = (struct show){scene.camera, scene.sheet, scene.game};
     for (int frame = 1; frames == 0 || frame <= frames; frame++) {
+        uint32_t keys = keys_held();
+
         /* what the hands did to it may be too much for the pools */
-        if (!scene_play_keys(&play, &scene, world, port_input()) ||
-            scene_before(&scene, world, frame) < 0 || carom_world_step(world) < 0) {
+        age++;
+        if (!scene_play_keys(&play, &scene, world, keys == SCENE_NOBODY ? 0 : keys) ||
+            before(&show, world, age, keys) < 0 || carom_world_step(world) < 0) {
             world = make(&scene);
+            age = 0;
         }
         if (scene_play_draws(&play)) {
             expect(carom_stats(world, &stats), "stats");
-            draw_ticks = draw(world, camera_of(scene.game, scene.camera, world), &fb,
-                              fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
+            draw_ticks = draw(world, &show, &fb, fb.height - (play.plain ? 0 : SCENE_PLAY_ROWS),
                               play.lines && !fb.row ? CAROM_DRAW_WIRE : CAROM_DRAW_FLAT);
             if (!play.plain) {
                 scene_play_figures(&fb, stats.total_ticks, draw_ticks);

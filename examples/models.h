@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * models.h - raw meshes for games' scenes, as tools/gen_shapes makes them: closed, z up, a unit being a metre,
+ * models.h - raw meshes for games' scenes, as tools/gen_shapes makes them: z up, a unit being a metre,
  * 1024 quanta to a unit or fewer. What a program does not name is not linked.
  *
  *   static _Alignas(8) uint8_t wheel_block[CAROM_MESH_BYTES(WHEEL_VERTICES, WHEEL_FACES)];
@@ -20,6 +20,10 @@ extern const struct carom_mesh_raw door_mesh;      /* 0.9 wide along x; its hing
 extern const struct carom_mesh_raw link_mesh;      /* a chain's, 0.5 long along x */
 extern const struct carom_mesh_raw ramp_mesh;      /* 2 long along x, to a height of 0.5 */
 extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of 0.6 */
+extern const struct carom_mesh_raw jump_mesh;      /* a ramp 3 long along x, to a height of 0.35 */
+extern const struct carom_mesh_raw tower_mesh;     /* 1.2 x 1.2, 5 high */
+extern const struct carom_mesh_raw mat_mesh;       /* 2.4 long along x, 0.03 thick */
+extern const struct carom_mesh_raw yard_mesh;      /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
 #define CHARACTER_FACES    96
@@ -35,5 +39,13 @@ extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of
 #define RAMP_FACES         8
 #define STEPS_VERTICES     20
 #define STEPS_FACES        36
+#define JUMP_VERTICES      6
+#define JUMP_FACES         8
+#define TOWER_VERTICES     8
+#define TOWER_FACES        12
+#define MAT_VERTICES       8
+#define MAT_FACES          12
+#define YARD_VERTICES      289
+#define YARD_FACES         512
 
 #endif

@@ -46,7 +46,7 @@ static const struct carom_body_def dull_start = {
     .restitution_q30 = 0,
     .friction_q16 = 1u << 16,
 };
-#ifndef SCENE_ROM
+#if SCENE_GAMES
 static const struct carom_body_def still; /* a game puts its bodies in */
 #endif
 static const struct carom_body_def ground_start = {
@@ -183,13 +183,13 @@ static const struct scene_recipe {
     {"growth-49928", &growth_starts[3], NULL, 0, 0, 0, NULL},
     {"sheet", &box_start, NULL, 0, 0, 0, NULL},
     {"user", &head_start, NULL, 0, 0, 0, NULL},
-#ifndef SCENE_ROM
+#if SCENE_GAMES
     {"door", &still, NULL, 3, 0, 0, &scene_door},
     {"chain", &still, NULL, 19, 0, 0, &scene_chain},
     {"crusher", &still, NULL, 2, 0, 0, &scene_crusher},
     {"conveyor", &still, NULL, 4, 0, 0, &scene_conveyor},
     {"car", &still, NULL, CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
-    {"walker", &still, NULL, 6, 0, 0, &scene_walker},
+    {"walker", &still, NULL, WALKER_CRATE - 1, 0, 0, &scene_walker},
 #endif
 };
 
@@ -280,8 +280,9 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 
 int scene_before(struct scene *scene, struct carom_world *world, int frame)
 {
-    return scene->game && scene->game->before ? scene->game->before(world, frame)
-                                              : scene_sheet_move(scene->sheet, world, frame);
+    return SCENE_GAMES && scene->game
+               ? scene_game_before(scene->game, world, frame, SCENE_NOBODY)
+               : scene_sheet_move(scene->sheet, world, frame);
 }
 
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame)

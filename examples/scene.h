@@ -22,7 +22,7 @@
  *   sheet       a box on a sheet of 800 faces that waves
  *   user        a mesh of the caller's in place of the head
  *
- * and those of scene_games.h, which are not for boards with meshes in ROM:
+ * and those of scene_games.h, which a board with meshes in ROM has when its board.mk names one:
  *
  *   door        a door on a hinge with limits, and a ball that opens it
  *   chain       20 links on ball joints, which swings
@@ -49,7 +49,7 @@
 /* Numbers of the bodies. */
 enum { SCENE_GROUND, SCENE_BODY };
 
-#define SCENE_MESHES 5 /* of bodies, in one scene */
+#define SCENE_MESHES 6 /* of bodies, in one scene */
 
 /* A sheet of squares, two faces each. */
 #define SCENE_SHEET_SIDE     20
@@ -106,7 +106,21 @@ struct scene {
 #define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
 #define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
 #endif
-#define SCENE_WORLD_BYTES CAROM_WORLD_BYTES(SCENE_LARGE_CAPS)
+/* Whether there are games, and the capacities of the largest one. */
+#if defined SCENE_ROM && !defined SCENE_ROM_GAMES
+#define SCENE_GAMES     0
+#define SCENE_GAME_CAPS SCENE_LARGE_CAPS
+#else
+#define SCENE_GAMES 1
+#ifdef BOARD_GAME_CAPS
+#define SCENE_GAME_CAPS BOARD_GAME_CAPS
+#else
+#define SCENE_GAME_CAPS SCENE_LARGE_CAPS
+#endif
+#endif
+#define SCENE_MORE_(a, b) ((a) > (b) ? (a) : (b))
+#define SCENE_WORLD_BYTES                                                                          \
+    SCENE_MORE_(CAROM_WORLD_BYTES(SCENE_LARGE_CAPS), CAROM_WORLD_BYTES(SCENE_GAME_CAPS))
 
 /* The raw meshes, generated; a number is that of the faces. */
 extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_mesh, head450_mesh,

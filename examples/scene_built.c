@@ -58,8 +58,8 @@ static const struct carom_mesh_raw plane_mesh = {
     plane_vertices, plane_faces, 4, 2, 12, CAROM_SURFACE,
 };
 
-/* What games play on: 64 x 64 units. */
-static const struct carom_mesh_raw yard_mesh = {
+/* What small games play on: 64 x 64 units. */
+static const struct carom_mesh_raw flat_mesh = {
     plane_vertices, plane_faces, 4, 2, 9, CAROM_SURFACE,
 };
 
@@ -194,12 +194,15 @@ static const struct materials {
     {"growth-49928", &field49928_mesh, {&head_mesh}, 0},
     {"sheet", NULL, {&box_mesh}, 0},
     {"user", &field_mesh, {NULL}, 0},
-    {"door", &yard_mesh, {&door_mesh, &ball_mesh}, 0},
-    {"chain", &yard_mesh, {&link_mesh}, 0},
-    {"crusher", &yard_mesh, {&box_mesh, &ball_mesh}, 0},
-    {"car", &yard_mesh, {&car_mesh, &wheel_mesh, &ramp_mesh, &ball_mesh}, 0},
-    {"walker", &yard_mesh, {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh}, 0},
-    {"conveyor", &yard_mesh, {&box_mesh, &belt_mesh}, 0},
+    {"door", &flat_mesh, {&door_mesh, &ball_mesh}, 0},
+    {"chain", &flat_mesh, {&link_mesh}, 0},
+    {"crusher", &flat_mesh, {&box_mesh, &ball_mesh}, 0},
+    {"car", &yard_mesh, {&car_mesh, &wheel_mesh, &jump_mesh, &ball_mesh, &tower_mesh}, 0},
+    {"walker",
+     &yard_mesh,
+     {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh, &mat_mesh},
+     0},
+    {"conveyor", &flat_mesh, {&box_mesh, &belt_mesh}, 0},
 };
 
 static const struct materials *find(const char *name)

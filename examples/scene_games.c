@@ -38,10 +38,18 @@ static int door_fill(const struct scene *scene, struct carom_world *world)
     return scene_joint(&parts, &hinge);
 }
 
+static const struct carom_body_paint door_paints[] = {{NULL, SCENE_GREEN},
+                                                      {NULL, SCENE_WOOD},
+                                                      {NULL, SCENE_RED},
+                                                      {NULL, SCENE_DARK},
+                                                      {NULL, SCENE_DARK}};
+
 const struct scene_game scene_door = {
     .caps = CAROM_CAPS(8, 16, 64, 256, 0, 1024, 1, 0),
     .camera = {POSITION(2600, -3800, 2900), POSITION(300, 0, 900), 1 << 16},
     .fill = door_fill,
+    .paints = door_paints,
+    .paint_count = sizeof door_paints / sizeof door_paints[0],
 };
 
 /* -------------------------------------------------------------------- chain */
@@ -74,10 +82,20 @@ static int chain_fill(const struct scene *scene, struct carom_world *world)
     return parts.result;
 }
 
+#define FOUR_LINKS                                                                                 \
+    {NULL, SCENE_YELLOW}, {NULL, SCENE_DARK}, {NULL, SCENE_YELLOW},                                \
+    {                                                                                              \
+        NULL, SCENE_DARK                                                                           \
+    }
+static const struct carom_body_paint chain_paints[] = {{NULL, SCENE_GREEN}, FOUR_LINKS, FOUR_LINKS,
+                                                       FOUR_LINKS,          FOUR_LINKS, FOUR_LINKS};
+
 const struct scene_game scene_chain = {
     .caps = CAROM_CAPS(CHAIN_LINKS + 1, 64, 64, 256, 0, 1024, CHAIN_LINKS, 0),
-    .camera = {POSITION(1500, -12000, 6000), POSITION(1500, 0, 4200), 1 << 16},
+    .camera = {POSITION(1500, -10000, 5500), POSITION(1400, 0, 4500), 1 << 16},
     .fill = chain_fill,
+    .paints = chain_paints,
+    .paint_count = sizeof chain_paints / sizeof chain_paints[0],
 };
 
 /* ------------------------------------------------------------------ crusher */
@@ -100,21 +118,27 @@ static int crusher_fill(const struct scene *scene, struct carom_world *world)
 }
 
 /* Down for half of the time and up again: what is in the way stops the block, until it goes up. */
-static int crusher_before(struct carom_world *world, int frame)
+static int crusher_before(struct carom_world *world, int frame, uint32_t keys)
 {
     struct carom_pose pose = {.position = POSITION(0, 0, CRUSHER_HIGH_MM)};
     int phase = frame % CRUSHER_FRAMES;
     int down = phase < CRUSHER_FRAMES / 2 ? phase : CRUSHER_FRAMES - phase;
 
+    (void)keys;
     pose.position.c[2] -= CAROM_POSITION_MM(CRUSHER_WAY_MM) * down / (CRUSHER_FRAMES / 2);
     return carom_body_move_to(world, CRUSHER_BLOCK, &pose);
 }
+
+static const struct carom_body_paint crusher_paints[] = {
+    {NULL, SCENE_GREEN}, {NULL, SCENE_DARK}, {NULL, SCENE_WOOD}, {NULL, SCENE_RED}};
 
 const struct scene_game scene_crusher = {
     .caps = CAROM_CAPS(4, 16, 64, 256, 0, 1024, 0, 1),
     .camera = {POSITION(2600, -4200, 2400), POSITION(0, 0, 1000), 1 << 16},
     .fill = crusher_fill,
     .before = crusher_before,
+    .paints = crusher_paints,
+    .paint_count = sizeof crusher_paints / sizeof crusher_paints[0],
 };
 
 /* ----------------------------------------------------------------- conveyor */
@@ -139,9 +163,14 @@ static int conveyor_fill(const struct scene *scene, struct carom_world *world)
     return parts.result < 0 ? parts.result : result;
 }
 
+static const struct carom_body_paint conveyor_paints[] = {{NULL, SCENE_GREEN},  {NULL, SCENE_DARK},
+                                                          {NULL, SCENE_WOOD},   {NULL, SCENE_RED},
+                                                          {NULL, SCENE_YELLOW}, {NULL, SCENE_WOOD}};
+
 const struct scene_game scene_conveyor = {
     .caps = CAROM_CAPS(CONVEYOR_BOXES + 2, 32, 128, 512, 0, 1024, 0, 1),
     .camera = {POSITION(3400, -6200, 3800), POSITION(600, 0, 700), 1 << 16},
     .fill = conveyor_fill,
-    .before = NULL,
+    .paints = conveyor_paints,
+    .paint_count = sizeof conveyor_paints / sizeof conveyor_paints[0],
 };

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * scene_games.h - scenes that are more than bodies: joints, bodies that are led, belts, sensors, rays. Each
- * is a function that puts the bodies and joints into a world and one that goes on before each frame.
+ * is a function that puts the bodies and joints into a world and one that goes on before each frame, by the keys of
+ * a pad. While nobody plays a script presses them, which goes by the world and the number of the frame alone.
  */
 #ifndef CAROM_SCENE_GAMES_H
 #define CAROM_SCENE_GAMES_H
 
 #include "carom_joint.h"
+#include "models.h"
 #include "scene.h"
 
 #define FPS 60
@@ -29,16 +31,51 @@
         }                                                                                          \
     }
 
+#define SCENE_TEXT 40 /* characters of what a game says, the last one 0 */
+
+/* NULL in the place of a function: the game does not do that. */
 struct scene_game {
     struct carom_caps caps;
     struct carom_camera camera;
     /* Add the bodies but the ground, and the joints. Returns >= 0 or an error. */
     int (*fill)(const struct scene *scene, struct carom_world *world);
-    /* What happens before a frame, 1 being the first; NULL: nothing. Returns >= 0 or an error. */
-    int (*before)(struct carom_world *world, int frame);
-    /* Take the camera along; NULL: it stays. */
+    /* The keys that it presses before a frame while nobody plays: a sum of enum port_pad. */
+    uint32_t (*script)(const struct carom_world *world, int frame);
+    /* What happens before a frame, 1 being the first, with these keys held. Returns >= 0 or an error. */
+    int (*before)(struct carom_world *world, int frame, uint32_t keys);
+    /* Take the camera along. */
     void (*look)(const struct carom_world *world, struct carom_camera *camera);
+    /* A line of text over the picture. */
+    void (*say)(const struct carom_world *world, char text[SCENE_TEXT]);
+    /* How bodies look, by their numbers: ramps of scene_paint's palette. NULL: as usual. */
+    const struct carom_body_paint *paints;
+    uint32_t paint_count;
 };
+
+/* In the place of keys: nobody plays, so the script does. */
+#define SCENE_NOBODY UINT32_MAX
+/* What happens before a frame of a game. Returns >= 0 or an error. */
+int scene_game_before(const struct scene_game *game, struct carom_world *world, int frame,
+                      uint32_t keys);
+
+/*
+ * Colours of games, by the ramps of carom_draw_palette that they stand in: a display with a palette of its own
+ * shows those.
+ */
+enum scene_ramp {
+    SCENE_GREEN = CAROM_RAMP_STATIONARY,
+    SCENE_WOOD = CAROM_RAMP_MOVING,
+    SCENE_RED = CAROM_RAMP_STATIONARY_HOT,
+    SCENE_YELLOW = CAROM_RAMP_MOVING_HOT,
+    SCENE_MEADOW = CAROM_RAMP_BLUE,
+    SCENE_DARK = CAROM_RAMP_VIOLET
+};
+/* The squares of the yard, in two greens. */
+extern const uint8_t scene_yard_faces[YARD_FACES];
+/* How a game looks; it is there once, and good until the next call. */
+const struct carom_paint *scene_paint(const struct scene_game *game);
+/* Write a number and some words; returns where the text goes on. */
+char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
     scene_walker;
@@ -58,16 +95,29 @@ enum { CONVEYOR_BELT = SCENE_BODY, CONVEYOR_BOX };
 
 /* The car: each wheel has a hub; the front ones turn about the upright, the rear ones go up and down. */
 #define CAR_WHEELS  4
-#define CAR_PICKUPS 3
+#define CAR_RAMPS   3
+#define CAR_TOWERS  3
+#define CAR_PICKUPS 8
 enum {
     CAR_CHASSIS = SCENE_BODY,
     CAR_HUB,
     CAR_WHEEL = CAR_HUB + CAR_WHEELS,
     CAR_RAMP = CAR_WHEEL + CAR_WHEELS,
-    CAR_PICKUP = CAR_RAMP + 2
+    CAR_TOWER = CAR_RAMP + CAR_RAMPS,
+    CAR_PICKUP = CAR_TOWER + CAR_TOWERS
 };
 enum { CAR_MOUNT, CAR_AXLE = CAR_MOUNT + CAR_WHEELS }; /* joints */
-enum { WALKER = SCENE_BODY, WALKER_STEPS, WALKER_PLATFORM, WALKER_RAMP, WALKER_DOOR };
+enum {
+    WALKER = SCENE_BODY,
+    WALKER_STEPS,
+    WALKER_PLATFORM,
+    WALKER_RAMP,
+    WALKER_DOOR,
+    WALKER_MAT,
+    WALKER_WALL,
+    WALKER_BLOCK = WALKER_WALL + 2,
+    WALKER_CRATE
+};
 
 /* What puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "scene_games.h"
 
+#include <string.h>
+
 int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def *def)
 {
     struct carom_body_def own = *def;
@@ -30,4 +32,65 @@ int scene_joint(struct scene_parts *parts, const struct carom_joint_def *def)
         parts->result = carom_joint_add(parts->world, def);
     }
     return parts->result;
+}
+
+int scene_game_before(const struct scene_game *game, struct carom_world *world, int frame,
+                      uint32_t keys)
+{
+    if (keys == SCENE_NOBODY) {
+        keys = game->script ? game->script(world, frame) : 0;
+    }
+    return game->before ? game->before(world, frame, keys) : CAROM_OK;
+}
+
+/* --------------------------------------------------------------------- pictures */
+
+#define TWO(ramp)   ramp, ramp
+#define GREEN_A     TWO(SCENE_GREEN), TWO(SCENE_MEADOW)
+#define GREEN_B     TWO(SCENE_MEADOW), TWO(SCENE_GREEN)
+#define ROW(square) square, square, square, square, square, square, square, square
+#define ROWS        ROW(GREEN_A), ROW(GREEN_B)
+/* Squares of two faces. */
+const uint8_t scene_yard_faces[YARD_FACES] = {ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS};
+
+const struct carom_paint *scene_paint(const struct scene_game *game)
+{
+    static const uint32_t rgb[] = {
+        [SCENE_GREEN] = 0x6f9f50,  [SCENE_WOOD] = 0xa87848,   [SCENE_RED] = 0xc82828,
+        [SCENE_YELLOW] = 0xf0c020, [SCENE_MEADOW] = 0x548448, [SCENE_DARK] = 0x30343c};
+    static uint32_t palette[256];
+    static struct carom_paint paint = {
+        .palette = palette, .ramps = 8, .hide_interfering = true, .ambient_q30 = CAROM_ONE_Q30 / 8};
+
+    if (palette[255] == 0) {
+        memcpy(palette, carom_draw_palette, sizeof palette);
+        for (uint32_t i = 1; i < sizeof rgb / sizeof rgb[0]; i++) {
+            carom_draw_ramp(&palette[i * CAROM_RAMP_SHADES], rgb[i]);
+        }
+        for (uint32_t i = 0; i < CAROM_RAMP_SHADES; i++) { /* the sky, from blue to nearly white */
+            palette[i] = 0x5890d0 + i * 0x040301;
+        }
+    }
+    paint.bodies = game->paints;
+    paint.body_count = game->paint_count;
+    return &paint;
+}
+
+char *scene_say_number(char *text, int number, const char *words)
+{
+    char digits[12];
+    int count = 0;
+
+    do {
+        digits[count++] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    while (count > 0) {
+        *text++ = digits[--count];
+    }
+    while (*words) {
+        *text++ = *words++;
+    }
+    *text = 0;
+    return text;
 }

@@ -52,6 +52,9 @@ bool scene_play_keys(struct scene_play *play, const struct scene *scene, struct 
         state.position.c[2] < CAROM_POSITION_MM(FALLEN_MM)) {
         return false;
     }
+    if (scene->game) {
+        return true; /* the other keys are its own */
+    }
     if (pressed & PORT_PAD_A) {
         throw_up(scene, world, state.position);
     }

@@ -7,6 +7,10 @@
  *   B       shows or hides the figures
  *   SELECT  faces or lines, which a display that is sent rows cannot show
  *   START   starts again; so does a body that fell off the ground
+ *
+ * In a game of scene_games.h A and the arrows are the game's: the car is steered by left and right, driven by
+ * up and down and lifted by A; who walks turns by left and right, walks by up and down and jumps by A. Until the first key is pressed
+ * they go by themselves.
  */
 #ifndef CAROM_SCENE_PLAY_H
 #define CAROM_SCENE_PLAY_H

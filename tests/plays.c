@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "plays.h"
 
-#define FPS 60
+#include "carom_query.h"
+#include "scene_games.h"
 
 uint64_t play_fold(uint64_t digest, uint64_t number)
 {
@@ -171,6 +172,89 @@ static int ask_pairs(struct carom_world *world, const struct scene *scene, int f
     return result;
 }
 
+static bool is_not(void *context, int body)
+{
+    return body != *(const int *)context;
+}
+
+/* The first hit of a ray that comes down on a body slantwise, and how many faces it goes through. */
+static int ask_ray(const struct carom_world *world, const carom_v3_q32 *at, uint64_t *digest)
+{
+    const struct carom_ray ray = {
+        .from = {{at->c[0] + CAROM_POSITION_MM(700), at->c[1] - CAROM_POSITION_MM(300),
+                  at->c[2] + CAROM_POSITION_MM(4000)}},
+        .way = POSITION(-1400, 600, -8000)};
+    struct carom_ray_hit hit;
+    int met = carom_cast_ray(world, &ray, NULL, &hit);
+    int all = carom_cast_ray_all(world, &ray, NULL, NULL, 0);
+
+    if (met == 1) {
+        *digest = play_fold(*digest, (uint64_t)hit.body << 16 | hit.face);
+        *digest = play_fold(*digest, (uint64_t)hit.t_q30 << 32 | hit.t_rest);
+        *digest = play_fold(*digest, (uint64_t)hit.point.c[2]);
+        *digest = play_fold(*digest, (uint64_t)(int64_t)hit.normal.c[2]);
+    }
+    *digest = play_fold(*digest, (uint64_t)(int64_t)all);
+    return met < 0 ? met : CAROM_OK;
+}
+
+/* How far a body's mesh would go down and turn, and what it would meet; what it overlaps there. */
+static int ask_way(struct carom_world *world, int body, const struct carom_body_state *state,
+                   uint64_t *digest)
+{
+    const struct carom_query_filter others = {.wants = is_not, .context = &body};
+    const struct carom_mesh_way go = {.way = POSITION(90, -70, -900),
+                                      .turn = {{0, CAROM_ANGLE_MRAD(60), CAROM_ANGLE_MRAD(90)}}};
+    struct carom_query_mesh mesh = {carom_body_mesh(world, body), state->position, state->rotation};
+    struct carom_mesh_hit hit;
+    uint16_t bodies[2];
+    int met = carom_cast_mesh(world, &mesh, &go, &others, &hit);
+
+    if (met == 1) {
+        *digest =
+            play_fold(*digest, (uint64_t)hit.body << 32 | (uint64_t)hit.face << 16 | hit.own_face);
+        *digest = play_fold(*digest, (uint64_t)(int64_t)hit.t_q30);
+        *digest = play_fold(*digest, (uint64_t)hit.point.c[0]);
+        *digest = play_fold(*digest, (uint64_t)(int64_t)hit.normal.c[2]);
+    }
+    mesh.position.c[2] -= CAROM_POSITION_MM(200);
+    *digest =
+        play_fold(*digest, (uint64_t)(int64_t)carom_overlap_mesh(world, &mesh, &others, bodies, 2));
+    return met < 0 && met != CAROM_ERR_OVERLAP ? met : CAROM_OK;
+}
+
+/* The points of two bodies that are closest to each other. */
+static int ask_closest(struct carom_world *world, int a, int b, uint64_t *digest)
+{
+    struct carom_closest closest;
+    int result = carom_closest_points(world, a, b, &closest);
+
+    if (result == CAROM_OK) {
+        *digest = play_fold(*digest, (uint64_t)closest.distance_q32);
+        *digest = play_fold(*digest, (uint64_t)closest.face[0] << 16 | closest.face[1]);
+    }
+    return result < 0 && result != CAROM_ERR_OVERLAP ? result : CAROM_OK;
+}
+
+/* One body after the other, from time to time; what was picked up is not there any more. */
+static int ask_queries(struct carom_world *world, const struct scene *scene, int frame,
+                       uint64_t *digest)
+{
+    const int body = SCENE_BODY + frame / 20 % (1 + scene->other_count);
+    struct carom_body_state state;
+    int result;
+
+    if (frame % 20 != 0 || carom_body_get(world, body, &state) < 0 || state.out) {
+        return CAROM_OK;
+    }
+    result = ask_ray(world, &state.position, digest);
+    result = result < 0 ? result : ask_way(world, body, &state, digest);
+    if (result >= 0 && frame % 100 == 0) {
+        result = ask_closest(world, body, body == SCENE_BODY ? SCENE_GROUND : SCENE_BODY, digest);
+    }
+    return result;
+}
+
 #ifndef SCENE_ROM /* such a board has not the scene, nor the memory */
 enum { WIDTH = 80, HEIGHT = 60 };
 
@@ -215,9 +299,38 @@ static int ask_picture(struct carom_world *world, const struct scene *scene, int
     }
     return result;
 }
+
+/* From time to time the ball is thrown at the door again, from either side. */
+static int throw_ball(struct carom_world *world, int bodies, int frame)
+{
+    const int64_t side = frame % 600 == 0 ? -1 : 1;
+    struct carom_body_state state = {.position = POSITION(650, -2000, 1300),
+                                     .velocity = VELOCITY(0, 5000, 1000)};
+
+    (void)bodies;
+    state.position.c[1] *= side;
+    state.velocity.c[1] *= side;
+    return frame % 300 == 0 ? carom_body_set(world, DOOR_BALL, &state) : CAROM_OK;
+}
+
+/* A game goes by its script for a while, then its keys are let go until it is at rest. */
+static int play_car(struct carom_world *world, int bodies, int frame)
+{
+    (void)bodies;
+    return scene_game_before(&scene_car, world, frame, frame % 1000 < 160 ? SCENE_NOBODY : 0);
+}
+
+static int play_walker(struct carom_world *world, int bodies, int frame)
+{
+    (void)bodies;
+    return scene_game_before(&scene_walker, world, frame, SCENE_NOBODY);
+}
 #define DRAWN "box"
 #else
 #define ask_picture NULL
+#define throw_ball  NULL
+#define play_car    NULL
+#define play_walker NULL
 #define DRAWN       "none" /* no scene */
 #endif
 
@@ -253,10 +366,13 @@ const struct play plays[PLAYS] = {
     {"pictures", DRAWN, 0, NULL, throw_often, ask_picture},
     {"pair", "pair", 0, NULL, throw_often, ask_pairs},
     {"meet", "pair", 0, NULL, draw_together, ask_pairs},
-    {"boxes3", "boxes3", 0, NULL, lift_one, NULL},
+    {"boxes3", "boxes3", 0, NULL, lift_one, ask_queries},
     {"pile", "pile", 6, NULL, throw_sometimes, ask_pairs},
     {"sheet", "sheet", 0, NULL, NULL, NULL},
     {"head100", "head100", 0, NULL, throw_often, NULL},
     {"head450", "head450", 0, NULL, throw_sometimes, NULL},
     {"head", "head", 0, NULL, throw_sometimes, NULL},
+    {"door", "door", 2, NULL, throw_ball, ask_queries},
+    {"car", "car", 0, NULL, play_car, ask_queries},
+    {"walker", "walker", 0, NULL, play_walker, ask_queries},
 };

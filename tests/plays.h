@@ -19,7 +19,7 @@ struct play {
     int (*ask)(struct carom_world *world, const struct scene *scene, int frame, uint64_t *digest);
 };
 
-#define PLAYS 12
+#define PLAYS 15
 extern const struct play plays[PLAYS];
 
 /* 64-bit FNV-1a of a number's bytes, the lowest first, from where the last ones left it. */

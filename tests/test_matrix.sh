@@ -57,9 +57,9 @@ stage == CAROM_STAGE_$2) {\n        $3;\n    }\n    frame += stage == CAROM_STAG
 # Two scenes go on from a snapshot, from either machine to the other.
 matrix
 status=$?
-says '2 builds, 12 scenes, 1 hash each' \
-    '8 snapshots gone on with elsewhere' '2 from big to little' '2 from little to big' \
-    '2 from 32 to 64' '2 from 64 to 32' && [ "$status" -eq 0 ]
+says '2 builds, 15 scenes, 1 hash each' \
+    '16 snapshots gone on with elsewhere' '4 from big to little' '4 from little to big' \
+    '4 from 32 to 64' '4 from 64 to 32' && [ "$status" -eq 0 ]
 report $? 'one hash, and snapshots go from one machine to another'
 
 # The box of this scene lies on the ground, so every frame comes to rest.

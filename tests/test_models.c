@@ -15,6 +15,9 @@ static const struct {
     {&door_mesh, DOOR_VERTICES, DOOR_FACES, 90, {900, 50, 2000}},
     {&ramp_mesh, RAMP_VERTICES, RAMP_FACES, 500, {2000, 1000, 500}},    /* half of a box */
     {&steps_mesh, STEPS_VERTICES, STEPS_FACES, 450, {1200, 1000, 600}}, /* 10 of 0.3 x 0.15 */
+    {&jump_mesh, JUMP_VERTICES, JUMP_FACES, 1890, {3000, 3600, 350}},   /* half of a box */
+    {&tower_mesh, TOWER_VERTICES, TOWER_FACES, 7200, {1200, 1200, 5000}},
+    {&mat_mesh, MAT_VERTICES, MAT_FACES, 72, {2400, 1000, 30}},
 };
 
 static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
@@ -39,6 +42,9 @@ static void closed(void)
     check(&link_mesh, LINK_VERTICES, LINK_FACES);
     check(&ramp_mesh, RAMP_VERTICES, RAMP_FACES);
     check(&steps_mesh, STEPS_VERTICES, STEPS_FACES);
+    check(&jump_mesh, JUMP_VERTICES, JUMP_FACES);
+    check(&tower_mesh, TOWER_VERTICES, TOWER_FACES);
+    check(&mat_mesh, MAT_VERTICES, MAT_FACES);
 }
 
 static void sizes(void)

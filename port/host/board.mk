@@ -4,5 +4,5 @@ PORT := port/host/host.c port/linux/console.c
 LIBS := -lpng -lm
 CPU := of the machine that compiles
 DISPLAY := memory 512 x 512
-SCENES := head pile sheet box
+SCENES := head pile sheet box car walker door chain crusher conveyor
 PICTURES := 1

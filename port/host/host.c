@@ -4,10 +4,14 @@
  *
  * With the option pictures=DIRECTORY, port_present writes the framebuffer as
  * DIRECTORY/frame-0001.png and so on.
+ *
+ * With press=N:KEYS,... the pad holds KEYS, a sum of enum port_pad, from the N-th time on that it is asked: a
+ * program asks once a frame.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <png.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 #include "port.h"
@@ -74,5 +78,18 @@ uint32_t port_instructions(uint32_t ticks)
 
 uint32_t port_input(void)
 {
-    return 0;
+    static unsigned long times;
+    const char *entry = port_option("press");
+    uint32_t keys = 0;
+
+    times++;
+    while (entry && *entry) {
+        char *end;
+        unsigned long from = strtoul(entry, &end, 10);
+        unsigned long held = *end == ':' ? strtoul(end + 1, &end, 10) : 0;
+
+        keys = times >= from ? (uint32_t)held : keys;
+        entry = *end == ',' ? end + 1 : NULL;
+    }
+    return keys;
 }
