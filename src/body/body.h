@@ -182,7 +182,7 @@ struct body {
     bool standing;    /* still, and the path, the region and the box are those of where it is */
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
-    /* of a step, 11 bytes and the tag */
+    /* of a step, 11 bytes and the tag; flags of bodies that are asked for most have bytes of their own */
     bool active;      /* region: was to move when its region was set */
     bool free;        /* region: there were no candidates then */
     bool boxed;       /* broad: its box is around its mesh's; else around its sphere */
@@ -191,9 +191,8 @@ struct body {
     bool solving;     /* rest: has a contact in the solve at hand */
     bool unsettled;   /* rest: its island's last solve left places that approach */
     int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
-    bool touched; /* step: was in contact in the last one; energy: its island must not gain any */
-    bool
-        grounded : 1; /* energy: touches a body that stands still; the lowest of an island: any does */
+    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
+    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
     bool rewound : 1;    /* energy: is back where the frame found it */
     bool woke : 1;       /* wake: in the static check at hand */
     bool sensor : 1;     /* world */

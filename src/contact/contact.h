@@ -188,6 +188,7 @@ struct contact_list {
     struct contact_mixed *mixed; /* one for each of those; NULL where no body has an extra */
     uint32_t next_drift;         /* where a free one is looked for first */
     uint8_t restitution_rule, friction_rule; /* enum carom_combine */
+    bool plain; /* a step: no body has an extra, and e and mu of a contact are the smaller ones */
 };
 
 /*

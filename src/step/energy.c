@@ -310,6 +310,32 @@ static void give_back_gravity(struct step *s, uint32_t first)
     }
 }
 
+/* An island that touched something; `surely`: nothing else says whether it gained. */
+static void limit_touched(struct step *s, uint32_t first, bool surely)
+{
+    if (s->cut_short && !s->w->bodies[first].grounded) {
+        give_back_gravity(s, first);
+    }
+    if (surely || may_gain(s, first)) {
+        limit_island(s, first);
+    }
+}
+
+/* An island with joints. Returns whether it is one. */
+static bool limit_joined(struct step *s, uint32_t first)
+{
+    struct body *b = &s->w->bodies[first];
+    struct fix_wide *owed = b->mesh ? s->w->joint_steps->owed2(s, first) : NULL;
+
+    if (owed && b->touched) {
+        limit_touched(s, first, true);
+        *owed = (struct fix_wide){0, 0};
+    } else if (owed) {
+        conserve_island(s, first, owed);
+    }
+    return owed != NULL;
+}
+
 void step_calm_island(struct step *s, uint32_t body, bool hard)
 {
     uint32_t first = s->w->bodies[body].island;
@@ -357,23 +383,9 @@ void step_limit_energy(struct step *s)
         w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        struct fix_wide *owed = NULL;
-
-        if (w->bodies[i].mesh && w->bodies[i].island == i && w->joint_steps) {
-            owed = w->joint_steps->owed2(s, i);
-        }
-        if (owed && !w->bodies[i].touched) {
-            conserve_island(s, i, owed);
-        } else if (w->bodies[i].island == i && w->bodies[i].touched) {
-            if (s->cut_short && !w->bodies[i].grounded) {
-                give_back_gravity(s, i);
-            }
-            if (owed || may_gain(s, i)) {
-                limit_island(s, i);
-            }
-            if (owed) {
-                *owed = (struct fix_wide){0, 0};
-            }
+        if (w->bodies[i].island == i && !(w->joint_steps && limit_joined(s, i)) &&
+            w->bodies[i].touched) {
+            limit_touched(s, i, false);
         }
     }
 }

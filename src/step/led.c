@@ -38,13 +38,17 @@ static void begin_route(struct carom_world *w, uint32_t i)
     b->placed = true;
 }
 
-void step_begin_routes(struct carom_world *w)
+bool step_begin_routes(struct carom_world *w)
 {
+    bool any = false;
+
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (body_travels(&w->bodies[i])) {
             begin_route(w, i);
+            any = true;
         }
     }
+    return any;
 }
 
 /* Slices are rounded, and what a caller asks for is not. */

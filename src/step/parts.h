@@ -38,6 +38,7 @@ struct step {
     int32_t now_q30;    /* of the last event */
     uint32_t active;    /* bodies that are awake */
     bool rare;          /* there are extras, joints or pairs that may pass: most worlds have none */
+    bool led;           /* a kinematic body is led somewhere */
     bool single;        /* regions last no longer than the frame */
     bool pairs_changed; /* interfering faces are others */
     bool broke;         /* finish: some joint */
@@ -246,8 +247,11 @@ void step_calm_island(struct step *s, uint32_t body, bool hard);
 
 /* ---------------------------------------------------------------- kinematic bodies */
 
-/* The routes of kinematic bodies for the frame, where their clocks begin; and the poses they were led to. */
-void step_begin_routes(struct carom_world *w);
+/*
+ * The routes of kinematic bodies for the frame, where their clocks begin; and the poses they were led to.
+ * step_begin_routes returns whether any is led somewhere.
+ */
+bool step_begin_routes(struct carom_world *w);
 void step_end_routes(struct step *s);
 
 /*
