@@ -357,9 +357,6 @@ void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;
 
-    if (s->next->touching_count == 0 && !w->joint_steps) {
-        return; /* nothing was in contact */
-    }
     island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].touched =

@@ -235,7 +235,9 @@ static int finish(struct step *s)
     if (result < 0) {
         return result;
     }
-    step_limit_energy(s);
+    if (s->next->touching_count > 0 || w->joint_steps) {
+        step_limit_energy(s);
+    }
     for (uint32_t i = 0; i < w->body_count; i++) {
         stop_clock(s, i);
         (void)step_retire(s, i);
@@ -249,10 +251,10 @@ static int finish(struct step *s)
     }
     step_drop_warm(s);
     result = step_finish_events(s);
-    if (result == CAROM_OK && w->passing) {
+    if (s->rare && w->passing && result == CAROM_OK) {
         result = step_finish_through(s);
     }
-    if (w->joint_steps && result == CAROM_OK) {
+    if (s->rare && w->joint_steps && result == CAROM_OK) {
         result = w->joint_steps->break_joints(s);
     }
     return result;
@@ -320,9 +322,9 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
     }
     *cut_short = s.cut_short;
     w->now = s.next;
-    w->sense_anew = false;
     world_halt_surfaces(w);
     if (s.rare) {
+        w->sense_anew = false;
         if (s.broke) {
             w->joint_steps->regroup(w);
         }
