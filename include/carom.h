@@ -293,7 +293,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
 #define CAROM_JOINT_BYTES          CAROM_BYTES_(2160, 2180)
 #define CAROM_EXTRA_BYTES          CAROM_BYTES_(208, 216)
 #define CAROM_HIT_BYTES            40
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(744, 984)
+#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(744, 992)
 /* For any entries at all; and for each contact, where there are entries or extras. */
 #define CAROM_HEADS_BYTES 2048
 #define CAROM_DRIFT_BYTES 24

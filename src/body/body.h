@@ -163,8 +163,9 @@ struct body_extra {
     struct body_route route; /* step: of the frame at hand; still once it was blocked */
 };
 
-/* What a body without an extra has. */
-extern const struct body_extra body_no_extra;
+/* A body without an extra has these, and 0 of all else. */
+#define BODY_ROLLING_Q16       CAROM_ROLLING_Q16 /* 1/64 of the radius: solve/roll.c says why */
+#define BODY_GRAVITY_SCALE_Q16 (1 << 16)
 
 /* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
@@ -376,8 +377,10 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
  * The route of a kinematic body to another pose in a frame, by the shorter turn; or with a velocity and a
  * spin of at most 3.2 radians a frame. The centre goes less than 2^7 units.
  */
-void body_route_to(const struct body *b, const struct body_state *s, const carom_v3_q32 *position,
-                   const carom_quat_q30 *rotation, struct body_route *route);
+typedef void body_route_maker(const struct body *b, const struct body_state *s,
+                              const carom_v3_q32 *position, const carom_quat_q30 *rotation,
+                              struct body_route *route);
+extern body_route_maker body_route_to;
 void body_route_on(const struct body *b, const struct body_state *s, const carom_v3_q40 *velocity,
                    const carom_v3_q40 *spin, struct body_route *route);
 /* The path of the next slice of a body's route. */

@@ -99,8 +99,8 @@ FIX_APART static void set_drift(struct contact_list *list, const struct boyse_pa
     bool mixes = false;
 
     contact_drift(pair, &c->key, arm, &drift);
-    if (pair->a->extra || pair->b->extra) {
-        mixes = contact_materials(list, pair, &c->key, &c->normal, &drift, &mixed);
+    if (list->materials && (pair->a->extra || pair->b->extra)) {
+        mixes = list->materials(list, pair, &c->key, &c->normal, &drift, &mixed);
     }
     contact_keep_drift(list, c, &drift, mixes ? &mixed : NULL);
 }

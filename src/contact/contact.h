@@ -180,14 +180,26 @@ struct contact_mixed {
     uint32_t friction_q16;
 };
 
+/*
+ * What the materials of a contact's faces make of it, where a body has an extra: how the surface of b moves along
+ * itself past that of a is added to the drift. Returns whether e and mu are others than the bodies'.
+ */
+struct contact_list;
+typedef bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
+                               const struct candidate *key, const carom_v3_q30 *normal,
+                               carom_v3_q40 *drift, struct contact_mixed *mixed);
+extern contact_materials contact_mix_materials;
+
 /* The contacts of a world at the present poses, sorted by key, with their pool. */
 struct contact_list {
     struct contact *contacts;
     struct pool *pool;
     carom_v3_q40 *drifts; /* as many as there is room for contacts; NULL where no surface moves */
-    struct contact_mixed *mixed; /* one for each of those; NULL where no body has an extra */
-    uint32_t next_drift;         /* where a free one is looked for first */
-    uint8_t restitution_rule, friction_rule; /* enum carom_combine */
+    struct contact_mixed *mixed;  /* one for each of those; NULL where no body has an extra */
+    contact_materials *materials; /* NULL: no body was given any, and nothing of them is linked */
+    uint16_t next_drift;          /* where a free one is looked for first */
+    uint8_t restitution_rule : 2; /* enum carom_combine */
+    uint8_t friction_rule : 2;
     bool plain; /* a step: no body has an extra, and e and mu of a contact are the smaller ones */
 };
 
@@ -284,14 +296,6 @@ static inline const struct contact_mixed *contact_mixed(const struct contact_lis
 
     return mixed && mixed->restitution_q30 >= 0 ? mixed : NULL;
 }
-
-/*
- * What the materials of a contact's faces make of it, where a body has an extra: how the surface of b moves along
- * itself past that of a is added to the drift. Returns whether e and mu are others than the bodies'.
- */
-bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
-                       const struct candidate *key, const carom_v3_q30 *normal, carom_v3_q40 *drift,
-                       struct contact_mixed *mixed);
 
 /*
  * The face of a side of a contact that looks most along N, or against it for a: the face itself, one at the

@@ -26,7 +26,7 @@ static void begin_route(struct carom_world *w, uint32_t i)
     struct body_extra *extra = b->extra;
 
     if (extra->drive.kind == BODY_DRIVE_TO) {
-        body_route_to(b, state, &extra->drive.position, &extra->drive.rotation, &extra->route);
+        w->route_to(b, state, &extra->drive.position, &extra->drive.rotation, &extra->route);
     } else {
         body_route_on(b, state, &extra->drive.velocity, &extra->drive.spin, &extra->route);
     }

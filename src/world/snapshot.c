@@ -563,6 +563,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         w->now = next;
         w->config.gravity = s.gravity;
         w->passing |= next->through_count > 0;
+        w->route_to = body_route_to; /* a body may be on its way to a pose */
         (void)drives_again(&s, w, next, DRIVES_TAKE);
     }
     /* a step relies on what stands still being the same in both states */

@@ -35,12 +35,14 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 616 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
+/* 720 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
 struct carom_world {
-    /* world: what the caller gave, and the arrays in the block; 84 bytes */
+    /* world: what the caller gave, and the arrays in the block; 108 bytes */
     struct carom_config config; /* gravity: the present one */
     uint32_t body_count;        /* places in use, free ones in between included */
-    bool idle; /* the last step found nothing awake, and nothing has changed since */
+    bool idle;       /* the last step found nothing awake, and nothing has changed since */
+    bool passing;    /* pairs may go through each other: there is or was a reason for it */
+    bool sense_anew; /* bodies were added or set: what sleeps may overlap another sensor now */
     PHASE_TAG(scratch_phase)
     struct body *bodies;
     union world_scratch *scratch;
@@ -50,36 +52,32 @@ struct carom_world {
     struct pair *pairs;
     struct pair_work *meetings;
 
-    /* commit: the dynamic state, 44 bytes */
+    /* commit: the dynamic state, 60 bytes */
     struct world_state *now; /* which of the two is current */
     struct world_state states[2];
 
     /* interfere, 144 bytes */
     struct interfere interfere;
 
-    /* contact and solve, 68 bytes */
+    /* contact and solve, 124 bytes */
     struct rest rest;
 
-    /* commit: what happened in the step, and its cost; 108 bytes */
-    uint32_t event_count;
+    /* commit: what happened in the step, and its cost; 104 bytes */
     struct carom_stats stats;
     uint32_t start_tick, mark_tick; /* of the step, and of its last stage mark */
+    uint32_t event_count;
 
     /* all stages: how much of each capacity is used; 144 bytes */
     struct pool pools[CAROM_POOL_COUNT];
 
-    /* world: by the optional capacities; 16 bytes */
+    /* world: by the optional capacities; 28 bytes */
     struct body_extra *extras;
     struct carom_hit *hits; /* contacts: those of the events, in their order */
-
-    /* through: 4 bytes */
-    uint16_t sensors; /* so many bodies are */
-    bool passing;     /* pairs may go through each other: there is or was a reason for it */
-    bool sense_anew;  /* bodies were added or set: what sleeps may overlap another sensor now */
-
+    uint16_t sensors;       /* so many bodies are */
+    uint16_t ignored_count;
     struct pair *ignored; /* pairs whose joints let them ignore each other, in order */
-    uint32_t ignored_count;
     const struct step_joint_calls *joint_steps; /* NULL while there was no joint yet */
+    body_route_maker *route_to; /* NULL while no body was led to a pose; nor is it linked then */
 };
 
 /*
