@@ -220,6 +220,11 @@ inline uint32_t rest_friction_at(const struct rest *r, const struct contact *c)
                          : rest_mixed_friction(r, c);
 }
 
+/* The wanted normal velocity of a contact after the solve. */
+void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30);
+/* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
+bool rest_lies(const struct rest *r, const struct contact *c);
+
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
 /* V.N */

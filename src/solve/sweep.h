@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* sweep - what a sweep and the step beyond it share: changes of impulses. */
+#ifndef CAROM_SRC_SWEEP_H
+#define CAROM_SRC_SWEEP_H
+
+#include "parts.h"
+
+/* A change of impulse, each part below 2^30: along N, across it, and both. */
+struct rest_change {
+    int32_t along, across[3], whole[3];
+};
+
+inline void rest_split_change(struct rest_change *g, const int32_t n[3])
+{
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = g->whole[k] - carom_mul_q30(g->along, n[k]);
+    }
+}
+
+/* Take up a change into the impulses. */
+inline void rest_accumulate(struct contact_work *in, const struct rest_change *g)
+{
+    in->normal_impulse += g->along;
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        in->tangent_impulse[k] += g->across[k];
+    }
+}
+
+/* And into the bodies; returns its largest component, the last place apart. */
+int32_t rest_gain(struct contact *c, const struct rest_change *g);
+
+/*
+ * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
+ * the root of the number of sweeps. When they turn back it begins anew. `age` counts the sweeps that agree.
+ */
+void rest_accelerate(struct rest *r, int *age);
+
+#endif
