@@ -2,9 +2,6 @@
 /* Sweeps over accumulated, clamped impulses. */
 #include "sweep.h"
 
-extern inline void rest_split_change(struct rest_change *g, const int32_t n[3]);
-extern inline void rest_accumulate(struct contact_work *in, const struct rest_change *g);
-
 /* So often sweeps may outgrow their unit; with momentum, and from the impulses that they had. */
 #define OUTGREW_MAX     6
 #define OUTGREW_HURRIED 2
@@ -211,21 +208,6 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct r
         !slide_by(c, rest_clamp((-(int64_t)error * following_q15(c, pushed)) >> 15), slip, g)) {
         slide_by(c, -error, slip, g);
     }
-}
-
-int32_t rest_gain(struct contact *c, const struct rest_change *g)
-{
-    int32_t *gain = contact_gain(c)->gain, most;
-
-    rest_accumulate(c->work, g);
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        /* a contact by itself, of which nobody asks, may wrap */
-        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
-    }
-    rest_push(c, g->whole);
-    most = fix_largest(g->whole);
-    return most > 1 ? most : 0;
 }
 
 /*

@@ -10,7 +10,7 @@ struct rest_change {
     int32_t along, across[3], whole[3];
 };
 
-inline void rest_split_change(struct rest_change *g, const int32_t n[3])
+static inline void rest_split_change(struct rest_change *g, const int32_t n[3])
 {
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -19,7 +19,7 @@ inline void rest_split_change(struct rest_change *g, const int32_t n[3])
 }
 
 /* Take up a change into the impulses. */
-inline void rest_accumulate(struct contact_work *in, const struct rest_change *g)
+static inline void rest_accumulate(struct contact_work *in, const struct rest_change *g)
 {
     in->normal_impulse += g->along;
     FIX_UNROLL
@@ -29,7 +29,20 @@ inline void rest_accumulate(struct contact_work *in, const struct rest_change *g
 }
 
 /* And into the bodies; returns its largest component, the last place apart. */
-int32_t rest_gain(struct contact *c, const struct rest_change *g);
+static inline int32_t rest_gain(struct contact *c, const struct rest_change *g)
+{
+    int32_t *gain = contact_gain(c)->gain, most;
+
+    rest_accumulate(c->work, g);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        /* a contact by itself, of which nobody asks, may wrap */
+        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
+    }
+    rest_push(c, g->whole);
+    most = fix_largest(g->whole);
+    return most > 1 ? most : 0;
+}
 
 /*
  * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
