@@ -34,7 +34,7 @@ struct scene_game {
     struct carom_camera camera;
     /* Add the bodies but the ground, and the joints. Returns >= 0 or an error. */
     int (*fill)(const struct scene *scene, struct carom_world *world);
-    /* What happens before a frame, 1 being the first; NULL: nothing. Returns >= 0 or an error. */
+    /* Prepares a frame, 1 being the first; NULL: nothing to do. Returns >= 0 or an error. */
     int (*before)(struct carom_world *world, int frame);
     /* Take the camera along; NULL: it stays. */
     void (*look)(const struct carom_world *world, struct carom_camera *camera);
@@ -69,7 +69,7 @@ enum {
 enum { CAR_MOUNT, CAR_AXLE = CAR_MOUNT + CAR_WHEELS }; /* joints */
 enum { WALKER = SCENE_BODY, WALKER_STEPS, WALKER_PLATFORM, WALKER_RAMP, WALKER_DOOR };
 
-/* What puts parts into a world: after the first error it adds nothing more. */
+/* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {
     const struct scene *scene;
     struct carom_world *world;

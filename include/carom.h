@@ -93,8 +93,8 @@ struct carom_touch {
  * drops the contact, and then all contacts of the two bodies: until the frame ends they
  * go through each other, whatever they hit. In the next frame it is asked again, though not about places where
  * they are in each other already: who drops a contact drops it until they are apart, or they may stick.
- * What a body with a one_way side is let through it passes until they are apart, asked no more.
- * What sleeps and is touched has woken before it is asked.
+ * A body that a one_way side lets through passes until both are apart, and nobody is asked about it any more.
+ * A body that sleeps and is touched wakes before anybody is asked.
  *
  * It must depend on nothing but its arguments, or the same calls do not give the same bits, and may call no
  * function of this world. A step that fails is taken back and may have asked in vain; one may ask twice.
@@ -128,8 +128,8 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 /*
  * Which bodies may touch. Two of the same group, other than 0, always do when it is positive and never when
- * it is negative. Else each one's category must have a bit of the other one's mask. What may not
- * touch goes through each other and costs nothing. All zero stands for the default: category 1, mask 0xffff, group 0.
+ * it is negative. Else each one's category must have a bit of the other one's mask. Bodies that may
+ * not touch go through each other and cost nothing. All zero stands for the default: category 1, mask 0xffff, group 0.
  */
 struct carom_filter {
     uint16_t category, mask;
@@ -137,10 +137,10 @@ struct carom_filter {
 };
 
 /*
- * A body that is solid from one side: along this axis of its mesh. What comes upon a face, an edge or a
- * vertex of it from there is stopped: the normal at the first hit, from this body to the other, is
- * within about 75 degrees of the axis (its cosine is 1/4 or more). What comes from anywhere else passes, until the two
- * bodies are apart again.
+ * A body that is solid from one side: along this axis of its mesh. It stops a body that comes upon one of
+ * its faces, edges or vertices from there: the normal at the first hit, from this body to the other, is
+ * within about 75 degrees of the axis (its cosine is 1/4 or more). A body that comes from anywhere else passes, until
+ * the two are apart again.
  */
 enum carom_one_way {
     CAROM_BOTH_WAYS, /* solid from all sides */
@@ -223,8 +223,8 @@ int carom_body_count(const struct carom_world *world);
 /*
  * Place a body and wake it, with what touched it and what is near to its new place; a stationary
  * body that is set where it is wakes nothing. asleep and out are ignored. As for carom_body_add, a body that
- * would cross another one is refused unless `overlap` says otherwise. What passes another body goes on to do so, and
- * one that is set where it is, to change how it moves, is never refused. A kinematic body is put there at
+ * would cross another one is refused unless `overlap` says otherwise. A body that passes another one goes on to do so,
+ * and one that is set where it is, to change how it moves, is never refused. A kinematic body is put there at
  * once, and goes on with the velocity and the spin, which is at most pi, in each step from then on, as if it was led.
  */
 int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
@@ -236,9 +236,9 @@ struct carom_pose {
 /*
  * Lead a kinematic body to a pose: it is there at the end of the next step, and stands still after that until
  * it is told to go on. On the way its centre goes straight and it turns evenly about one axis, by the
- * shorter turn. It pushes and carries what it touches. What it would crush stops it for the rest of the step: the step
- * reports CAROM_EVENT_BLOCKED, and carom_body_get says how far it came; it may be led on in the next one.
- * What it would reach is asked by the step. Ends what carom_body_set led it on by.
+ * shorter turn. It pushes and carries what it touches. A body that it would crush stops it for the rest of the step: the
+ * step reports CAROM_EVENT_BLOCKED, and carom_body_get says how far it came; it may be led on in the next one.
+ * The step asks what it would reach. carom_body_set does not lead it on any more.
  *
  *   pose  within +-4096 units; as far as a body may go in a frame: way + radius x turn below 64 units
  *
@@ -461,8 +461,8 @@ int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes
  * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
  * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
  * CAROM_ERR_FORMAT for bytes that are not whole, hold a value that no step could have left, or belong
- * to other bodies or surfaces elsewhere; CAROM_ERR_EXTRAS_FULL; the world is then as it was. What a body is
- * made of is not in it: who changes mass or material has them as they were before it is taken back.
+ * to other bodies or surfaces elsewhere; CAROM_ERR_EXTRAS_FULL; the world is then as it was. Masses
+ * and materials are not in it: who changes them sets them as they were before the snapshot is taken back.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

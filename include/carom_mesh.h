@@ -52,7 +52,7 @@ struct carom_spread {
     int8_t e[3], reach_bits;
 };
 
-/* What follows up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
+/* All up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
 struct carom_edge {
     uint16_t vertex[2];
     uint16_t face[2];       /* face[0] runs with the edge; face[1] is CAROM_NO_FACE at a border */

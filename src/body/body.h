@@ -140,7 +140,7 @@ struct body_route {
     uint8_t slice_bits;
 };
 
-/* What few bodies have: one of the pool of extras. */
+/* Properties that few bodies have: one of the pool of extras. */
 struct body_extra {
     uint16_t body; /* whose it is */
     bool used;

@@ -90,7 +90,7 @@ carom_v3_q32 contact_point(const struct contact *c)
     return point;
 }
 
-/* What surfaces and materials make of a contact. */
+/* Surfaces that move and materials give a contact its drift, and another e and mu. */
 FIX_APART static void set_drift(struct contact_list *list, const struct boyse_pair *pair,
                                 struct contact *c, const carom_v3_q40 *arm)
 {

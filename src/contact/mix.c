@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the materials of two bodies make of a contact. */
+/* Materials of two bodies are mixed at a contact. */
 #include "contact.h"
 
 int32_t contact_mix_restitution(const struct contact_list *list, int32_t a_q30, int32_t b_q30)

@@ -21,7 +21,7 @@ int32_t rest_within(int64_t v, int32_t most)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/* Of the faces at most, where these are of several materials. */
+/* The largest e, and mu, of a body's faces, where these are of several materials. */
 static int32_t most_restitution(const struct body *b)
 {
     return b->extra && b->extra->materials ? b->extra->most_restitution_q30 : b->restitution_q30;

@@ -257,8 +257,8 @@ void rest_part(struct rest *r);
 bool rest_approaches(struct rest *r);
 
 /*
- * What a world calls of its joints: carom_joint_add sets it, so that who has no joints links none of it. All of it is about
- * the island at hand, but for the first two.
+ * The functions that a solve calls for joints. carom_joint_add sets the table, so that who has no joints links none of
+ * them. All but the first two are about the island at hand.
  */
 struct rest_sweep;
 struct joint_calls {
@@ -289,7 +289,7 @@ struct joint_calls {
     void (*book)(struct rest *r);
 };
 
-/* Those of all worlds that have joints. */
+/* The table of every world that has joints. */
 extern const struct joint_calls joint_calls;
 
 static inline bool rest_has_joints(const struct rest *r)

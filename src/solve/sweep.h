@@ -45,8 +45,8 @@ static inline int32_t rest_gain(struct contact *c, const struct rest_change *g)
 }
 
 /*
- * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
- * the root of the number of sweeps. When they turn back it begins anew. `age` counts the sweeps that agree.
+ * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. The root of the
+ * number of sweeps is enough then. When sweeps turn back the momentum begins anew. `age` counts the sweeps that agree.
  */
 void rest_accelerate(struct rest *r, int *age);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a solve asks for at a contact: rest, with its gap kept, or an impact's rebound. */
+/* The velocity that a solve asks for at a contact: rest, with its gap kept, or an impact's rebound. */
 #include "parts.h"
 
 /*
@@ -9,7 +9,7 @@
  * little downhill.
  */
 #define NEAR_DIVISOR 8
-/* What is nearer is opened by 1/64 of a skin a frame, evenly for the same reason ... */
+/* A nearer gap is opened by 1/64 of a skin a frame, evenly for the same reason ... */
 #define LIFT_DIVISOR 64
 /* ... and by a fifth of what is missing to half a skin besides. */
 #define RECOVERY_DIVISOR 5
@@ -30,7 +30,7 @@ static bool may_rest(const struct contact *c, int32_t e_q30)
            (c->side[1].body && c->side[1].body->in_contact);
 }
 
-/* What gravity gives in a frame. */
+/* The velocity that gravity gives in a frame. */
 FIX_APART static int64_t pull_q40(const struct contact *c)
 {
     int64_t largest_q40 = 0;
@@ -88,7 +88,7 @@ FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 
 /*
  * The surface stands still within a step, where it will be at its end: nobody can follow it farther
- * down than that. What would have to counts it as standing still along the normal.
+ * down than that. A body that would have to counts the surface as standing still along the normal.
  */
 static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
 {
@@ -121,7 +121,7 @@ static int64_t lift_q40(const struct contact *c)
     return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
 }
 
-/* What the path takes back of V.N: it must be there to begin with. */
+/* The part of V.N that the path takes back: it must be there to begin with. */
 static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
 {
     int64_t more_q40 =

@@ -257,8 +257,8 @@ static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owe
 }
 
 /*
- * What nothing touched has the energy that it had, and what motors gave it: joints do no work. What it has too much or lacks is
- * put right as far as its motion allows, and owed where that is not far enough: a pendulum that turns back has hardly any.
+ * A group that nothing touched has the energy that it had, and the work of its motors: joints do none. A surplus or a
+ * lack is put right as far as the motion allows. The rest is owed: a pendulum that turns back has hardly any motion.
  */
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {

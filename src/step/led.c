@@ -3,7 +3,7 @@
 #include "../solve/rigid.h"
 #include "parts.h"
 
-/* What goes along may approach something else by this part of a skin a frame. */
+/* An island that goes along may approach something else by this part of a skin a frame. */
 #define NO_APPROACH_DIVISOR 64
 
 static const struct body_route still = {.slice_bits = 0};

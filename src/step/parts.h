@@ -208,7 +208,7 @@ int step_start_contacts(struct step *s);
 
 /* Take the contacts of a pair into the list in the place of those it has there. */
 int step_check_pair(struct step *s, uint32_t number);
-/* Sort out the contacts of the list: each place once, and which pairs touch. Those of members may be new. */
+/* Sort out the contacts of the list: each place once, and which pairs touch. `members`: only contacts of members may be new. */
 int step_settle_contacts(struct step *s, bool members);
 /* Ask the caller about the contacts of the list, or those of members alone. */
 void step_ask_contacts(struct step *s, bool members);
@@ -274,7 +274,7 @@ void step_block_pushers(struct step *s, const struct pair *p);
 /* Say that a kinematic body was blocked by a body, once a frame. */
 void step_note_blocked(struct step *s, uint32_t i, uint32_t by);
 
-/* What lies on a kinematic body that is led somewhere has not been quiet. */
+/* A body that lies on a kinematic one that is led somewhere has not been quiet. */
 void step_keep_awake(struct step *s);
 
 /* ------------------------------------------------------------------------ finish */

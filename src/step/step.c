@@ -66,7 +66,7 @@ static bool is_plain(const struct carom_world *w)
            (list->restitution_rule | list->friction_rule) == CAROM_SMALLER;
 }
 
-/* What the world has that most have not. */
+/* Extras and joints, which most worlds have not. */
 FIX_APART static void begin_rare(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -209,8 +209,7 @@ static void stop_clock(struct step *s, uint32_t i)
 }
 
 /*
- * What a surface of another velocity carries, however slowly, is not at rest: a contact that moves holds off
- * sleep.
+ * A body that a moving surface carries, however slowly, is not at rest: a contact that moves holds off sleep.
  */
 static void keep_carried_awake(struct step *s)
 {

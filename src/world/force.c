@@ -246,7 +246,7 @@ int carom_body_set_force_at(struct carom_world *w, int body, const carom_v3_q40 
     return set_forces(w, result, body, &f);
 }
 
-/* What is wrong with a push of a body. */
+/* CAROM_OK, or the error of a push of a body. */
 static int check_push(const struct carom_world *w, int *body)
 {
     if (!world_find_body(w, body)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What bodies are made of: material and mass, which may change at any time. */
+/* Materials and masses of bodies, which may change at any time. */
 #include "world.h"
 
 #define SURFACE_SPEED_LIMIT 16 /* units a frame, each component of a surface's own velocity */

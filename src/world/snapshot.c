@@ -106,7 +106,7 @@ static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
     return i;
 }
 
-/* What acts on a body beside its force. */
+/* Everything that acts on a body beside its force. */
 static void stream_forces(struct stream *s, const struct carom_world *w, uint32_t i)
 {
     struct carom_forces f = s->loading ? world_forces_read(w, i) : world_forces(&w->bodies[i]);
@@ -219,8 +219,8 @@ static void stream_drive(struct stream *s, struct body_drive *drive)
 }
 
 /*
- * Where kinematic bodies are led. What is read is passed over at first; asked whether it is plausible when all
- * poses are known to be; and taken when that is so.
+ * Where kinematic bodies are led. The bytes are passed over at first; asked whether they are plausible when all poses
+ * are known to be; and taken when that is so.
  */
 enum drives { DRIVES_PASS, DRIVES_ASK, DRIVES_TAKE };
 

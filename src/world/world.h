@@ -35,7 +35,7 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 720 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
+/* 720 bytes where a pointer has 32 bits. Fields that are used most come first: code for them is shorter. */
 struct carom_world {
     /* world: what the caller gave, and the arrays in the block; 108 bytes */
     struct carom_config config; /* gravity: the present one */
@@ -81,7 +81,8 @@ struct carom_world {
 };
 
 /*
- * What a step calls of joints: carom_joint_add sets it, so that who has no joints links none of it.
+ * The functions that a step calls for joints. carom_joint_add sets the table, so that who has no joints links none of
+ * them.
  */
 struct step;
 struct step_joint_calls {
@@ -146,8 +147,8 @@ bool world_rotation_valid(carom_quat_q30 *q);
 /* Whether each coordinate is within BODY_WORLD_LIMIT. */
 bool world_position_in_range(const carom_v3_q32 *p);
 /*
- * What is to act on a body waits in its velocity, its spin and what a solve saves, which are a step's, until
- * all of a snapshot is read.
+ * Forces that are read for a body wait until all of a snapshot is read: in its velocity, its spin and the momentum
+ * that a solve saves, which are a step's.
  */
 struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body);
 void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f);
@@ -189,13 +190,13 @@ void world_set_motion(const struct body *b, struct body_state *s, const carom_v3
 bool world_gravity_in_range(const carom_v3_q40 *gravity);
 
 /*
- * What gravity, so many times, and a force give a body, 0 for one that stands still; false when out of
- * range.
+ * The acceleration of a body by gravity, so many times, and by a force; 0 for one that stands still. False when it is
+ * out of range.
  */
 bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
                         const carom_v3_q40 *gravity, const carom_v3_q40 *force, carom_v3_q40 *out);
 
-/* What acts on a body; on one without an extra but for its force. */
+/* Everything that acts on a body. */
 struct carom_forces world_forces(const struct body *b);
 bool world_forces_need_extra(const struct carom_forces *f);
 /* Give it that; false when it needs an extra and there is none. */
@@ -271,9 +272,9 @@ void world_drop_through(const struct carom_world *w, struct world_state *s, uint
 bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b);
 
 /*
- * What is to become of a body that is about to be in a state (`place` is its number, or UINT32_MAX): if it
- * crosses others that it may touch, by more than about a skin, CAROM_ERR_OVERLAP; it is pushed out; or they are
- * going to pass, for which there is room.
+ * Before a body gets a state (`place` is its number, or UINT32_MAX): where it crosses others that it may touch, by more
+ * than about a skin, there is CAROM_ERR_OVERLAP, or it is pushed out, or they are going to pass and there is room for
+ * these pairs.
  */
 int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
                  struct body_state *state, int overlap);
