@@ -149,7 +149,7 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 /* The i-th moving body as it starts, 0 being scene->body. */
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
 
-/* What happens before a frame, 1 being the first: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
+/* Prepare a frame, 1 being the first: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
 int scene_before(struct scene *scene, struct carom_world *world, int frame);
 /* The same for scene->sheet, all that it needs of a scene. */
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame);

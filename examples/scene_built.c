@@ -58,7 +58,7 @@ static const struct carom_mesh_raw plane_mesh = {
     plane_vertices, plane_faces, 4, 2, 12, CAROM_SURFACE,
 };
 
-/* What small games play on: 64 x 64 units. */
+/* The ground of small games: 64 x 64 units. */
 static const struct carom_mesh_raw flat_mesh = {
     plane_vertices, plane_faces, 4, 2, 9, CAROM_SURFACE,
 };

@@ -41,9 +41,9 @@ struct scene_game {
     int (*fill)(const struct scene *scene, struct carom_world *world);
     /* The keys that it presses before a frame while nobody plays: a sum of enum port_pad. */
     uint32_t (*script)(const struct carom_world *world, int frame);
-    /* What happens before a frame, 1 being the first, with these keys held. Returns >= 0 or an error. */
+    /* Prepares a frame, 1 being the first, with these keys held; NULL: nothing to do. Returns >= 0 or an error. */
     int (*before)(struct carom_world *world, int frame, uint32_t keys);
-    /* Take the camera along. */
+    /* Take the camera along; NULL: it stays. */
     void (*look)(const struct carom_world *world, struct carom_camera *camera);
     /* A line of text over the picture. */
     void (*say)(const struct carom_world *world, char text[SCENE_TEXT]);
@@ -54,7 +54,7 @@ struct scene_game {
 
 /* In the place of keys: nobody plays, so the script does. */
 #define SCENE_NOBODY UINT32_MAX
-/* What happens before a frame of a game. Returns >= 0 or an error. */
+/* Prepare a frame of a game. Returns >= 0 or an error. */
 int scene_game_before(const struct scene_game *game, struct carom_world *world, int frame,
                       uint32_t keys);
 
@@ -119,7 +119,7 @@ enum {
     WALKER_CRATE
 };
 
-/* What puts parts into a world: after the first error it adds nothing more. */
+/* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {
     const struct scene *scene;
     struct carom_world *world;

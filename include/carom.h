@@ -2,12 +2,14 @@
 /*
  * carom.h - real-time impact dynamics of polygon meshes, in integers.
  *
- * The public interface but for drawing, which carom_draw.h has. Rules that hold everywhere:
+ * Worlds, bodies and steps; meshes are in carom_mesh.h and capacities in carom_memory.h, which this includes. More about
+ * bodies is in carom_body.h, joints in carom_joint.h, questions in carom_query.h, drawing in carom_draw.h. Rules that
+ * hold everywhere:
  *
  *   - Right-handed axes. A face's corners run counter-clockwise seen from outside. N, the normal of
- * a contact between bodies a and b, points from b into a.
+ *     a contact between bodies a and b, points from b into a.
  *   - Lengths are in world units; a unit is about the size of a body. Time is counted in frames:
- * one carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
+ *     one carom_world_step is one frame, and velocities are per frame. carom_fix.h has the formats and
  *     macros that convert from SI.
  *   - Functions return a value >= 0 (CAROM_OK, a status or a count) or a negative enum carom_error.
  *     After an error no state has changed and no output is written; after a step that failed, what
@@ -22,7 +24,8 @@
 #ifndef CAROM_H
 #define CAROM_H
 
-#include "carom_fix.h"
+#include "carom_memory.h"
+#include "carom_mesh.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -66,290 +69,6 @@ enum carom_error {
 /* A short English text for any result. Never NULL. */
 const char *carom_result_text(int result);
 
-/* ------------------------------------------------------------------- meshes */
-
-enum carom_mesh_kind {
-    CAROM_SOLID = 0,  /* closed, oriented outwards */
-    CAROM_SURFACE = 1 /* a height field: open, one z over each x, y, solid below; stationary */
-};
-
-/*
- * A mesh as it comes from a converter: triangles over int16 vertices. One quantum, the step of a
- * vertex coordinate, is 2^-quantum_bits world units.
- */
-struct carom_mesh_raw {
-    const int16_t (*vertices)[3]; /* quanta */
-    const uint16_t (*faces)[3];   /* vertex numbers, counter-clockwise from outside */
-    uint32_t vertex_count;        /* 3 .. 65535 */
-    uint32_t face_count;          /* 1 .. 65535 */
-    uint8_t quantum_bits;         /* 7 .. 20 */
-    uint8_t kind;                 /* enum carom_mesh_kind */
-};
-
-/* A symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx, each times 2^-e. */
-struct carom_sym3 {
-    int32_t m[6];
-    int32_t e;
-};
-
-/* Mass properties of a SOLID at density 1. */
-struct carom_mass {
-    int64_t volume_q32;        /* cubic units */
-    carom_v3_q22 centre;       /* of mass, in the mesh's coordinates */
-    struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
-};
-
-/*
- * H with H H^T = J^-1, J being the inertia over the mass: three columns, each times its 2^-e, in 1 / units.
- * No place of the mesh, nor one within some skins of it, has a component of H_k x place above 2^reach_bits.
- */
-struct carom_spread {
-    int32_t column[3][3];
-    int8_t e[3], reach_bits;
-};
-
-/* What follows up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
-struct carom_edge {
-    uint16_t vertex[2];
-    uint16_t face[2];       /* face[0] runs with the edge; face[1] is CAROM_NO_FACE at a border */
-    carom_v3_q30 direction; /* from vertex[0] to vertex[1] */
-    int32_t length_q22;
-};
-#define CAROM_NO_FACE 0xffffu
-
-struct carom_face {
-    carom_v3_q30 normal;
-    int32_t offset_q22; /* of its plane along the normal, from the centre of mass */
-    uint32_t edge[3];   /* edge k joins corners k and k+1 */
-    uint8_t own;        /* bits 0-2: corner k is tested for this face; bits 3-5: edge k is */
-};
-
-/* A cluster of neighbouring faces: what interference detection culls first. */
-#define CAROM_LEAF_FACES    14
-#define CAROM_LEAF_VERTICES 32
-struct carom_leaf {
-    carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */
-    int32_t radius_q22;
-    carom_v3_q30 axis;         /* the mean normal of its faces, and how far it reaches */
-    int32_t low_q22, high_q22; /* along that from the centre of mass */
-    uint32_t owned;            /* its vertices that are tested for one of its faces, a bit each */
-    uint32_t first_face;       /* into leaf_faces */
-    uint32_t first_vertex;     /* into leaf_vertices */
-    uint8_t face_count, vertex_count;
-};
-
-/* An entry of a mesh's own z-lists. */
-struct carom_zref {
-    int16_t z0, z1; /* quanta */
-    uint16_t face;
-};
-
-struct carom_surface;
-
-/* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
-struct carom_mesh {
-    struct carom_mesh_raw raw;
-    struct carom_mass mass;                  /* SOLID; zero for a SURFACE */
-    struct carom_sym3 inverse, inverse_rest; /* their sum: of mass.inertia; zero if it has none */
-    struct carom_spread spread;              /* zero as well then */
-    uint32_t edge_count, leaf_count, zref_count;
-    int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
-    int16_t box[2][3];        /* quanta: lowest and highest corner */
-    int32_t grid_x0, grid_y0; /* quanta: corner of the cell grid over x, y */
-    uint8_t grid_shift, grid_nx, grid_ny; /* cells of 2^shift quanta */
-    const struct carom_face *faces;
-    const struct carom_edge *edges;
-    const uint32_t *ring_start; /* vertex v's edges are ring[ring_start[v] .. ring_start[v+1]) */
-    const uint32_t *ring; /* edge number * 2 + 1 when the edge ends at v, + 0 when it starts */
-    const struct carom_leaf *leaves;
-    const uint16_t *leaf_faces;
-    const uint16_t *leaf_vertices;
-    const uint8_t (*leaf_corners)[3]; /* a leaf face's corners as places in its leaf's vertices */
-    const uint32_t *cell_start; /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
-    const struct carom_zref *zrefs; /* sorted by z1, highest first */
-    struct carom_surface *surface;  /* of carom_surface_build; else NULL */
-};
-
-/*
- * Memory that carom_mesh_build needs for any mesh of so many vertices and faces; a constant
- * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
- */
-#define CAROM_MESH_BYTES(vertices, faces) CAROM_MESH_BYTES_((size_t)(vertices), (size_t)(faces))
-#define CAROM_MESH_BYTES_(v, f)                                                                    \
-    (CAROM_ARRAY_(struct carom_face, f) +                                                          \
-     CAROM_ARRAY_(struct carom_edge, CAROM_MESH_EDGES_(v, f)) + CAROM_ARRAY_(uint32_t, (v) + 1) +  \
-     CAROM_ARRAY_(uint32_t, 2 * CAROM_MESH_EDGES_(v, f)) +                                         \
-     CAROM_ARRAY_(struct carom_leaf, CAROM_MESH_LEAVES_(v, f)) + CAROM_ARRAY_(uint16_t, f) +       \
-     CAROM_ARRAY_(uint16_t, CAROM_MESH_LEAF_VERTICES_(v, f)) + CAROM_ARRAY_(uint8_t, 3 * (f)) +    \
-     CAROM_ARRAY_(uint32_t, CAROM_MESH_CELLS_(f) + 1) +                                            \
-     CAROM_ARRAY_(struct carom_zref, CAROM_MESH_ENTRIES_(f)))
-/* The most there may be of edges, of leaves and their vertices, of cells and of their entries. */
-#define CAROM_MESH_EDGES_(v, f)                                                                    \
-    CAROM_MORE_(3 * (f) / 2, CAROM_LESS_(3 * (f), 3 * (v)-6)) /* v is 3 or more */
-#define CAROM_MESH_LEAVES_(v, f)                                                                   \
-    (((f) + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES * ((v) > CAROM_LEAF_VERTICES ? 2 : 1))
-#define CAROM_MESH_LEAF_VERTICES_(v, f) CAROM_LESS_(3 * (f), (v)*CAROM_MESH_LEAVES_(v, f))
-#define CAROM_MESH_CELLS_(f)            CAROM_LESS_(1024, 2 * (f) / 3 + 1)
-#define CAROM_MESH_ENTRIES_(f)          (8 * (f))
-#define CAROM_ARRAY_(type, n)           (((n) * sizeof(type) + 7) / 8 * 8)
-#define CAROM_LESS_(a, b)               ((a) < (b) ? (a) : (b))
-#define CAROM_MORE_(a, b)               ((a) > (b) ? (a) : (b))
-
-/* The same where the counts are known only at run time. */
-size_t carom_mesh_bytes(uint32_t vertices, uint32_t faces);
-
-/*
- * Whether a raw mesh can be built: what carom_mesh_build would return.
- *   scratch  CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
- */
-int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes);
-
-/*
- * Check and index a mesh: edges, planes, bounds, clusters, mass and its own z-lists.
- *
- *   mesh   out  ready to use; refers to raw's arrays and to mem
- *   raw    in   its arrays must outlive the mesh
- *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
- *
- * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for kind or quantum_bits; CAROM_ERR_MEMORY;
- *          CAROM_ERR_RANGE for a box with a side over 256 or a diagonal over 384 units, or one that
- *          winds around itself so often that its volume does not fit;
- *          or the first CAROM_ERR_MESH_... that holds. mesh is written only for CAROM_OK.
- */
-int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
-                     size_t bytes);
-
-/*
- * A SURFACE whose vertices may be moved while it is in a world, by carom_surface_move. As
- * carom_mesh_build, but
- *
- *   mesh   must stay where it is; for one body of one world
- *   raw    its vertices are copied and not needed any more; its faces must outlive the mesh
- *   mem    CAROM_SURFACE_BYTES(vertices, faces) bytes of RAM: what is built and two copies of the
- *          vertices live in it
- *
- * Returns  CAROM_ERR_ARGUMENT for a SOLID as well.
- */
-#define CAROM_SURFACE_BYTES(vertices, faces)                                                       \
-    (CAROM_MESH_BYTES(vertices, faces) + ((size_t)12 * (size_t)(vertices) + 80 + 7) / 8 * 8)
-int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
-                        size_t bytes);
-
-/*
- * Read a mesh from the binary blob that the mesh converter writes (layout: SPEC.md).
- *   mem  receives vertices and faces: CAROM_BLOB_BYTES(vertices, faces) bytes, aligned to 8
- * Returns CAROM_OK; CAROM_ERR_FORMAT for a blob that is truncated or altered; CAROM_ERR_MEMORY.
- */
-#define CAROM_BLOB_BYTES(vertices, faces)                                                          \
-    ((size_t)6 * (size_t)(vertices) + (size_t)6 * (size_t)(faces) + 16)
-int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_bytes, void *mem,
-                    size_t bytes);
-
-/* ------------------------------------------------------- a world's memory */
-
-/*
- * Capacities of a world, in this order. One list gives the block's size, the initialiser, the names
- * and the usage report.
- *
- *   bodies      moving and stationary
- *   pairs       of bodies near each other in one frame; of bodies that touch, asleep or not, or that
- *               overlap a sensor or pass each other
- *   contacts    places within the margin, neighbouring ones merged
- *   faces       interfering faces of one frame
- *   entries     of z-lists made within a step, for surfaces that move under the bodies over them;
- *               working; none when all meshes are rigid: these bring theirs
- *   candidates  vertex/face and edge/edge pairs kept; working: fewer cost time, not results
- *
- * The rest may be left out, which makes them 0:
- *
- *   joints      between bodies, or a body and the world
- *   extras      bodies with more than a mesh, a mass, e and mu: filters' callbacks, materials, torque, ...
- *   hits        impacts of a frame whose place, normal and faces are noted
- *
- *   X(name, bytes for each, smallest allowed, largest allowed)
- */
-#define CAROM_POOLS(X)                                                                             \
-    X(bodies, CAROM_BODY_BYTES, 1, 4095)                                                           \
-    X(pairs, CAROM_PAIR_BYTES, 1, 65535)                                                           \
-    X(contacts, CAROM_CONTACT_BYTES, 1, 4096)                                                      \
-    X(faces, CAROM_FACE_BYTES, 1, 65535)                                                           \
-    X(entries, CAROM_ENTRY_BYTES, 0, 65535)                                                        \
-    X(candidates, CAROM_CANDIDATE_BYTES, 1, 65535)                                                 \
-    X(joints, CAROM_JOINT_BYTES, 0, 4095)                                                          \
-    X(extras, CAROM_EXTRA_BYTES, 0, 4095)                                                          \
-    X(hits, CAROM_HIT_BYTES, 0, 65535)
-
-/*
- * Bytes for one of each, its share of the lists that follow it included, where a pointer has 32 bits
- * or fewer, and 64; held by assertions.
- */
-#define CAROM_BYTES_(narrow, wide) (sizeof(void *) > 4 ? (wide) : (narrow))
-#define CAROM_BODY_BYTES           CAROM_BYTES_(816, 824)
-#define CAROM_PAIR_BYTES           CAROM_BYTES_(64, 64)
-#define CAROM_CONTACT_BYTES        CAROM_BYTES_(224, 248)
-#define CAROM_FACE_BYTES           4
-#define CAROM_ENTRY_BYTES          8
-#define CAROM_CANDIDATE_BYTES      12
-#define CAROM_JOINT_BYTES          CAROM_BYTES_(2160, 2180)
-#define CAROM_EXTRA_BYTES          CAROM_BYTES_(208, 216)
-#define CAROM_HIT_BYTES            40
-#define CAROM_WORLD_FIXED_BYTES    CAROM_BYTES_(744, 984)
-/* For any entries at all; and for each contact, where there are entries or extras. */
-#define CAROM_HEADS_BYTES 2048
-#define CAROM_DRIFT_BYTES 24
-#define CAROM_MIXED_BYTES 8 /* for extras alone */
-/*
- * Stages work in this room one after the other. A search takes so much, beside the events that the end of a
- * step finds; a solve takes so much for each contact, and for as many pairs as have one.
- */
-#define CAROM_SCRATCH_BYTES CAROM_BYTES_(1712, 1744)
-#define CAROM_WORK_BYTES    CAROM_BYTES_(200, 208)
-#define CAROM_ROLL_BYTES    64
-
-enum carom_pool {
-#define CAROM_POOL_NAME(name, bytes, low, high) CAROM_POOL_##name,
-    CAROM_POOLS(CAROM_POOL_NAME)
-#undef CAROM_POOL_NAME
-        CAROM_POOL_COUNT
-};
-
-struct carom_caps {
-    uint32_t bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits;
-};
-/* An initialiser of them from six to nine numbers in that order. */
-#define CAROM_CAPS(...) CAROM_CAPS_(__VA_ARGS__, 0, 0, 0, 0)
-#define CAROM_CAPS_(b, p, c, f, e, n, j, x, h, ...)                                                \
-    {                                                                                              \
-        b, p, c, f, e, n, j, x, h                                                                  \
-    }
-
-/*
- * Bytes of the block of a world, a multiple of 8. The arguments are six to nine capacities in the order above, so
- *
- *   #define CAPS 2, 1, 64, 512, 256, 1024
- *   static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
- *   struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
- */
-#define CAROM_WORLD_BYTES(...) CAROM_WORLD_BYTES_(__VA_ARGS__, 0, 0, 0, 0)
-#define CAROM_WORLD_BYTES_(b, p, c, f, e, n, j, x, h, ...)                                         \
-    (((size_t)CAROM_WORLD_FIXED_BYTES + (size_t)(b)*CAROM_BODY_BYTES +                             \
-      (size_t)(p)*CAROM_PAIR_BYTES + (size_t)(c)*CAROM_CONTACT_BYTES +                             \
-      (size_t)(f)*CAROM_FACE_BYTES + (size_t)(e)*CAROM_ENTRY_BYTES +                               \
-      ((e) > 0 ? CAROM_HEADS_BYTES : 0) + ((e) + (x) > 0 ? (size_t)(c)*CAROM_DRIFT_BYTES : 0) +    \
-      ((x) > 0 ? (size_t)(c)*CAROM_MIXED_BYTES : 0) + (size_t)(n)*CAROM_CANDIDATE_BYTES +          \
-      (size_t)(j)*CAROM_JOINT_BYTES + (size_t)(x)*CAROM_EXTRA_BYTES +                              \
-      (size_t)(h)*CAROM_HIT_BYTES +                                                                \
-      CAROM_MORE_(CAROM_SOLVE_BYTES_((size_t)(p), (size_t)(c)),                                    \
-                  CAROM_FOUND_BYTES_((size_t)(b), (size_t)(p), (size_t)(j)) +                      \
-                      CAROM_SCRATCH_BYTES) +                                                       \
-      7) /                                                                                         \
-     8 * 8)
-#define CAROM_FOUND_BYTES_(b, p, j) ((2 * (p) + (b) + (j)) * sizeof(struct carom_event))
-#define CAROM_SOLVE_BYTES_(p, c)    ((c)*CAROM_WORK_BYTES + CAROM_LESS_(p, c) * CAROM_ROLL_BYTES)
-
-/* The same where the capacities are known only at run time; 0 for NULL. */
-size_t carom_world_bytes(const struct carom_caps *caps);
-
 /* ------------------------------------------------------------------- worlds */
 
 struct carom_world; /* lives at the start of the caller's block */
@@ -374,8 +93,8 @@ struct carom_touch {
  * drops the contact, and then all contacts of the two bodies: until the frame ends they
  * go through each other, whatever they hit. In the next frame it is asked again, though not about places where
  * they are in each other already: who drops a contact drops it until they are apart, or they may stick.
- * What a body with a one_way side is let through it passes until they are apart, asked no more.
- * What sleeps and is touched has woken before it is asked.
+ * A body that a one_way side lets through passes until both are apart, and nobody is asked about it any more.
+ * A body that sleeps and is touched wakes before anybody is asked.
  *
  * It must depend on nothing but its arguments, or the same calls do not give the same bits, and may call no
  * function of this world. A step that fails is taken back and may have asked in vain; one may ask twice.
@@ -409,8 +128,8 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 /*
  * Which bodies may touch. Two of the same group, other than 0, always do when it is positive and never when
- * it is negative. Else each one's category must have a bit of the other one's mask. What may not
- * touch goes through each other and costs nothing. All zero stands for the default: category 1, mask 0xffff, group 0.
+ * it is negative. Else each one's category must have a bit of the other one's mask. Bodies that may
+ * not touch go through each other and cost nothing. All zero stands for the default: category 1, mask 0xffff, group 0.
  */
 struct carom_filter {
     uint16_t category, mask;
@@ -418,10 +137,10 @@ struct carom_filter {
 };
 
 /*
- * A body that is solid from one side: along this axis of its mesh. What comes upon a face, an edge or a
- * vertex of it from there is stopped: the normal at the first hit, from this body to the other, is
- * within about 75 degrees of the axis (its cosine is 1/4 or more). What comes from anywhere else passes, until the two
- * bodies are apart again.
+ * A body that is solid from one side: along this axis of its mesh. It stops a body that comes upon one of
+ * its faces, edges or vertices from there: the normal at the first hit, from this body to the other, is
+ * within about 75 degrees of the axis (its cosine is 1/4 or more). A body that comes from anywhere else passes, until
+ * the two are apart again.
  */
 enum carom_one_way {
     CAROM_BOTH_WAYS, /* solid from all sides */
@@ -504,8 +223,8 @@ int carom_body_count(const struct carom_world *world);
 /*
  * Place a body and wake it, with what touched it and what is near to its new place; a stationary
  * body that is set where it is wakes nothing. asleep and out are ignored. As for carom_body_add, a body that
- * would cross another one is refused unless `overlap` says otherwise. What passes another body goes on to do so, and
- * one that is set where it is, to change how it moves, is never refused. A kinematic body is put there at
+ * would cross another one is refused unless `overlap` says otherwise. A body that passes another one goes on to do so,
+ * and one that is set where it is, to change how it moves, is never refused. A kinematic body is put there at
  * once, and goes on with the velocity and the spin, which is at most pi, in each step from then on, as if it was led.
  */
 int carom_body_set(struct carom_world *world, int body, const struct carom_body_state *state);
@@ -517,9 +236,9 @@ struct carom_pose {
 /*
  * Lead a kinematic body to a pose: it is there at the end of the next step, and stands still after that until
  * it is told to go on. On the way its centre goes straight and it turns evenly about one axis, by the
- * shorter turn. It pushes and carries what it touches. What it would crush stops it for the rest of the step: the step
- * reports CAROM_EVENT_BLOCKED, and carom_body_get says how far it came; it may be led on in the next one.
- * What it would reach is asked by the step. Ends what carom_body_set led it on by.
+ * shorter turn. It pushes and carries what it touches. A body that it would crush stops it for the rest of the step: the
+ * step reports CAROM_EVENT_BLOCKED, and carom_body_get says how far it came; it may be led on in the next one.
+ * The step asks what it would reach. carom_body_set does not lead it on any more.
  *
  *   pose  within +-4096 units; as far as a body may go in a frame: way + radius x turn below 64 units
  *
@@ -742,8 +461,8 @@ int carom_snapshot_save(const struct carom_world *world, void *out, size_t bytes
  * Take a snapshot back into a world that holds the same bodies, surfaces that move being where they
  * were (carom_surface_set; carom_surface_move, too, when it was taken between one and the step).
  * CAROM_ERR_FORMAT for bytes that are not whole, hold a value that no step could have left, or belong
- * to other bodies or surfaces elsewhere; CAROM_ERR_EXTRAS_FULL; the world is then as it was. What a body is
- * made of is not in it: who changes mass or material has them as they were before it is taken back.
+ * to other bodies or surfaces elsewhere; CAROM_ERR_EXTRAS_FULL; the world is then as it was. Masses
+ * and materials are not in it: who changes them sets them as they were before the snapshot is taken back.
  */
 int carom_snapshot_load(struct carom_world *world, const void *in, size_t bytes);
 

@@ -3,8 +3,8 @@
  * carom_body.h - what can be asked of a body and done to it beyond carom.h: who it is, where its points
  * are, what it is made of, and what acts on it.
  *
- * The rules at the top of carom.h hold. A body is named by its number or by its id. What few bodies have takes
- * one of the world's extras, the first time that it is set: CAROM_ERR_EXTRAS_FULL when there is none left. The
+ * The rules at the top of carom.h hold. A body is named by its number or by its id. A property that few bodies have
+ * takes one of the world's extras, the first time that it is set: CAROM_ERR_EXTRAS_FULL when there is none left. The
  * extra is the body's until carom_body_remove.
  */
 #ifndef CAROM_BODY_H
@@ -72,18 +72,18 @@ int carom_body_velocity_at(const struct carom_world *world, int body, const caro
 
 #define CAROM_ROLLING_Q16 (1 << 10) /* 1/64: a body's that is not told */
 
-/* What a surface is made of. */
+/* The material of a surface. */
 struct carom_material {
     int32_t restitution_q30; /* e, 0 .. 1 */
     uint32_t friction_q16;   /* mu, 0 .. 4 */
     /*
-     * Rolling friction, 0 .. 1: the normal force acts so much of the radius off. Of a pair it is
+     * Rolling friction, 0 .. 1: the normal force acts so much of the radius off. A pair has
      * 64 times the product of both, so that CAROM_ROLLING_Q16 leaves the other as it is; at most 1.
      */
     uint32_t rolling_q16;
     /*
      * The surface moves along itself by this while the body stays where it is, as a conveyor does:
-     * units / frame in the mesh's axes, each component within +-16. What points out of a face does nothing.
+     * units / frame in the mesh's axes, each component within +-16. The part that points out of a face does nothing.
      */
     carom_v3_q40 surface_velocity;
 };
@@ -136,7 +136,7 @@ int carom_body_mass(const struct carom_world *world, int body, uint32_t *mass_q2
 
 /* ---------------------------------------------------------- forces, impulses */
 
-/* What acts on a body until it is changed: a part of the state, hashed and saved. */
+/* Everything that acts on a body until it is changed: a part of the state, hashed and saved. */
 struct carom_forces {
     carom_v3_q40 force;          /* through the centre of mass; carom_body_set_force */
     carom_v3_q40 torque;         /* about it, world axes: mass x units^2 / frame^2 */
@@ -144,7 +144,7 @@ struct carom_forces {
     int32_t linear_damping_q30;  /* the part of its momentum that a frame takes, 0 .. 1 */
     int32_t angular_damping_q30; /* and of its angular momentum */
 };
-/* What acts on a body now. */
+/* Everything that acts on a body now. */
 int carom_body_forces(const struct carom_world *world, int body, struct carom_forces *forces);
 
 /*

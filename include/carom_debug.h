@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* What is handed over, in this order; a sum of these. */
+/* Kinds of things that are handed over, in this order; a sum of these. */
 enum carom_debug_flag {
     CAROM_DEBUG_FACES = 1, /* triangles: the faces of the bodies */
     CAROM_DEBUG_INTERFERING =

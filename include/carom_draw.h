@@ -89,7 +89,7 @@ struct carom_paint_line {
 };
 
 /*
- * What a picture shows otherwise than usual; all zero changes nothing. It and all that it points to are the
+ * The things that a picture shows otherwise than usual; all zero changes nothing. It and all that it points to are the
  * caller's, and only read.
  */
 struct carom_paint {
@@ -261,7 +261,7 @@ struct carom_text {
 
 /*
  * Write over a picture that is drawn. Characters are ASCII from 32 to 126; 10 begins a new line under the first
- * cell; any other is a box. What is outside of the picture is cut off.
+ * cell; any other is a box. Pixels outside of the picture are cut off.
  *
  *   touched  grows to hold the pixels that may have been written; or NULL
  *

@@ -110,6 +110,27 @@ bool boxes_same(const struct carom_body_state *a, const struct carom_body_state 
            memcmp(&a->spin, &b->spin, sizeof a->spin) == 0 && a->asleep == b->asleep;
 }
 
+void boxes_step_alike(struct carom_world *world, int body, struct carom_world *alone, int other)
+{
+    struct carom_body_state one, two;
+
+    boxes_step(world, 1);
+    boxes_step(alone, 1);
+    one = boxes_state(world, body);
+    two = boxes_state(alone, other);
+    CHECK(boxes_same(&one, &two));
+}
+
+void boxes_held_down(struct carom_world *world, int speed)
+{
+    struct carom_body_state state = boxes_state(world, 1);
+
+    state.velocity = (carom_v3_q40){{0, 0, BOXES_Q40(speed)}};
+    CHECK_EQ(carom_body_set(world, 1, &state), CAROM_OK);
+    boxes_step(world, 30);
+    CHECK(boxes_state(world, 1).position.c[2] < BOXES_Q32(-128));
+}
+
 uint32_t boxes_pairs(const struct carom_world *world)
 {
     struct carom_usage usage[CAROM_POOL_COUNT];

@@ -37,6 +37,10 @@ int boxes_events(const struct carom_world *world, int kind, int a, int b);
 bool boxes_overlap(struct carom_world *world, int a, int b);
 /* Whether pose and motion of two states are the same, bit for bit. */
 bool boxes_same(const struct carom_body_state *a, const struct carom_body_state *b);
+/* A step of two worlds, after which a body of the one moves as another body does, alone in the other. */
+void boxes_step_alike(struct carom_world *world, int body, struct carom_world *alone, int other);
+/* Throw body 1 up against a plate of +-128 in the middle, by BOXES_Q40(speed) a frame: it stays below. */
+void boxes_held_down(struct carom_world *world, int speed);
 /* Pairs in use. */
 uint32_t boxes_pairs(const struct carom_world *world);
 

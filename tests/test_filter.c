@@ -94,13 +94,7 @@ static void check_through(struct carom_filter plate, struct carom_filter box)
     struct carom_world *w = make(0, plate, box), *alone = make_free(1);
 
     for (int frame = 0; frame < 40; frame++) {
-        struct carom_body_state one, other;
-
-        boxes_step(w, 1);
-        boxes_step(alone, 1);
-        one = boxes_state(w, 1);
-        other = boxes_state(alone, 0);
-        CHECK(boxes_same(&one, &other));
+        boxes_step_alike(w, 1, alone, 0);
         CHECK_EQ(boxes_pairs(w), 0);
     }
     CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-1024));
@@ -156,8 +150,6 @@ static void test_change(void)
         CHECK_EQ(carom_body_set(alone, 0, &state), CAROM_OK);
     }
     for (int frame = 0; frame < 40; frame++) {
-        struct carom_body_state one, other;
-
         if (frame == 13) {
             CHECK(boxes_overlap(w, 1, 0));
             CHECK_EQ(carom_body_set_filter(w, 1, &on), CAROM_OK);
@@ -171,23 +163,12 @@ static void test_change(void)
             boxes_step(w, 2);
             CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
         }
-        boxes_step(w, 1);
-        boxes_step(alone, 1);
-        one = boxes_state(w, 1);
-        other = boxes_state(alone, 0);
-        CHECK(boxes_same(&one, &other));
+        boxes_step_alike(w, 1, alone, 0);
         below += frame > 13 && !boxes_overlap(w, 1, 0);
     }
     CHECK(below > 5);
     /* it is out: from below it hits */
-    {
-        struct carom_body_state state = boxes_state(w, 1);
-
-        state.velocity = (carom_v3_q40){{0, 0, BOXES_Q40(200)}};
-        CHECK_EQ(carom_body_set(w, 1, &state), CAROM_OK);
-        boxes_step(w, 30);
-        CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-128));
-    }
+    boxes_held_down(w, 200);
 }
 
 /* Filters are in a snapshot, and it gives them back. */

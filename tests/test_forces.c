@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "num/fnv.h"
+#include "one_world.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
@@ -17,7 +18,6 @@
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static uint8_t saved[1024], changed[1024];
 static struct shape box, floor_shape;
-static struct carom_world *world;
 static struct carom_body_def def;
 static struct carom_config config;
 
@@ -48,23 +48,6 @@ static const struct body_state *state(int body)
 {
     return &world_now(world)->bodies[body];
 }
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
-}
-
-/* A call is refused and leaves the state alone. */
-#define REFUSE(call, error)                                                                        \
-    do {                                                                                           \
-        const uint64_t hash = carom_world_hash(world);                                             \
-        CHECK_EQ(call, error);                                                                     \
-        CHECK(carom_world_hash(world) == hash);                                                    \
-    } while (0)
 
 /* ------------------------------------------------------------------- torque */
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "carom_body.h"
+#include "one_world.h"
 #include "port.h"
 #include "scene_games.h"
 #include "shapes.h"
@@ -22,7 +23,6 @@
 
 static _Alignas(8) uint8_t block[128 * 1024];
 static struct scene scene;
-static struct carom_world *world;
 static int frame;
 
 static void begin(const char *name)
@@ -39,15 +39,6 @@ static void step(void)
     frame++;
     CHECK(scene_before(&scene, world, frame) >= 0);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
 }
 
 static struct carom_joint_state joint_of(int joint)

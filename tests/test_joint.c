@@ -4,6 +4,7 @@
 
 #include "carom_body.h"
 #include "carom_joint.h"
+#include "one_world.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
@@ -17,7 +18,6 @@
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], copy[CAROM_WORLD_BYTES(CAPS)];
 static uint8_t snapshot[2048];
 static struct shape box;
-static struct carom_world *world;
 static struct carom_body_def def;
 
 /* Sides of 1, 1/2 and 1/4. */
@@ -68,15 +68,6 @@ static struct carom_joint_state joint_of(int number)
 
     memset(&s, 0, sizeof s);
     CHECK_EQ(carom_joint_get(world, number, &s), CAROM_OK);
-    return s;
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
     return s;
 }
 
@@ -521,7 +512,7 @@ static void test_refuses(void)
     CHECK_EQ(add(4 * UNIT, 0, 0), 1);
     good = joint(CAROM_JOINT_HINGE, body, CAROM_WORLD, 0, 0, 0);
     memcpy(copy, block, sizeof block);
-#define REFUSE(change, error)                                                                      \
+#define REFUSE_DEF(change, error)                                                                  \
     do {                                                                                           \
         j = good;                                                                                  \
         change;                                                                                    \
@@ -529,21 +520,21 @@ static void test_refuses(void)
     } while (0)
     CHECK_EQ(carom_joint_add(NULL, &good), CAROM_ERR_NULL);
     CHECK_EQ(carom_joint_add(world, NULL), CAROM_ERR_NULL);
-    REFUSE(j.a = 7, CAROM_ERR_BODY);
-    REFUSE(j.b = 7, CAROM_ERR_BODY);
-    REFUSE(j.a = CAROM_WORLD, CAROM_ERR_BODY);
-    REFUSE(j.a = 1, CAROM_ERR_ARGUMENT);
-    REFUSE(j.b = body, CAROM_ERR_ARGUMENT);
-    REFUSE(j.kind = 5, CAROM_ERR_ARGUMENT);
-    REFUSE(j.axis.c[2] = CAROM_ONE_Q30 / 2, CAROM_ERR_ARGUMENT);
-    REFUSE(j.anchor.c[0] = 100 * UNIT, CAROM_ERR_RANGE);
-    REFUSE(j.most_impulse_q40 = -1, CAROM_ERR_RANGE);
-    REFUSE(j.drive.limited = true; j.drive.lower_q32 = 1, CAROM_ERR_RANGE);
-    REFUSE(j.drive.limited = true; j.drive.upper_q32 = 4 * UNIT, CAROM_ERR_RANGE);
-    REFUSE(j.drive.motor = j.drive.spring = true, CAROM_ERR_ARGUMENT);
-    REFUSE(j.kind = CAROM_JOINT_BALL; j.drive.limited = true, CAROM_ERR_ARGUMENT);
-    REFUSE(j.kind = CAROM_JOINT_DISTANCE; j.drive.motor = true, CAROM_ERR_ARGUMENT);
-    REFUSE(j.drive.spring = true; j.drive.stiffness_q40 = -1, CAROM_ERR_RANGE);
+    REFUSE_DEF(j.a = 7, CAROM_ERR_BODY);
+    REFUSE_DEF(j.b = 7, CAROM_ERR_BODY);
+    REFUSE_DEF(j.a = CAROM_WORLD, CAROM_ERR_BODY);
+    REFUSE_DEF(j.a = 1, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.b = body, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.kind = 5, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.axis.c[2] = CAROM_ONE_Q30 / 2, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.anchor.c[0] = 100 * UNIT, CAROM_ERR_RANGE);
+    REFUSE_DEF(j.most_impulse_q40 = -1, CAROM_ERR_RANGE);
+    REFUSE_DEF(j.drive.limited = true; j.drive.lower_q32 = 1, CAROM_ERR_RANGE);
+    REFUSE_DEF(j.drive.limited = true; j.drive.upper_q32 = 4 * UNIT, CAROM_ERR_RANGE);
+    REFUSE_DEF(j.drive.motor = j.drive.spring = true, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.kind = CAROM_JOINT_BALL; j.drive.limited = true, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.kind = CAROM_JOINT_DISTANCE; j.drive.motor = true, CAROM_ERR_ARGUMENT);
+    REFUSE_DEF(j.drive.spring = true; j.drive.stiffness_q40 = -1, CAROM_ERR_RANGE);
     CHECK(memcmp(copy, block, sizeof block) == 0);
     for (int i = 0; i < 3; i++) {
         CHECK_EQ(carom_joint_add(world, &good), i);

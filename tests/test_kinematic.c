@@ -7,6 +7,7 @@
 
 #include "carom_body.h"
 #include "num/fnv.h"
+#include "one_world.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
@@ -18,7 +19,6 @@
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static uint8_t saved[1024];
 static struct shape box, plate;
-static struct carom_world *world;
 static struct carom_body_def def;
 static const double pi = 3.14159265358979;
 
@@ -44,15 +44,6 @@ static int add(const struct shape *s, enum kind kind, double x, double z)
     def.position.c[0] = real_round(x * (double)UNIT);
     def.position.c[2] = real_round(z * (double)UNIT);
     return carom_body_add(world, &def);
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
 }
 
 static double at(int body, int k)
@@ -233,13 +224,6 @@ static void test_goes_on(void)
     CHECK_EQ(state_of(led).position.c[0], UNIT);
     CHECK_EQ(state_of(led).position.c[1], UNIT);
 }
-
-#define REFUSE(call, error)                                                                        \
-    do {                                                                                           \
-        const uint64_t hash = carom_world_hash(world);                                             \
-        CHECK_EQ(call, error);                                                                     \
-        CHECK(carom_world_hash(world) == hash);                                                    \
-    } while (0)
 
 static void test_refused(void)
 {

@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "one_world.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
@@ -17,7 +18,6 @@
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static uint8_t saved[4096];
 static struct shape box, floor_shape, top;
-static struct carom_world *world;
 static struct carom_config config;
 static struct carom_body_def def, ground;
 
@@ -45,20 +45,23 @@ static void setup(int boxes)
     }
 }
 
-static struct carom_body_state state_of(int body)
+static void fall_asleep(void)
 {
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
+    for (int n = 0; n < 200 && !state_of(1).asleep; n++) {
+        steps(1);
+    }
+    CHECK(state_of(1).asleep);
 }
 
-static void step(int frames)
+/* A box on the floor that sleeps. */
+static void setup_asleep(void)
 {
-    for (int i = 0; i < frames; i++) {
-        CHECK_EQ(carom_world_step(world), CAROM_OK);
-    }
+    setup(1);
+    config.sleep = true;
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    CHECK_EQ(carom_body_add(world, &ground), 0);
+    CHECK_EQ(carom_body_add(world, &def), 1);
+    fall_asleep();
 }
 
 static struct carom_material material_of(int body)
@@ -87,7 +90,7 @@ static void test_conveyor(void)
     for (int n = 1; n <= 60; n++) {
         int64_t wanted = n * (G / 2) < speed ? n * (G / 2) : speed;
 
-        step(1);
+        steps(1);
         /* one frame's friction passes to the upper one by a part of it: within 3 % of the speed */
         CHECK_NEAR(state_of(1).velocity.c[0], wanted, speed / 32);
         CHECK_NEAR(state_of(2).velocity.c[0], wanted, speed / 32);
@@ -98,7 +101,7 @@ static void test_conveyor(void)
     /* it stops */
     belt.surface_velocity.c[0] = 0;
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
-    step(40);
+    steps(40);
     CHECK_NEAR(state_of(1).velocity.c[0], 0, speed >> 8);
 }
 
@@ -117,7 +120,7 @@ static void test_turned_conveyor(void)
     belt = material_of(0);
     belt.surface_velocity.c[0] = ONE / 64;
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
-    step(40);
+    steps(40);
     CHECK_NEAR(state_of(1).velocity.c[1], ONE / 64, ONE >> 14);
     CHECK_NEAR(state_of(1).velocity.c[0], 0, ONE >> 14);
 }
@@ -131,9 +134,9 @@ static void test_tracks(void)
     tracks = material_of(1);
     tracks.surface_velocity.c[0] = ONE / 64;
     CHECK_EQ(carom_body_set_material(world, 1, &tracks), CAROM_OK);
-    step(4);
+    steps(4);
     CHECK_NEAR(state_of(1).velocity.c[0], -4 * (G / 2), ONE >> 13);
-    step(36);
+    steps(36);
     CHECK_NEAR(state_of(1).velocity.c[0], -ONE / 64, ONE >> 14);
 }
 
@@ -142,29 +145,18 @@ static void test_conveyor_wakes(void)
 {
     struct carom_material belt;
 
-    setup(1);
-    config.sleep = true;
-    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
-    CHECK_EQ(carom_body_add(world, &ground), 0);
-    CHECK_EQ(carom_body_add(world, &def), 1);
-    for (int n = 0; n < 200 && !state_of(1).asleep; n++) {
-        step(1);
-    }
-    CHECK(state_of(1).asleep);
+    setup_asleep();
     belt = material_of(0);
     belt.surface_velocity.c[1] = G / 64; /* half of what is quiet */
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     CHECK(!state_of(1).asleep);
-    step(100);
+    steps(100);
     CHECK(!state_of(1).asleep);
     CHECK_NEAR(state_of(1).velocity.c[1], G / 64, G / 512);
     /* the same again wakes nobody */
     belt.surface_velocity.c[1] = 0;
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
-    for (int n = 0; n < 200 && !state_of(1).asleep; n++) {
-        step(1);
-    }
-    CHECK(state_of(1).asleep);
+    fall_asleep();
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     CHECK(state_of(1).asleep);
 }
@@ -186,13 +178,13 @@ static double braking(uint32_t mu_a_q16, uint32_t mu_b_q16, enum carom_combine r
     m = material_of(1);
     m.friction_q16 = mu_a_q16;
     CHECK_EQ(carom_body_set_material(world, 1, &m), CAROM_OK);
-    step(2);
+    steps(2);
     s = state_of(1);
     s.velocity.c[0] = ONE / 8;
     CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
-    step(2);
+    steps(2);
     before = state_of(1).velocity.c[0];
-    step(4);
+    steps(4);
     return (double)(before - state_of(1).velocity.c[0]) / 4 / (double)G;
 }
 
@@ -235,7 +227,7 @@ static double rebound(int32_t e_a_q30, int32_t e_b_q30, enum carom_combine rule)
         const struct carom_event *events;
         int count;
 
-        step(1);
+        steps(1);
         count = carom_events(world, &events);
         for (int i = 0; i < count; i++) {
             if (events[i].kind == CAROM_EVENT_HIT) {
@@ -277,22 +269,22 @@ static void test_faces(void)
         of_face[f] = f / 2 % 4 >= 2; /* two faces a square, four squares a row */
     }
     CHECK_EQ(carom_body_set_face_materials(world, 0, materials, 2, of_face), CAROM_OK);
-    step(2);
+    steps(2);
     s = state_of(1);
     s.velocity.c[0] = ONE / 4;
     CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
-    step(13); /* to -0.75 */
+    steps(13); /* to -0.75 */
     CHECK_NEAR(state_of(1).velocity.c[0], ONE / 4, ONE >> 12);
-    step(6); /* past 0.5 */
+    steps(6); /* past 0.5 */
     before = state_of(1).velocity.c[0];
-    step(4);
+    steps(4);
     CHECK_NEAR(before - state_of(1).velocity.c[0], 4 * (G / 2), G / 32);
     /* and back to one for all */
     CHECK_EQ(carom_body_set_face_materials(world, 0, NULL, 0, NULL), CAROM_OK);
     CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
-    step(2);
+    steps(2);
     before = state_of(1).velocity.c[0];
-    step(4);
+    steps(4);
     CHECK_NEAR(before - state_of(1).velocity.c[0], 4 * (G / 2), G / 32);
 }
 
@@ -324,7 +316,7 @@ static void test_faces_of_box(void)
         s.velocity.c[2] = -ONE / 16;
         CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
         for (int n = 0; n < 20; n++) {
-            step(1);
+            steps(1);
         }
         CHECK_EQ(state_of(1).velocity.c[2] > ONE / 64, up == 1);
     }
@@ -383,9 +375,9 @@ static void test_rolling(void)
             m.rolling_q16 = rolling[i][body];
             CHECK_EQ(carom_body_set_material(world, body, &m), CAROM_OK);
         }
-        step(2);
+        steps(2);
         before = state_of(1).spin.c[2];
-        step(frames);
+        steps(frames);
         lost = real(before - state_of(1).spin.c[2], 40) / frames;
         CHECK(real_abs(lost - wanted) <= wanted / 50 + 1e-7);
     }
@@ -432,20 +424,12 @@ static void test_mass_acts(void)
     int64_t sum = 0;
     int count;
 
-    setup(1);
-    config.sleep = true;
-    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
-    CHECK_EQ(carom_body_add(world, &ground), 0);
-    CHECK_EQ(carom_body_add(world, &def), 1);
-    for (int n = 0; n < 200 && !state_of(1).asleep; n++) {
-        step(1);
-    }
-    CHECK(state_of(1).asleep);
+    setup_asleep();
     CHECK_EQ(carom_body_set_mass(world, 1, 1 << 20), CAROM_OK);
     CHECK(state_of(1).asleep); /* it has that mass */
     CHECK_EQ(carom_body_set_mass(world, 1, 3 << 20), CAROM_OK);
     CHECK(!state_of(1).asleep);
-    step(1);
+    steps(1);
     count = carom_contacts(world, contact, 16);
     for (int i = 0; i < count && i < 16; i++) {
         sum += contact[i].impulse_q40;
@@ -469,11 +453,11 @@ static void test_snapshot(void)
     int size;
 
     setup(2);
-    step(2);
+    steps(2);
     s = state_of(2);
     s.velocity.c[0] = ONE / 32;
     CHECK_EQ(carom_body_set(world, 2, &s), CAROM_OK);
-    step(2);
+    steps(2);
     CHECK(world->now->warm_count > 0);
     m = material_of(1);
     m.friction_q16 = 100;
@@ -482,9 +466,9 @@ static void test_snapshot(void)
     size = carom_snapshot_save(world, saved, sizeof saved);
     CHECK(size > 0);
     CHECK_EQ(carom_snapshot_load(world, saved, (size_t)size), CAROM_OK);
-    step(2);
+    steps(2);
     CHECK_EQ(carom_world_set_combine(world, CAROM_LARGER, CAROM_LARGER), CAROM_OK);
-    step(2);
+    steps(2);
     CHECK_EQ(carom_world_set_combine(world, CAROM_LARGER, CAROM_PRODUCT), CAROM_OK);
     size = carom_snapshot_save(world, saved, sizeof saved);
     CHECK_EQ(carom_snapshot_load(world, saved, (size_t)size), CAROM_OK);
@@ -497,7 +481,7 @@ static void test_refused(void)
     uint64_t hash;
 
     setup(1);
-    step(2);
+    steps(2);
     hash = carom_world_hash(world);
     good = material_of(1);
     for (int i = 0; i < 9; i++) {

@@ -76,8 +76,8 @@ report $? 'a path that differs: the stage that made it'
 
 # Bytes the other way round are right for whoever wrote them, but for nobody else.
 copy
-sed -i 's/v >> (8 \* i)/v >> (8 * (bytes - 1 - i))/' "$work/src/world/snapshot.c"
-! cmp -s src/world/snapshot.c "$work/src/world/snapshot.c" &&
+sed -i 's/v >> (8 \* i)/v >> (8 * (bytes - 1 - i))/' "$work/src/world/stream.c"
+! cmp -s src/world/stream.c "$work/src/world/stream.c" &&
     { matrix --scene pile --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'has another snapshot of frame 500' 'load: ' '0 snapshots gone on with'
 report $? 'a snapshot of another byte order is refused'

@@ -188,26 +188,13 @@ static void test_pass(void)
     def.overlap = CAROM_OVERLAP_PASS;
     CHECK_EQ(boxes_add(w, &def), 1);
     for (int frame = 0; frame < 40; frame++) {
-        struct carom_body_state one, other;
-
-        boxes_step(w, 1);
-        boxes_step(alone, 1);
-        one = boxes_state(w, 1);
-        other = boxes_state(alone, 0);
-        CHECK(boxes_same(&one, &other));
+        boxes_step_alike(w, 1, alone, 0);
         out = out || !boxes_overlap(w, 1, 0);
         size = carom_snapshot_save(w, saved, sizeof saved);
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
     }
     CHECK(out);
-    {
-        struct carom_body_state state = boxes_state(w, 1);
-
-        state.velocity = (carom_v3_q40){{0, 0, BOXES_Q40(300)}};
-        CHECK_EQ(carom_body_set(w, 1, &state), CAROM_OK);
-        boxes_step(w, 30);
-        CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-128));
-    }
+    boxes_held_down(w, 300);
 }
 
 /* As many pairs pass as there is room for. */

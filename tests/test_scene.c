@@ -6,6 +6,7 @@
  */
 #include <string.h>
 
+#include "one_world.h"
 #include "shapes.h"
 #include "test.h"
 
@@ -20,7 +21,6 @@
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, ground;
-static struct carom_world *world;
 
 /* A world with or without a floor of 8 x 8 units, which is body 0 then. */
 static void begin(bool floor, int32_t e_q30, uint32_t mu_q16)
@@ -60,15 +60,6 @@ static int add_box(int64_t x_q32, int64_t z_q32, int64_t speed_q40, int mass, in
     body = carom_body_add(world, &def);
     CHECK(body >= 0);
     return body;
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
 }
 
 /* An event of the last step about a body, NULL: none. */

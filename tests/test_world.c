@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "one_world.h"
 #include "shapes.h"
 #include "test.h"
 
@@ -28,7 +29,6 @@ _Static_assert(CAROM_WORLD_BYTES(3, 2, 33, 65, 1, 129, 1, 1, 1) % 8 == 0, "end t
 static struct shape box, ground, odd;
 static struct carom_config config;
 static struct carom_body_def floor_def, box_def, def;
-static struct carom_world *world;
 
 /* ------------------------------------------------------------------- helpers */
 
@@ -117,15 +117,6 @@ static void accept(void)
         CHECK_EQ(carom_body_remove(world, body), CAROM_OK);
     }
     def = box_def;
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
 }
 
 /* Events of a kind in the last step; every one must be about this body. */

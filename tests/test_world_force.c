@@ -5,6 +5,7 @@
  */
 #include <string.h>
 
+#include "one_world.h"
 #include "real.h"
 #include "shapes.h"
 #include "test.h"
@@ -14,7 +15,6 @@
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, needle;
-static struct carom_world *world;
 static struct carom_body_def def;
 
 enum { BOX, STILL };
@@ -40,30 +40,6 @@ static void setup(void)
     def.position.c[0] = 0;
 }
 
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
-}
-
-static void step(int frames)
-{
-    for (int i = 0; i < frames; i++) {
-        CHECK_EQ(carom_world_step(world), CAROM_OK);
-    }
-}
-
-/* A call is refused and leaves the state alone. */
-#define REFUSE(call, error)                                                                        \
-    do {                                                                                           \
-        const uint64_t hash = carom_world_hash(world);                                             \
-        CHECK_EQ(call, error);                                                                     \
-        CHECK(carom_world_hash(world) == hash);                                                    \
-    } while (0)
-
 /* ------------------------------------------------------------------- gravity */
 
 /* v = g n, and half of the last frame's way less: each frame is an exact parabola. */
@@ -76,11 +52,11 @@ static void test_gravity(void)
     hash = carom_world_hash(world);
     CHECK_EQ(carom_world_set_gravity(world, &down), CAROM_OK);
     CHECK(carom_world_hash(world) != hash); /* it is a part of the state */
-    step(4);
+    steps(4);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 64);
     CHECK_EQ(state_of(BOX).position.c[2], -(((int64_t)1 << 32) / 256 * 8));
     CHECK_EQ(carom_world_set_gravity(world, &aside), CAROM_OK);
-    step(4);
+    steps(4);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 64);
     CHECK_EQ(state_of(BOX).velocity.c[0], ONE / 128);
     CHECK_EQ(state_of(BOX).position.c[0], ((int64_t)1 << 32) / 512 * 8);
@@ -127,28 +103,28 @@ static void test_force(void)
 
     setup();
     CHECK_EQ(carom_body_set_force(world, BOX, &push), CAROM_OK);
-    step(8);
+    steps(8);
     s = state_of(BOX);
     CHECK_EQ(s.velocity.c[0], ONE / 16);
     CHECK_EQ(s.position.c[0], (int64_t)1 << 30);                            /* 64 / 2 / 128 */
     CHECK_EQ(s.spin.c[0] | s.spin.c[1] | s.spin.c[2] | s.rotation.c[1], 0); /* acts on the centre */
     CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
     CHECK_EQ(carom_body_set_force(world, BOX, &up), CAROM_OK);
-    step(8);
+    steps(8);
     CHECK_EQ(state_of(BOX).velocity.c[2], 0);
     CHECK_EQ(state_of(BOX).velocity.c[0], ONE / 16);
     /* it stays when the body is set */
     CHECK_EQ(carom_body_set(world, BOX, &s), CAROM_OK);
-    step(1);
+    steps(1);
     CHECK_EQ(state_of(BOX).velocity.c[2], 0);
     CHECK_EQ(carom_body_set_force(world, BOX, &none), CAROM_OK);
-    step(4);
+    steps(4);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 64);
     /* and is not the next body's of that number */
     CHECK_EQ(carom_body_set_force(world, BOX, &up), CAROM_OK);
     CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
     CHECK_EQ(carom_body_add(world, &def), BOX);
-    step(1);
+    steps(1);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 256);
 }
 

@@ -6,6 +6,7 @@
  */
 #include <string.h>
 
+#include "one_world.h"
 #include "shapes.h"
 #include "world/world.h"
 
@@ -26,7 +27,6 @@ static _Alignas(8) uint8_t surface_block[CAROM_SURFACE_BYTES(COUNT, FACES)];
 static struct carom_mesh surface;
 static struct shape flat, box;
 static int16_t at[COUNT][3];
-static struct carom_world *world;
 static struct carom_body_def box_def;
 
 static int move(void)
@@ -37,15 +37,6 @@ static int move(void)
 static int put(void)
 {
     return carom_surface_set(world, FLOOR, (const int16_t(*)[3])at);
-}
-
-static struct carom_body_state state_of(int body)
-{
-    struct carom_body_state s;
-
-    memset(&s, 0, sizeof s);
-    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
-    return s;
 }
 
 /* A flat surface of 8 x 8 units, and above it a box of 1 x 0.75 x 0.5 that falls. */

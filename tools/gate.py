@@ -15,7 +15,8 @@ STAGES = "num mesh body pairs interfere boyse contact solve world step query dra
 # A library of its own: from folders other than these it takes what the public headers declare.
 ALONE = {"draw": ["num", "mesh"]}
 
-PUBLIC = ["include/carom.h", "include/carom_body.h", "include/carom_joint.h", "include/carom_query.h",
+PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",
+          "include/carom_body.h", "include/carom_joint.h", "include/carom_query.h",
           "include/carom_draw.h", "include/carom_debug.h"]
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()

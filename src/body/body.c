@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "body.h"
 
-/* The arm of rolling friction is 1/64 of the radius: solve/roll.c says why. */
-const struct body_extra body_no_extra = {.rolling_q16 = CAROM_ROLLING_Q16,
-                                         .gravity_scale_q16 = 1 << 16};
-
 /* v = high 2^31 + low */
 static inline void split(const int64_t v[3], int32_t high[3], int32_t low[3])
 {

@@ -140,7 +140,7 @@ struct body_route {
     uint8_t slice_bits;
 };
 
-/* What few bodies have: one of the pool of extras. */
+/* Properties that few bodies have: one of the pool of extras. */
 struct body_extra {
     uint16_t body; /* whose it is */
     bool used;
@@ -163,8 +163,9 @@ struct body_extra {
     struct body_route route; /* step: of the frame at hand; still once it was blocked */
 };
 
-/* What a body without an extra has. */
-extern const struct body_extra body_no_extra;
+/* A body without an extra has these, and 0 of all else. */
+#define BODY_ROLLING_Q16       CAROM_ROLLING_Q16 /* 1/64 of the radius: solve/roll.c says why */
+#define BODY_GRAVITY_SCALE_Q16 (1 << 16)
 
 /* Holders of the other shared memory of a body. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
@@ -182,7 +183,7 @@ struct body {
     bool standing;    /* still, and the path, the region and the box are those of where it is */
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
 
-    /* of a step, 11 bytes and the tag */
+    /* of a step, 11 bytes and the tag; flags of bodies that are asked for most have bytes of their own */
     bool active;      /* region: was to move when its region was set */
     bool free;        /* region: there were no candidates then */
     bool boxed;       /* broad: its box is around its mesh's; else around its sphere */
@@ -191,9 +192,8 @@ struct body {
     bool solving;     /* rest: has a contact in the solve at hand */
     bool unsettled;   /* rest: its island's last solve left places that approach */
     int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
-    bool touched; /* step: was in contact in the last one; energy: its island must not gain any */
-    bool
-        grounded : 1; /* energy: touches a body that stands still; the lowest of an island: any does */
+    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
+    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
     bool rewound : 1;    /* energy: is back where the frame found it */
     bool woke : 1;       /* wake: in the static check at hand */
     bool sensor : 1;     /* world */
@@ -377,8 +377,10 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
  * The route of a kinematic body to another pose in a frame, by the shorter turn; or with a velocity and a
  * spin of at most 3.2 radians a frame. The centre goes less than 2^7 units.
  */
-void body_route_to(const struct body *b, const struct body_state *s, const carom_v3_q32 *position,
-                   const carom_quat_q30 *rotation, struct body_route *route);
+typedef void body_route_maker(const struct body *b, const struct body_state *s,
+                              const carom_v3_q32 *position, const carom_quat_q30 *rotation,
+                              struct body_route *route);
+extern body_route_maker body_route_to;
 void body_route_on(const struct body *b, const struct body_state *s, const carom_v3_q40 *velocity,
                    const carom_v3_q40 *spin, struct body_route *route);
 /* The path of the next slice of a body's route. */

@@ -90,16 +90,28 @@ carom_v3_q32 contact_point(const struct contact *c)
     return point;
 }
 
+/* Surfaces that move and materials give a contact its drift, and another e and mu. */
+FIX_APART static void set_drift(struct contact_list *list, const struct boyse_pair *pair,
+                                struct contact *c, const carom_v3_q40 *arm)
+{
+    struct contact_mixed mixed;
+    carom_v3_q40 drift;
+    bool mixes = false;
+
+    contact_drift(pair, &c->key, arm, &drift);
+    if (list->materials && (pair->a->extra || pair->b->extra)) {
+        mixes = list->materials(list, pair, &c->key, &c->normal, &drift, &mixed);
+    }
+    contact_keep_drift(list, c, &drift, mixes ? &mixed : NULL);
+}
+
 bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
                     const struct candidate *key, const carom_v3_q30 *normal, int32_t gap_q22,
                     const carom_v3_q40 arm[2])
 {
     bool same, full = list->pool->used == list->pool->size;
     uint32_t place = find_place(list, key, &same);
-    struct contact_mixed mixed;
-    carom_v3_q40 drift;
     struct contact *c;
-    bool mixes = false;
 
     if (same && !list->contacts[place].doubted) {
         return true;
@@ -123,11 +135,10 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->side[0].body = pair->a->moving ? pair->a : NULL;
     c->side[1].body = pair->b->moving ? pair->b : NULL;
     set_arms(c, arm);
-    contact_drift(pair, key, &arm[1], &drift);
-    if (pair->a->extra || pair->b->extra) {
-        mixes = contact_materials(list, pair, key, normal, &drift, &mixed);
+    c->drift = NULL;
+    if (!list->plain || mesh_drift_most(pair->b->mesh) > 0) {
+        set_drift(list, pair, c, &arm[1]);
     }
-    contact_keep_drift(list, c, &drift, mixes ? &mixed : NULL);
     return true;
 }
 

@@ -180,14 +180,27 @@ struct contact_mixed {
     uint32_t friction_q16;
 };
 
+/*
+ * Materials of a contact's faces, where a body has an extra: the motion of b's surface along itself, past that of a,
+ * is added to the drift. Returns whether e and mu are others than the bodies'.
+ */
+struct contact_list;
+typedef bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
+                               const struct candidate *key, const carom_v3_q30 *normal,
+                               carom_v3_q40 *drift, struct contact_mixed *mixed);
+extern contact_materials contact_mix_materials;
+
 /* The contacts of a world at the present poses, sorted by key, with their pool. */
 struct contact_list {
     struct contact *contacts;
     struct pool *pool;
     carom_v3_q40 *drifts; /* as many as there is room for contacts; NULL where no surface moves */
-    struct contact_mixed *mixed; /* one for each of those; NULL where no body has an extra */
-    uint32_t next_drift;         /* where a free one is looked for first */
-    uint8_t restitution_rule, friction_rule; /* enum carom_combine */
+    struct contact_mixed *mixed;  /* one for each of those; NULL where no body has an extra */
+    contact_materials *materials; /* NULL: no body was given any, and nothing of them is linked */
+    uint16_t next_drift;          /* where a free one is looked for first */
+    uint8_t restitution_rule : 2; /* enum carom_combine */
+    uint8_t friction_rule : 2;
+    bool plain; /* a step: no body has an extra, and e and mu of a contact are the smaller ones */
 };
 
 /*
@@ -274,7 +287,7 @@ void contact_keep_drift(struct contact_list *list, struct contact *c, const caro
 /* e and mu of a pair from those of both. */
 int32_t contact_mix_restitution(const struct contact_list *list, int32_t a_q30, int32_t b_q30);
 uint32_t contact_mix_friction(const struct contact_list *list, uint32_t a_q16, uint32_t b_q16);
-/* What was remembered of a contact; NULL: it is of the bodies' own e and mu. */
+/* The e and mu that a contact remembers; NULL: it has those of the bodies. */
 static inline const struct contact_mixed *contact_mixed(const struct contact_list *list,
                                                         const struct contact *c)
 {
@@ -285,16 +298,8 @@ static inline const struct contact_mixed *contact_mixed(const struct contact_lis
 }
 
 /*
- * What the materials of a contact's faces make of it, where a body has an extra: how the surface of b moves along
- * itself past that of a is added to the drift. Returns whether e and mu are others than the bodies'.
- */
-bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
-                       const struct candidate *key, const carom_v3_q30 *normal, carom_v3_q40 *drift,
-                       struct contact_mixed *mixed);
-
-/*
  * The face of a side of a contact that looks most along N, or against it for a: the face itself, one at the
- * edge, one around the vertex. Of two that do so alike it is the one with the lower number.
+ * edge, one around the vertex. The lower number of two that do so alike.
  */
 uint32_t contact_face(const struct body *b, const struct candidate *key, int side,
                       const carom_v3_q30 *normal);

@@ -53,7 +53,7 @@ void contact_keep_drift(struct contact_list *list, struct contact *c, const caro
         return;
     }
     while (is_kept(list, &list->drifts[list->next_drift])) {
-        list->next_drift = (list->next_drift + 1) % list->pool->size;
+        list->next_drift = (uint16_t)((list->next_drift + 1u) % list->pool->size);
     }
     c->drift = &list->drifts[list->next_drift];
     *c->drift = *drift;

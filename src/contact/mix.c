@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the materials of two bodies make of a contact. */
+/* Materials of two bodies are mixed at a contact. */
 #include "contact.h"
 
 int32_t contact_mix_restitution(const struct contact_list *list, int32_t a_q30, int32_t b_q30)
@@ -106,9 +106,9 @@ static void add_surface(const struct body *b, const struct carom_material *m, in
     }
 }
 
-bool contact_materials(const struct contact_list *list, const struct boyse_pair *pair,
-                       const struct candidate *key, const carom_v3_q30 *normal, carom_v3_q40 *drift,
-                       struct contact_mixed *mixed)
+bool contact_mix_materials(const struct contact_list *list, const struct boyse_pair *pair,
+                           const struct candidate *key, const carom_v3_q30 *normal,
+                           carom_v3_q40 *drift, struct contact_mixed *mixed)
 {
     const struct body *a = pair->a, *b = pair->b;
     const struct carom_material *of_a = material(a, key, 0, normal);

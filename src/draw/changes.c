@@ -118,7 +118,7 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
 
 /* --------------------------------------------------------------------- lines */
 
-/* What the lines of the paint are, as a number; 0 for none. */
+/* A hash of the lines of the paint; 0 for none. */
 static uint64_t hash_lines(const struct carom_paint *paint)
 {
     uint64_t hash = paint && paint->line_count ? FNV_START : 0;

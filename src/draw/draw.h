@@ -212,7 +212,7 @@ int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
 int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
                      struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* What points of the world that are not of a body need of one, with `shift` set. */
+/* A body for points of the world that belong to none, with `shift` set. */
 void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift);
 
 /* ---- divide.c: quotients for processors that cannot divide */

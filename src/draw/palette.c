@@ -19,7 +19,7 @@
 /* DRAW_SHADES entries from `low` over `middle` to `high`. */
 #define RAMP(low, middle, high) BLEND_16(low, middle, 16), BLEND_16(middle, high, 15)
 
-/* Of enum carom_colour. */
+/* In the order of enum carom_colour. */
 #define COLOURS 0x000000, 0xff3030, 0x30e030, 0x4080ff, 0xffe030, 0xff40ff, 0x30e8e8, 0xffffff
 
 /* In the order of enum carom_ramp; the rest is black, for the program. */

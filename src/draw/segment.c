@@ -76,7 +76,7 @@ static struct draw_vertex moved(const struct draw_vertex *from, int32_t x_q4, in
 /*
  * Half a pixel to either side, across the axis that the line is nearer to: then each column, or row, between its
  * ends has one pixel whose middle is inside; and it goes on by half a pixel beyond either end, so that the pixels
- * of the ends are there, too. That is a pixel outside of the guard band at most, which corners have room for:
+ * of the ends are there, too. Corners are a pixel outside of the guard band at most, and have room for that:
  * 2^14 and 32 sixteenths are an int16.
  */
 void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4])

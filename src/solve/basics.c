@@ -3,6 +3,11 @@
 #include "parts.h"
 
 extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
+extern inline struct body *rest_body(const struct rest *r, const struct contact *c, int side);
+extern inline int32_t rest_plain_restitution(const struct body *a, const struct body *b);
+extern inline uint32_t rest_plain_friction(const struct body *a, const struct body *b);
+extern inline int32_t rest_restitution_at(const struct rest *r, const struct contact *c);
+extern inline uint32_t rest_friction_at(const struct rest *r, const struct contact *c);
 extern inline uint64_t rest_used(const int64_t v[4]);
 extern inline int rest_shrink(int64_t v[4], int bits);
 
@@ -16,7 +21,7 @@ int32_t rest_within(int64_t v, int32_t most)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/* Of the faces at most, where these are of several materials. */
+/* The largest e, and mu, of a body's faces, where these are of several materials. */
 static int32_t most_restitution(const struct body *b)
 {
     return b->extra && b->extra->materials ? b->extra->most_restitution_q30 : b->restitution_q30;
@@ -29,21 +34,15 @@ static uint32_t most_friction(const struct body *b)
 
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b)
 {
-    if (!a->extra && !b->extra && r->list.restitution_rule == CAROM_SMALLER) { /* most are so */
-        return fix_smaller(a->restitution_q30, b->restitution_q30);
-    }
     return contact_mix_restitution(&r->list, most_restitution(a), most_restitution(b));
 }
 
 uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b)
 {
-    if (!a->extra && !b->extra && r->list.friction_rule == CAROM_SMALLER) {
-        return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
-    }
     return contact_mix_friction(&r->list, most_friction(a), most_friction(b));
 }
 
-int32_t rest_restitution_at(const struct rest *r, const struct contact *c)
+int32_t rest_mixed_restitution(const struct rest *r, const struct contact *c)
 {
     const struct contact_mixed *mixed = contact_mixed(&r->list, c);
 
@@ -51,7 +50,7 @@ int32_t rest_restitution_at(const struct rest *r, const struct contact *c)
                  : rest_restitution(r, rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-uint32_t rest_friction_at(const struct rest *r, const struct contact *c)
+uint32_t rest_mixed_friction(const struct rest *r, const struct contact *c)
 {
     const struct contact_mixed *mixed = contact_mixed(&r->list, c);
 

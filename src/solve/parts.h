@@ -40,7 +40,7 @@ struct rest_sweep {
 };
 
 /* The body and state on a side of a contact: 0 is a, 1 is b. */
-static inline struct body *rest_body(const struct rest *r, const struct contact *c, int side)
+inline struct body *rest_body(const struct rest *r, const struct contact *c, int side)
 {
     const struct pair *p = &r->pairs[c->key.pair];
 
@@ -206,9 +206,24 @@ void rest_apply_at(struct rest *r, const struct contact *c, const int64_t impuls
                    const int64_t moment_q40[3]);
 void rest_apply(struct rest *r);
 
-/* e and mu at a contact. */
-int32_t rest_restitution_at(const struct rest *r, const struct contact *c);
-uint32_t rest_friction_at(const struct rest *r, const struct contact *c);
+/* e and mu at a contact; by its materials, where the list is not `plain`. */
+int32_t rest_mixed_restitution(const struct rest *r, const struct contact *c);
+uint32_t rest_mixed_friction(const struct rest *r, const struct contact *c);
+inline int32_t rest_restitution_at(const struct rest *r, const struct contact *c)
+{
+    return r->list.plain ? rest_plain_restitution(rest_body(r, c, 0), rest_body(r, c, 1))
+                         : rest_mixed_restitution(r, c);
+}
+inline uint32_t rest_friction_at(const struct rest *r, const struct contact *c)
+{
+    return r->list.plain ? rest_plain_friction(rest_body(r, c, 0), rest_body(r, c, 1))
+                         : rest_mixed_friction(r, c);
+}
+
+/* The wanted normal velocity of a contact after the solve. */
+void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30);
+/* Whether a contact is so slow that its bodies lie; where they bounce for ever, along and across. */
+bool rest_lies(const struct rest *r, const struct contact *c);
 
 /* V = (v_a + w_a x r_a) - (v_b + w_b x r_b) by the velocities that the bodies were given last. */
 void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v);
@@ -242,8 +257,8 @@ void rest_part(struct rest *r);
 bool rest_approaches(struct rest *r);
 
 /*
- * What a world calls of its joints: carom_joint_add sets it, so that who has no joints links none of it. All of it is about
- * the island at hand, but for the first two.
+ * The functions that a solve calls for joints. carom_joint_add sets the table, so that who has no joints links none of
+ * them. All but the first two are about the island at hand.
  */
 struct rest_sweep;
 struct joint_calls {
@@ -274,7 +289,7 @@ struct joint_calls {
     void (*book)(struct rest *r);
 };
 
-/* Those of all worlds that have joints. */
+/* The table of every world that has joints. */
 extern const struct joint_calls joint_calls;
 
 static inline bool rest_has_joints(const struct rest *r)

@@ -114,6 +114,15 @@ static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *
 /* e and mu of a pair of bodies; at most, where their faces are of several materials. */
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b);
 uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b);
+/* The smaller ones: those of a list that is `plain`. */
+inline int32_t rest_plain_restitution(const struct body *a, const struct body *b)
+{
+    return a->restitution_q30 < b->restitution_q30 ? a->restitution_q30 : b->restitution_q30;
+}
+inline uint32_t rest_plain_friction(const struct body *a, const struct body *b)
+{
+    return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
+}
 
 /* The islands of bodies that touch or that joints connect. */
 void rest_find_islands(struct rest *r, struct body *bodies, uint32_t body_count,

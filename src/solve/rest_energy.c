@@ -57,7 +57,7 @@ void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times)
     }
 }
 
-/* What a kinematic body does by a part of the impulse that was wanted more than the plastic one. */
+/* The work of a kinematic body by a part of the impulse that was wanted more than the plastic one. */
 FIX_APART static void subtract_blend2(const struct rest *r, struct fix_wide *sum, int32_t k_q30)
 {
     for (uint32_t i = 0; i < r->count; i++) {

@@ -89,12 +89,14 @@ static bool rolls_up(const struct rest *r, uint32_t i)
 /* Rolling friction of a pair: so much of a radius for the arm, where ROLL_SKINS are CAROM_ROLLING_Q16. */
 static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
 {
-    const struct body_extra *a = rest_body(r, c, 0)->extra, *b = rest_body(r, c, 1)->extra;
+    const struct body_extra *a, *b;
     uint64_t product;
 
-    if (!a && !b) {
+    if (r->list.plain) {
         return CAROM_ROLLING_Q16;
     }
+    a = rest_body(r, c, 0)->extra;
+    b = rest_body(r, c, 1)->extra;
     /* each is at most 2^16 */
     product = (uint64_t)(a ? a->rolling_q16 : CAROM_ROLLING_Q16) *
               (b ? b->rolling_q16 : CAROM_ROLLING_Q16) / CAROM_ROLLING_Q16;

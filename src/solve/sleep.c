@@ -4,18 +4,19 @@
 
 static bool is_quiet(const struct body *b, const struct body_state *s)
 {
-    /*
-     * A small part of what gravity gives in a frame: what falls is never that slow for long. At an
-     * eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20 does,
-     * and no drop takes more than a few frames longer.
-     */
-    int64_t limit_q40 = b->acceleration_q40 / 32;
+    int64_t limit_q40;
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
     if (!b->in_contact && b->joined == BODY_ALONE) {
         return false;
     }
+    /*
+     * A small part of what gravity gives in a frame: what falls is never that slow for long. At an
+     * eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20 does,
+     * and no drop takes more than a few frames longer.
+     */
+    limit_q40 = b->acceleration_q40 / 32;
     fix_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);

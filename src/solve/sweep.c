@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Sweeps over accumulated, clamped impulses, with momentum. */
-#include "rows.h"
-#include "parts.h"
+/* Sweeps over accumulated, clamped impulses. */
+#include "sweep.h"
 
 /* So often sweeps may outgrow their unit; with momentum, and from the impulses that they had. */
 #define OUTGREW_MAX     6
@@ -73,19 +72,6 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->work->friction_q16, 16);
 }
 
-/* A change of impulse, each part below 2^30: along N, across it, and both. */
-struct gain {
-    int32_t along, across[3], whole[3];
-};
-
-static inline void across(struct gain *g, const int32_t n[3])
-{
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        g->across[k] = g->whole[k] - carom_mul_q30(g->along, n[k]);
-    }
-}
-
 /* Whether an impulse is within the friction cone; mu is at most 4. */
 static bool in_cone(const struct contact *c, int64_t normal, const int64_t tangent[3])
 {
@@ -106,7 +92,7 @@ static bool in_cone(const struct contact *c, int64_t normal, const int64_t tange
  * velocities are shifted down: the next visit finds what is left over. As K is at least 1 the change
  * is then below 2^30.
  */
-static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
+static bool stick(const struct contact *c, const int32_t v[3], struct rest_change *g)
 {
     const int32_t *m = contact_inverse(c), *n = c->normal.c;
     const struct contact_work *in = c->work;
@@ -132,7 +118,7 @@ static bool stick(const struct contact *c, const int32_t v[3], struct gain *g)
     if (normal <= 0) {
         return false;
     }
-    across(g, n);
+    rest_split_change(g, n);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         tangent[k] = in->tangent_impulse[k] + carom_shl(g->across[k], down);
@@ -169,7 +155,8 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
  * Change V.N by dvn, never pulling, and end what that leaves of the slip, as far as friction does.
  * Returns whether it does not.
  */
-static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3], struct gain *g)
+static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3],
+                     struct rest_change *g)
 {
     const struct contact_work *in = c->work;
     const int down = 30 - in->fine_bits;
@@ -203,7 +190,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
 }
 
 /* Along N first; then across towards no slip, within the friction cone. */
-static void slide(struct contact *c, int32_t error, const int32_t v[3], struct gain *g)
+static void slide(struct contact *c, int32_t error, const int32_t v[3], struct rest_change *g)
 {
     int64_t pushed[3];
     int32_t slip[3];
@@ -223,32 +210,6 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct g
     }
 }
 
-/* Take up a change into the impulses. */
-FIX_APART static void accumulate(struct contact_work *in, const struct gain *g)
-{
-    in->normal_impulse += g->along;
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        in->tangent_impulse[k] += g->across[k];
-    }
-}
-
-/* And into the bodies; returns its largest component, the last place apart. */
-static int32_t add(struct contact *c, const struct gain *g)
-{
-    int32_t *gain = contact_gain(c)->gain, most;
-
-    accumulate(c->work, g);
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        /* a contact by itself, of which nobody asks, may wrap */
-        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
-    }
-    rest_push(c, g->whole);
-    most = fix_largest(g->whole);
-    return most > 1 ? most : 0;
-}
-
 /*
  * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
  * power of 2, is at rest.
@@ -256,7 +217,7 @@ static int32_t add(struct contact *c, const struct gain *g)
 static int64_t visit(struct contact *c, int32_t quiet)
 {
     int32_t v[3], error;
-    struct gain g;
+    struct rest_change g;
 
     present_velocity(c, v);
     error = (int32_t)carom_round(carom_dot(c->normal.c, v), 30);
@@ -277,130 +238,7 @@ static int64_t visit(struct contact *c, int32_t quiet)
     if (c->work->friction_q16 == 0 || !c->work->inverted || !stick(c, v, &g)) {
         slide(c, error, v, &g);
     }
-    return ((int64_t)c->work->mass_q24 * add(c, &g)) >> 24;
-}
-
-/* The last sweep and the step beyond the one before it, together, stay below this. */
-#define WAY_MAX (CAROM_ONE_Q30 / 2)
-
-/* Whether the last sweep went on in the way that the last step beyond a sweep had gone. */
-static bool agrees(const struct rest *r)
-{
-    int64_t sum = 0;
-
-    for (uint32_t i = 0; i < r->count; i++) {
-        const struct contact *c = contact_gain(rest_contact(r, i));
-
-        FIX_UNROLL
-        for (int k = 0; k < 3; k++) {
-            int64_t x = (int64_t)c->gain[k] + c->way[k];
-
-            if (x > WAY_MAX || x < -WAY_MAX) {
-                return false;
-            }
-            sum += c->gain[k] * x >> 13; /* up to 2^47, of at most 4096 contacts */
-        }
-    }
-    if (rest_has_joints(r)) {
-        sum += r->joints.calls->agrees(r, WAY_MAX);
-    }
-    return sum >= 0;
-}
-
-/* v += part (v - last), and last = v. */
-static uint32_t go_on(int32_t *v, int32_t *last, int32_t part_q30)
-{
-    int32_t now = *v, change = (int32_t)((uint32_t)now - (uint32_t)*last);
-
-    *last = now;
-    return rest_add(v, carom_mul_q30(change, part_q30));
-}
-
-/* Bodies go beyond as their contacts do: velocities are linear in impulses. */
-static void bodies_beyond(struct rest *r, int32_t part_q30)
-{
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        struct body_path *in = body_solve(&r->bodies[i]);
-
-        FIX_UNROLL
-        for (int k = 0; k < 3; k++) {
-            in->used |= go_on(&in->dv[k], &in->last_dv[k], part_q30) |
-                        go_on(&in->du[k], &in->last_du[k], part_q30);
-        }
-    }
-}
-
-/* Where a contact would pull it has no impulse. */
-static void let_go(struct contact *c)
-{
-    struct gain g;
-
-    g.along = rest_within(-c->work->normal_impulse, WAY_MAX);
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        g.across[k] = rest_within(-c->work->tangent_impulse[k], WAY_MAX);
-        g.whole[k] = g.across[k] + carom_mul_q30(g.along, c->normal.c[k]);
-        c->way[k] += g.whole[k];
-    }
-    add(c, &g);
-    c->gain[0] = c->gain[1] = c->gain[2] = 0;
-}
-
-/* Go beyond the last sweep by a part of the way it came. */
-static void go_beyond(struct contact *c, int32_t part_q30)
-{
-    struct contact_work *in = c->work;
-    struct gain g;
-
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        g.whole[k] = carom_mul_q30(c->way[k] + c->gain[k], part_q30);
-        c->way[k] = g.whole[k];
-        c->gain[k] = 0;
-    }
-    g.along = (int32_t)carom_round(carom_dot(c->normal.c, g.whole), 30);
-    across(&g, c->normal.c);
-    accumulate(in, &g);
-    if (in->normal_impulse < 0) {
-        let_go(c);
-    }
-}
-
-/* Begin the steps beyond sweeps anew. */
-static void stay(struct contact *c)
-{
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        c->way[k] = c->gain[k] = 0;
-    }
-}
-
-/*
- * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. That takes
- * the root of the number of sweeps. When they turn back it begins anew. `age` counts the sweeps that agree.
- */
-static void accelerate(struct rest *r, int *age)
-{
-    int32_t part_q30;
-
-    *age = agrees(r) ? *age + 1 : 0;
-    part_q30 = (int32_t)(((int64_t)*age << 30) / (*age + 3));
-    bodies_beyond(r, part_q30);
-    for (uint32_t i = 0; i < r->count; i++) {
-        struct contact *c = rest_contact(r, i);
-
-        if (part_q30 == 0) {
-            stay(c);
-        } else {
-            go_beyond(c, part_q30);
-        }
-        if (c->work->rolls) {
-            rest_roll_accelerate(c, part_q30);
-        }
-    }
-    if (rest_has_joints(r)) {
-        r->joints.calls->accelerate(r, part_q30);
-    }
+    return ((int64_t)c->work->mass_q24 * rest_gain(c, &g)) >> 24;
 }
 
 /* The last visit of a contact may not have gone all its way, or found it as good as at rest out there. */
@@ -482,7 +320,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
         }
         sums -= !ran_out;
         if (hurries && round < rounds - 1) {
-            accelerate(r, &age);
+            rest_accelerate(r, &age);
         }
     }
     into_cones(r);

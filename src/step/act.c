@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What acts on bodies where a frame begins: damping, then torque. What they change of a body's energy is work: contact
- * may neither have it back nor be charged for it.
+ * Damping and torque act where a frame begins, in this order. The energy that they change is work: contact may neither
+ * have it back nor be charged for it.
  */
 #include "parts.h"
 

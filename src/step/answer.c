@@ -79,7 +79,7 @@ static int check_with(struct step *s, uint32_t number)
     return result;
 }
 
-/* What joints connect with the members is a member. Returns CAROM_OK. */
+/* A body that joints connect with a member is a member. Returns CAROM_OK. */
 static int join_connected(struct step *s)
 {
     uint32_t other;

@@ -23,8 +23,11 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
-    return rest_restitution(&s->w->rest, a, b) == CAROM_ONE_Q30 && !a->in_contact &&
-           !b->in_contact && !step_is_touching(world_now(s->w), p);
+    int32_t e_q30 =
+        s->w->rest.list.plain ? rest_plain_restitution(a, b) : rest_restitution(&s->w->rest, a, b);
+
+    return e_q30 == CAROM_ONE_Q30 && !a->in_contact && !b->in_contact &&
+           !step_is_touching(world_now(s->w), p);
 }
 
 /* How many 16ths of a skin are clear, as far as four bits hold. */
@@ -59,7 +62,7 @@ int step_check_pair(struct step *s, uint32_t number)
     v.clear_q22 = skin_q22;
     v.parts = 1;
     result = step_visit(s, number, &v, visit_contacts);
-    if ((a->one_way | b->one_way) != CAROM_BOTH_WAYS) {
+    if (s->rare && (a->one_way | b->one_way) != CAROM_BOTH_WAYS) {
         step_drop_other_side(s, number);
     }
     if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
@@ -216,19 +219,23 @@ static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30
     return fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
 }
 
+/* By what a kinematic body bends that is led somewhere; 0 for all others. */
+static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
+{
+    return body_travels(b) ? bend_q22(b, fix_length_bound(b->extra->route.spin.c), left_q30) : 0;
+}
+
 /*
  * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
  * both bodies bend. The spins are those of the last look at the contacts; nearly all are slow by a bound of them.
  */
 static bool bends(const struct step *s, const struct contact *c, int32_t left_q30)
 {
-    const struct body *led = &s->w->bodies[s->w->pairs[c->key.pair].b];
     int32_t most_q22 = c->skin_q22 / CHORD_BEND_DIVISOR;
-    int64_t bound_q22 = 0, all_q22 = 0;
+    int64_t all_q22 =
+        s->led ? led_bend_q22(&s->w->bodies[s->w->pairs[c->key.pair].b], left_q30) : 0;
+    int64_t bound_q22 = all_q22;
 
-    if (body_travels(led)) {
-        bound_q22 = all_q22 = bend_q22(led, fix_length_bound(led->extra->route.spin.c), left_q30);
-    }
     for (int k = 0; k < 2; k++) {
         const struct body *b = c->side[k].body;
 
@@ -285,8 +292,12 @@ static void forget_paths(struct step *s)
                 c->side[k].body->to_q30 = s->now_q30;
             }
         }
-        if (body_travels(&s->w->bodies[s->w->pairs[c->key.pair].b])) {
-            step_look_back(s, s->w->pairs[c->key.pair].b);
+    }
+    for (uint32_t i = 0; s->led && i < s->w->rest.list.pool->used; i++) {
+        uint32_t b = s->w->pairs[s->w->rest.list.contacts[i].key.pair].b;
+
+        if (body_travels(&s->w->bodies[b])) {
+            step_look_back(s, b);
         }
     }
 }

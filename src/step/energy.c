@@ -257,8 +257,8 @@ static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owe
 }
 
 /*
- * What nothing touched has the energy that it had, and what motors gave it: joints do no work. What it has too much or lacks is
- * put right as far as its motion allows, and owed where that is not far enough: a pendulum that turns back has hardly any.
+ * A group that nothing touched has the energy that it had, and the work of its motors: joints do none. A surplus or a
+ * lack is put right as far as the motion allows. The rest is owed: a pendulum that turns back has hardly any motion.
  */
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
@@ -310,6 +310,32 @@ static void give_back_gravity(struct step *s, uint32_t first)
     }
 }
 
+/* An island that touched something; `surely`: nothing else says whether it gained. */
+static void limit_touched(struct step *s, uint32_t first, bool surely)
+{
+    if (s->cut_short && !s->w->bodies[first].grounded) {
+        give_back_gravity(s, first);
+    }
+    if (surely || may_gain(s, first)) {
+        limit_island(s, first);
+    }
+}
+
+/* An island with joints. Returns whether it is one. */
+static bool limit_joined(struct step *s, uint32_t first)
+{
+    struct body *b = &s->w->bodies[first];
+    struct fix_wide *owed = b->mesh ? s->w->joint_steps->owed2(s, first) : NULL;
+
+    if (owed && b->touched) {
+        limit_touched(s, first, true);
+        *owed = (struct fix_wide){0, 0};
+    } else if (owed) {
+        conserve_island(s, first, owed);
+    }
+    return owed != NULL;
+}
+
 void step_calm_island(struct step *s, uint32_t body, bool hard)
 {
     uint32_t first = s->w->bodies[body].island;
@@ -331,9 +357,6 @@ void step_limit_energy(struct step *s)
 {
     struct carom_world *w = s->w;
 
-    if (s->next->touching_count == 0 && !w->joint_steps) {
-        return; /* nothing was in contact */
-    }
     island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].touched =
@@ -357,23 +380,9 @@ void step_limit_energy(struct step *s)
         w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        struct fix_wide *owed = NULL;
-
-        if (w->bodies[i].mesh && w->bodies[i].island == i && w->joint_steps) {
-            owed = w->joint_steps->owed2(s, i);
-        }
-        if (owed && !w->bodies[i].touched) {
-            conserve_island(s, i, owed);
-        } else if (w->bodies[i].island == i && w->bodies[i].touched) {
-            if (s->cut_short && !w->bodies[i].grounded) {
-                give_back_gravity(s, i);
-            }
-            if (owed || may_gain(s, i)) {
-                limit_island(s, i);
-            }
-            if (owed) {
-                *owed = (struct fix_wide){0, 0};
-            }
+        if (w->bodies[i].island == i && !(w->joint_steps && limit_joined(s, i)) &&
+            w->bodies[i].touched) {
+            limit_touched(s, i, false);
         }
     }
 }

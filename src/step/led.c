@@ -3,7 +3,7 @@
 #include "../solve/rigid.h"
 #include "parts.h"
 
-/* What goes along may approach something else by this part of a skin a frame. */
+/* An island that goes along may approach something else by this part of a skin a frame. */
 #define NO_APPROACH_DIVISOR 64
 
 static const struct body_route still = {.slice_bits = 0};
@@ -26,7 +26,7 @@ static void begin_route(struct carom_world *w, uint32_t i)
     struct body_extra *extra = b->extra;
 
     if (extra->drive.kind == BODY_DRIVE_TO) {
-        body_route_to(b, state, &extra->drive.position, &extra->drive.rotation, &extra->route);
+        w->route_to(b, state, &extra->drive.position, &extra->drive.rotation, &extra->route);
     } else {
         body_route_on(b, state, &extra->drive.velocity, &extra->drive.spin, &extra->route);
     }
@@ -38,13 +38,17 @@ static void begin_route(struct carom_world *w, uint32_t i)
     b->placed = true;
 }
 
-void step_begin_routes(struct carom_world *w)
+bool step_begin_routes(struct carom_world *w)
 {
+    bool any = false;
+
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (body_travels(&w->bodies[i])) {
             begin_route(w, i);
+            any = true;
         }
     }
+    return any;
 }
 
 /* Slices are rounded, and what a caller asks for is not. */

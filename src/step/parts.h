@@ -38,6 +38,7 @@ struct step {
     int32_t now_q30;    /* of the last event */
     uint32_t active;    /* bodies that are awake */
     bool rare;          /* there are extras, joints or pairs that may pass: most worlds have none */
+    bool led;           /* a kinematic body is led somewhere */
     bool single;        /* regions last no longer than the frame */
     bool pairs_changed; /* interfering faces are others */
     bool broke;         /* finish: some joint */
@@ -207,7 +208,7 @@ int step_start_contacts(struct step *s);
 
 /* Take the contacts of a pair into the list in the place of those it has there. */
 int step_check_pair(struct step *s, uint32_t number);
-/* Sort out the contacts of the list: each place once, and which pairs touch. Those of members may be new. */
+/* Sort out the contacts of the list: each place once, and which pairs touch. `members`: only contacts of members may be new. */
 int step_settle_contacts(struct step *s, bool members);
 /* Ask the caller about the contacts of the list, or those of members alone. */
 void step_ask_contacts(struct step *s, bool members);
@@ -246,8 +247,11 @@ void step_calm_island(struct step *s, uint32_t body, bool hard);
 
 /* ---------------------------------------------------------------- kinematic bodies */
 
-/* The routes of kinematic bodies for the frame, where their clocks begin; and the poses they were led to. */
-void step_begin_routes(struct carom_world *w);
+/*
+ * The routes of kinematic bodies for the frame, where their clocks begin; and the poses they were led to.
+ * step_begin_routes returns whether any is led somewhere.
+ */
+bool step_begin_routes(struct carom_world *w);
 void step_end_routes(struct step *s);
 
 /*
@@ -270,7 +274,7 @@ void step_block_pushers(struct step *s, const struct pair *p);
 /* Say that a kinematic body was blocked by a body, once a frame. */
 void step_note_blocked(struct step *s, uint32_t i, uint32_t by);
 
-/* What lies on a kinematic body that is led somewhere has not been quiet. */
+/* A body that lies on a kinematic one that is led somewhere has not been quiet. */
 void step_keep_awake(struct step *s);
 
 /* ------------------------------------------------------------------------ finish */

@@ -95,7 +95,7 @@ static void add_sensor_event(struct step *s, uint8_t kind, const struct pair *p)
     step_add_event(s->w, kind, first ? p->a : p->b, first ? p->b : p->a);
 }
 
-/* What a sensor and another body were to each other, and are now. */
+/* Whether a sensor and another body overlapped, and do so now; and the events of that. */
 static int sense(struct step *s, uint32_t sensor, uint32_t other)
 {
     struct carom_world *w = s->w;

@@ -56,7 +56,7 @@ uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
     return is_at(w, place, p->a, p->b) ? place : UINT32_MAX;
 }
 
-/* What is kept of a pair that is new. */
+/* The record of a pair that is new. */
 static struct pair_work new_meeting(const struct carom_world *w, const struct pair *p)
 {
     return (struct pair_work){.hit_q30 = PAIRS_NEVER,

@@ -13,17 +13,6 @@
 /* Hits of a body in a frame, unless the caller says otherwise. */
 #define EVENTS_OF_A_BODY 32
 
-/* The bodies that are awake. */
-static uint32_t count_active(const struct carom_world *w)
-{
-    uint32_t active = 0;
-
-    for (uint32_t i = 0; i < w->body_count; i++) {
-        active += broad_active(&w->bodies[i], &world_now(w)->bodies[i]);
-    }
-    return active;
-}
-
 /* What the last step found is gone. */
 FIX_APART static void forget(struct carom_world *w)
 {
@@ -36,7 +25,7 @@ FIX_APART static void forget(struct carom_world *w)
     pool_clear(&w->pools[CAROM_POOL_contacts]);
 }
 
-static void begin_clock(struct body *b)
+FIX_APART static void begin_clock(struct body *b)
 {
     b->touched = b->in_contact;
     b->in_contact = b->stands = b->strained = b->placed = b->member = false;
@@ -48,11 +37,12 @@ static void begin_clock(struct body *b)
 
 /*
  * What stands still is the same in both states. So is what sleeps in both: it did so in the step
- * before, and whatever changes it wakes it.
+ * before, and whatever changes it wakes it. Returns how many are awake.
  */
-static void copy_bodies(struct carom_world *w, struct world_state *next)
+static uint32_t copy_bodies(struct carom_world *w, struct world_state *next)
 {
     const struct world_state *now = world_now(w);
+    uint32_t active = 0;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
         const struct body_state *from = &now->bodies[i];
@@ -60,26 +50,49 @@ static void copy_bodies(struct carom_world *w, struct world_state *next)
 
         if (w->bodies[i].goes && !(from->asleep && to->asleep && !to->woken)) {
             *to = *from;
+            active += broad_active(&w->bodies[i], from);
         }
         begin_clock(&w->bodies[i]);
     }
+    return active;
+}
+
+/* Whether e and mu of every contact are the smaller ones of its bodies. */
+static bool is_plain(const struct carom_world *w)
+{
+    const struct contact_list *list = &w->rest.list;
+
+    return w->pools[CAROM_POOL_extras].used == 0 && !w->config.contact &&
+           (list->restitution_rule | list->friction_rule) == CAROM_SMALLER;
+}
+
+/* Extras and joints, which most worlds have not. */
+FIX_APART static void begin_rare(struct step *s)
+{
+    struct carom_world *w = s->w;
+
+    if (w->pools[CAROM_POOL_extras].used > 0) {
+        s->led = step_begin_routes(w);
+    }
+    if (w->joint_steps) {
+        w->joint_steps->begin(s);
+    }
+    step_act(s);
 }
 
 void step_begin(struct step *s, struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
     struct world_state *next = world_next(w);
+
     s->w = w;
     s->next = next;
     s->now_q30 = 0;
-    s->active = count_active(w);
-    s->cut_short = s->pairs_changed = false;
+    s->cut_short = s->pairs_changed = s->led = s->broke = false;
     s->event_cap = w->config.substep_cap > 0 ? w->config.substep_cap : EVENTS_OF_A_BODY;
     s->rare = w->pools[CAROM_POOL_extras].used > 0 || w->joint_steps || w->passing;
-    copy_bodies(w, next);
-    if (s->rare && w->pools[CAROM_POOL_extras].used > 0) {
-        step_begin_routes(w);
-    }
+    w->rest.list.plain = is_plain(w);
+    s->active = copy_bodies(w, next);
     memcpy(next->warm, now->warm, now->warm_count * sizeof *next->warm);
     next->warm_count = now->warm_count;
     next->touching_count = next->through_count = 0;
@@ -90,9 +103,6 @@ void step_begin(struct step *s, struct carom_world *w)
     w->rest.body_count = w->body_count;
     w->rest.warm = next->warm;
     w->rest.warm_count = next->warm_count;
-    if (s->rare && w->joint_steps) {
-        w->joint_steps->begin(s);
-    }
     w->rest.sweeps = w->rest.impacts = w->rest.energy_rules = 0;
     w->interfere.gathers = w->interfere.candidate_count = 0;
     memset(&w->stats, 0, sizeof w->stats);
@@ -101,7 +111,7 @@ void step_begin(struct step *s, struct carom_world *w)
     pool_clear(&w->pools[CAROM_POOL_contacts]);
     pool_clear(&w->pools[CAROM_POOL_hits]);
     if (s->rare) {
-        step_act(s);
+        begin_rare(s);
     }
 }
 
@@ -199,8 +209,7 @@ static void stop_clock(struct step *s, uint32_t i)
 }
 
 /*
- * What a surface of another velocity carries, however slowly, is not at rest: a contact that moves holds off
- * sleep.
+ * A body that a moving surface carries, however slowly, is not at rest: a contact that moves holds off sleep.
  */
 static void keep_carried_awake(struct step *s)
 {
@@ -225,7 +234,9 @@ static int finish(struct step *s)
     if (result < 0) {
         return result;
     }
-    step_limit_energy(s);
+    if (s->next->touching_count > 0 || w->joint_steps) {
+        step_limit_energy(s);
+    }
     for (uint32_t i = 0; i < w->body_count; i++) {
         stop_clock(s, i);
         (void)step_retire(s, i);
@@ -239,14 +250,13 @@ static int finish(struct step *s)
     }
     step_drop_warm(s);
     result = step_finish_events(s);
-    s->broke = false;
-    if (!s->rare) {
-        return result;
-    }
-    if (result == CAROM_OK && w->passing) {
+    if (s->rare && w->passing && result == CAROM_OK) {
         result = step_finish_through(s);
     }
-    return result == CAROM_OK && w->joint_steps ? w->joint_steps->break_joints(s) : result;
+    if (s->rare && w->joint_steps && result == CAROM_OK) {
+        result = w->joint_steps->break_joints(s);
+    }
+    return result;
 }
 
 /* Whether a step would find nothing, and leave the state as it is. */
@@ -311,9 +321,9 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
     }
     *cut_short = s.cut_short;
     w->now = s.next;
-    w->sense_anew = false;
     world_halt_surfaces(w);
     if (s.rare) {
+        w->sense_anew = false;
         if (s.broke) {
             w->joint_steps->regroup(w);
         }

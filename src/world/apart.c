@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies start apart. Whoever is added or set where it crosses another body is refused, pushed out, or
- * passes. What is asked is exact: faces that cross, or a body inside the other one.
+ * Bodies start apart. One that is added or set where it crosses another is refused, pushed out, or passes. The question
+ * is exact: do faces cross, or is a body inside the other one?
  */
 #include "world.h"
 

@@ -15,9 +15,10 @@ struct body_extra *world_extra(struct carom_world *w, uint32_t body)
         place++;
     }
     extra = &w->extras[place];
-    *extra = body_no_extra;
-    extra->used = true;
-    extra->body = (uint16_t)body;
+    *extra = (struct body_extra){.body = (uint16_t)body,
+                                 .used = true,
+                                 .rolling_q16 = BODY_ROLLING_Q16,
+                                 .gravity_scale_q16 = BODY_GRAVITY_SCALE_Q16};
     w->bodies[body].extra = extra;
     return extra;
 }

@@ -29,22 +29,24 @@ int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
 
 struct carom_forces world_forces(const struct body *b)
 {
-    const struct body_extra *extra = b->extra ? b->extra : &body_no_extra;
     struct carom_forces f;
 
     memset(&f, 0, sizeof f);
     f.force = b->force;
-    f.torque = extra->torque;
-    f.gravity_scale_q16 = extra->gravity_scale_q16;
-    f.linear_damping_q30 = extra->linear_damping_q30;
-    f.angular_damping_q30 = extra->angular_damping_q30;
+    f.gravity_scale_q16 = BODY_GRAVITY_SCALE_Q16;
+    if (b->extra) {
+        f.torque = b->extra->torque;
+        f.gravity_scale_q16 = b->extra->gravity_scale_q16;
+        f.linear_damping_q30 = b->extra->linear_damping_q30;
+        f.angular_damping_q30 = b->extra->angular_damping_q30;
+    }
     return f;
 }
 
 bool world_forces_need_extra(const struct carom_forces *f)
 {
     return (f->torque.c[0] | f->torque.c[1] | f->torque.c[2]) != 0 ||
-           f->gravity_scale_q16 != body_no_extra.gravity_scale_q16 ||
+           f->gravity_scale_q16 != BODY_GRAVITY_SCALE_Q16 ||
            (f->linear_damping_q30 | f->angular_damping_q30) != 0;
 }
 
@@ -244,7 +246,7 @@ int carom_body_set_force_at(struct carom_world *w, int body, const carom_v3_q40 
     return set_forces(w, result, body, &f);
 }
 
-/* What is wrong with a push of a body. */
+/* CAROM_OK, or the error of a push of a body. */
 static int check_push(const struct carom_world *w, int *body)
 {
     if (!world_find_body(w, body)) {

@@ -10,7 +10,7 @@ static void axes_of(const struct carom_world *w, int body, carom_m3_q30 *r)
     fix_matrix(r, &world_now(w)->bodies[body].rotation);
 }
 
-/* What is wrong with a question about a body; makes it a number. */
+/* CAROM_OK, or the error of a question about a body, which becomes a number. */
 static int ask(const struct carom_world *w, int *body, const void *in, const void *out)
 {
     if (!w || !in || !out) {

@@ -92,6 +92,7 @@ int carom_body_move_to(struct carom_world *w, int body, const struct carom_pose 
     }
     drive.position = pose->position;
     drive.rotation = q;
+    w->route_to = body_route_to;
     world_drive(w, (uint32_t)body, &drive);
     return CAROM_OK;
 }

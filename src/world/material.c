@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What bodies are made of: material and mass, which may change at any time. */
+/* Materials and masses of bodies, which may change at any time. */
 #include "world.h"
 
 #define SURFACE_SPEED_LIMIT 16 /* units a frame, each component of a surface's own velocity */
@@ -13,14 +13,15 @@ static bool material_in_range(const struct carom_material *m)
 
 static struct carom_material material_of(const struct body *b)
 {
-    const struct body_extra *extra = b->extra ? b->extra : &body_no_extra;
     struct carom_material m;
 
     memset(&m, 0, sizeof m);
     m.restitution_q30 = b->restitution_q30;
     m.friction_q16 = b->friction_q16;
-    m.rolling_q16 = extra->rolling_q16;
-    m.surface_velocity = extra->surface_velocity;
+    m.rolling_q16 = b->extra ? b->extra->rolling_q16 : BODY_ROLLING_Q16;
+    if (b->extra) {
+        m.surface_velocity = b->extra->surface_velocity;
+    }
     return m;
 }
 
@@ -28,7 +29,7 @@ static bool needs_extra(const struct carom_material *m)
 {
     const int64_t *v = m->surface_velocity.c;
 
-    return m->rolling_q16 != CAROM_ROLLING_Q16 || (v[0] | v[1] | v[2]) != 0;
+    return m->rolling_q16 != BODY_ROLLING_Q16 || (v[0] | v[1] | v[2]) != 0;
 }
 
 /* A body is of something else from here on. */
@@ -65,6 +66,7 @@ int carom_body_set_material(struct carom_world *w, int body, const struct carom_
     }
     b->restitution_q30 = material->restitution_q30;
     b->friction_q16 = material->friction_q16;
+    w->rest.list.materials = contact_mix_materials;
     if (b->extra) {
         b->extra->rolling_q16 = material->rolling_q16;
         b->extra->surface_velocity = material->surface_velocity;
@@ -137,6 +139,7 @@ int carom_body_set_face_materials(struct carom_world *w, int body,
     if (materials && !world_extra(w, (uint32_t)body)) {
         return CAROM_ERR_EXTRAS_FULL;
     }
+    w->rest.list.materials = contact_mix_materials;
     if (b->extra) {
         take_materials(b->extra, materials, materials ? count : 0, materials ? of_face : NULL);
         stir(w, (uint32_t)body);
@@ -154,8 +157,8 @@ int carom_world_set_combine(struct carom_world *w, enum carom_combine restitutio
         return CAROM_ERR_ARGUMENT;
     }
     if (w->rest.list.restitution_rule != restitution || w->rest.list.friction_rule != friction) {
-        w->rest.list.restitution_rule = (uint8_t)restitution;
-        w->rest.list.friction_rule = (uint8_t)friction;
+        w->rest.list.restitution_rule = restitution & 3u;
+        w->rest.list.friction_rule = friction & 3u;
         w->now->warm_count = 0; /* they may be more than the new friction allows */
     }
     return CAROM_OK;

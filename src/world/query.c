@@ -2,7 +2,7 @@
 /* What is asked of a world between its steps: how two bodies lie to each other. */
 #include "world.h"
 
-/* What is wrong with a question about two bodies; makes them numbers. */
+/* CAROM_OK, or the error of a question about two bodies, which become numbers. */
 static int check_bodies(const struct carom_world *w, int *a, int *b)
 {
     if (!world_find_body(w, a) || !world_find_body(w, b)) {

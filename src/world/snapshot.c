@@ -22,107 +22,12 @@
  *       torque 3 x i64, i32 gravity scale, linear and angular damping
  *   u64 FNV-1a of all bytes before
  */
-#include "../num/fnv.h"
-#include "world.h"
+#include "stream.h"
 
 #define FILTERS      0x31544c46u /* "FLT1" */
 #define THROUGH      0x31524854u /* "THR1" */
 #define MAGIC        0x32534d43u /* "CMS2" */
 #define FORCES_MAGIC 0x31434f46u /* "FOC1" */
-
-/* Bytes going out or coming in; `bytes` may be NULL when only their number or hash is wanted. */
-struct stream {
-    uint8_t *out;
-    const uint8_t *in;
-    size_t size, at;
-    uint64_t fnv;
-    carom_v3_q40 gravity; /* that was read */
-    size_t drives;        /* where those of kinematic bodies begin */
-    bool loading, failed;
-};
-
-/* One number of `bytes` bytes; returns what the stream holds there. */
-static uint64_t word(struct stream *s, uint64_t v, int bytes)
-{
-    uint64_t read = 0;
-
-    for (int i = 0; i < bytes; i++) {
-        uint8_t b = (uint8_t)(v >> (8 * i));
-
-        if (s->loading) {
-            if (s->at >= s->size) {
-                s->failed = true;
-                return 0;
-            }
-            b = s->in[s->at];
-        } else if (s->out) {
-            s->out[s->at] = b;
-        }
-        read |= (uint64_t)b << (8 * i);
-        s->fnv = fnv_add(s->fnv, b);
-        s->at++;
-    }
-    return read;
-}
-
-/* Numbers change only when they are read: a world that is saved stays as it is. */
-static void number64(struct stream *s, int64_t *v)
-{
-    uint64_t read = word(s, (uint64_t)*v, 8);
-
-    if (s->loading) {
-        *v = (int64_t)read;
-    }
-}
-
-static void number32(struct stream *s, int32_t *v)
-{
-    uint32_t read = (uint32_t)word(s, (uint32_t)*v, 4);
-
-    if (s->loading) {
-        *v = (int32_t)read;
-    }
-}
-
-static void number16(struct stream *s, uint16_t *v)
-{
-    uint16_t read = (uint16_t)word(s, *v, 2);
-
-    if (s->loading) {
-        *v = read;
-    }
-}
-
-static void number8(struct stream *s, uint8_t *v)
-{
-    uint8_t read = (uint8_t)word(s, *v, 1);
-
-    if (s->loading) {
-        *v = read;
-    }
-}
-
-/* A count or a constant that must be what it is here. */
-static void expect(struct stream *s, uint32_t v, int bytes)
-{
-    if (word(s, v, bytes) != v) {
-        s->failed = true;
-    }
-}
-
-static void vector64(struct stream *s, int64_t v[3])
-{
-    for (int k = 0; k < 3; k++) {
-        number64(s, &v[k]);
-    }
-}
-
-static void vector32(struct stream *s, int32_t *v, int n)
-{
-    for (int k = 0; k < n; k++) {
-        number32(s, &v[k]);
-    }
-}
 
 static void stream_body(struct stream *s, const struct carom_world *w, uint32_t i,
                         struct body_state *state)
@@ -130,20 +35,20 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
     static const struct carom_forces forces = {.gravity_scale_q16 = 1 << 16};
     struct body *b = &w->bodies[i];
 
-    expect(s, !b->mesh ? 0 : b->moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
+    stream_expect(s, !b->mesh ? 0 : b->moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
     if (b->mesh) {
-        vector64(s, state->position.c);
-        vector64(s, state->momentum.c);
-        vector64(s, state->angular.c);
+        stream_vector64(s, state->position.c);
+        stream_vector64(s, state->momentum.c);
+        stream_vector64(s, state->angular.c);
         if (s->loading) {
             world_keep_forces(w, i, &forces);
         }
-        vector64(s, s->loading ? b->velocity.c : b->force.c);
-        vector32(s, state->rotation.c, 4);
-        number8(s, &state->asleep);
-        number8(s, &state->out);
-        number8(s, &state->quiet);
-        number8(s, &state->woken);
+        stream_vector64(s, s->loading ? b->velocity.c : b->force.c);
+        stream_vector32(s, state->rotation.c, 4);
+        stream_8(s, &state->asleep);
+        stream_8(s, &state->out);
+        stream_8(s, &state->quiet);
+        stream_8(s, &state->woken);
     }
 }
 
@@ -154,25 +59,15 @@ static void stream_warm(struct stream *s, struct rest_warm *w)
     if (!s->loading) {
         parts = rest_warm_parts(w);
     }
-    number16(s, &w->a);
-    number16(s, &w->b);
-    vector32(s, w->arm.c, 3);
-    vector32(s, w->normal.c, 3);
-    number64(s, &parts.normal_q40);
-    vector64(s, parts.tangent.c);
+    stream_16(s, &w->a);
+    stream_16(s, &w->b);
+    stream_vector32(s, w->arm.c, 3);
+    stream_vector32(s, w->normal.c, 3);
+    stream_64(s, &parts.normal_q40);
+    stream_vector64(s, parts.tangent.c);
     if (s->loading && !rest_warm_join(w, &parts)) {
         s->failed = true;
     }
-}
-
-static uint32_t stream_count(struct stream *s, uint32_t count, uint32_t most)
-{
-    count = (uint32_t)word(s, count, 4);
-    if (count > most) {
-        s->failed = true;
-        count = 0;
-    }
-    return count;
 }
 
 FIX_APART static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, uint64_t fnv)
@@ -193,27 +88,9 @@ static void stream_surface(struct stream *s, const struct carom_mesh *mesh)
     uint64_t fnv = hash_vertices((const int16_t(*)[3])surface->now, n, FNV_START);
 
     fnv = hash_vertices((const int16_t(*)[3])surface->before, n, fnv);
-    if (word(s, fnv, 8) != fnv) {
+    if (stream_word(s, fnv, 8) != fnv) {
         s->failed = true;
     }
-}
-
-/*
- * Whether there is a section of what few worlds have: one that is written when it is `wanted`, or comes
- * next of what is read.
- */
-static bool section(struct stream *s, uint32_t tag, bool wanted)
-{
-    if (s->loading) {
-        wanted = s->size - s->at > 12;
-        for (uint32_t i = 0; i < 4 && wanted; i++) {
-            wanted = s->in[s->at + i] == (uint8_t)(tag >> 8 * i);
-        }
-    }
-    if (wanted) {
-        expect(s, tag, 4);
-    }
-    return wanted;
 }
 
 /* The next body from `i` on that more acts on than its force, or the end of all. */
@@ -229,15 +106,15 @@ static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
     return i;
 }
 
-/* What acts on a body beside its force. */
+/* Everything that acts on a body beside its force. */
 static void stream_forces(struct stream *s, const struct carom_world *w, uint32_t i)
 {
     struct carom_forces f = s->loading ? world_forces_read(w, i) : world_forces(&w->bodies[i]);
 
-    vector64(s, f.torque.c);
-    number32(s, &f.gravity_scale_q16);
-    number32(s, &f.linear_damping_q30);
-    number32(s, &f.angular_damping_q30);
+    stream_vector64(s, f.torque.c);
+    stream_32(s, &f.gravity_scale_q16);
+    stream_32(s, &f.linear_damping_q30);
+    stream_32(s, &f.angular_damping_q30);
     if (s->loading) {
         world_keep_forces(w, i, &f);
         s->failed |= !world_forces_need_extra(&f);
@@ -252,7 +129,7 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
          i = next_acted_on(w, i + 1)) {
         count++;
     }
-    if (!section(s, FORCES_MAGIC, count > 0)) {
+    if (!stream_section(s, FORCES_MAGIC, count > 0)) {
         return;
     }
     count = stream_count(s, count, w->body_count);
@@ -260,7 +137,7 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
     for (uint32_t n = 0; n < count && !s->failed; n++) {
         uint16_t body = (uint16_t)(s->loading ? 0 : next_acted_on(w, next));
 
-        number16(s, &body);
+        stream_16(s, &body);
         if (body < next || body >= w->body_count || !w->bodies[body].mesh) {
             s->failed = true;
             return;
@@ -283,7 +160,7 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         any = any || has_filter(&w->bodies[i]);
     }
-    any = section(s, FILTERS, any);
+    any = stream_section(s, FILTERS, any);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
         struct body *b = &w->bodies[i];
         uint16_t parts[3] = {b->category, b->mask, (uint16_t)b->group};
@@ -294,7 +171,7 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
             parts[2] = 0;
         }
         for (int k = 0; k < 3 && any && b->mesh; k++) {
-            number16(s, &parts[k]);
+            stream_16(s, &parts[k]);
         }
         for (int k = 0; k < 3 && s->loading; k++) {
             b->box_q18[0][k] = parts[k];
@@ -318,12 +195,12 @@ static void stream_through(struct stream *s, const struct carom_world *w, struct
     if (s->loading) {
         state->through_count = 0;
     }
-    if (section(s, THROUGH, count > 0)) {
+    if (stream_section(s, THROUGH, count > 0)) {
         state->through_count = stream_count(s, count, w->config.caps.pairs - state->touching_count);
         list = world_through(w, state);
         for (uint32_t i = 0; i < state->through_count && !s->failed; i++) {
-            number16(s, &list[i].a);
-            number16(s, &list[i].b);
+            stream_16(s, &list[i].a);
+            stream_16(s, &list[i].b);
         }
         s->failed = s->failed || state->through_count == 0;
     }
@@ -331,19 +208,19 @@ static void stream_through(struct stream *s, const struct carom_world *w, struct
 
 static void stream_drive(struct stream *s, struct body_drive *drive)
 {
-    number8(s, &drive->kind);
+    stream_8(s, &drive->kind);
     if (drive->kind == BODY_DRIVE_ON) {
-        vector64(s, drive->velocity.c);
-        vector64(s, drive->spin.c);
+        stream_vector64(s, drive->velocity.c);
+        stream_vector64(s, drive->spin.c);
     } else if (drive->kind == BODY_DRIVE_TO) {
-        vector64(s, drive->position.c);
-        vector32(s, drive->rotation.c, 4);
+        stream_vector64(s, drive->position.c);
+        stream_vector32(s, drive->rotation.c, 4);
     }
 }
 
 /*
- * Where kinematic bodies are led. What is read is passed over at first; asked whether it is plausible when all
- * poses are known to be; and taken when that is so.
+ * Where kinematic bodies are led. The bytes are passed over at first; asked whether they are plausible when all poses
+ * are known to be; and taken when that is so.
  */
 enum drives { DRIVES_PASS, DRIVES_ASK, DRIVES_TAKE };
 
@@ -369,41 +246,30 @@ static void stream_drives(struct stream *s, const struct carom_world *w,
     }
 }
 
-static void flag(struct stream *s, bool *v)
-{
-    uint8_t read = *v;
-
-    number8(s, &read);
-    if (s->loading) {
-        s->failed = s->failed || read > 1;
-        *v = read != 0;
-    }
-}
-
 static void stream_joint(struct stream *s, struct joint_state *state)
 {
     struct carom_joint_drive *d = &state->drive;
     int64_t low = (int64_t)state->owed2.lo;
 
-    number8(s, &state->broken);
-    flag(s, &d->limited);
-    flag(s, &d->motor);
-    flag(s, &d->spring);
-    number64(s, &d->lower_q32);
-    number64(s, &d->upper_q32);
-    number64(s, &d->motor_speed_q40);
-    number64(s, &d->motor_most_q40);
-    number64(s, &d->rest_q32);
-    number64(s, &d->stiffness_q40);
-    number64(s, &d->damping_q40);
+    stream_8(s, &state->broken);
+    stream_flag(s, &d->limited);
+    stream_flag(s, &d->motor);
+    stream_flag(s, &d->spring);
+    stream_64(s, &d->lower_q32);
+    stream_64(s, &d->upper_q32);
+    stream_64(s, &d->motor_speed_q40);
+    stream_64(s, &d->motor_most_q40);
+    stream_64(s, &d->rest_q32);
+    stream_64(s, &d->stiffness_q40);
+    stream_64(s, &d->damping_q40);
     for (int i = 0; i < JOINT_ROWS; i++) {
-        number64(s, &state->impulse_q40[i]);
+        stream_64(s, &state->impulse_q40[i]);
     }
-    vector64(s, state->push.c);
-    vector64(s, state->moment.c);
-    number64(s, &state->axial_q40);
-    number64(s, &state->owed2.hi);
-    number64(s, &low);
+    stream_vector64(s, state->push.c);
+    stream_vector64(s, state->moment.c);
+    stream_64(s, &state->axial_q40);
+    stream_64(s, &state->owed2.hi);
+    stream_64(s, &low);
     if (s->loading) {
         state->owed2.lo = (uint64_t)low;
     }
@@ -413,9 +279,9 @@ static void stream_joints(struct stream *s, const struct carom_world *w, struct 
 {
     const struct joint_list *list = &w->rest.joints;
 
-    expect(s, list->count, 4);
+    stream_expect(s, list->count, 4);
     for (uint32_t i = 0; i < list->count && !s->failed; i++) {
-        expect(s, list->joints[i].used, 1);
+        stream_expect(s, list->joints[i].used, 1);
         if (list->joints[i].used) {
             stream_joint(s, &state->joints[i]);
             s->failed = s->failed || (s->loading && !w->joint_steps->plausible(&list->joints[i],
@@ -439,10 +305,10 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
     uint64_t check;
 
     s->fnv = FNV_START;
-    expect(s, MAGIC, 4);
+    stream_expect(s, MAGIC, 4);
     s->gravity = w->config.gravity;
-    vector64(s, s->gravity.c);
-    expect(s, w->body_count, 4);
+    stream_vector64(s, s->gravity.c);
+    stream_expect(s, w->body_count, 4);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
         stream_body(s, w, i, &state->bodies[i]);
     }
@@ -452,8 +318,8 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
     }
     state->touching_count = stream_count(s, state->touching_count, w->config.caps.pairs);
     for (uint32_t i = 0; i < state->touching_count && !s->failed; i++) {
-        number16(s, &state->touching[i].a);
-        number16(s, &state->touching[i].b);
+        stream_16(s, &state->touching[i].a);
+        stream_16(s, &state->touching[i].b);
     }
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
         if (w->bodies[i].mesh && w->bodies[i].mesh->surface) {
@@ -470,7 +336,7 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
         stream_all_forces(s, w);
     }
     check = s->fnv;
-    if (word(s, check, 8) != check) {
+    if (stream_word(s, check, 8) != check) {
         s->failed = true;
     }
 }
@@ -563,6 +429,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         w->now = next;
         w->config.gravity = s.gravity;
         w->passing |= next->through_count > 0;
+        w->route_to = body_route_to; /* a body may be on its way to a pose */
         (void)drives_again(&s, w, next, DRIVES_TAKE);
     }
     /* a step relies on what stands still being the same in both states */

@@ -35,12 +35,14 @@ union world_scratch { /* by PHASE_TAG scratch_phase; world_pair */
 };
 enum world_scratch_phase { WORLD_IDLE, WORLD_GATHER, WORLD_SOLVE };
 
-/* 616 bytes where a pointer has 32 bits. What is asked for most comes first: code for that is shorter. */
+/* 720 bytes where a pointer has 32 bits. Fields that are used most come first: code for them is shorter. */
 struct carom_world {
-    /* world: what the caller gave, and the arrays in the block; 84 bytes */
+    /* world: what the caller gave, and the arrays in the block; 108 bytes */
     struct carom_config config; /* gravity: the present one */
     uint32_t body_count;        /* places in use, free ones in between included */
-    bool idle; /* the last step found nothing awake, and nothing has changed since */
+    bool idle;       /* the last step found nothing awake, and nothing has changed since */
+    bool passing;    /* pairs may go through each other: there is or was a reason for it */
+    bool sense_anew; /* bodies were added or set: what sleeps may overlap another sensor now */
     PHASE_TAG(scratch_phase)
     struct body *bodies;
     union world_scratch *scratch;
@@ -50,40 +52,37 @@ struct carom_world {
     struct pair *pairs;
     struct pair_work *meetings;
 
-    /* commit: the dynamic state, 44 bytes */
+    /* commit: the dynamic state, 60 bytes */
     struct world_state *now; /* which of the two is current */
     struct world_state states[2];
 
     /* interfere, 144 bytes */
     struct interfere interfere;
 
-    /* contact and solve, 68 bytes */
+    /* contact and solve, 124 bytes */
     struct rest rest;
 
-    /* commit: what happened in the step, and its cost; 108 bytes */
-    uint32_t event_count;
+    /* commit: what happened in the step, and its cost; 104 bytes */
     struct carom_stats stats;
     uint32_t start_tick, mark_tick; /* of the step, and of its last stage mark */
+    uint32_t event_count;
 
     /* all stages: how much of each capacity is used; 144 bytes */
     struct pool pools[CAROM_POOL_COUNT];
 
-    /* world: by the optional capacities; 16 bytes */
+    /* world: by the optional capacities; 28 bytes */
     struct body_extra *extras;
     struct carom_hit *hits; /* contacts: those of the events, in their order */
-
-    /* through: 4 bytes */
-    uint16_t sensors; /* so many bodies are */
-    bool passing;     /* pairs may go through each other: there is or was a reason for it */
-    bool sense_anew;  /* bodies were added or set: what sleeps may overlap another sensor now */
-
+    uint16_t sensors;       /* so many bodies are */
+    uint16_t ignored_count;
     struct pair *ignored; /* pairs whose joints let them ignore each other, in order */
-    uint32_t ignored_count;
     const struct step_joint_calls *joint_steps; /* NULL while there was no joint yet */
+    body_route_maker *route_to; /* NULL while no body was led to a pose; nor is it linked then */
 };
 
 /*
- * What a step calls of joints: carom_joint_add sets it, so that who has no joints links none of it.
+ * The functions that a step calls for joints. carom_joint_add sets the table, so that who has no joints links none of
+ * them.
  */
 struct step;
 struct step_joint_calls {
@@ -148,8 +147,8 @@ bool world_rotation_valid(carom_quat_q30 *q);
 /* Whether each coordinate is within BODY_WORLD_LIMIT. */
 bool world_position_in_range(const carom_v3_q32 *p);
 /*
- * What is to act on a body waits in its velocity, its spin and what a solve saves, which are a step's, until
- * all of a snapshot is read.
+ * Forces that are read for a body wait until all of a snapshot is read: in its velocity, its spin and the momentum
+ * that a solve saves, which are a step's.
  */
 struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body);
 void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f);
@@ -191,13 +190,13 @@ void world_set_motion(const struct body *b, struct body_state *s, const carom_v3
 bool world_gravity_in_range(const carom_v3_q40 *gravity);
 
 /*
- * What gravity, so many times, and a force give a body, 0 for one that stands still; false when out of
- * range.
+ * The acceleration of a body by gravity, so many times, and by a force; 0 for one that stands still. False when it is
+ * out of range.
  */
 bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
                         const carom_v3_q40 *gravity, const carom_v3_q40 *force, carom_v3_q40 *out);
 
-/* What acts on a body; on one without an extra but for its force. */
+/* Everything that acts on a body. */
 struct carom_forces world_forces(const struct body *b);
 bool world_forces_need_extra(const struct carom_forces *f);
 /* Give it that; false when it needs an extra and there is none. */
@@ -273,9 +272,9 @@ void world_drop_through(const struct carom_world *w, struct world_state *s, uint
 bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b);
 
 /*
- * What is to become of a body that is about to be in a state (`place` is its number, or UINT32_MAX): if it
- * crosses others that it may touch, by more than about a skin, CAROM_ERR_OVERLAP; it is pushed out; or they are
- * going to pass, for which there is room.
+ * Before a body gets a state (`place` is its number, or UINT32_MAX): where it crosses others that it may touch, by more
+ * than about a skin, there is CAROM_ERR_OVERLAP, or it is pushed out, or they are going to pass and there is room for
+ * these pairs.
  */
 int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
                  struct body_state *state, int overlap);

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+/* sweep - what a sweep and the step beyond it share: changes of impulses. */
+#ifndef CAROM_SRC_SWEEP_H
+#define CAROM_SRC_SWEEP_H
+
+#include "parts.h"
+
+/* A change of impulse, each part below 2^30: along N, across it, and both. */
+struct rest_change {
+    int32_t along, across[3], whole[3];
+};
+
+static inline void rest_split_change(struct rest_change *g, const int32_t n[3])
+{
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        g->across[k] = g->whole[k] - carom_mul_q30(g->along, n[k]);
+    }
+}
+
+/* Take up a change into the impulses. */
+static inline void rest_accumulate(struct contact_work *in, const struct rest_change *g)
+{
+    in->normal_impulse += g->along;
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        in->tangent_impulse[k] += g->across[k];
+    }
+}
+
+/* And into the bodies; returns its largest component, the last place apart. */
+static inline int32_t rest_gain(struct contact *c, const struct rest_change *g)
+{
+    int32_t *gain = contact_gain(c)->gain, most;
+
+    rest_accumulate(c->work, g);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        /* a contact by itself, of which nobody asks, may wrap */
+        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
+    }
+    rest_push(c, g->whole);
+    most = fix_largest(g->whole);
+    return most > 1 ? most : 0;
+}
+
+/*
+ * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. The root of the
+ * number of sweeps is enough then. When sweeps turn back the momentum begins anew. `age` counts the sweeps that agree.
+ */
+void rest_accelerate(struct rest *r, int *age);
+
+#endif

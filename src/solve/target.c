@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+/* The velocity that a solve asks for at a contact: rest, with its gap kept, or an impact's rebound. */
+#include "parts.h"
+
+/*
+ * A gap from half a skin to this much more than a skin is as good as closed. A rigid body cannot
+ * follow targets that differ by a hair at each of its contacts: nothing is asked for there, or the
+ * sweeps would shift its weight from corner to corner without end, and each time it would slip a
+ * little downhill.
+ */
+#define NEAR_DIVISOR 8
+/* A nearer gap is opened by 1/64 of a skin a frame, evenly for the same reason ... */
+#define LIFT_DIVISOR 64
+/* ... and by a fifth of what is missing to half a skin besides. */
+#define RECOVERY_DIVISOR 5
+/* An impact at a gap below a quarter of a skin opens it again: hits stop at half of one. */
+#define TOO_NEAR_DIVISOR 4
+/* In lasting contact an approach by less than this part of a skin a frame is no impact. */
+#define LASTING_DIVISOR 4
+/* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
+#define CALM_DIVISOR 8
+/* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
+#define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
+
+/* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
+static bool may_rest(const struct contact *c, int32_t e_q30)
+{
+    return e_q30 < CAROM_ONE_Q30 || c->lasting ||
+           (c->side[0].body && c->side[0].body->in_contact) ||
+           (c->side[1].body && c->side[1].body->in_contact);
+}
+
+/* The velocity that gravity gives in a frame. */
+FIX_APART static int64_t pull_q40(const struct contact *c)
+{
+    int64_t largest_q40 = 0;
+
+    for (int s = 0; s < 2; s++) {
+        const struct body *b = c->side[s].body;
+
+        if (b && b->acceleration_q40 > largest_q40) {
+            largest_q40 = b->acceleration_q40;
+        }
+    }
+    return largest_q40;
+}
+
+/*
+ * An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. In lasting
+ * contact it is a part of the skin, too, for without gravity nothing else tells impacts from rest.
+ */
+static int64_t slow_q40(const struct contact *c, bool rests)
+{
+    int64_t slow_q40 = rests ? 4 * pull_q40(c) : 0;
+    int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / LASTING_DIVISOR, 18) : 0;
+
+    return slow_q40 > least_q40 ? slow_q40 : least_q40;
+}
+
+/*
+ * Newton's e. Where no gravity tells an impact from rest a body may come back again and again: what its
+ * path is going to bend back by must be there to begin with, and what lacks to the event gap besides, or
+ * it would come nearer each time. A path that does not bend opens a gap that is all but closed. Neither
+ * is more than the approach, so it takes no energy from anywhere.
+ */
+static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
+{
+    int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
+    int64_t back_q40 = 0;
+    int32_t wanted_q22 = c->skin_q22 / TOO_NEAR_DIVISOR;
+
+    if (c->chord_q28 < INT32_MAX && c->speed_q40 > carom_shl(c->chord_q28, 12)) {
+        back_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
+        wanted_q22 = c->skin_q22 / 2;
+    }
+    back_q40 += wanted_q22 > c->gap_q22 ? carom_shl(wanted_q22 - c->gap_q22, 18) : 0;
+    back_q40 = back_q40 < -c->speed_q40 ? back_q40 : -c->speed_q40;
+    return target_q40 > back_q40 ? target_q40 : back_q40;
+}
+
+/* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
+FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
+{
+    int more = way_q22 < 1 << 22 ? 10 : 0;
+
+    return ((way_q22 << (30 + more)) / (time_q30 >> 8)) << (10 - more);
+}
+
+/*
+ * The surface stands still within a step, where it will be at its end: nobody can follow it farther
+ * down than that. A body that would have to counts the surface as standing still along the normal.
+ */
+static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
+{
+    int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
+    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
+
+    if (c->work->target_q40 + rise_q40 >= least_q40) {
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
+
+        c->drift->c[k] -= rise;
+        contact_velocity(c)->c[k] += rise;
+    }
+    c->speed_q40 += rise_q40;
+    c->work->target_q40 = least_q40;
+}
+
+/* A lasting contact that is near opens by a part of its skin in each slice, of half a radian. */
+static int64_t lift_q40(const struct contact *c)
+{
+    int64_t spin_q40 = 0;
+
+    for (int s = 0; s < 2 && c->gap_q22 < c->skin_q22 / 4; s++) {
+        int64_t own_q40 = c->side[s].body ? fix_length(c->side[s].body->spin.c) : 0;
+
+        spin_q40 = own_q40 > spin_q40 ? own_q40 : spin_q40;
+    }
+    return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
+}
+
+/* The part of V.N that the path takes back: it must be there to begin with. */
+static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
+{
+    int64_t more_q40 =
+        c->chord_q28 < INT32_MAX ? c->speed_q40 + rise_q40 - carom_shl(c->chord_q28, 12) : 0;
+
+    return (more_q40 > 0 ? more_q40 : 0) + (c->lasting ? lift_q40(c) : 0);
+}
+
+void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q30)
+{
+    int32_t e_q30 = rest_restitution_at(r, c);
+    bool rests = may_rest(c, e_q30);
+    /* a surface stands still within the step, and a kinematic body goes on */
+    int64_t rise_q40 =
+        c->drift && !rest_body(r, c, 1)->goes ? contact_rise_q40(c->drift, &c->normal) : 0;
+    /* a surface that goes down has left behind what is going to follow it */
+    int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
+    int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
+
+    c->impact = c->speed_q40 < -slow_q40(c, rests);
+    if (c->impact) {
+        c->work->target_q40 = impact_target_q40(c, e_q30);
+    } else if (!rests) {
+        c->work->target_q40 = 0;
+    } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
+        c->work->target_q40 = 0;
+    } else if (open_q22 > 0) {
+        /* may come nearer until the skins touch; q22 to q40 over the time */
+        int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
+
+        c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
+    } else {
+        c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
+        c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
+    }
+    c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
+    if (rests && (!c->impact || c->lasting)) {
+        int64_t more_q40 = taken_back_q40(c, rise_q40);
+        int64_t *target_q40 = &c->work->target_q40;
+
+        *target_q40 = !c->impact               ? *target_q40 + more_q40
+                      : more_q40 > *target_q40 ? more_q40
+                                               : *target_q40;
+    }
+    if (rise_q40 < 0) {
+        hold_above(c, tau_q30, rise_q40);
+    }
+}
+
+bool rest_lies(const struct rest *r, const struct contact *c)
+{
+    int64_t pull = pull_q40(c);
+    carom_v3_q40 v;
+
+    rest_relative_velocity(c, &v);
+    return may_rest(c, rest_restitution_at(r, c))
+               ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
+               : fix_length(v.c) < pull / CALM_DIVISOR;
+}

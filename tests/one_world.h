@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* one_world - the world of a source of tests, its states and steps, and the calls that it refuses. */
+#ifndef CAROM_TEST_ONE_WORLD_H
+#define CAROM_TEST_ONE_WORLD_H
+
+#include <string.h>
+
+#include "carom.h"
+#include "test.h"
+
+static struct carom_world *world;
+
+static inline struct carom_body_state state_of(int body)
+{
+    struct carom_body_state s;
+
+    memset(&s, 0, sizeof s);
+    CHECK_EQ(carom_body_get(world, body, &s), CAROM_OK);
+    return s;
+}
+
+/* Steps that must succeed. */
+static inline void steps(int frames)
+{
+    for (int i = 0; i < frames; i++) {
+        CHECK_EQ(carom_world_step(world), CAROM_OK);
+    }
+}
+
+/* A call is refused and leaves the state alone. */
+#define REFUSE(call, error)                                                                        \
+    do {                                                                                           \
+        const uint64_t hash = carom_world_hash(world);                                             \
+        CHECK_EQ(call, error);                                                                     \
+        CHECK(carom_world_hash(world) == hash);                                                    \
+    } while (0)
+
+#endif
