@@ -24,7 +24,7 @@
 #define REST_SWEEPS_FEW   40 /* of resting contact at a few places, which goes on in the next frame */
 #define REST_SWEEPS_MANY  48 /* and at many */
 
-#define REST_SWEEPS_JOINTS 400
+#define REST_SWEEPS_JOINTS 150
 
 #define REST_QUIET_FRAMES 20 /* before a body may fall asleep */
 

@@ -289,7 +289,7 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
      * away one by one, wherever they end: so the rule about energy has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->calm && (n > UNHURRIED || (joints && !r->joints.factored));
+    bool hurries = may_hurry && !sw->calm && (n > UNHURRIED || joints);
     const int32_t quiet = sw->calm ? 0 : sw->residual / DEAD_DIVISOR;
     int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
     bool ran_out = true;

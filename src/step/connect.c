@@ -16,7 +16,7 @@
 /* Where an anchor is off it comes back in a part of a frame that is no shorter than this. */
 #define RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
 /* What is left at the end of a slice: this part of a skin. */
-#define LEFT_DIVISOR 16
+#define LEFT_DIVISOR 8
 /* A kinematic body that would leave so many skins stops. */
 #define TORN_SKINS 4
 
