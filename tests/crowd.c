@@ -482,7 +482,7 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally)
     tally->capped += (status & CAROM_SUBSTEP_CAP) != 0;
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->bodies[i].before = crowd->bodies[i].now;
-        if (active(crowd, i) ||
+        if (active(crowd, i) || crowd->bodies[i].def.kinematic ||
             lab_state(crowd->world, i).asleep != crowd->bodies[i].now.state.asleep) {
             look_at(crowd, i);
         }
