@@ -301,11 +301,18 @@ void crowd_look(struct crowd *crowd)
 
 /* ---------------------------------------------------------------------- islands */
 
-static void touch(struct crowd *crowd, int a, int b)
+static bool drives(const struct crowd *crowd, int body)
+{
+    return crowd->bodies[body].drives || crowd->bodies[body].def.kinematic;
+}
+
+/* Two bodies are of one island, or one of them is on what does not move. */
+static void unite(struct crowd *crowd, int a, int b)
 {
     int from = crowd->bodies[a].island, to = crowd->bodies[b].island;
 
-    crowd->bodies[a].touching = crowd->bodies[b].touching = true;
+    crowd->bodies[a].driven |= drives(crowd, b);
+    crowd->bodies[b].driven |= drives(crowd, a);
     if (!moves(crowd, a) || !moves(crowd, b)) {
         crowd->bodies[a].grounded |= !moves(crowd, b);
         crowd->bodies[b].grounded |= !moves(crowd, a);
@@ -314,6 +321,29 @@ static void touch(struct crowd *crowd, int a, int b)
     for (int i = 0; i < crowd->body_count; i++) {
         if (crowd->bodies[i].island == (from > to ? from : to)) {
             crowd->bodies[i].island = from > to ? to : from;
+        }
+    }
+}
+
+static void touch(struct crowd *crowd, int a, int b)
+{
+    crowd->bodies[a].touching = crowd->bodies[b].touching = true;
+    unite(crowd, a, b);
+}
+
+static void unite_links(struct crowd *crowd)
+{
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (!link->there) {
+            continue;
+        }
+        crowd->bodies[link->a].driven |= link->works;
+        if (link->b < 0) {
+            crowd->bodies[link->a].grounded = true;
+        } else {
+            unite(crowd, link->a, link->b);
         }
     }
 }
@@ -327,6 +357,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->bodies[i].island = i;
         crowd->bodies[i].touching = crowd->bodies[i].grounded = false;
+        crowd->bodies[i].driven = false;
     }
     for (int i = 0; i < n; i++) {
         const struct carom_event *e = &events[i];
@@ -346,6 +377,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
             }
         }
     }
+    unite_links(crowd);
 }
 
 /* A bound from below of the least moment of inertia over the mass: the determinant over the largest two. */
@@ -380,9 +412,24 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
 
 /* ------------------------------------------------------------------------ watch */
 
+/* What the springs of an island took up in the frame. */
+static double stored_in(const struct crowd *crowd, int island)
+{
+    double rise = 0;
+
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (link->there && crowd->bodies[link->a].island == island) {
+            rise += link->stored[1] - link->stored[0];
+        }
+    }
+    return rise;
+}
+
 static void watch_energy(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
-    double rise = 0, kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3], allowed;
+    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3], allowed;
 
     gravity_of(crowd, gravity);
     for (int i = island; i < crowd->body_count; i++) {
@@ -390,6 +437,9 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
 
         if (body->island != island || !moves(crowd, i)) {
             continue;
+        }
+        if (body->driven) {
+            return;
         }
         kinetic[0] += body->before.kinetic;
         kinetic[1] += body->now.kinetic;
