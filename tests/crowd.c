@@ -429,7 +429,8 @@ static double stored_in(const struct crowd *crowd, int island)
 
 static void watch_energy(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
-    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3], allowed;
+    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3],
+           allowed;
 
     gravity_of(crowd, gravity);
     for (int i = island; i < crowd->body_count; i++) {
