@@ -10,6 +10,7 @@
 #define LIFT_ALLOWED      0.2
 #define IMPACT_ALLOWED    0x1p-24
 #define ULP_Q40           0x1p-40
+#define LINK_ROUNDING     1e-15   /* units of energy: of velocities, in the last places of positions */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
@@ -340,9 +341,11 @@ static void unite_links(struct crowd *crowd)
             continue;
         }
         crowd->bodies[link->a].driven |= link->works;
+        crowd->bodies[link->a].linked = true;
         if (link->b < 0) {
             crowd->bodies[link->a].grounded = true;
         } else {
+            crowd->bodies[link->b].linked = true;
             unite(crowd, link->a, link->b);
         }
     }
@@ -357,7 +360,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->bodies[i].island = i;
         crowd->bodies[i].touching = crowd->bodies[i].grounded = false;
-        crowd->bodies[i].driven = false;
+        crowd->bodies[i].driven = crowd->bodies[i].linked = false;
     }
     for (int i = 0; i < n; i++) {
         const struct carom_event *e = &events[i];
@@ -429,8 +432,9 @@ static double stored_in(const struct crowd *crowd, int island)
 
 static void watch_energy(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
-    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3],
-           allowed;
+    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0;
+    double gravity[3], allowed;
+    bool linked = false, touching = false;
 
     gravity_of(crowd, gravity);
     for (int i = island; i < crowd->body_count; i++) {
@@ -442,6 +446,8 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         if (body->driven) {
             return;
         }
+        linked |= body->linked;
+        touching |= body->touching;
         kinetic[0] += body->before.kinetic;
         kinetic[1] += body->now.kinetic;
         rise +=
@@ -450,6 +456,9 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         if (body->touching) {
             weight += body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin;
         }
+    }
+    if (linked && !touching) {
+        return; /* see watch_groups */
     }
     rounding += IMPACT_ALLOWED * fmax(kinetic[0], kinetic[1]);
     allowed = rounding + LIFT_ALLOWED * weight;
@@ -513,6 +522,80 @@ static void count_resting(const struct crowd *crowd, struct crowd_tally *tally)
     }
 }
 
+void crowd_group_links(struct crowd *crowd)
+{
+    bool changed = true;
+
+    memset(crowd->groups, 0, sizeof crowd->groups);
+    for (int i = 0; i < crowd->body_count; i++) {
+        crowd->group_of[i] = i;
+    }
+    while (changed) {
+        changed = false;
+        for (int i = 0; i < crowd->link_count; i++) {
+            const struct crowd_link *link = &crowd->links[i];
+            int *a = &crowd->group_of[link->a], *b = link->b < 0 ? a : &crowd->group_of[link->b];
+
+            if (link->there && link->b >= 0 && moves(crowd, link->b) && *a != *b) {
+                *a = *b = *a < *b ? *a : *b;
+                changed = true;
+            }
+        }
+    }
+}
+
+/* Kinetic energy, and that of springs, of a group; what it has in all; false when it is touched or driven. */
+static bool look_at_group(const struct crowd *crowd, int group, double *moves_or_held, double *rise)
+{
+    bool alone = true;
+
+    *moves_or_held = *rise = 0;
+    for (int i = 0; i < crowd->body_count; i++) {
+        const struct crowd_body *body = &crowd->bodies[i];
+
+        if (crowd->group_of[i] == group && moves(crowd, i)) {
+            *rise += body->now.kinetic + body->now.potential - body->before.kinetic -
+                     body->before.potential;
+            *moves_or_held += body->now.kinetic;
+            alone = alone && !body->touching && !body->driven && !body->now.state.out;
+        }
+    }
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (link->there && crowd->group_of[link->a] == group) {
+            *rise += link->stored[1] - link->stored[0];
+            *moves_or_held += link->stored[1];
+            alone = alone && !link->works;
+        }
+    }
+    return alone;
+}
+
+/* Who was touched owes nothing any more, and has nothing to get back. */
+static void watch_groups(struct crowd *crowd, struct crowd_tally *tally)
+{
+    for (int i = 0; i < crowd->body_count; i++) {
+        struct crowd_group *group = &crowd->groups[i];
+        double now, rise;
+
+        if (!crowd->bodies[i].linked || crowd->group_of[i] != i) {
+            continue;
+        }
+        if (look_at_group(crowd, i, &now, &rise)) {
+            group->gained += rise;
+        } else {
+            group->gained = fmax(group->gained, 0);
+        }
+        group->most = fmax(group->most, now);
+        if (group->gained - LINK_ROUNDING > tally->gained * group->most) {
+            tally->gained = (group->gained - LINK_ROUNDING) / group->most;
+            tally->gained_frame = tally->frames;
+            tally->gained_body = i;
+        }
+    }
+}
+
 int crowd_step(struct crowd *crowd, struct crowd_tally *tally)
 {
     int status = carom_world_step(crowd->world);
@@ -548,6 +631,7 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally)
             watch_momentum(crowd, i, tally);
         }
     }
+    watch_groups(crowd, tally);
     crowd_watch_crossings(crowd, tally);
     count_resting(crowd, tally);
 }

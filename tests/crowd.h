@@ -48,6 +48,7 @@ struct crowd_body {
     bool touching; /* touched anything in that frame */
     bool grounded; /* touched something stationary */
     bool driven;   /* or something that does work: a kinematic body, a belt, a link */
+    bool linked;   /* or there is a link at it */
     bool drives;   /* does work on what touches it, though it is no kinematic body */
 };
 
@@ -56,6 +57,14 @@ struct crowd_link {
     int a, b;
     bool there, works; /* it does work: a motor */
     double stored[2];  /* energy that a spring holds, before the frame and after it */
+};
+
+/*
+ * Joints give back later what energy they cannot keep in a frame. So the bodies that links unite, whatever else they
+ * touch, are watched as a group by what they gain over all frames in which nothing touches or drives them.
+ */
+struct crowd_group {
+    double gained, most; /* so far, units of energy; the largest part of what moves or is held */
 };
 
 /* What is looked for between two bodies. */
@@ -80,6 +89,8 @@ struct crowd {
     uint8_t pass[CROWD_BODIES][CROWD_BODIES]; /* enum crowd_pass, see crowd_let_pass */
     struct crowd_link *links;                 /* the caller's, who says what they hold */
     int link_count;
+    struct crowd_group groups[CROWD_BODIES]; /* by the lowest body */
+    int group_of[CROWD_BODIES];
 };
 
 /* An empty crowd: gravity of 9.81 units / s^2 at 60 frames, sleep on. */
@@ -152,6 +163,9 @@ struct crowd_tally {
     long rise_frame;
     int rise_body;
     double lift;     /* the largest rise, rounding apart, in m g skin of the bodies that touch */
+    double gained;   /* the most that a group of links gained, of the most that moved in it or was held */
+    int gained_body;
+    long gained_frame;
     double momentum; /* the largest change of an ungrounded island's but by gravity, relative */
     double angular;  /* the same about the origin; without gravity only */
 };
@@ -163,6 +177,9 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally);
 
 /* Look for faces that cross and for bodies inside others, when it is time to. Once a frame. */
 void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally);
+
+/* Set groups anew by the links that are there. */
+void crowd_group_links(struct crowd *crowd);
 
 /* Say what is to be looked for between two bodies; at first crossings, between all. */
 void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass);

@@ -6,7 +6,8 @@
  *   host_soak rows FIRST COUNT   a row of CSV a world
  *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
  *
- * A number is that of a world of bodies alone, or with an m before it of a machine: see soak_machine.h.
+ * A number is that of a world of bodies alone, with an m before it of a machine, with a w of a wild one: see
+ * soak_machine.h.
  */
 #include <math.h>
 #include <stdio.h>
@@ -48,7 +49,12 @@ static const char columns[] =
     "frame,"
     "seconds,candidates,substeps,fullest,joints,apart,axes,beyond,bent,touched_apart,touched_axes,"
     "touched_beyond,touched_bent,breaks,blocked,sensed,sensor_asked,sensor_frame,other_frame,"
-    "momentum_off,angular_off,faults";
+    "momentum_off,angular_off,gained,faults";
+
+static const char *prefix(void)
+{
+    return !world.machine ? "" : world.machine->wild ? "w" : "m";
+}
 
 /* What a machine has more. */
 static void print_machine(const struct soak_result *r)
@@ -58,9 +64,10 @@ static void print_machine(const struct soak_result *r)
 
     printf("%d,%.3g,%.3g,%.3g,%.3g,", world.machine ? world.machine->joint_count : 0, s->free.apart,
            s->free.axes, s->free.beyond, s->free.bent);
-    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,", s->any.apart, s->any.axes,
+    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,", s->any.apart, s->any.axes,
            s->any.beyond, s->any.bent, s->breaks, s->blocked, s->sensed, s->sensor_asked,
-           s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular);
+           s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular,
+           r->tally.gained);
 }
 
 static void print_row(const struct soak_result *r)
@@ -68,7 +75,7 @@ static void print_row(const struct soak_result *r)
     const struct crowd_tally *t = &r->tally;
     const char *between = "";
 
-    printf("%s%llu,%d,%u,%s,%s,%.3g,%d,", world.machine ? "m" : "", (unsigned long long)world.seed,
+    printf("%s%llu,%d,%u,%s,%s,%.3g,%d,", prefix(), (unsigned long long)world.seed,
            world.crowd->body_count, faces_of(world.crowd), soak_ground_names[world.ground],
            soak_pace_names[world.pace], world.gravity, world.crowd->config.sleep);
     printf("%ld,%ld,%ld,%ld,%.3g,%s,%ld,%d,%ld,%ld,%ld,%.3g,%ld,%d,%ld,%d,%.4f,%ld,%.3f,%u,%u,%u,",
@@ -88,24 +95,24 @@ static void print_row(const struct soak_result *r)
     fflush(stdout);
 }
 
-/* A world by what it is called: "12", "m12". */
+/* A world by what it is called: "12", "m12", "w12". */
 struct name {
     uint64_t seed;
-    bool machine;
+    bool machine, wild;
 };
 
 static struct name read_name(const char *text)
 {
-    bool machine = *text == 'm';
+    bool wild = *text == 'w', machine = wild || *text == 'm';
 
-    return (struct name){strtoull(text + machine, NULL, 10), machine};
+    return (struct name){strtoull(text + machine, NULL, 10), machine, wild};
 }
 
 static void make(struct name name)
 {
     soak_make(&world, name.seed);
     if (name.machine) {
-        soak_machine_make(&world);
+        soak_machine_make(&world, name.wild);
     }
 }
 
@@ -208,7 +215,7 @@ static void describe(void)
     const struct crowd *crowd = world.crowd;
 
     printf("# seed %s%llu: %d bodies, %u faces, ground %s, %s, gravity %.3g, sleep %d%s\n",
-           world.machine ? "m" : "", (unsigned long long)world.seed, crowd->body_count,
+           prefix(), (unsigned long long)world.seed, crowd->body_count,
            faces_of(crowd), soak_ground_names[world.ground], soak_pace_names[world.pace],
            world.gravity, crowd->config.sleep, world.exact ? ", masses powers of two" : "");
     for (int i = 0; i < crowd->body_count; i++) {
@@ -253,6 +260,9 @@ static void print_frame(const struct soak_result *r, const struct crowd_tally *b
     }
     if (t->rise > 1 && t->rise > before->rise) {
         printf(", ENERGY %.3g of what is allowed, body %d", t->rise, t->rise_body);
+    }
+    if (t->gained > before->gained && t->gained > SOAK_GAINED) {
+        printf(", GAINED %.3g, group of body %d", t->gained, t->gained_body);
     }
     if (r->momentum_frame == t->frames) {
         printf(", MOMENTUM");
@@ -358,7 +368,7 @@ static void test(const char *kind, bool machine)
     double worst[SOAK_FAULTS] = {0};
 
     for (size_t i = 0; i < (machine ? FIRST : WORLDS); i++) {
-        const struct name name = {i < FIRST ? i + 1 : known[i - FIRST], machine};
+        const struct name name = {i < FIRST ? i + 1 : known[i - FIRST], machine, false};
         struct soak_result result;
 
         if (open_case(kind, (long)name.seed)) {

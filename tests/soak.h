@@ -108,6 +108,7 @@ enum soak_fault {
 extern const char *const soak_fault_names[SOAK_FAULTS];
 #define SOAK_STEP_SECONDS 0.2
 #define SOAK_APART        8    /* skins, of what nothing touches */
+#define SOAK_GAINED       1e-3 /* of the energy of a group */
 #define SOAK_AXES         0.01 /* radians */
 #define SOAK_CANDIDATES   1024 /* of a step, for each face of the world */
 bool soak_has(const struct soak_result *result, enum soak_fault fault);

@@ -209,6 +209,24 @@ static void fill(struct soak_world *w, struct soak_joint *joint, struct test_ran
     }
 }
 
+/* Nobody swings faster than by so much of its radius in a frame, unless the world is wild. */
+#define CALM 0.5
+static void calm(struct soak_world *w, int body)
+{
+    struct carom_body_def *def = def_of(w, body);
+    double v[3], spin[3], radius = radius_of(w, body), speed;
+
+    for (int k = 0; k < 3; k++) {
+        v[k] = real(def->velocity.c[k], 40);
+        spin[k] = real(def->spin.c[k], 40);
+    }
+    speed = real_length(v) + radius * real_length(spin);
+    for (int k = 0; k < 3 && speed > CALM * radius; k++) {
+        def->velocity.c[k] = lab_fixed(v[k] * CALM * radius / speed, 40);
+        def->spin.c[k] = lab_fixed(spin[k] * CALM * radius / speed, 40);
+    }
+}
+
 /* What a body is joined with: the world or a body before it. */
 static int partner(const struct soak_machine *m, int body, bool chain, struct test_random *r)
 {
@@ -252,6 +270,10 @@ static void join_some(struct soak_world *w, struct test_random *r)
             continue;
         }
         fill(w, joint, r);
+        if (!m->wild) {
+            calm(w, i);
+            calm(w, joint->def.b < 0 ? i : joint->def.b);
+        }
         m->joint_count++;
         last = i;
         i -= again; /* and once more */
@@ -260,7 +282,7 @@ static void join_some(struct soak_world *w, struct test_random *r)
 
 /* ------------------------------------------------------------------------------ all */
 
-void soak_machine_make(struct soak_world *w)
+void soak_machine_make(struct soak_world *w, bool wild)
 {
     struct soak_machine *m = lab_need(sizeof *m);
     struct test_random *r = &m->r;
@@ -269,6 +291,7 @@ void soak_machine_make(struct soak_world *w)
     w->seen = lab_need(sizeof *w->seen);
     r->state = w->seed * 0xa0761d6478bd642fu;
     m->seed = w->seed;
+    m->wild = wild;
     m->first = w->crowd->body_count - w->moving;
     m->driven = soak_pick(r, 3) == 0;
     if (soak_pick(r, 3) == 0) {

@@ -65,7 +65,7 @@ void soak_joint_look(const struct crowd *crowd, const struct soak_joint *joint, 
 
 struct soak_machine {
     struct test_random r; /* of what happens while it runs */
-    bool led, driven, filtered, asks, belts, damped;
+    bool wild, led, driven, filtered, asks, belts, damped;
     struct soak_joint joints[SOAK_JOINTS];
     int joint_count;
     struct soak_leader leaders[CROWD_BODIES];
@@ -95,8 +95,11 @@ struct soak_seen {
     long other_frame;
 };
 
-/* Make a world of soak_make a machine, before it starts. */
-void soak_machine_make(struct soak_world *world);
+/*
+ * Make a world of soak_make a machine, before it starts. In a wild one what is joined moves as fast as it was drawn, up to
+ * hundreds of turns in a frame; else by half of its radius at most.
+ */
+void soak_machine_make(struct soak_world *world, bool wild);
 /* Have the world ask its callback, if it has one. */
 void soak_machine_ask(struct soak_world *world);
 /* What there is beside bodies, when these are there; CAROM_OK or an error. */

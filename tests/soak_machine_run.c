@@ -176,6 +176,7 @@ static int add_joints(struct soak_world *w)
     }
     w->crowd->links = w->seen->links;
     w->crowd->link_count = m->joint_count;
+    crowd_group_links(w->crowd);
     return CAROM_OK;
 }
 

@@ -43,11 +43,17 @@ static void note_events(struct soak_world *w)
 
 void soak_machine_before(struct soak_world *w)
 {
+    bool changed = false;
+
     for (int i = 0; i < w->machine->joint_count; i++) {
         struct crowd_link *link = &w->seen->links[i];
 
+        changed |= link->there == w->machine->joints[i].gone;
         link->there = !w->machine->joints[i].gone;
         link->stored[0] = soak_joint_energy(w->crowd, &w->machine->joints[i]);
+    }
+    if (changed) {
+        crowd_group_links(w->crowd);
     }
 }
 

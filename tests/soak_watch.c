@@ -292,7 +292,7 @@ bool soak_has(const struct soak_result *r, enum soak_fault fault)
     case SOAK_CUT:
         return 100 * r->tally.capped > r->tally.frames;
     case SOAK_ENERGY:
-        return r->tally.rise > 1;
+        return r->tally.rise > 1 || r->tally.gained > SOAK_GAINED;
     case SOAK_MOMENTUM:
         return r->momentum_frame > 0;
     case SOAK_MUCH_WORK:
