@@ -49,7 +49,7 @@ static const char columns[] =
     "frame,"
     "seconds,candidates,substeps,fullest,joints,apart,axes,beyond,bent,touched_apart,touched_axes,"
     "touched_beyond,touched_bent,breaks,blocked,sensed,sensor_asked,sensor_frame,other_frame,"
-    "momentum_off,angular_off,gained,faults";
+    "momentum_off,angular_off,gained,refused,faults";
 
 static const char *prefix(void)
 {
@@ -64,10 +64,10 @@ static void print_machine(const struct soak_result *r)
 
     printf("%d,%.3g,%.3g,%.3g,%.3g,", world.machine ? world.machine->joint_count : 0, s->free.apart,
            s->free.axes, s->free.beyond, s->free.bent);
-    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,", s->any.apart, s->any.axes,
+    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,%d,", s->any.apart, s->any.axes,
            s->any.beyond, s->any.bent, s->breaks, s->blocked, s->sensed, s->sensor_asked,
            s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular,
-           r->tally.gained);
+           r->tally.gained, s->refused);
 }
 
 static void print_row(const struct soak_result *r)

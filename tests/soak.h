@@ -113,7 +113,6 @@ extern const char *const soak_fault_names[SOAK_FAULTS];
 #define SOAK_CANDIDATES   1024 /* of a step, for each face of the world */
 bool soak_has(const struct soak_result *result, enum soak_fault fault);
 
-#define SOAK_FRAMES 300
 /* Start the world, and look at it before the first frame; false when that fails. */
 bool soak_start(struct soak_world *world, struct soak_result *result);
 /* One frame, watched; false when the world is over. */

@@ -34,6 +34,7 @@ void soak_lead(struct carom_world *world, int body, const struct soak_leader *le
 /* -------------------------------------------------------------------------- joints */
 
 #define SOAK_JOINTS 40
+#define SOAK_FRAMES 300
 
 /* A joint, and in double where it was added: all that the checks know of it. */
 struct soak_joint {
@@ -89,10 +90,11 @@ struct soak_seen {
     /* half-way: a snapshot, its hash, and what the machine was then; and what it was at the start */
     void *snapshot;
     int snapshot_bytes;
-    uint64_t half_hash;
     struct soak_machine half, start;
+    uint64_t hashes[SOAK_FRAMES + 1]; /* after each frame */
     /* the first frame after which a second run had another hash, 0: none; it takes the snapshot half-way */
     long other_frame;
+    bool refused; /* it was not taken */
 };
 
 /*
@@ -119,10 +121,10 @@ bool soak_machine_may_meet(const struct soak_world *world, int a, int b);
 void soak_machine_let_pass(struct soak_world *world);
 
 /*
- * Half-way: note what a second run is to come by. And that run: over the first half from the start, over the second
- * one from the snapshot in a world made anew. The world is then that of the second run.
+ * Half-way: note what a second run is to come by. And that run, after the last frame: over the first half from the
+ * start, over the second one from the snapshot in a world made anew. The world is then that of the second run.
  */
 void soak_machine_half(struct soak_world *world);
-void soak_machine_again(struct soak_world *world, long frames);
+void soak_machine_again(struct soak_world *world);
 
 #endif

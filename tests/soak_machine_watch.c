@@ -158,7 +158,6 @@ void soak_machine_half(struct soak_world *w)
     seen->snapshot_bytes = carom_snapshot_size(w->crowd->world);
     seen->snapshot = lab_need((size_t)seen->snapshot_bytes);
     carom_snapshot_save(w->crowd->world, seen->snapshot, (size_t)seen->snapshot_bytes);
-    seen->half_hash = carom_world_hash(w->crowd->world);
     seen->half = *w->machine;
 }
 
@@ -169,11 +168,13 @@ static bool begin_again(struct soak_world *w)
     return crowd_start(w->crowd) >= 0 && soak_machine_start(w) >= 0;
 }
 
-/* The same frames, unwatched. */
+/* The same frames, unwatched, up to the first after which the world is another; false then. */
 static bool run(struct soak_world *w, long from, long to)
 {
     for (long frame = from; frame <= to; frame++) {
-        if (soak_machine_act(w, frame) < 0 || carom_world_step(w->crowd->world) < 0) {
+        if (soak_machine_act(w, frame) < 0 || carom_world_step(w->crowd->world) < 0 ||
+            carom_world_hash(w->crowd->world) != w->seen->hashes[frame]) {
+            w->seen->other_frame = frame;
             return false;
         }
         soak_machine_note_breaks(w);
@@ -192,28 +193,21 @@ static void take_joints_away(struct soak_world *w)
     *w->machine = w->seen->half;
 }
 
-void soak_machine_again(struct soak_world *w, long frames)
+void soak_machine_again(struct soak_world *w)
 {
-    const uint64_t end = carom_world_hash(w->crowd->world);
-    const long half = frames / 2;
+    const long half = SOAK_FRAMES / 2;
     struct soak_seen *seen = w->seen;
 
-    if (!begin_again(w) || !run(w, 1, half) ||
-        carom_world_hash(w->crowd->world) != seen->half_hash) {
-        seen->other_frame = half;
-        return;
-    }
-    if (!begin_again(w)) {
-        seen->other_frame = half;
+    seen->other_frame = 1;
+    if (!begin_again(w) || !run(w, 1, half) || !begin_again(w)) {
         return;
     }
     take_joints_away(w);
-    if (carom_snapshot_load(w->crowd->world, seen->snapshot, (size_t)seen->snapshot_bytes) < 0 ||
-        carom_world_hash(w->crowd->world) != seen->half_hash) {
-        seen->other_frame = half + 1;
-        return;
-    }
-    if (!run(w, half + 1, frames) || carom_world_hash(w->crowd->world) != end) {
-        seen->other_frame = frames;
+    seen->other_frame = half;
+    seen->refused =
+        carom_snapshot_load(w->crowd->world, seen->snapshot, (size_t)seen->snapshot_bytes) < 0;
+    if (!seen->refused && carom_world_hash(w->crowd->world) == seen->hashes[half] &&
+        run(w, half + 1, SOAK_FRAMES)) {
+        seen->other_frame = 0;
     }
 }

@@ -241,11 +241,12 @@ static int act_and_step(struct soak_world *w, struct soak_result *r)
 static void watch_machine(struct soak_world *w, struct soak_result *r)
 {
     soak_machine_watch(w, r->tally.frames);
+    w->seen->hashes[r->tally.frames] = carom_world_hash(w->crowd->world);
     if (r->tally.frames == SOAK_FRAMES / 2) {
         soak_machine_half(w);
     }
     if (r->tally.frames == SOAK_FRAMES) {
-        soak_machine_again(w, SOAK_FRAMES);
+        soak_machine_again(w);
     }
 }
 
