@@ -10,7 +10,7 @@
 #define LIFT_ALLOWED      0.2
 #define IMPACT_ALLOWED    0x1p-24
 #define ULP_Q40           0x1p-40
-#define LINK_ROUNDING     1e-15   /* units of energy: of velocities, in the last places of positions */
+#define LINK_ROUNDING     1e-15 /* units of energy: of velocities, in the last places of positions */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */

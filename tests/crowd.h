@@ -162,8 +162,9 @@ struct crowd_tally {
     double rise;
     long rise_frame;
     int rise_body;
-    double lift;     /* the largest rise, rounding apart, in m g skin of the bodies that touch */
-    double gained;   /* the most that a group of links gained, of the most that moved in it or was held */
+    double lift; /* the largest rise, rounding apart, in m g skin of the bodies that touch */
+    double
+        gained; /* the most that a group of links gained, of the most that moved in it or was held */
     int gained_body;
     long gained_frame;
     double momentum; /* the largest change of an ungrounded island's but by gravity, relative */

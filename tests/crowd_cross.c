@@ -90,6 +90,11 @@ static void note_inside(struct crowd_tally *tally, int a, int b)
     tally->inside++;
 }
 
+void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
+{
+    crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
+}
+
 /* A body over a surface must not be under it, unless it was beside it once. */
 static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a, int b)
 {
@@ -102,7 +107,13 @@ static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a,
         crowd->beside[a] |= at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits);
     }
     at[2] += CROSSING_TOLERANCE;
-    if (!crowd->beside[a] && at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
+    if (crowd->beside[a]) {
+        if (oracle_under(mesh_of(crowd, b), at)) {
+            crowd_let_pass(crowd, a, b, CROWD_PASS_ONCE); /* what hangs on a joint comes up again */
+        }
+        return;
+    }
+    if (at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
         note_inside(tally, a, b);
     }
 }
@@ -111,7 +122,7 @@ static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
         for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
-            if (!is_still(&crowd->bodies[a]) && !crowd->beside[a] &&
+            if (!is_still(&crowd->bodies[a]) && (!crowd->beside[a] || crowd->bodies[a].linked) &&
                 !crowd->bodies[a].now.state.out && crowd->pass[a][b] == CROWD_MEET) {
                 watch_surface(crowd, tally, a, b);
             }
@@ -206,11 +217,6 @@ static void note_crossing(const struct crowd *crowd, struct crowd_tally *tally, 
     }
     tally->crossed_depth = fmax(tally->crossed_depth, depth);
     tally->crossed_skins = fmax(tally->crossed_skins, depth / skin_of(crowd, a, b));
-}
-
-void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
-{
-    crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
 }
 
 /* Whether two bodies may cross; who was to pass another one until they are apart, and is, may no more. */

@@ -64,9 +64,9 @@ static void print_machine(const struct soak_result *r)
 
     printf("%d,%.3g,%.3g,%.3g,%.3g,", world.machine ? world.machine->joint_count : 0, s->free.apart,
            s->free.axes, s->free.beyond, s->free.bent);
-    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,%d,", s->any.apart, s->any.axes,
-           s->any.beyond, s->any.bent, s->breaks, s->blocked, s->sensed, s->sensor_asked,
-           s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular,
+    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,%d,", s->any.apart,
+           s->any.axes, s->any.beyond, s->any.bent, s->breaks, s->blocked, s->sensed,
+           s->sensor_asked, s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular,
            r->tally.gained, s->refused);
 }
 
@@ -215,9 +215,9 @@ static void describe(void)
     const struct crowd *crowd = world.crowd;
 
     printf("# seed %s%llu: %d bodies, %u faces, ground %s, %s, gravity %.3g, sleep %d%s\n",
-           prefix(), (unsigned long long)world.seed, crowd->body_count,
-           faces_of(crowd), soak_ground_names[world.ground], soak_pace_names[world.pace],
-           world.gravity, crowd->config.sleep, world.exact ? ", masses powers of two" : "");
+           prefix(), (unsigned long long)world.seed, crowd->body_count, faces_of(crowd),
+           soak_ground_names[world.ground], soak_pace_names[world.pace], world.gravity,
+           crowd->config.sleep, world.exact ? ", masses powers of two" : "");
     for (int i = 0; i < crowd->body_count; i++) {
         const struct crowd_body *body = &crowd->bodies[i];
 
@@ -254,6 +254,9 @@ static void print_frame(const struct soak_result *r, const struct crowd_tally *b
     }
     if (t->inside > before->inside) {
         printf(", INSIDE (first %d in %d)", t->inside_pair[0], t->inside_pair[1]);
+    }
+    if (r->seen && r->seen->sensor_frame == t->frames) {
+        printf(", SENSOR (%d and %d)", r->seen->sensor, r->seen->visitor);
     }
     if (r->escaped_frame == t->frames) {
         printf(", ESCAPED (%d)", r->escaped);

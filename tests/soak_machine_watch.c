@@ -123,10 +123,9 @@ static bool is_asked(const struct soak_world *w, int sensor, int other)
 static void watch_sensor(struct soak_world *w, int sensor, int other, long frame)
 {
     const struct crowd_body *a = &w->crowd->bodies[sensor], *b = &w->crowd->bodies[other];
-    bool surface = b->def.mesh->raw.kind == CAROM_SURFACE;
     int is = 0;
 
-    if (surface || boxes_meet(&a->now, &b->now)) {
+    if (boxes_meet(&a->now, &b->now)) {
         is = crowd_overlap_now(w->crowd, sensor, other, NEAR);
     }
     w->seen->sensor_asked++;

@@ -79,7 +79,8 @@ static bool stands_still(const struct crowd *crowd, int i)
     for (int k = 0; k < 3; k++) {
         gravity[k] = real(crowd->config.gravity.c[k], 40);
     }
-    slow = real_length(gravity) / 8 + 0x1p-22;
+    /* what hangs at a limit keeps what gravity gives in half of a frame */
+    slow = real_length(gravity) / (body->linked ? 1 : 8) + 0x1p-22;
     speed = fmin(speed_of(crowd, body, &body->before), speed_of(crowd, body, &body->now));
     way = way_of(crowd, body, &places);
     return (speed > slow && places <= 2) ||
