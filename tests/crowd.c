@@ -7,10 +7,11 @@
 #include "real.h"
 
 /* What an island's energy may rise by in a frame: see carom's DESIGN.md. */
-#define LIFT_ALLOWED      0.2
-#define IMPACT_ALLOWED    0x1p-24
-#define ULP_Q40           0x1p-40
-#define LINK_ROUNDING     1e-15 /* units of energy: of velocities, in the last places of positions */
+#define LIFT_ALLOWED   0.2
+#define IMPACT_ALLOWED 0x1p-24
+#define ULP_Q40        0x1p-40
+#define LINK_PLACES                                                                                \
+    0x1p-26 /* units: places that links are held at, the last place of a rotation on a long arm */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
@@ -525,8 +526,9 @@ static void count_resting(const struct crowd *crowd, struct crowd_tally *tally)
 void crowd_group_links(struct crowd *crowd)
 {
     bool changed = true;
+    int before[CROWD_BODIES];
 
-    memset(crowd->groups, 0, sizeof crowd->groups);
+    memcpy(before, crowd->group_of, sizeof before);
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->group_of[i] = i;
     }
@@ -542,14 +544,25 @@ void crowd_group_links(struct crowd *crowd)
             }
         }
     }
+    /* other groups begin anew */
+    for (int i = 0; i < crowd->body_count; i++) {
+        for (int k = 0; k < crowd->body_count; k++) {
+            if ((before[k] == i) != (crowd->group_of[k] == i)) {
+                crowd->groups[i] = (struct crowd_group){0, 0};
+            }
+        }
+    }
 }
 
 /* Kinetic energy, and that of springs, of a group; what it has in all; false when it is touched or driven. */
-static bool look_at_group(const struct crowd *crowd, int group, double *moves_or_held, double *rise)
+static bool look_at_group(const struct crowd *crowd, int group, double *moves_or_held, double *rise,
+                          double *rounding)
 {
     bool alone = true;
+    double gravity[3];
 
-    *moves_or_held = *rise = 0;
+    gravity_of(crowd, gravity);
+    *moves_or_held = *rise = *rounding = 0;
     for (int i = 0; i < crowd->body_count; i++) {
         const struct crowd_body *body = &crowd->bodies[i];
 
@@ -557,6 +570,8 @@ static bool look_at_group(const struct crowd *crowd, int group, double *moves_or
             *rise += body->now.kinetic + body->now.potential - body->before.kinetic -
                      body->before.potential;
             *moves_or_held += body->now.kinetic;
+            *rounding +=
+                body->mass * (LINK_PLACES * real_length(gravity) + LINK_PLACES * LINK_PLACES);
             alone = alone && !body->touching && !body->driven && !body->now.state.out;
         }
     }
@@ -577,19 +592,19 @@ static void watch_groups(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int i = 0; i < crowd->body_count; i++) {
         struct crowd_group *group = &crowd->groups[i];
-        double now, rise;
+        double now, rise, rounding;
 
         if (!crowd->bodies[i].linked || crowd->group_of[i] != i) {
             continue;
         }
-        if (look_at_group(crowd, i, &now, &rise)) {
+        if (look_at_group(crowd, i, &now, &rise, &rounding)) {
             group->gained += rise;
         } else {
             group->gained = fmax(group->gained, 0);
         }
         group->most = fmax(group->most, now);
-        if (group->gained - LINK_ROUNDING > tally->gained * group->most) {
-            tally->gained = (group->gained - LINK_ROUNDING) / group->most;
+        if (group->gained - rounding > tally->gained * group->most) {
+            tally->gained = (group->gained - rounding) / group->most;
             tally->gained_frame = tally->frames;
             tally->gained_body = i;
         }
