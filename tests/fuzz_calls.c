@@ -238,5 +238,6 @@ int fuzz_call(struct fuzz *f)
         push,     act_on,     make_of, look_at, join,        join,        change_joint,
         fuzz_ask, fuzz_draw,  set,     add,     read_events, move_surface};
 
-    return calls[fuzz_pick(f, sizeof calls / sizeof *calls)](f);
+    f->last = fuzz_pick(f, sizeof calls / sizeof *calls);
+    return calls[f->last](f);
 }
