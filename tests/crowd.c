@@ -7,9 +7,11 @@
 #include "real.h"
 
 /* What an island's energy may rise by in a frame: see carom's DESIGN.md. */
-#define LIFT_ALLOWED      0.2
-#define IMPACT_ALLOWED    0x1p-24
-#define ULP_Q40           0x1p-40
+#define LIFT_ALLOWED   0.2
+#define IMPACT_ALLOWED 0x1p-24
+#define ULP_Q40        0x1p-40
+#define LINK_PLACES                                                                                \
+    0x1p-26 /* units: places that links are held at, the last place of a rotation on a long arm */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
@@ -301,11 +303,18 @@ void crowd_look(struct crowd *crowd)
 
 /* ---------------------------------------------------------------------- islands */
 
-static void touch(struct crowd *crowd, int a, int b)
+static bool drives(const struct crowd *crowd, int body)
+{
+    return crowd->bodies[body].drives || crowd->bodies[body].def.kinematic;
+}
+
+/* Two bodies are of one island, or one of them is on what does not move. */
+static void unite(struct crowd *crowd, int a, int b)
 {
     int from = crowd->bodies[a].island, to = crowd->bodies[b].island;
 
-    crowd->bodies[a].touching = crowd->bodies[b].touching = true;
+    crowd->bodies[a].driven |= drives(crowd, b);
+    crowd->bodies[b].driven |= drives(crowd, a);
     if (!moves(crowd, a) || !moves(crowd, b)) {
         crowd->bodies[a].grounded |= !moves(crowd, b);
         crowd->bodies[b].grounded |= !moves(crowd, a);
@@ -314,6 +323,31 @@ static void touch(struct crowd *crowd, int a, int b)
     for (int i = 0; i < crowd->body_count; i++) {
         if (crowd->bodies[i].island == (from > to ? from : to)) {
             crowd->bodies[i].island = from > to ? to : from;
+        }
+    }
+}
+
+static void touch(struct crowd *crowd, int a, int b)
+{
+    crowd->bodies[a].touching = crowd->bodies[b].touching = true;
+    unite(crowd, a, b);
+}
+
+static void unite_links(struct crowd *crowd)
+{
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (!link->there) {
+            continue;
+        }
+        crowd->bodies[link->a].driven |= link->works;
+        crowd->bodies[link->a].linked = true;
+        if (link->b < 0) {
+            crowd->bodies[link->a].grounded = true;
+        } else {
+            crowd->bodies[link->b].linked = true;
+            unite(crowd, link->a, link->b);
         }
     }
 }
@@ -327,6 +361,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->bodies[i].island = i;
         crowd->bodies[i].touching = crowd->bodies[i].grounded = false;
+        crowd->bodies[i].driven = crowd->bodies[i].linked = false;
     }
     for (int i = 0; i < n; i++) {
         const struct carom_event *e = &events[i];
@@ -346,6 +381,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
             }
         }
     }
+    unite_links(crowd);
 }
 
 /* A bound from below of the least moment of inertia over the mass: the determinant over the largest two. */
@@ -380,9 +416,26 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
 
 /* ------------------------------------------------------------------------ watch */
 
+/* What the springs of an island took up in the frame. */
+static double stored_in(const struct crowd *crowd, int island)
+{
+    double rise = 0;
+
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (link->there && crowd->bodies[link->a].island == island) {
+            rise += link->stored[1] - link->stored[0];
+        }
+    }
+    return rise;
+}
+
 static void watch_energy(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
-    double rise = 0, kinetic[2] = {0}, weight = 0, rounding = 0, gravity[3], allowed;
+    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0;
+    double gravity[3], allowed;
+    bool linked = false, touching = false;
 
     gravity_of(crowd, gravity);
     for (int i = island; i < crowd->body_count; i++) {
@@ -391,6 +444,11 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         if (body->island != island || !moves(crowd, i)) {
             continue;
         }
+        if (body->driven) {
+            return;
+        }
+        linked |= body->linked;
+        touching |= body->touching;
         kinetic[0] += body->before.kinetic;
         kinetic[1] += body->now.kinetic;
         rise +=
@@ -399,6 +457,9 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         if (body->touching) {
             weight += body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin;
         }
+    }
+    if (linked && !touching) {
+        return; /* see watch_groups */
     }
     rounding += IMPACT_ALLOWED * fmax(kinetic[0], kinetic[1]);
     allowed = rounding + LIFT_ALLOWED * weight;
@@ -462,6 +523,94 @@ static void count_resting(const struct crowd *crowd, struct crowd_tally *tally)
     }
 }
 
+void crowd_group_links(struct crowd *crowd)
+{
+    bool changed = true;
+    int before[CROWD_BODIES];
+
+    memcpy(before, crowd->group_of, sizeof before);
+    for (int i = 0; i < crowd->body_count; i++) {
+        crowd->group_of[i] = i;
+    }
+    while (changed) {
+        changed = false;
+        for (int i = 0; i < crowd->link_count; i++) {
+            const struct crowd_link *link = &crowd->links[i];
+            int *a = &crowd->group_of[link->a], *b = link->b < 0 ? a : &crowd->group_of[link->b];
+
+            if (link->there && link->b >= 0 && moves(crowd, link->b) && *a != *b) {
+                *a = *b = *a < *b ? *a : *b;
+                changed = true;
+            }
+        }
+    }
+    /* other groups begin anew */
+    for (int i = 0; i < crowd->body_count; i++) {
+        for (int k = 0; k < crowd->body_count; k++) {
+            if ((before[k] == i) != (crowd->group_of[k] == i)) {
+                crowd->groups[i] = (struct crowd_group){0, 0};
+            }
+        }
+    }
+}
+
+/* Kinetic energy, and that of springs, of a group; what it has in all; false when it is touched or driven. */
+static bool look_at_group(const struct crowd *crowd, int group, double *moves_or_held, double *rise,
+                          double *rounding)
+{
+    bool alone = true;
+    double gravity[3];
+
+    gravity_of(crowd, gravity);
+    *moves_or_held = *rise = *rounding = 0;
+    for (int i = 0; i < crowd->body_count; i++) {
+        const struct crowd_body *body = &crowd->bodies[i];
+
+        if (crowd->group_of[i] == group && moves(crowd, i)) {
+            *rise += body->now.kinetic + body->now.potential - body->before.kinetic -
+                     body->before.potential;
+            *moves_or_held += body->now.kinetic;
+            *rounding +=
+                body->mass * (LINK_PLACES * real_length(gravity) + LINK_PLACES * LINK_PLACES);
+            alone = alone && !body->touching && !body->driven && !body->now.state.out;
+        }
+    }
+    for (int i = 0; i < crowd->link_count; i++) {
+        const struct crowd_link *link = &crowd->links[i];
+
+        if (link->there && crowd->group_of[link->a] == group) {
+            *rise += link->stored[1] - link->stored[0];
+            *moves_or_held += link->stored[1];
+            alone = alone && !link->works;
+        }
+    }
+    return alone;
+}
+
+/* Who was touched owes nothing any more, and has nothing to get back. */
+static void watch_groups(struct crowd *crowd, struct crowd_tally *tally)
+{
+    for (int i = 0; i < crowd->body_count; i++) {
+        struct crowd_group *group = &crowd->groups[i];
+        double now, rise, rounding;
+
+        if (!crowd->bodies[i].linked || crowd->group_of[i] != i) {
+            continue;
+        }
+        if (look_at_group(crowd, i, &now, &rise, &rounding)) {
+            group->gained += rise;
+        } else {
+            group->gained = fmax(group->gained, 0);
+        }
+        group->most = fmax(group->most, now);
+        if (group->gained - rounding > tally->gained * group->most) {
+            tally->gained = (group->gained - rounding) / group->most;
+            tally->gained_frame = tally->frames;
+            tally->gained_body = i;
+        }
+    }
+}
+
 int crowd_step(struct crowd *crowd, struct crowd_tally *tally)
 {
     int status = carom_world_step(crowd->world);
@@ -482,7 +631,7 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally)
     tally->capped += (status & CAROM_SUBSTEP_CAP) != 0;
     for (int i = 0; i < crowd->body_count; i++) {
         crowd->bodies[i].before = crowd->bodies[i].now;
-        if (active(crowd, i) ||
+        if (active(crowd, i) || crowd->bodies[i].def.kinematic ||
             lab_state(crowd->world, i).asleep != crowd->bodies[i].now.state.asleep) {
             look_at(crowd, i);
         }
@@ -497,6 +646,7 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally)
             watch_momentum(crowd, i, tally);
         }
     }
+    watch_groups(crowd, tally);
     crowd_watch_crossings(crowd, tally);
     count_resting(crowd, tally);
 }

@@ -47,6 +47,31 @@ struct crowd_body {
     int island;    /* the lowest body of its island, in the frame last seen */
     bool touching; /* touched anything in that frame */
     bool grounded; /* touched something stationary */
+    bool driven;   /* or something that does work: a kinematic body, a belt, a link */
+    bool linked;   /* or there is a link at it */
+    bool drives;   /* does work on what touches it, though it is no kinematic body */
+};
+
+/* What connects a body with another one, or with the world (b is -1), without touching: a joint. */
+struct crowd_link {
+    int a, b;
+    bool there, works; /* it does work: a motor */
+    double stored[2];  /* energy that a spring holds, before the frame and after it */
+};
+
+/*
+ * Joints give back later what energy they cannot keep in a frame. So the bodies that links unite, whatever else they
+ * touch, are watched as a group by what they gain over all frames in which nothing touches or drives them.
+ */
+struct crowd_group {
+    double gained, most; /* so far, units of energy; the largest part of what moves or is held */
+};
+
+/* What is looked for between two bodies. */
+enum crowd_pass {
+    CROWD_MEET,      /* crossings */
+    CROWD_PASS_ONCE, /* nothing until they are seen apart */
+    CROWD_PASS       /* nothing */
 };
 
 struct crowd {
@@ -61,7 +86,11 @@ struct crowd {
     bool beside[CROWD_BODIES];                 /* who has been beside a surface */
     double substeps;                           /* of the last frame */
     long look_every; /* frames from one look for crossings to the next; 0: each */
-    bool linked;     /* bodies next to each other in number are jointed, and ignore each other */
+    uint8_t pass[CROWD_BODIES][CROWD_BODIES]; /* enum crowd_pass, see crowd_let_pass */
+    struct crowd_link *links;                 /* the caller's, who says what they hold */
+    int link_count;
+    struct crowd_group groups[CROWD_BODIES]; /* by the lowest body */
+    int group_of[CROWD_BODIES];
 };
 
 /* An empty crowd: gravity of 9.81 units / s^2 at 60 frames, sleep on. */
@@ -133,7 +162,11 @@ struct crowd_tally {
     double rise;
     long rise_frame;
     int rise_body;
-    double lift;     /* the largest rise, rounding apart, in m g skin of the bodies that touch */
+    double lift; /* the largest rise, rounding apart, in m g skin of the bodies that touch */
+    double
+        gained; /* the most that a group of links gained, of the most that moved in it or was held */
+    int gained_body;
+    long gained_frame;
     double momentum; /* the largest change of an ungrounded island's but by gravity, relative */
     double angular;  /* the same about the origin; without gravity only */
 };
@@ -145,6 +178,21 @@ void crowd_watch(struct crowd *crowd, int status, struct crowd_tally *tally);
 
 /* Look for faces that cross and for bodies inside others, when it is time to. Once a frame. */
 void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally);
+
+/* Set groups anew by the links that are there. */
+void crowd_group_links(struct crowd *crowd);
+
+/* Say what is to be looked for between two bodies; at first crossings, between all. */
+void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass);
+
+/*
+ * Whether two bodies overlap in such poses, faces that cross or one inside the other: 1 or 0; -1 when they
+ * are within `near` units of each other, or cross by less.
+ */
+int crowd_overlap(const struct crowd *crowd, int a, int b, const struct oracle_pose *pose_a,
+                  const struct oracle_pose *pose_b, double near);
+/* The same where they are now. */
+int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near);
 
 /* The bodies as they are now, without a step; for the first frame and after carom_body_set. */
 void crowd_look(struct crowd *crowd);

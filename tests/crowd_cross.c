@@ -15,6 +15,8 @@ static bool is_still(const struct crowd_body *body)
 
 /* Well above the rounding of coordinates, far below the skin. */
 #define CROSSING_TOLERANCE 1e-9
+/* Bodies that passed each other are apart when so many skins are between them. */
+#define PASS_SKINS 2
 
 static bool is_surface(const struct crowd *crowd, int body)
 {
@@ -54,21 +56,28 @@ static bool box_within(const struct crowd_seen *a, const struct crowd_seen *b)
 /* --------------------------------------------------------------------- inside */
 
 /* A corner of a body, in the axes of another one's mesh. */
-static void corner_seen_from(double out[3], const struct crowd *crowd, int a, int b)
+static void corner_seen_from(double out[3], const struct oracle_mesh *a,
+                             const struct oracle_pose *pose_a, const struct oracle_pose *pose_b)
 {
-    struct oracle_pose pose_a = pose_of(crowd, a), pose_b = pose_of(crowd, b);
-    const double *corner = mesh_of(crowd, a)->vertices[0];
     double at[3];
 
     for (int k = 0; k < 3; k++) {
-        at[k] = real_dot(pose_a.rotation.row[k], corner) + pose_a.position[k] - pose_b.position[k];
+        at[k] = real_dot(pose_a->rotation.row[k], a->vertices[0]) + pose_a->position[k] -
+                pose_b->position[k];
     }
     for (int k = 0; k < 3; k++) {
         out[k] = 0;
         for (int i = 0; i < 3; i++) {
-            out[k] += pose_b.rotation.row[i][k] * at[i];
+            out[k] += pose_b->rotation.row[i][k] * at[i];
         }
     }
+}
+
+static void corner_seen_now(double out[3], const struct crowd *crowd, int a, int b)
+{
+    struct oracle_pose pose_a = pose_of(crowd, a), pose_b = pose_of(crowd, b);
+
+    corner_seen_from(out, mesh_of(crowd, a), &pose_a, &pose_b);
 }
 
 static void note_inside(struct crowd_tally *tally, int a, int b)
@@ -81,6 +90,11 @@ static void note_inside(struct crowd_tally *tally, int a, int b)
     tally->inside++;
 }
 
+void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
+{
+    crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
+}
+
 /* A body over a surface must not be under it, unless it was beside it once. */
 static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a, int b)
 {
@@ -88,12 +102,18 @@ static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a,
     const int bits = crowd->bodies[b].def.mesh->raw.quantum_bits;
     double at[3];
 
-    corner_seen_from(at, crowd, a, b);
+    corner_seen_now(at, crowd, a, b);
     for (int k = 0; k < 2; k++) {
         crowd->beside[a] |= at[k] < real(box[0][k], bits) || at[k] > real(box[1][k], bits);
     }
     at[2] += CROSSING_TOLERANCE;
-    if (!crowd->beside[a] && at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
+    if (crowd->beside[a]) {
+        if (oracle_under(mesh_of(crowd, b), at)) {
+            crowd_let_pass(crowd, a, b, CROWD_PASS_ONCE); /* what hangs on a joint comes up again */
+        }
+        return;
+    }
+    if (at[2] < real(box[1][2], bits) && oracle_under(mesh_of(crowd, b), at)) {
         note_inside(tally, a, b);
     }
 }
@@ -102,12 +122,49 @@ static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int b = 0; b < crowd->body_count; b++) {
         for (int a = 0; a < crowd->body_count && is_surface(crowd, b); a++) {
-            if (!is_still(&crowd->bodies[a]) && !crowd->beside[a] &&
-                !crowd->bodies[a].now.state.out) {
+            if (!is_still(&crowd->bodies[a]) && (!crowd->beside[a] || crowd->bodies[a].linked) &&
+                !crowd->bodies[a].now.state.out && crowd->pass[a][b] == CROWD_MEET) {
                 watch_surface(crowd, tally, a, b);
             }
         }
     }
+}
+
+/* Whether the first corner of one is inside of another, or under it. */
+static bool corner_inside(const struct crowd *crowd, int a, int b, const struct oracle_pose *pose_a,
+                          const struct oracle_pose *pose_b)
+{
+    double at[3];
+
+    if (is_surface(crowd, a)) {
+        return false;
+    }
+    corner_seen_from(at, mesh_of(crowd, a), pose_a, pose_b);
+    return is_surface(crowd, b) ? oracle_under(mesh_of(crowd, b), at)
+                                : oracle_inside(mesh_of(crowd, b), at);
+}
+
+int crowd_overlap(const struct crowd *crowd, int a, int b, const struct oracle_pose *pose_a,
+                  const struct oracle_pose *pose_b, double near)
+{
+    const struct oracle_mesh *of_a = mesh_of(crowd, a), *of_b = mesh_of(crowd, b);
+    struct oracle_crossings found =
+        oracle_crossings(of_a, pose_a, of_b, pose_b, CROSSING_TOLERANCE);
+
+    if (found.pairs > 0 && found.depth > near) {
+        return 1;
+    }
+    if (found.pairs > 0 || oracle_near(of_a, pose_a, of_b, pose_b, near)) {
+        return -1;
+    }
+    return corner_inside(crowd, a, b, pose_a, pose_b) || corner_inside(crowd, b, a, pose_b, pose_a);
+}
+
+int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near)
+{
+    struct oracle_pose pose_a = pose_of(crowd, a), pose_b = pose_of(crowd, b);
+
+    return crowd_overlap(crowd, a, b, &pose_a, &pose_b, near);
 }
 
 /* Whether body a, of which no face crosses one of b, is inside of b. */
@@ -119,7 +176,7 @@ static bool is_inside(const struct crowd *crowd, int a, int b)
         !box_within(&crowd->bodies[a].now, &crowd->bodies[b].now)) {
         return false;
     }
-    corner_seen_from(at, crowd, a, b);
+    corner_seen_now(at, crowd, a, b);
     return oracle_inside(mesh_of(crowd, b), at);
 }
 
@@ -162,6 +219,16 @@ static void note_crossing(const struct crowd *crowd, struct crowd_tally *tally, 
     tally->crossed_skins = fmax(tally->crossed_skins, depth / skin_of(crowd, a, b));
 }
 
+/* Whether two bodies may cross; who was to pass another one until they are apart, and is, may no more. */
+static bool passes(struct crowd *crowd, int a, int b)
+{
+    if (crowd->pass[a][b] == CROWD_PASS_ONCE &&
+        crowd_overlap_now(crowd, a, b, PASS_SKINS * skin_of(crowd, a, b)) == 0) {
+        crowd_let_pass(crowd, a, b, CROWD_MEET);
+    }
+    return crowd->pass[a][b] != CROWD_MEET;
+}
+
 void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
 {
     const bool all = crowd->look_every > 1 || tally->frames <= 1;
@@ -179,7 +246,7 @@ void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
 
             /* what is out is not there for others */
             if (a->now.state.out || b->now.state.out || !(all || changed(a) || changed(b)) ||
-                (is_still(a) && is_still(b)) || (crowd->linked && j > 0 && i - j == 1)) {
+                (is_still(a) && is_still(b)) || passes(crowd, i, j)) {
                 continue;
             }
             found.pairs = 0;

@@ -257,64 +257,6 @@ static void test_piston(long frames)
 
 /* ------------------------------------------------------------------ random worlds */
 
-struct leader {
-    bool smooth, turns;
-    double at[3], way[3], axis[3], rate, phase, wave;
-    carom_quat_q30 start;
-};
-
-static void begin_leader(struct leader *l, const struct carom_body_def *def, double size,
-                         struct test_random *r)
-{
-    memset(l, 0, sizeof *l);
-    l->smooth = soak_pick(r, 3) > 0;
-    l->turns = soak_pick(r, 3) > 0;
-    soak_direction(r, l->way);
-    soak_direction(r, l->axis);
-    l->wave = soak_powers(r, 0.005, 0.3);
-    l->rate = soak_powers(r, 0.01, 2);
-    for (int k = 0; k < 3; k++) {
-        l->at[k] = real(def->position.c[k], 32);
-        l->way[k] *= size * soak_uniform(r, 0.1, 3);
-    }
-    l->start = def->rotation;
-}
-
-static carom_quat_q30 times(const carom_quat_q30 *p, const carom_quat_q30 *q)
-{
-    double a[4], b[4];
-    carom_quat_q30 out;
-
-    lab_quaternion(a, p);
-    lab_quaternion(b, q);
-    out.c[0] = (int32_t)lab_fixed(a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], 30);
-    out.c[1] = (int32_t)lab_fixed(a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2], 30);
-    out.c[2] = (int32_t)lab_fixed(a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], 30);
-    out.c[3] = (int32_t)lab_fixed(a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0], 30);
-    return out;
-}
-
-/* Where a leader wants its body; what is too far for a frame is left out. */
-static void lead_on(struct soak_world *w, int body, struct leader *l, long frame,
-                    struct test_random *r)
-{
-    struct carom_body_state now = lab_state(w->crowd->world, body);
-    struct carom_pose pose = {now.position, now.rotation};
-    double by = l->smooth ? sin(l->wave * (double)frame + l->phase) : soak_uniform(r, -1, 1);
-    carom_quat_q30 turn = lab_turn(l->axis[0], l->axis[1], l->axis[2], l->rate * by);
-
-    if (!l->smooth && soak_pick(r, 4) != 0) {
-        return;
-    }
-    for (int k = 0; k < 3; k++) {
-        pose.position.c[k] = lab_fixed(l->at[k] + l->way[k] * by, 32);
-    }
-    if (l->turns) {
-        pose.rotation = times(&turn, &l->start);
-    }
-    (void)carom_body_move_to(w->crowd->world, body, &pose);
-}
-
 /* Events of touching with a kinematic body. */
 static int hits_of_led(const struct crowd *crowd)
 {
@@ -370,7 +312,7 @@ static void make_pen(struct soak_world *w, uint64_t number, struct test_random *
 static bool play(uint64_t number, bool pen, struct crowd_tally *sum, long *blocked, bool loud)
 {
     static struct soak_world w;
-    static struct leader leaders[CROWD_BODIES];
+    static struct soak_leader leaders[CROWD_BODIES];
     struct test_random r = {number * 0x9e3779b97f4a7c15u};
     struct soak_result result;
     bool good;
@@ -388,7 +330,8 @@ static bool play(uint64_t number, bool pen, struct crowd_tally *sum, long *block
             def->kinematic = true;
             memset(&def->velocity, 0, sizeof def->velocity);
             memset(&def->spin, 0, sizeof def->spin);
-            begin_leader(&leaders[i], def, w.crowd->meshes[w.crowd->bodies[i].mesh].radius, &r);
+            soak_leader_begin(&leaders[i], def, w.crowd->meshes[w.crowd->bodies[i].mesh].radius,
+                              &r);
         }
     }
     good = soak_start(&w, &result);
@@ -411,7 +354,7 @@ static bool play(uint64_t number, bool pen, struct crowd_tally *sum, long *block
 
         for (int i = 0; i < w.crowd->body_count; i++) {
             if (w.crowd->bodies[i].def.kinematic) {
-                lead_on(&w, i, &leaders[i], frame, &r);
+                soak_lead(w.crowd->world, i, &leaders[i], frame, &r);
             }
         }
         status = crowd_step(w.crowd, &result.tally);

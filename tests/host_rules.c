@@ -26,40 +26,6 @@ static struct oracle_pose pose_of(const struct crowd *crowd, int body)
     return lab_pose_of(crowd->world, body, crowd->bodies[body].def.mesh);
 }
 
-/* Whether the first vertex of a mesh is inside another one. */
-static bool inside(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
-                   const struct oracle_mesh *b, const struct oracle_pose *pose_b)
-{
-    double at[3], local[3] = {0};
-
-    for (int k = 0; k < 3; k++) {
-        at[k] = real_dot(pose_a->rotation.row[k], a->vertices[0]) + pose_a->position[k] -
-                pose_b->position[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < 3; i++) {
-            local[k] += pose_b->rotation.row[i][k] * at[i];
-        }
-    }
-    return oracle_inside(b, local);
-}
-
-/* 1 when two bodies overlap, 0 when they do not, -1 when they are too near to say. */
-static int overlap(const struct crowd *crowd, int a, int b, const struct oracle_pose *at_a,
-                   const struct oracle_pose *at_b)
-{
-    const struct oracle_mesh *of_a = mesh_of(crowd, a), *of_b = mesh_of(crowd, b);
-    struct oracle_crossings found = oracle_crossings(of_a, at_a, of_b, at_b, 1e-9);
-
-    if (found.pairs > 0 && found.depth > NEAR) {
-        return 1;
-    }
-    if (found.pairs > 0 || oracle_near(of_a, at_a, of_b, at_b, NEAR)) {
-        return -1;
-    }
-    return inside(of_a, at_a, of_b, at_b) || inside(of_b, at_b, of_a, at_a);
-}
-
 static int random_shape(struct crowd *crowd, uint64_t *random)
 {
     const struct carom_mesh_raw *const raws[] = {&lab_box, &lab_tetrahedron, &lab_l, &lab_plate};
@@ -123,7 +89,7 @@ static int overlaps_on_way(const struct crowd *crowd, int sensor, int body,
                 at[i].position[k] += (after[i].position[k] - before[i].position[k]) * step / 128.0;
             }
         }
-        found = overlap(crowd, sensor, body, &at[0], &at[1]);
+        found = crowd_overlap(crowd, sensor, body, &at[0], &at[1], NEAR);
         most = found == 1 ? 1 : found == -1 && most == 0 ? -1 : most;
     }
     return most;
@@ -169,7 +135,7 @@ static void watch_sensors(uint64_t seed, bool turn, struct tally *tally)
             for (int b = SENSORS; b < BODIES; b++) {
                 int begins = count_events(crowd, CAROM_EVENT_SENSOR_BEGIN, s, b);
                 int ends = count_events(crowd, CAROM_EVENT_SENSOR_END, s, b);
-                int is = overlap(crowd, s, b, &after[s], &after[b]);
+                int is = crowd_overlap(crowd, s, b, &after[s], &after[b], NEAR);
                 bool was = in[s][b];
 
                 in[s][b] = (was || begins > 0) && ends == 0;
@@ -303,7 +269,7 @@ static long crossing_pairs(const struct crowd *crowd, double *deepest)
             if (found.pairs > 0) {
                 *deepest = fmax(*deepest, found.depth / skin);
             }
-            pairs += overlap(crowd, a, b, &at_a, &at_b) == 1;
+            pairs += crowd_overlap(crowd, a, b, &at_a, &at_b, NEAR) == 1;
         }
     }
     return pairs;
@@ -382,7 +348,7 @@ static void test_freed(long worlds)
         lab_expect(crowd_start(crowd), "start");
         for (int frame = 0; frame < 120; frame++) {
             struct oracle_pose at[2] = {pose_of(crowd, 0), pose_of(crowd, 1)};
-            int is = overlap(crowd, 0, 1, &at[0], &at[1]);
+            int is = crowd_overlap(crowd, 0, 1, &at[0], &at[1], NEAR);
             double energy;
 
             if (frame == 2) {

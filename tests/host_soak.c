@@ -5,6 +5,9 @@
  *   host_soak                    50 worlds but for the open cases, a test a property
  *   host_soak rows FIRST COUNT   a row of CSV a world
  *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
+ *
+ * A number is that of a world of bodies alone, with an m before it of a machine, with a w of a wild one: see
+ * soak_machine.h.
  */
 #include <math.h>
 #include <stdio.h>
@@ -44,22 +47,44 @@ static const char columns[] =
     "frame,"
     "still,still_frame,cut,cut_longest,energy,momentum,slow,out,drawn_again,step_seconds,step_"
     "frame,"
-    "seconds,candidates,substeps,fullest,faults";
+    "seconds,candidates,substeps,fullest,joints,apart,axes,beyond,bent,touched_apart,touched_axes,"
+    "touched_beyond,touched_bent,breaks,blocked,sensed,sensor_asked,sensor_frame,other_frame,"
+    "momentum_off,angular_off,gained,refused,faults";
+
+static const char *prefix(void)
+{
+    return !world.machine ? "" : world.machine->wild ? "w" : "m";
+}
+
+/* What a machine has more. */
+static void print_machine(const struct soak_result *r)
+{
+    static const struct soak_seen none;
+    const struct soak_seen *s = r->seen ? r->seen : &none;
+
+    printf("%d,%.3g,%.3g,%.3g,%.3g,", world.machine ? world.machine->joint_count : 0, s->free.apart,
+           s->free.axes, s->free.beyond, s->free.bent);
+    printf("%.3g,%.3g,%.3g,%.3g,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.3g,%d,", s->any.apart,
+           s->any.axes, s->any.beyond, s->any.bent, s->breaks, s->blocked, s->sensed,
+           s->sensor_asked, s->sensor_frame, s->other_frame, r->tally.momentum, r->tally.angular,
+           r->tally.gained, s->refused);
+}
 
 static void print_row(const struct soak_result *r)
 {
     const struct crowd_tally *t = &r->tally;
     const char *between = "";
 
-    printf("%llu,%d,%u,%s,%s,%.3g,%d,", (unsigned long long)world.seed, world.crowd->body_count,
-           faces_of(world.crowd), soak_ground_names[world.ground], soak_pace_names[world.pace],
-           world.gravity, world.crowd->config.sleep);
+    printf("%s%llu,%d,%u,%s,%s,%.3g,%d,", prefix(), (unsigned long long)world.seed,
+           world.crowd->body_count, faces_of(world.crowd), soak_ground_names[world.ground],
+           soak_pace_names[world.pace], world.gravity, world.crowd->config.sleep);
     printf("%ld,%ld,%ld,%ld,%.3g,%s,%ld,%d,%ld,%ld,%ld,%.3g,%ld,%d,%ld,%d,%.4f,%ld,%.3f,%u,%u,%u,",
            t->frames, t->crossed, t->inside, r->escaped_frame, t->crossed_skins,
            r->error < 0 ? carom_result_text(r->error) : "", r->error_frame, r->still.longest,
            r->still.frame, t->capped, r->cut_longest, t->rise, r->momentum_frame, r->unfinished,
            t->out, world.drawn_again, r->step_seconds, r->step_frame, r->seconds, r->candidates,
            r->substeps, r->fullest);
+    print_machine(r);
     for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
         if (soak_has(r, fault)) {
             printf("%s%s", between, soak_fault_names[fault]);
@@ -70,22 +95,43 @@ static void print_row(const struct soak_result *r)
     fflush(stdout);
 }
 
-static void run(uint64_t seed, struct soak_result *r)
+/* A world by what it is called: "12", "m12", "w12". */
+struct name {
+    uint64_t seed;
+    bool machine, wild;
+};
+
+static struct name read_name(const char *text)
 {
-    soak_make(&world, seed);
+    bool wild = *text == 'w', machine = wild || *text == 'm';
+
+    return (struct name){strtoull(text + machine, NULL, 10), machine, wild};
+}
+
+static void make(struct name name)
+{
+    soak_make(&world, name.seed);
+    if (name.machine) {
+        soak_machine_make(&world, name.wild);
+    }
+}
+
+static void run(struct name name, struct soak_result *r)
+{
+    make(name);
     if (soak_start(&world, r)) {
         while (soak_step(&world, r)) {
         }
     }
 }
 
-static void print_rows(uint64_t first, uint64_t count)
+static void print_rows(struct name name, uint64_t count)
 {
     struct soak_result result;
 
     puts(columns);
-    for (uint64_t seed = first; seed < first + count; seed++) {
-        run(seed, &result);
+    for (uint64_t end = name.seed + count; name.seed < end; name.seed++) {
+        run(name, &result);
         print_row(&result);
         soak_free(&world);
     }
@@ -124,12 +170,52 @@ static void print_contacts(const struct crowd *crowd)
     }
 }
 
+static void describe_joints(const struct soak_machine *m)
+{
+    static const char *const kinds[] = {"ball", "hinge", "slider", "distance", "fixed"};
+
+    for (int i = 0; i < m->joint_count; i++) {
+        const struct carom_joint_def *def = &m->joints[i].def;
+        const struct carom_joint_drive *d = &def->drive;
+
+        printf("# joint %d: %s of %d and %d%s", i, kinds[def->kind], def->a, def->b,
+               def->touch ? "" : ", ignore each other");
+        if (d->limited) {
+            printf(", %.4g to %.4g", real(d->lower_q32, 32), real(d->upper_q32, 32));
+        }
+        if (d->motor) {
+            printf(", motor of %.3g, at most %.3g", real(d->motor_speed_q40, 40),
+                   real(d->motor_most_q40, 40));
+        }
+        if (d->spring) {
+            printf(", spring of %.3g about %.3g, damping %.3g", real(d->stiffness_q40, 40),
+                   real(d->rest_q32, 32), real(d->damping_q40, 40));
+        }
+        printf(def->most_impulse_q40 ? ", bears %.3g\n" : "\n", real(def->most_impulse_q40, 40));
+    }
+    printf("# machine:%s%s%s%s\n", m->asks ? " callback" : "", m->belts ? " belts" : "",
+           m->damped ? " damping" : "", m->filtered ? " filters" : "");
+}
+
+static void describe_role(const struct carom_body_def *def)
+{
+    const struct carom_filter *f = &def->filter;
+
+    if (def->kinematic || def->sensor || def->one_way) {
+        printf("%s%s%s, ", def->kinematic ? "kinematic " : "", def->sensor ? "sensor " : "",
+               def->one_way ? "one way" : "");
+    }
+    if (f->category || f->group) {
+        printf("category %u, mask %u, group %d, ", f->category, f->mask, f->group);
+    }
+}
+
 static void describe(void)
 {
     const struct crowd *crowd = world.crowd;
 
-    printf("# seed %llu: %d bodies, %u faces, ground %s, %s, gravity %.3g, sleep %d%s\n",
-           (unsigned long long)world.seed, crowd->body_count, faces_of(crowd),
+    printf("# seed %s%llu: %d bodies, %u faces, ground %s, %s, gravity %.3g, sleep %d%s\n",
+           prefix(), (unsigned long long)world.seed, crowd->body_count, faces_of(crowd),
            soak_ground_names[world.ground], soak_pace_names[world.pace], world.gravity,
            crowd->config.sleep, world.exact ? ", masses powers of two" : "");
     for (int i = 0; i < crowd->body_count; i++) {
@@ -138,6 +224,7 @@ static void describe(void)
         printf("# body %d: %s of %u faces, radius %.3g, ", i,
                world.kinds[i] < SOAK_KINDS ? soak_kind_names[world.kinds[i]] : "surface",
                body->def.mesh->raw.face_count, crowd->meshes[body->mesh].radius);
+        describe_role(&body->def);
         if (body->def.stationary) {
             printf("stationary");
         } else {
@@ -145,6 +232,9 @@ static void describe(void)
         }
         printf(", e %.3g, mu %.3g\n", real(body->def.restitution_q30, 30),
                real(body->def.friction_q16, 16));
+    }
+    if (world.machine) {
+        describe_joints(world.machine);
     }
 }
 
@@ -165,11 +255,17 @@ static void print_frame(const struct soak_result *r, const struct crowd_tally *b
     if (t->inside > before->inside) {
         printf(", INSIDE (first %d in %d)", t->inside_pair[0], t->inside_pair[1]);
     }
+    if (r->seen && r->seen->sensor_frame == t->frames) {
+        printf(", SENSOR (%d and %d)", r->seen->sensor, r->seen->visitor);
+    }
     if (r->escaped_frame == t->frames) {
         printf(", ESCAPED (%d)", r->escaped);
     }
     if (t->rise > 1 && t->rise > before->rise) {
         printf(", ENERGY %.3g of what is allowed, body %d", t->rise, t->rise_body);
+    }
+    if (t->gained > before->gained && t->gained > SOAK_GAINED) {
+        printf(", GAINED %.3g, group of body %d", t->gained, t->gained_body);
     }
     if (r->momentum_frame == t->frames) {
         printf(", MOMENTUM");
@@ -182,12 +278,12 @@ static void print_frame(const struct soak_result *r, const struct crowd_tally *b
     puts("");
 }
 
-static void show(uint64_t seed, long from, long to)
+static void show(struct name name, long from, long to)
 {
     struct soak_result r;
     bool goes_on;
 
-    soak_make(&world, seed);
+    make(name);
     describe();
     world.crowd->look_every = 1;
     goes_on = soak_start(&world, &r);
@@ -214,21 +310,36 @@ static void show(uint64_t seed, long from, long to)
 /* ----------------------------------------------------------------------- tests */
 
 struct sum {
-    long worlds, frames, cut;
+    long worlds, machines, frames, cut;
     long faults[SOAK_FAULTS];
-    uint64_t first[SOAK_FAULTS];                     /* the seed */
-    double deepest, rise, step_seconds, still, work; /* the worst */
+    uint64_t first[SOAK_FAULTS];                            /* the seed */
+    double deepest, rise, step_seconds, still, work, apart; /* the worst */
 };
+
+/* What each test asks, and its figure is of; not each fault has one. */
+static const char *const what_of[SOAK_FAULTS] = {[SOAK_CROSSES] = "crossings_in_skins",
+                                                 [SOAK_ERROR] = "errors",
+                                                 [SOAK_STANDS_STILL] =
+                                                     "frames_that_one_stands_still",
+                                                 [SOAK_CUT] = "share_of_frames_cut_short",
+                                                 [SOAK_ENERGY] = "energy_of_the_bound",
+                                                 [SOAK_MOMENTUM] = "momentum",
+                                                 [SOAK_MUCH_WORK] = "candidates_for_each_face",
+                                                 [SOAK_JOINT] = "anchors_apart_in_skins",
+                                                 [SOAK_SENSOR] = "sensors",
+                                                 [SOAK_OTHER] = "another_hash"};
 
 static void add(struct sum *sum, const struct soak_result *r)
 {
     sum->worlds++;
+    sum->machines += world.machine != NULL;
     sum->frames += r->tally.frames;
     sum->cut += r->tally.capped;
     sum->deepest = fmax(sum->deepest, r->tally.crossed_skins);
     sum->rise = fmax(sum->rise, r->tally.rise);
     sum->still = fmax(sum->still, r->still.longest);
     sum->work = fmax(sum->work, (double)r->candidates / fmax(r->faces, 1));
+    sum->apart = fmax(sum->apart, r->seen ? r->seen->free.apart : 0);
     sum->step_seconds = fmax(sum->step_seconds, r->step_seconds);
     for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
         bool has = soak_has(r, fault);
@@ -245,54 +356,59 @@ static void report(const struct sum *sum, enum soak_fault fault, bool ok, const 
     char seed[64] = "";
 
     if (!ok) {
-        snprintf(seed, sizeof seed, ", run host_soak.elf %llu",
+        snprintf(seed, sizeof seed, ", run host_soak.elf %s%llu", sum->machines ? "m" : "",
                  (unsigned long long)sum->first[fault]);
     }
     lab_report(ok, name, "%ld worlds, %ld frames, %ld worlds fail, worst %.3g%s", sum->worlds,
                sum->frames, sum->faults[fault], worst, seed);
 }
 
-static void test(void)
+/* Some worlds of a kind; their tests are called by it. */
+static void test(const char *kind, bool machine)
 {
     struct sum sum = {0};
-    double cut;
+    char names[SOAK_FAULTS][64];
+    double worst[SOAK_FAULTS] = {0};
 
-    for (size_t i = 0; i < WORLDS; i++) {
-        const uint64_t seed = i < FIRST ? i + 1 : known[i - FIRST];
+    for (size_t i = 0; i < (machine ? FIRST : WORLDS); i++) {
+        const struct name name = {i < FIRST ? i + 1 : known[i - FIRST], machine, false};
         struct soak_result result;
 
-        if (open_case("soak", (long)seed)) {
+        if (open_case(kind, (long)name.seed)) {
             continue;
         }
-        run(seed, &result);
+        run(name, &result);
         add(&sum, &result);
         soak_free(&world);
     }
-    cut = (double)sum.cut / (double)sum.frames;
-    report(&sum, SOAK_CROSSES, sum.faults[SOAK_CROSSES] == 0, "soak/crossings_in_skins",
-           sum.deepest);
-    report(&sum, SOAK_ERROR, sum.faults[SOAK_ERROR] == 0, "soak/errors", 0);
-    report(&sum, SOAK_STANDS_STILL, sum.faults[SOAK_STANDS_STILL] == 0,
-           "soak/frames_that_one_stands_still", sum.still);
-    report(&sum, SOAK_CUT, cut <= CUT_ALLOWED, "soak/share_of_frames_cut_short", cut);
-    report(&sum, SOAK_ENERGY, sum.faults[SOAK_ENERGY] == 0, "soak/energy_of_the_bound", sum.rise);
-    report(&sum, SOAK_MOMENTUM, sum.faults[SOAK_MOMENTUM] == 0, "soak/momentum", 0);
-    report(&sum, SOAK_MUCH_WORK, sum.faults[SOAK_MUCH_WORK] == 0, "soak/candidates_for_each_face",
-           sum.work);
+    worst[SOAK_CROSSES] = sum.deepest;
+    worst[SOAK_STANDS_STILL] = sum.still;
+    worst[SOAK_CUT] = (double)sum.cut / (double)sum.frames;
+    worst[SOAK_ENERGY] = sum.rise;
+    worst[SOAK_MUCH_WORK] = sum.work;
+    worst[SOAK_JOINT] = sum.apart;
+    for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
+        if (what_of[fault] && (machine || fault < SOAK_JOINT)) {
+            snprintf(names[fault], sizeof names[fault], "%s/%s", kind, what_of[fault]);
+            report(&sum, fault,
+                   fault == SOAK_CUT ? worst[fault] <= CUT_ALLOWED : sum.faults[fault] == 0,
+                   names[fault], worst[fault]);
+        }
+    }
     printf("# the slowest step took %.3g s\n", sum.step_seconds);
 }
 
 int main(int argc, char **argv)
 {
     if (argc == 4 && strcmp(argv[1], "rows") == 0) {
-        print_rows(strtoull(argv[2], NULL, 10), strtoull(argv[3], NULL, 10));
+        print_rows(read_name(argv[2]), strtoull(argv[3], NULL, 10));
         return 0;
     }
     if (argc > 1) {
-        show(strtoull(argv[1], NULL, 10), argc > 3 ? atol(argv[2]) : 1,
-             argc > 3 ? atol(argv[3]) : 0);
+        show(read_name(argv[1]), argc > 3 ? atol(argv[2]) : 1, argc > 3 ? atol(argv[3]) : 0);
         return 0;
     }
-    test();
+    test("soak", false);
+    test("machine", true);
     return lab_finish();
 }

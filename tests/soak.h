@@ -7,6 +7,7 @@
 #define CAROM_TESTS_SOAK_H
 
 #include "crowd.h"
+#include "soak_machine.h"
 #include "soak_shapes.h"
 
 /* --------------------------------------------------------------------- worlds */
@@ -32,13 +33,21 @@ struct soak_world {
     /* how a room is turned; from its middle to its walls, which are off by so much at most */
     double room[4], room_half, room_slack;
     int halvings
-        [CROWD_BODIES]; /* of mass 1, when all masses are powers of two: see soak_momentum */
-    bool exact;         /* no gravity, no ground, all masses so */
-    int drawn_again;    /* meshes that carom_mesh_check refused, and others taken in their place */
+        [CROWD_BODIES];      /* of mass 1, when all masses are powers of two: see soak_momentum */
+    bool left[CROWD_BODIES]; /* who may have left its room */
+    bool exact;              /* no gravity, no ground, all masses so */
+    int drawn_again; /* meshes that carom_mesh_check refused, and others taken in their place */
+    struct soak_machine *machine; /* NULL: bodies alone; and what is seen of it */
+    struct soak_seen *seen;
 };
 
-/* Draw a world. Its bodies are apart: by more than two skins, and none is inside another. */
+/* Draw a world; soak_machine_make makes it a machine. Its bodies are apart: by more than two skins, and none is inside another. */
 void soak_make(struct soak_world *world, uint64_t seed);
+/*
+ * Whether a body that has not started yet is clear of all others and within its room; `but`: of all but this
+ * one, or the body itself.
+ */
+bool soak_is_clear(const struct soak_world *world, int body, int but);
 void soak_free(struct soak_world *world);
 
 /* ---------------------------------------------------------------------- watch */
@@ -78,6 +87,7 @@ struct soak_result {
     uint32_t candidates, substeps; /* of the frames that had most */
     uint32_t faces;                /* of all bodies */
     uint32_t fullest;              /* percent of the pool that was most full */
+    const struct soak_seen *seen;  /* of a machine, until soak_free; else NULL */
 };
 
 enum soak_fault {
@@ -89,14 +99,20 @@ enum soak_fault {
     SOAK_MOMENTUM,
     SOAK_SLOW_STEP,
     SOAK_MUCH_WORK,
+    /* of machines */
+    SOAK_JOINT,  /* a joint of a group that nothing touched was off by more than it may be */
+    SOAK_SENSOR, /* events and an overlap disagree */
+    SOAK_OTHER,  /* a second run had another hash */
     SOAK_FAULTS
 };
 extern const char *const soak_fault_names[SOAK_FAULTS];
 #define SOAK_STEP_SECONDS 0.2
+#define SOAK_APART        8    /* skins, of what nothing touches */
+#define SOAK_GAINED       1e-3 /* of the energy of a group */
+#define SOAK_AXES         0.01 /* radians */
 #define SOAK_CANDIDATES   1024 /* of a step, for each face of the world */
 bool soak_has(const struct soak_result *result, enum soak_fault fault);
 
-#define SOAK_FRAMES 300
 /* Start the world, and look at it before the first frame; false when that fails. */
 bool soak_start(struct soak_world *world, struct soak_result *result);
 /* One frame, watched; false when the world is over. */

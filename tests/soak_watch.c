@@ -9,9 +9,9 @@
 
 #define WORLD_SECONDS 60 /* a world whose steps take more is left */
 
-const char *const soak_fault_names[SOAK_FAULTS] = {"crosses",   "error",    "stands still",
-                                                   "cut short", "energy",   "momentum",
-                                                   "slow step", "much work"};
+const char *const soak_fault_names[SOAK_FAULTS] = {
+    "crosses",   "error",     "stands still", "cut short", "energy",    "momentum",
+    "slow step", "much work", "joint",        "sensor",    "other hash"};
 
 double soak_seconds(void)
 {
@@ -72,14 +72,15 @@ static bool stands_still(const struct crowd *crowd, int i)
     double gravity[3], slow, speed, way, skin = crowd->meshes[body->mesh].skin;
     int64_t places;
 
-    if (body->def.stationary || body->now.state.asleep || body->now.state.out ||
-        body->before.state.asleep) {
+    if (body->def.stationary || body->def.kinematic || body->now.state.asleep ||
+        body->now.state.out || body->before.state.asleep) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
         gravity[k] = real(crowd->config.gravity.c[k], 40);
     }
-    slow = real_length(gravity) / 8 + 0x1p-22;
+    /* what hangs at a limit keeps what gravity gives in half of a frame */
+    slow = real_length(gravity) / (body->linked ? 1 : 8) + 0x1p-22;
     speed = fmin(speed_of(crowd, body, &body->before), speed_of(crowd, body, &body->now));
     way = way_of(crowd, body, &places);
     return (speed > slow && places <= 2) ||
@@ -138,8 +139,20 @@ static void watch_momentum(struct soak_world *w, struct soak_result *r, long out
 
 /* ------------------------------------------------------------------------ rooms */
 
+/* Whether a body goes where it is led, or through walls: those are the bodies before the others. */
+static bool may_leave(const struct soak_world *w, int body)
+{
+    const struct carom_body_def *def = &w->crowd->bodies[body].def;
+    bool leaves = def->stationary || def->kinematic;
+
+    for (int wall = 0; wall < w->crowd->body_count - w->moving; wall++) {
+        leaves |= w->crowd->pass[body][wall] != CROWD_MEET;
+    }
+    return leaves || w->left[body];
+}
+
 /* The centre of mass of what is in a room is in it as well. */
-static void watch_room(const struct soak_world *w, struct soak_result *r)
+static void watch_room(struct soak_world *w, struct soak_result *r)
 {
     double m[3][3];
 
@@ -148,12 +161,13 @@ static void watch_room(const struct soak_world *w, struct soak_result *r)
         const struct crowd_body *body = &w->crowd->bodies[i];
         double away[3], seen[3];
 
+        w->left[i] = may_leave(w, i);
         for (int k = 0; k < 3; k++) {
             away[k] = body->now.body.position[k] - w->centre[k];
         }
         real_rotate_back(seen, m, away);
         for (int k = 0; k < 3; k++) {
-            if (!body->def.stationary && !body->now.state.out &&
+            if (!w->left[i] && !body->now.state.out &&
                 fabs(seen[k]) > w->room_half + w->room_slack && r->escaped_frame == 0) {
                 r->escaped_frame = r->tally.frames;
                 r->escaped = i;
@@ -167,7 +181,11 @@ static void watch_room(const struct soak_world *w, struct soak_result *r)
 bool soak_start(struct soak_world *w, struct soak_result *r)
 {
     memset(r, 0, sizeof *r);
+    r->seen = w->seen;
     r->error = crowd_start(w->crowd);
+    if (r->error >= 0 && w->machine) {
+        r->error = soak_machine_start(w);
+    }
     if (r->error < 0) {
         return false;
     }
@@ -202,18 +220,50 @@ static void watch_costs(struct soak_world *w, struct soak_result *r, double seco
     }
 }
 
+/* A step, and what is done before it. */
+static int act_and_step(struct soak_world *w, struct soak_result *r)
+{
+    double start;
+    int status = CAROM_OK;
+
+    if (w->machine) {
+        status = soak_machine_act(w, r->tally.frames + 1);
+        soak_machine_before(w);
+    }
+    start = soak_seconds();
+    if (status >= 0) {
+        status = carom_world_step(w->crowd->world);
+    }
+    watch_costs(w, r, soak_seconds() - start);
+    return status;
+}
+
+/* What is left to see of a machine when a frame was watched. */
+static void watch_machine(struct soak_world *w, struct soak_result *r)
+{
+    soak_machine_watch(w, r->tally.frames);
+    w->seen->hashes[r->tally.frames] = carom_world_hash(w->crowd->world);
+    if (r->tally.frames == SOAK_FRAMES / 2) {
+        soak_machine_half(w);
+    }
+    if (r->tally.frames == SOAK_FRAMES) {
+        soak_machine_again(w);
+    }
+}
+
 bool soak_step(struct soak_world *w, struct soak_result *r)
 {
-    double start = soak_seconds();
     long out = r->tally.out;
-    int status = carom_world_step(w->crowd->world);
+    int status = act_and_step(w, r);
 
-    watch_costs(w, r, soak_seconds() - start);
     r->status = status;
     if (status < 0) {
         r->error = status;
         r->error_frame = r->tally.frames + 1;
         return false;
+    }
+    if (w->machine) {
+        soak_machine_see(w);
     }
     crowd_watch(w->crowd, status, &r->tally);
     soak_watch_still(w->crowd, &r->still, r->tally.frames);
@@ -224,6 +274,9 @@ bool soak_step(struct soak_world *w, struct soak_result *r)
     }
     if (w->ground == SOAK_ROOM) {
         watch_room(w, r);
+    }
+    if (w->machine) {
+        watch_machine(w, r);
     }
     r->unfinished = r->tally.frames < SOAK_FRAMES && r->seconds > WORLD_SECONDS;
     return r->tally.frames < SOAK_FRAMES && !r->unfinished;
@@ -241,11 +294,18 @@ bool soak_has(const struct soak_result *r, enum soak_fault fault)
     case SOAK_CUT:
         return 100 * r->tally.capped > r->tally.frames;
     case SOAK_ENERGY:
-        return r->tally.rise > 1;
+        return r->tally.rise > 1 || r->tally.gained > SOAK_GAINED;
     case SOAK_MOMENTUM:
         return r->momentum_frame > 0;
     case SOAK_MUCH_WORK:
         return r->candidates > SOAK_CANDIDATES * r->faces;
+    case SOAK_JOINT:
+        return r->seen && (fmax(r->seen->free.apart, r->seen->free.beyond) > SOAK_APART ||
+                           fmax(r->seen->free.axes, r->seen->free.bent) > SOAK_AXES);
+    case SOAK_SENSOR:
+        return r->seen && r->seen->sensor_frame > 0;
+    case SOAK_OTHER:
+        return r->seen && r->seen->other_frame > 0;
     default:
         return r->step_seconds > SOAK_STEP_SECONDS || r->unfinished;
     }

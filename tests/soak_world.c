@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Random worlds: what there is, of what size and weight, where, and how it moves at first. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "real.h"
@@ -126,6 +127,26 @@ static bool inside_room(const struct soak_world *w, const struct carom_body_def 
     return true;
 }
 
+/* The same of the bodies below `count`; grounds may lie in each other. */
+static bool is_clear(const struct soak_world *w, int body, int but, int count)
+{
+    const struct crowd_body *bodies = w->crowd->bodies;
+    const struct carom_body_def *def = &bodies[body].def;
+    bool clear = w->ground != SOAK_ROOM || def->stationary || inside_room(w, def);
+
+    for (int i = 0; i < count && clear; i++) {
+        bool both_stand = bodies[i].def.stationary && def->stationary;
+
+        clear = i == body || i == but || both_stand || apart(w->crowd, body, i);
+    }
+    return clear;
+}
+
+bool soak_is_clear(const struct soak_world *w, int body, int but)
+{
+    return is_clear(w, body, but, w->crowd->body_count);
+}
+
 static void any_turn(struct plan *p, double q[4])
 {
     double axis[3], length;
@@ -160,12 +181,7 @@ static void find_place(struct soak_world *w, struct plan *p, int body)
         any_turn(p, q);
         set_turn(def, q);
         crowd_place(def, at[0], at[1], at[2]);
-        clear = w->ground != SOAK_ROOM || def->stationary || inside_room(w, def);
-        for (int i = 0; i < body && clear; i++) {
-            bool both_stand = crowd->bodies[i].def.stationary && def->stationary;
-
-            clear = both_stand || apart(crowd, body, i);
-        }
+        clear = is_clear(w, body, body, body);
         if (++tries % 50 == 0 && w->ground != SOAK_ROOM) {
             p->half *= 1.15;
         }
@@ -465,4 +481,7 @@ void soak_make(struct soak_world *w, uint64_t seed)
 void soak_free(struct soak_world *w)
 {
     crowd_free(w->crowd);
+    free(w->machine);
+    free(w->seen ? w->seen->snapshot : NULL);
+    free(w->seen);
 }

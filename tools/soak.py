@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Run random worlds by number and put what came of them together: tools/soak.py PROGRAM.
 
-PROGRAM is build/host/host_soak.elf. Every world is a row of out/soak.csv; the summary is printed and,
+PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, called 12, m12 and w12: bodies alone, machines,
+and wild machines. Every world is a row of out/soak.csv; the summary is printed and,
 with --docs, written into docs/soak.md between its two comments. A world that ends the program, or that
 takes longer than it may, is a row of its own: the others are run without it. A line a failing world
 says how to run it alone, frame by frame. The exit status is 1 when anything is not as it should be.
@@ -24,7 +25,9 @@ CHUNK = 20  # worlds a process
 SECONDS = 150  # for a world, in which its steps may take 60
 CUT_ALLOWED = 0.01  # of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
-          "much work"]
+          "much work", "joint", "sensor", "other hash"]
+KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
+MACHINES, WILD = 0.4, 0.04  # of as many worlds of bodies alone
 LOST = "lost"  # the program ended, or did not
 
 
@@ -50,25 +53,25 @@ def lines_of(command):
     return lines, "more than %d s" % SECONDS if late else "status %d" % status
 
 
-def rows_of(program, first, count):
-    """The rows of some worlds, in their order."""
+def rows_of(program, kind, first, count):
+    """The rows of some worlds of a kind, in their order."""
     found = []
     while count > 0:
-        lines, end = lines_of([program, "rows", str(first), str(count)])
+        lines, end = lines_of([program, "rows", kind + str(first), str(count)])
         made = list(csv.DictReader(lines))
         found += made
         first, count = first + len(made), count - len(made)
         if count > 0:
-            found.append({"seed": str(first), "frames": "0", "faults": LOST, "error": end})
+            found.append({"seed": kind + str(first), "frames": "0", "faults": LOST, "error": end})
             first, count = first + 1, count - 1
     return found
 
 
-def run(program, first, count, jobs):
-    """All rows; chunks go to whoever is free."""
+def run(program, kind, first, count, jobs):
+    """All rows of a kind; chunks go to whoever is free."""
     starts = list(range(first, first + count, CHUNK))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        parts = pool.map(lambda start: rows_of(program, start, min(CHUNK, first + count - start)),
+        parts = pool.map(lambda start: rows_of(program, kind, start, min(CHUNK, first + count - start)),
                          starts)
         return [row for part in parts for row in part]
 
@@ -85,8 +88,14 @@ def most(rows, column):
     return max(rows, key=lambda row: number(row, column))
 
 
-def summary(rows, wall):
-    """Columns of the table, and their cells."""
+def figure(rows, column):
+    """The largest of a column, and whose."""
+    row = most(rows, column)
+    return "%.2g (%s)" % (number(row, column), row["seed"])
+
+
+def summary(kind, rows, wall):
+    """Columns of the table, and their cells for a kind of world."""
     frames = sum(number(row, "frames") for row in rows)
     cut = sum(number(row, "cut") for row in rows)
     slowest = most(rows, "step_seconds")
@@ -95,6 +104,7 @@ def summary(rows, wall):
         return "%d" % sum(has(row, fault) for row in rows)
 
     return [
+        ("kind", KINDS[kind]),
         ("worlds", "%d" % len(rows)),
         ("frames", "%d" % frames),
         ("crossings", count("crosses")),
@@ -112,6 +122,32 @@ def summary(rows, wall):
     ]
 
 
+def joints(kind, rows):
+    """What there is to say of machines."""
+    return [
+        ("kind", KINDS[kind]),
+        ("joints", "%d" % sum(number(row, "joints") for row in rows)),
+        ("broke", "%d" % sum(number(row, "breaks") for row in rows)),
+        ("joint", "%d" % sum(has(row, "joint") for row in rows)),
+        ("free: anchors, skins", figure(rows, "apart")),
+        ("axes, radians", figure(rows, "axes")),
+        ("limits, skins", figure(rows, "beyond")),
+        ("touched: anchors, skins", figure(rows, "touched_apart")),
+        ("energy gained", figure(rows, "gained")),
+        ("led, blocked", "%d" % sum(number(row, "blocked") for row in rows)),
+        ("sensor events", "%d" % sum(number(row, "sensed") for row in rows)),
+        ("asked", "%d" % sum(number(row, "sensor_asked") for row in rows)),
+        ("wrong", "%d" % sum(has(row, "sensor") for row in rows)),
+        ("other hash", "%d" % sum(has(row, "other hash") for row in rows)),
+    ]
+
+
+def lines_of_table(tables):
+    """A table of one row for each list of columns and cells."""
+    lines = ["| " + " | ".join(cell[0] for cell in tables[0]) + " |", "|---" * len(tables[0]) + "|"]
+    return lines + ["| " + " | ".join(cell[1] for cell in table) + " |" for table in tables]
+
+
 def write_csv(rows):
     os.makedirs(os.path.dirname(OUT), exist_ok=True)
     with open(OUT, "w", newline="") as file:
@@ -120,19 +156,24 @@ def write_csv(rows):
         writer.writerows(rows)
 
 
-def write_docs(table, rows):
-    """The summary, the kinds of worlds that fail, and the first numbers of each fault."""
+def write_docs(tables, machines, rows):
+    """The summaries, the kinds of worlds that fail, and the first numbers of each fault."""
     with open(DOCS) as file:
         text = file.read()
     head, rest = text.split(BEGIN)
-    lines = ["| " + " | ".join(cell[i] for cell in table) + " |" for i in range(2)]
-    lines.insert(1, "|---" * len(table) + "|")
+    lines = lines_of_table(tables) + [""] + lines_of_table(machines)
     lines += ["", "| fault | worlds | the first of them |", "|---|---|---|"]
     for fault in FAULTS + [LOST]:
         seeds = [row["seed"] for row in rows if has(row, fault)]
         lines.append("| %s | %d | %s |" % (fault, len(seeds), ", ".join(seeds[:12])))
     with open(DOCS, "w") as file:
         file.write(head + BEGIN + "\n".join(lines) + "\n" + END + rest.split(END)[1])
+
+
+def print_table(table):
+    widths = [max(len(text) for text in cell) for cell in table]
+    for i in range(2):
+        print("  ".join(cell[i].rjust(width) for cell, width in zip(table, widths)))
 
 
 def main():
@@ -144,20 +185,25 @@ def main():
     parser.add_argument("--docs", action="store_true", help="write the summary into " + DOCS)
     arguments = parser.parse_args()
     os.chdir(gate.ROOT)
-    start = time.monotonic()
-    rows = run(arguments.program, arguments.first, arguments.count, arguments.jobs)
-    table = summary(rows, time.monotonic() - start)
+    rows, tables, machines = [], [], []
+    for kind, share in (("", 1), ("m", MACHINES), ("w", WILD)):
+        start = time.monotonic()
+        count = max(1, int(arguments.count * share))
+        made = run(arguments.program, kind, arguments.first, count, arguments.jobs)
+        tables.append(summary(kind, made, time.monotonic() - start))
+        if kind:
+            machines.append(joints(kind, made))
+        rows += made
     write_csv(rows)
     if arguments.docs:
-        write_docs(table, rows)
+        write_docs(tables, machines, rows)
     # frames cut short are counted over all worlds: one of them alone is no failure
     failing = [row for row in rows if set(row["faults"].split("; ")) - {"", "cut short"}]
     for row in failing:
         print("%s %s: %s" % (arguments.program, row["seed"], row["faults"] +
                              (" (%s)" % row["error"] if row.get("error") else "")))
-    widths = [max(len(text) for text in cell) for cell in table]
-    for i in range(2):
-        print("  ".join(cell[i].rjust(width) for cell, width in zip(table, widths)))
+    for table in tables + machines:
+        print_table(table)
     cut = sum(number(row, "cut") for row in rows)
     frames = sum(number(row, "frames") for row in rows)
     return bool(failing) or cut > CUT_ALLOWED * frames

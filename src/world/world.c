@@ -410,12 +410,21 @@ int carom_body_count(const struct carom_world *w)
     return w ? (int)w->body_count : CAROM_ERR_NULL;
 }
 
+/* A kinematic body that was set goes on as its state says. */
+static void lead_on(struct carom_world *w, uint32_t body, const struct carom_body_state *in)
+{
+    if (world_is_kinematic(&w->bodies[body])) {
+        struct body_drive drive = world_drive_on(&in->velocity, &in->spin);
+
+        world_drive(w, body, &drive);
+    }
+}
+
 int carom_body_set(struct carom_world *w, int body, const struct carom_body_state *in)
 {
     struct body_state state;
     carom_quat_q30 q;
     int result;
-    bool led;
 
     if (!w || !in) {
         return CAROM_ERR_NULL;
@@ -423,7 +432,6 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    led = world_is_kinematic(&w->bodies[body]);
     q = in->rotation;
     if (!world_rotation_valid(&q) || in->overlap > CAROM_OVERLAP_PASS) {
         return CAROM_ERR_ARGUMENT;
@@ -431,18 +439,15 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     if (!world_position_in_range(&in->position) ||
         (w->bodies[body].moving &&
          !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin)) ||
-        (led && !world_drive_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
+        (world_is_kinematic(&w->bodies[body]) &&
+         !world_drive_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
-    }
-    if (led) {
-        struct body_drive drive = world_drive_on(&in->velocity, &in->spin);
-
-        world_drive(w, (uint32_t)body, &drive);
     }
     state = world_now(w)->bodies[body];
     if (!w->bodies[body].moving &&
         memcmp(&state.position, &in->position, sizeof state.position) == 0 &&
         memcmp(&state.rotation, &q, sizeof q) == 0) {
+        lead_on(w, (uint32_t)body, in);
         return CAROM_OK; /* nothing moved: nothing wakes */
     }
     state.position = in->position;
@@ -460,6 +465,7 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
         }
     }
     world_put(w, (uint32_t)body, &state);
+    lead_on(w, (uint32_t)body, in);
     if (in->overlap == CAROM_OVERLAP_PASS) {
         world_let_pass(w, (uint32_t)body);
     }

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+/* fuzz - random calls of a small world; half of their arguments are hostile. See host_fuzz.c. */
+#ifndef CAROM_TESTS_FUZZ_H
+#define CAROM_TESTS_FUZZ_H
+
+#include "carom_body.h"
+#include "carom_debug.h"
+#include "carom_joint.h"
+#include "carom_query.h"
+#include "lab.h"
+#include "test.h"
+
+/* bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits */
+#define FUZZ_CAPS     14, 60, 300, 2000, 256, 500, 8, 8, 4
+#define FUZZ_MESHES   6
+#define FUZZ_VERTICES 1000 /* of a mesh, at most; and faces */
+#define FUZZ_PIXELS   24
+
+struct fuzz {
+    struct test_random r;
+    struct carom_world *world;
+    struct carom_mesh meshes[FUZZ_MESHES]; /* the last one is a surface that moves */
+    struct carom_material materials[4];
+    uint8_t of_face[FUZZ_VERTICES];
+    uint32_t pixels[FUZZ_PIXELS * FUZZ_PIXELS];
+    int16_t vertices[4][3]; /* of the surface */
+    int last; /* call that was made, see fuzz_calls.c */
+    void *block, *mesh_block[FUZZ_MESHES], *workspace;
+};
+
+/* A world with some bodies in it. */
+void fuzz_begin(struct fuzz *f, uint64_t seed);
+void fuzz_end(struct fuzz *f);
+/* One random call; what it returned. */
+int fuzz_call(struct fuzz *f);
+
+/* Any of 0 .. count - 1. */
+int fuzz_pick(struct fuzz *f, int count);
+/* Any number: now and then an extreme one, else within +- 2^bits. */
+int64_t fuzz_number(struct fuzz *f, int bits);
+/* A number or id of a body, there or not. */
+int fuzz_body(struct fuzz *f);
+/* Definitions, sound more often than not. */
+void fuzz_body_def(struct fuzz *f, struct carom_body_def *def);
+void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def);
+void fuzz_drive(struct fuzz *f, struct carom_joint_drive *drive);
+void fuzz_vector(struct fuzz *f, int64_t v[3], int bits);
+void fuzz_rotation(struct fuzz *f, carom_quat_q30 *q);
+/* Calls of carom_query.h, carom_draw.h and carom_debug.h. */
+int fuzz_ask(struct fuzz *f);
+int fuzz_draw(struct fuzz *f);
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Random calls of the whole interface, half of their arguments hostile: numbers at the ends of their types, bodies and
+ * joints that are not there, NULL. No call may do anything undefined (the debug build has sanitizers), a call that
+ * fails leaves the world as it was, and the same calls come to the same hash. Snapshots are changed byte by byte, their check
+ * sum mended: they are refused, or the world steps on.
+ *
+ *   host_fuzz            a few
+ *   host_fuzz FROM TO    those numbers, each said before it is run
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz.h"
+
+#define WORLDS    40
+#define CALLS     250
+#define MUTATIONS 60
+#define SIZE      65536 /* of a snapshot, at most */
+
+static struct fuzz fuzz;
+static long calls, refused, steps, loaded, mutated, taken, wrong;
+
+static void complain(uint64_t seed, int call, const char *what, int result)
+{
+    wrong++;
+    printf("# %llu, call %d (of kind %d): %s: %s\n", (unsigned long long)seed, call, fuzz.last, what,
+           carom_result_text(result));
+}
+
+/* One call: an error must leave everything as it was, and be one that there is. */
+static void call_once(uint64_t seed, int call)
+{
+    uint64_t before = carom_world_hash(fuzz.world);
+    int result = fuzz_call(&fuzz);
+
+    calls++;
+    if (result < 0) {
+        refused++;
+        if (carom_world_hash(fuzz.world) != before) {
+            complain(seed, call, "an error that changed the world", result);
+        }
+        if (result < CAROM_ERR_JOINTS_FULL) {
+            complain(seed, call, "no error of carom.h", result);
+        }
+    }
+}
+
+/* A step may only lack room, or find a body too fast beside too large a mesh. */
+static bool step(uint64_t seed, int call)
+{
+    int result = carom_world_step(fuzz.world);
+
+    steps++;
+    if (result < 0 && result != CAROM_ERR_PAIRS_FULL && result != CAROM_ERR_CONTACTS_FULL &&
+        result != CAROM_ERR_FACES_FULL && result != CAROM_ERR_RANGE) {
+        complain(seed, call, "step", result);
+    }
+    return result >= 0;
+}
+
+/* ---------------------------------------------------------------------- snapshots */
+
+static void mend(uint8_t *bytes, int size)
+{
+    uint64_t fnv = 0xcbf29ce484222325u;
+
+    for (int i = 0; i < size - 8; i++) {
+        fnv = (fnv ^ bytes[i]) * 0x100000001b3u;
+    }
+    for (int i = 0; i < 8; i++) {
+        bytes[size - 8 + i] = (uint8_t)(fnv >> (8 * i));
+    }
+}
+
+/* Its own snapshot is taken back, and comes to the same hash. */
+static int save(uint64_t seed, int call, uint8_t *bytes)
+{
+    uint64_t hash = carom_world_hash(fuzz.world);
+    int size = carom_snapshot_save(fuzz.world, bytes, SIZE);
+    int result = size < 0 ? size : carom_snapshot_load(fuzz.world, bytes, (size_t)size);
+
+    loaded++;
+    if (result < 0 || carom_world_hash(fuzz.world) != hash) {
+        complain(seed, call, "a snapshot of its own", result);
+    }
+    return size;
+}
+
+static void change(uint8_t *bytes, int size)
+{
+    for (int n = fuzz_pick(&fuzz, 3); n >= 0; n--) {
+        int at = fuzz_pick(&fuzz, size - 8), how = fuzz_pick(&fuzz, 4);
+
+        bytes[at] = (uint8_t)(how == 0   ? fuzz_pick(&fuzz, 256)
+                              : how == 1 ? bytes[at] ^ 1 << fuzz_pick(&fuzz, 8)
+                              : how == 2 ? 0xff
+                                         : 0x80);
+    }
+    mend(bytes, size);
+}
+
+static void load_changed(uint64_t seed, int call)
+{
+    static uint8_t good[SIZE], bad[SIZE];
+    int size = save(seed, call, good);
+
+    for (int i = 0; i < MUTATIONS && size > 0; i++) {
+        uint64_t before = carom_world_hash(fuzz.world);
+        int result;
+
+        memcpy(bad, good, (size_t)size);
+        change(bad, size);
+        result = carom_snapshot_load(fuzz.world, bad, (size_t)size);
+        mutated++;
+        if (result < 0) {
+            if (carom_world_hash(fuzz.world) != before) {
+                complain(seed, call, "a snapshot that was refused changed the world", result);
+            }
+            continue;
+        }
+        taken++;
+        for (int k = 0; k < 3; k++) {
+            (void)step(seed, call);
+        }
+        (void)carom_snapshot_load(fuzz.world, good, (size_t)size);
+    }
+}
+
+/* ---------------------------------------------------------------------------- runs */
+
+static uint64_t run(uint64_t seed)
+{
+    fuzz_begin(&fuzz, seed);
+    for (int call = 0; call < CALLS; call++) {
+        call_once(seed, call);
+        if (fuzz_pick(&fuzz, 4) == 0) {
+            (void)step(seed, call);
+        }
+        if (fuzz_pick(&fuzz, CALLS / 3) == 0) {
+            load_changed(seed, call);
+        }
+    }
+    return carom_world_hash(fuzz.world);
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t from = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
+    uint64_t to = argc > 2 ? strtoull(argv[2], NULL, 10) : argc > 1 ? from : WORLDS;
+    long others = 0;
+
+    for (uint64_t seed = from; seed <= to; seed++) {
+        uint64_t hash;
+
+        if (argc > 1) {
+            printf("# %llu\n", (unsigned long long)seed);
+            fflush(stdout);
+        }
+        hash = run(seed);
+        others += run(seed) != hash;
+    }
+    fuzz_end(&fuzz);
+    lab_report(wrong == 0 && refused > 0 && refused < calls && steps > 0, "fuzz/calls",
+               "%ld calls, %ld refused, %ld steps, %ld wrong", calls, refused, steps, wrong);
+    lab_report(taken < mutated && loaded > 0, "fuzz/snapshots",
+               "%ld taken back, %ld changed, of which %ld were taken", loaded, mutated, taken);
+    lab_report(others == 0, "fuzz/same_hash", "%ld of %llu", others,
+               (unsigned long long)(to - from + 1));
+    return lab_finish();
+}
