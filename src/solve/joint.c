@@ -9,6 +9,17 @@ bool joint_has_coordinate(uint8_t kind)
     return kind == CAROM_JOINT_HINGE || kind == CAROM_JOINT_SLIDER || kind == CAROM_JOINT_DISTANCE;
 }
 
+int64_t joint_product_q40(int64_t a_q40, int64_t b_q40)
+{
+    const int64_t most = (int64_t)1 << 60;
+    struct fix_wide product = fix_wide_mul(a_q40, b_q40);
+
+    if (fix_wide_bits(&product) > 100) {
+        return fix_wide_sign(&product) < 0 ? -most : most;
+    }
+    return fix_wide_shift(&product, 40);
+}
+
 bool joint_is_driven(const struct joint *j, const struct joint_state *s)
 {
     return joint_has_coordinate(j->kind) && (s->drive.limited || s->drive.motor || s->drive.spring);

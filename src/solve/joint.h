@@ -158,6 +158,9 @@ struct joint_error {
 bool joint_has_coordinate(uint8_t kind);
 bool joint_is_driven(const struct joint *j, const struct joint_state *s);
 
+/* a b of two numbers in q40, at most 2^60. */
+int64_t joint_product_q40(int64_t a_q40, int64_t b_q40);
+
 /* The way from one angle of a hinge to another: within half a turn. */
 int64_t joint_turned_q40(int64_t from_q40, int64_t to_q40);
 

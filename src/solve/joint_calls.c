@@ -14,12 +14,13 @@ static inline struct joint_state *state_of(const struct rest *r, const struct jo
     return &r->joints.states[j - r->joints.joints];
 }
 
-static void join(struct rest *r)
+static void join(struct rest *r, const struct body_state *states)
 {
     for (uint32_t i = 0; i < r->joints.count; i++) {
         const struct joint *j = &r->joints.joints[i];
 
-        if (joint_holds(&r->joints, i) && j->b != JOINT_WORLD) {
+        if (joint_holds(&r->joints, i) && j->b != JOINT_WORLD &&
+            !(states && (states[j->a].out || states[j->b].out))) {
             island_join(r->bodies, &(struct pair){j->a, j->b});
         }
     }
@@ -44,6 +45,14 @@ static void load_velocities(struct rest *r)
     }
 }
 
+/* The island of a joint that is to be solved: one of its bodies may be out of the world. */
+static uint16_t island_of(const struct joint *j)
+{
+    const struct joint_lever *lever = j->work.lever;
+
+    return lever[0].body ? lever[0].body->island : lever[1].body->island;
+}
+
 static bool take(struct rest *r)
 {
     bool idle = true;
@@ -52,7 +61,7 @@ static bool take(struct rest *r)
     for (uint32_t i = r->joints.count; i-- > 0;) {
         struct joint *j = &r->joints.joints[i];
 
-        if (joint_holds(&r->joints, i) && r->bodies[j->a].island == r->island && !j->work.idle) {
+        if (joint_holds(&r->joints, i) && !j->work.idle && island_of(j) == r->island) {
             j->next = r->joints.first;
             r->joints.first = (uint16_t)(i + 1);
             idle = false;
@@ -65,7 +74,7 @@ static bool take_next(struct rest *r)
 {
     for (uint32_t i = 0; i < r->joints.count; i++) {
         if (joint_holds(&r->joints, i) && !r->joints.joints[i].work.idle) {
-            r->island = r->bodies[r->joints.joints[i].a].island;
+            r->island = island_of(&r->joints.joints[i]);
             r->count = 0;
             return !take(r);
         }
@@ -282,9 +291,7 @@ static void book_drive(struct rest *r, const struct joint *j)
     int64_t after_q40 = joint_speed_q40(w, last);
 
     if (w->law.spring) {
-        struct fix_wide own = fix_wide_mul(w->half_stiff_q40, after_q40 - before_q40);
-
-        p_q40 += w->elastic_q40 + fix_wide_shift(&own, 40);
+        p_q40 += w->elastic_q40 + joint_product_q40(w->half_stiff_q40, after_q40 - before_q40);
     }
     fix_wide_add_product(&r->bodies[j->a].work2, p_q40, before_q40 + after_q40);
 }
@@ -315,10 +322,11 @@ static void book(struct rest *r)
 
         w->idle = true;
         for (int k = 0; k < 3; k++) {
-            state->push.c[k] += w->push.c[k];
-            state->moment.c[k] += w->moment.c[k];
+            state->push.c[k] = joint_limited(state->push.c[k] + w->push.c[k], 60);
+            state->moment.c[k] = joint_limited(state->moment.c[k] + w->moment.c[k], 60);
         }
-        state->axial_q40 += w->held < w->rows ? w->row_q40[w->held] : 0;
+        state->axial_q40 =
+            joint_limited(state->axial_q40 + (w->held < w->rows ? w->row_q40[w->held] : 0), 60);
         refresh(r, j);
         if (w->held < w->rows && r->joints.solve != JOINT_PROJECT) {
             book_drive(r, j);
@@ -329,7 +337,7 @@ static void book(struct rest *r)
         for (int i = 0; i < JOINT_ROWS && r->joints.solve <= JOINT_MORE; i++) {
             int64_t kept = r->joints.solve == JOINT_MORE ? state->impulse_q40[i] : 0;
 
-            state->impulse_q40[i] = kept + (i < w->rows ? w->row_q40[i] : 0);
+            state->impulse_q40[i] = joint_limited(kept + (i < w->rows ? w->row_q40[i] : 0), 60);
         }
     }
 }

@@ -27,6 +27,14 @@ int64_t joint_sweep(struct joint *j, int32_t quiet);
 void joint_end(struct joint *j, const struct rest_sweep *sw);
 void joint_apply(struct rest *r, const struct joint *j);
 
+/* v, or +-2^bits: numbers that no world in range comes to are kept from wrapping round. */
+static inline int64_t joint_limited(int64_t v, int bits)
+{
+    const int64_t most = (int64_t)1 << bits;
+
+    return v > most ? most : v < -most ? -most : v;
+}
+
 static inline bool joint_is_angular(const struct joint_work *w, int row)
 {
     return (w->angular >> row & 1) != 0;

@@ -378,12 +378,16 @@ void joint_load(struct joint *j, const struct joint_state *state, const struct r
     }
 }
 
-/* An impulse of a row to momentum. */
+/* An impulse of a row to momentum, at most 2^57. */
 static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
 {
+    const int64_t most = (int64_t)1 << 57;
     struct fix_scaled by = w->lightest->mass;
 
     by.e += JOINT_FINE_BITS - unit - row_shift(w, row);
+    if (fix_bits((uint64_t)carom_abs(w->impulse[row])) + 30 - by.e > 57) {
+        return w->impulse[row] < 0 ? -most : most;
+    }
     return fix_mul_scaled(w->impulse[row], by);
 }
 
@@ -407,18 +411,21 @@ void joint_end(struct joint *j, const struct rest_sweep *sw)
 void joint_apply(struct rest *r, const struct joint *j)
 {
     const struct joint_work *w = &j->work;
-    const int64_t *p = w->push.c;
 
     for (int s = 0; s < 2; s++) {
         const struct joint_lever *lever = &w->lever[s];
         struct body_state *state;
-        int64_t back[3];
+        const int64_t *p = w->push.c;
+        int64_t limited[3], back[3];
 
         if (!lever->body) {
             continue;
         }
         state = &r->states[s == 0 ? j->a : j->b];
-        turn_velocity(lever, p, back); /* P x r */
+        for (int k = 0; k < 3; k++) {
+            limited[k] = lever->arm_bits < 30 ? joint_limited(p[k], 30 + lever->arm_bits) : p[k];
+        }
+        turn_velocity(lever, limited, back); /* P x r */
         for (int k = 0; k < 3; k++) {
             int64_t moment = w->moment.c[k] - back[k];
 

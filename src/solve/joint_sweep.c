@@ -30,7 +30,15 @@ int32_t joint_present(const struct joint_work *w, int row)
     if (!joint_is_angular(w, row)) {
         v = carom_round(carom_dot(d, way), 30 + REST_FINER_BITS + w->down);
     }
-    return w->before[row] + (int32_t)v + (int32_t)((int64_t)turn >> 32);
+    return rest_clamp(w->before[row] + v + ((int64_t)turn >> 32));
+}
+
+#define IMPULSE_BITS 44
+
+/* Bits that an impulse may have, of which a shift leaves so many. */
+static int fewer(int bits)
+{
+    return bits < IMPULSE_BITS ? bits : IMPULSE_BITS;
 }
 
 /* What a change of the impulses does to a body. */
@@ -46,23 +54,27 @@ static void push_side(const struct joint_work *w, int side, const int64_t change
 
     for (int i = 0; i < w->rows; i++) {
         int64_t own = side == 0 ? change[i] : -change[i];
+        int64_t by_way, by_turn;
 
         own = lever->share_q30 == CAROM_ONE_Q30 ? own : fix_mul_q30(own, lever->share_q30);
+        by_way = joint_limited(own, fewer(29 + down - 8));
+        by_turn = joint_limited(own, fewer(29 + s - finer));
         for (int k = 0; k < 3; k++) {
-            way[k] += joint_is_angular(w, i) ? 0 : fix_mul(own, w->direction[i][k], down - 8);
-            turn[k] += fix_mul(own, lever->turn[i][k], s - finer);
+            way[k] += joint_is_angular(w, i) ? 0 : fix_mul(by_way, w->direction[i][k], down - 8);
+            turn[k] += fix_mul(by_turn, lever->turn[i][k], s - finer);
         }
     }
-    for (int k = 0; k < 3; k++) {
-        in->used |= rest_add(&in->dv[k], (int32_t)carom_round(way[k], 8)) |
-                    rest_add(&in->du[k], (int32_t)fix_round_shift(turn[k], -finer));
+    for (int k = 0; k < 3; k++) { /* more than 2^30 is seen to have outgrown the unit */
+        in->used |=
+            rest_add(&in->dv[k], rest_within(carom_round(way[k], 8), CAROM_ONE_Q30)) |
+            rest_add(&in->du[k], rest_within(fix_round_shift(turn[k], -finer), CAROM_ONE_Q30));
     }
 }
 
 void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
 {
     for (int i = 0; i < w->rows; i++) {
-        w->impulse[i] += change[i];
+        w->impulse[i] = joint_limited(w->impulse[i] + change[i], IMPULSE_BITS);
         w->gain[i] = rest_clamp(w->gain[i] + change[i]);
     }
     for (int s = 0; s < 2; s++) {
@@ -98,7 +110,7 @@ static int64_t by_law(const struct joint_work *w, int64_t now, int32_t v)
         impulse = impulse < least ? impulse : least;
     }
 #undef LEADS_TO
-    return impulse;
+    return joint_limited(impulse, IMPULSE_BITS);
 }
 
 int64_t joint_sweep(struct joint *j, int32_t quiet)
@@ -109,7 +121,7 @@ int64_t joint_sweep(struct joint *j, int32_t quiet)
     int last = w->rows - 1;
 
     for (int i = 0; i < w->held; i++) {
-        error[i] = -joint_present(w, i);
+        error[i] = -rest_within(joint_present(w, i), 1 << 29);
         moved = fix_larger((int32_t)moved, fix_abs32(error[i]));
     }
     for (int i = 0; i < w->rows; i++) {
@@ -119,7 +131,8 @@ int64_t joint_sweep(struct joint *j, int32_t quiet)
         for (int k = 0; k < w->held; k++) {
             sum += (int64_t)w->inverse[i][k] * error[k];
         }
-        change[i] = fix_round_shift(sum, JOINT_FINE_BITS - w->inverse_bits);
+        change[i] =
+            joint_limited(fix_round_shift(sum, JOINT_FINE_BITS - w->inverse_bits), IMPULSE_BITS);
     }
     if (w->held < w->rows) {
         int64_t more =
@@ -155,14 +168,16 @@ void joint_sum_up(const struct joint *j)
         in = body_solve(lever->body);
         for (int i = 0; i < w->rows; i++) {
             int64_t own = fix_mul_q30(s == 0 ? w->impulse[i] : -w->impulse[i], lever->share_q30);
+            const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS,
+                      turn = rest_turn_shift(lever->body, JOINT_FINE_BITS);
+            int64_t by_way = joint_limited(own, fewer(29 + down)),
+                    by_turn = joint_limited(own, fewer(29 + turn));
 
             for (int k = 0; k < 3; k++) {
                 if (!joint_is_angular(w, i)) {
-                    in->wide_dv[k] += fix_mul(own, w->direction[i][k],
-                                              30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS);
+                    in->wide_dv[k] += fix_mul(by_way, w->direction[i][k], down);
                 }
-                in->wide_du[k] +=
-                    fix_mul(own, lever->turn[i][k], rest_turn_shift(lever->body, JOINT_FINE_BITS));
+                in->wide_du[k] += fix_mul(by_turn, lever->turn[i][k], turn);
             }
         }
     }

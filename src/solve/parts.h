@@ -262,7 +262,8 @@ bool rest_approaches(struct rest *r);
  */
 struct rest_sweep;
 struct joint_calls {
-    void (*join)(struct rest *r);            /* islands of bodies that joints hold */
+    /* islands of bodies that joints hold; with states, but for those that are out of the world */
+    void (*join)(struct rest *r, const struct body_state *states);
     void (*load_velocities)(struct rest *r); /* of bodies that no contact asked for */
     void (*enter)(
         struct rest *

@@ -54,7 +54,7 @@ void rest_find_islands(struct rest *r, struct body *bodies, uint32_t body_count,
     }
     if (r->joints.calls) {
         r->bodies = bodies;
-        r->joints.calls->join(r);
+        r->joints.calls->join(r, NULL);
     }
     island_end(bodies, body_count);
 }

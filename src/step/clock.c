@@ -156,7 +156,8 @@ int step_set_path(struct step *s, uint32_t i)
         return set_route(s, i, left_q30);
     }
     /* as a frame begins what nothing has changed yet is in range */
-    if (left_q30 == 0 || ((s->now_q30 > 0 || b->in_contact) && step_retire(s, i))) {
+    if (left_q30 == 0 ||
+        ((s->now_q30 > 0 || b->in_contact || b->joined != BODY_ALONE) && step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }

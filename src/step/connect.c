@@ -82,7 +82,8 @@ static int32_t slice(const struct step *s, uint32_t i, int32_t left_q30)
     int32_t least_q30 = led_slice(s, group, left_q30);
 
     for (uint32_t k = 0; k < s->w->body_count && group != BODY_ALONE; k++) {
-        if (s->w->bodies[k].mesh && s->w->bodies[k].joined == group && step_active(s, k)) {
+        if (s->w->bodies[k].mesh && s->w->bodies[k].joined == group && step_active(s, k) &&
+            step_in_range(&s->w->bodies[k], &s->next->bodies[k])) {
             int32_t own_q30 = own_slice(&s->w->bodies[k], &s->next->bodies[k], left_q30);
             least_q30 = own_q30 < least_q30 ? own_q30 : least_q30;
         }
@@ -123,7 +124,9 @@ static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
     if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].stands) {
         return led_pose(s, i, s->now_q30 + slice_q30);
     }
-    if (answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].stands) {
+    /* a body that is out of range goes nowhere: it retires when it sets out */
+    if (answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].stands &&
+        step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
         struct body *b = &s->w->bodies[i];
         carom_v3_q32 way;
 
@@ -146,7 +149,31 @@ static int64_t per_frame(int64_t v_q40, int32_t time_q30)
     return fix_mul_scaled(v_q40, by);
 }
 
-/* The limits and the spring of a coordinate, which changes by change_q40 in the slice. */
+/*
+ * A spring over the frame: half of the change of the coordinate comes on top of where it is now. False when it has
+ * neither stiffness nor damping.
+ */
+static bool measure_spring(struct joint_work *w, const struct carom_joint_drive *d, int64_t now_q40,
+                           int64_t rate_q40)
+{
+    int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
+    struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
+    struct fix_scaled loose; /* the velocity that leads to no pull: q80 over q40 */
+
+    w->half_stiff_q40 = d->stiffness_q40 / 2;
+    w->stiff_q40 = w->half_stiff_q40 + d->damping_q40;
+    if (w->stiff_q40 == 0) {
+        return false;
+    }
+    loose = fix_wide_over(&pull, w->stiff_q40);
+    w->spring_q40 = -rate_q40 - fix_mul_scaled(1, loose);
+    w->elastic_q40 = joint_product_q40(d->stiffness_q40, off_q40) +
+                     joint_product_q40(w->half_stiff_q40, rate_q40);
+    w->least_q40 += carom_abs(w->spring_q40);
+    return true;
+}
+
+/* Limits, motor and spring of a coordinate, which changes by change_q40 in the slice. */
 static void measure_drive(struct joint *j, const struct joint_state *state, int64_t now_q40,
                           int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
 {
@@ -157,7 +184,6 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
 
     w->law.lower = w->law.upper = d->limited && solve != JOINT_PROJECT;
     w->law.motor = d->motor && solve == JOINT_FRAME;
-    w->law.spring = d->spring && solve == JOINT_FRAME;
     w->least_q40 = 0;
     if (d->limited) {
         w->low_q40 = per_frame(carom_shl(d->lower_q32, 8) - then_q40, time_q30);
@@ -168,28 +194,8 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
         w->most_q40 = d->motor_most_q40;
         w->least_q40 += carom_abs(d->motor_speed_q40);
     }
-    if (w->law.spring) {
-        /* over the frame: half of the change of the coordinate on top of where it is now */
-        int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
-        int64_t rate_q40 = per_frame(change_q40, time_q30);
-        struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
-        struct fix_wide bend;
-
-        w->half_stiff_q40 = d->stiffness_q40 / 2;
-        w->stiff_q40 = w->half_stiff_q40 + d->damping_q40;
-        if (w->stiff_q40 == 0) {
-            w->law.spring = false;
-            return;
-        }
-        {
-            struct fix_scaled by = fix_wide_over(&pull, w->stiff_q40); /* q80 over q40 */
-
-            w->spring_q40 = -rate_q40 - fix_mul_scaled(1, by);
-        }
-        bend = fix_wide_mul(w->half_stiff_q40, rate_q40);
-        w->elastic_q40 = fix_wide_shift(&pull, 40) + fix_wide_shift(&bend, 40);
-        w->least_q40 += carom_abs(w->spring_q40);
-    }
+    w->law.spring = d->spring && solve == JOINT_FRAME &&
+                    measure_spring(w, d, now_q40, per_frame(change_q40, time_q30));
 }
 
 /* Rows of a joint as its bodies are, and what they lack on the way to the end of the slice. Whether more than a little. */
@@ -221,7 +227,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         then[k] = pose_of(s, side[k], solve == JOINT_PROJECT ? 0 : slice_q30);
     }
     joint_set_rows(j, state, now);
-    w->idle = !j->chosen || w->rows == 0;
+    w->idle = !j->chosen || w->rows == 0 || (!w->lever[0].body && !w->lever[1].body);
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     w->by_speed = solve == JOINT_PROJECT || slice_q30 < MEASURED_MIN_Q30;

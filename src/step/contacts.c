@@ -348,7 +348,7 @@ static void find_chords(struct step *s)
         if (pair_number != c->key.pair) {
             pair_number = c->key.pair;
             slice_q30 = straight_paths(s, &w->pairs[pair_number]);
-            pair = step_set_pair(w, pair_number);
+            pair = slice_q30 > LASTING_SLICE_MIN_Q30 ? step_set_pair(w, pair_number) : NULL;
         }
         if (slice_q30 <= (c->lasting ? LASTING_SLICE_MIN_Q30 : CHORD_SLICE_MIN_Q30)) {
             continue;
@@ -364,6 +364,18 @@ static void find_chords(struct step *s)
 
 /* Paths bend, and so anchors may be off after a solve: then there is another. */
 #define JOINT_ROUNDS 8
+
+/* Whether a solve has left all bodies a motion that the world has room for: those that it has not retire. */
+static bool all_in_range(const struct step *s)
+{
+    for (uint32_t i = 0; i < s->w->body_count; i++) {
+        if (s->w->bodies[i].moving && step_active(s, i) &&
+            !step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
+            return false;
+        }
+    }
+    return true;
+}
 
 /* Solve until joints hold at the end of the slice as well; false: they do not after some rounds. */
 static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
@@ -382,7 +394,7 @@ static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
         PHASE_BEGIN(w->scratch_phase, WORLD_SOLVE);
         result = rest_solve(&w->rest, CAROM_ONE_Q30 - s->now_q30, warm && first);
         note_hits(s);
-        if (!w->joint_steps) {
+        if (!w->joint_steps || !all_in_range(s)) {
             return result;
         }
         first = false;

@@ -371,7 +371,7 @@ void step_limit_energy(struct step *s)
         w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
     }
     if (w->joint_steps) {
-        w->rest.joints.calls->join(&w->rest);
+        w->rest.joints.calls->join(&w->rest, s->next->bodies);
         w->joint_steps->ground(s);
     }
     island_end(w->bodies, w->body_count);

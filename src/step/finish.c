@@ -21,8 +21,7 @@ void step_add_event(struct carom_world *w, uint8_t kind, uint16_t a, uint16_t b)
     }
 }
 
-/* The same as world_in_range, sooner for most. */
-static bool in_range(const struct body *b, const struct body_state *s)
+bool step_in_range(const struct body *b, const struct body_state *s)
 {
     return (body_calm(b, s) && world_each_within(s->position.c, (int64_t)BODY_WORLD_LIMIT << 32)) ||
            world_in_range(b, s);
@@ -33,7 +32,7 @@ bool step_retire(struct step *s, uint32_t i)
     struct carom_world *w = s->w;
     struct body_state *state = &s->next->bodies[i], last;
 
-    if (!step_active(s, i) || in_range(&w->bodies[i], state)) {
+    if (!step_active(s, i) || step_in_range(&w->bodies[i], state)) {
         return false;
     }
     last = world_now(w)->bodies[i];

@@ -287,6 +287,8 @@ void step_drop_warm(struct step *s);
  * the pose it began the frame with. Returns whether it did.
  */
 bool step_retire(struct step *s, uint32_t i);
+/* The same as world_in_range, sooner for most. */
+bool step_in_range(const struct body *b, const struct body_state *s);
 
 /* The list of interfering faces, when pairs were gathered in this step. */
 int step_note_faces(struct step *s);
