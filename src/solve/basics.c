@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Velocities and impulses at a contact, and vectors cut to a length: every solver uses them. */
-#include "parts.h"
+#include "sweep.h"
 
 extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
 extern inline struct body *rest_body(const struct rest *r, const struct contact *c, int side);
@@ -158,6 +158,21 @@ void rest_push(struct contact *c, const int32_t impulse[3])
     if (c->side[1].body) {
         rest_push_side(c->side[1].body, &c->work->lever[1], opposite, c->work->fine_bits);
     }
+}
+
+int32_t rest_gain(struct contact *c, const struct rest_change *g)
+{
+    int32_t *gain = contact_gain(c)->gain, most;
+
+    rest_accumulate(c->work, g);
+    FIX_UNROLL
+    for (int k = 0; k < 3; k++) {
+        /* a contact by itself, of which nobody asks, may wrap */
+        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
+    }
+    rest_push(c, g->whole);
+    most = fix_largest(g->whole);
+    return most > 1 ? most : 0;
 }
 
 int rest_shift_down(int64_t v[4], int down)

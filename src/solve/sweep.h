@@ -29,20 +29,7 @@ static inline void rest_accumulate(struct contact_work *in, const struct rest_ch
 }
 
 /* And into the bodies; returns its largest component, the last place apart. */
-static inline int32_t rest_gain(struct contact *c, const struct rest_change *g)
-{
-    int32_t *gain = contact_gain(c)->gain, most;
-
-    rest_accumulate(c->work, g);
-    FIX_UNROLL
-    for (int k = 0; k < 3; k++) {
-        /* a contact by itself, of which nobody asks, may wrap */
-        gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
-    }
-    rest_push(c, g->whole);
-    most = fix_largest(g->whole);
-    return most > 1 ? most : 0;
-}
+int32_t rest_gain(struct contact *c, const struct rest_change *g);
 
 /*
  * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. The root of the
