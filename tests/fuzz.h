@@ -24,7 +24,7 @@ struct fuzz {
     uint8_t of_face[FUZZ_VERTICES];
     uint32_t pixels[FUZZ_PIXELS * FUZZ_PIXELS];
     int16_t vertices[4][3]; /* of the surface */
-    int last; /* call that was made, see fuzz_calls.c */
+    int last;               /* call that was made, see fuzz_calls.c */
     void *block, *mesh_block[FUZZ_MESHES], *workspace;
 };
 

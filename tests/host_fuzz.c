@@ -25,8 +25,8 @@ static long calls, refused, steps, loaded, mutated, taken, wrong;
 static void complain(uint64_t seed, int call, const char *what, int result)
 {
     wrong++;
-    printf("# %llu, call %d (of kind %d): %s: %s\n", (unsigned long long)seed, call, fuzz.last, what,
-           carom_result_text(result));
+    printf("# %llu, call %d (of kind %d): %s: %s\n", (unsigned long long)seed, call, fuzz.last,
+           what, carom_result_text(result));
 }
 
 /* One call: an error must leave everything as it was, and be one that there is. */

@@ -4,7 +4,7 @@
 
 PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, called 12, m12 and w12: bodies alone, machines,
 and wild machines. Every world is a row of out/soak.csv; the summary is printed and,
-with --docs, written into docs/soak.md between its two comments. A world that ends the program, or that
+with --docs, written into docs/soak.md, bodies and machines each between two comments. A world that ends the program, or that
 takes longer than it may, is a row of its own: the others are run without it. A line a failing world
 says how to run it alone, frame by frame. The exit status is 1 when anything is not as it should be.
 """
@@ -20,14 +20,13 @@ import time
 import gate
 
 OUT, DOCS = "out/soak.csv", "docs/soak.md"
-BEGIN, END = "<!-- soak -->\n", "<!-- end of soak -->\n"
 CHUNK = 20  # worlds a process
 SECONDS = 150  # for a world, in which its steps may take 60
 CUT_ALLOWED = 0.01  # of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
           "much work", "joint", "sensor", "other hash"]
 KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
-MACHINES, WILD = 0.4, 0.04  # of as many worlds of bodies alone
+SHARES = {"": 1, "m": 0.2, "w": 0.02}  # of the worlds asked for
 LOST = "lost"  # the program ended, or did not
 
 
@@ -156,18 +155,37 @@ def write_csv(rows):
         writer.writerows(rows)
 
 
-def write_docs(tables, machines, rows):
-    """The summaries, the kinds of worlds that fail, and the first numbers of each fault."""
-    with open(DOCS) as file:
-        text = file.read()
-    head, rest = text.split(BEGIN)
-    lines = lines_of_table(tables) + [""] + lines_of_table(machines)
-    lines += ["", "| fault | worlds | the first of them |", "|---|---|---|"]
+def faults_of(rows):
+    """The faults, and the first numbers of each."""
+    lines = ["", "| fault | worlds | the first of them |", "|---|---|---|"]
     for fault in FAULTS + [LOST]:
         seeds = [row["seed"] for row in rows if has(row, fault)]
         lines.append("| %s | %d | %s |" % (fault, len(seeds), ", ".join(seeds[:12])))
+    return lines
+
+
+def write_docs(name, lines):
+    """Put lines between the two comments of a name."""
+    begin, end = "<!-- %s -->\n" % name, "<!-- end of %s -->\n" % name
+    with open(DOCS) as file:
+        text = file.read()
+    head, rest = text.split(begin)
     with open(DOCS, "w") as file:
-        file.write(head + BEGIN + "\n".join(lines) + "\n" + END + rest.split(END)[1])
+        file.write(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+
+
+def document(by_kind):
+    """Write what was run of the two sorts of worlds."""
+    if "" in by_kind:
+        rows, wall = by_kind[""]
+        write_docs("soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
+    machines = {kind: made for kind, made in by_kind.items() if kind}
+    if machines:
+        rows = [row for made, _ in machines.values() for row in made]
+        write_docs("machines",
+                   lines_of_table([summary(kind, *made) for kind, made in machines.items()]) + [""] +
+                   lines_of_table([joints(kind, made) for kind, (made, _) in machines.items()]) +
+                   faults_of(rows))
 
 
 def print_table(table):
@@ -182,28 +200,31 @@ def main():
     parser.add_argument("--first", type=int, default=1, help="number of the first world")
     parser.add_argument("--count", type=int, default=5000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--kinds", default="bmw", help="of worlds: bodies, machines, wild ones")
     parser.add_argument("--docs", action="store_true", help="write the summary into " + DOCS)
     arguments = parser.parse_args()
     os.chdir(gate.ROOT)
-    rows, tables, machines = [], [], []
-    for kind, share in (("", 1), ("m", MACHINES), ("w", WILD)):
+    by_kind = {}
+    for kind, share in SHARES.items():
+        if (kind or "b") not in arguments.kinds:
+            continue
         start = time.monotonic()
         count = max(1, int(arguments.count * share))
         made = run(arguments.program, kind, arguments.first, count, arguments.jobs)
-        tables.append(summary(kind, made, time.monotonic() - start))
-        if kind:
-            machines.append(joints(kind, made))
-        rows += made
+        by_kind[kind] = made, time.monotonic() - start
+    rows = [row for made, _ in by_kind.values() for row in made]
     write_csv(rows)
     if arguments.docs:
-        write_docs(tables, machines, rows)
+        document(by_kind)
     # frames cut short are counted over all worlds: one of them alone is no failure
     failing = [row for row in rows if set(row["faults"].split("; ")) - {"", "cut short"}]
     for row in failing:
         print("%s %s: %s" % (arguments.program, row["seed"], row["faults"] +
                              (" (%s)" % row["error"] if row.get("error") else "")))
-    for table in tables + machines:
-        print_table(table)
+    for kind, (made, wall) in by_kind.items():
+        print_table(summary(kind, made, wall))
+        if kind:
+            print_table(joints(kind, made))
     cut = sum(number(row, "cut") for row in rows)
     frames = sum(number(row, "frames") for row in rows)
     return bool(failing) or cut > CUT_ALLOWED * frames
