@@ -180,6 +180,15 @@ static void look_at_part(const struct car *car, int part, struct seen *seen)
 
 /* --------------------------------------------------------------------------- runs */
 
+static void place(const struct car *car, double at[2])
+{
+    const struct carom_body_state s = lab_state(car->world, CAR_CHASSIS);
+
+    for (int k = 0; k < 2; k++) {
+        at[k] = lab_double(s.position.c[k], 32);
+    }
+}
+
 /* Where it is, and how far it went about the middle since the last frame. */
 static void look_at_way(const struct car *car, double last[2], struct seen *seen)
 {
@@ -187,10 +196,8 @@ static void look_at_way(const struct car *car, double last[2], struct seen *seen
     const double z[3] = {0, 0, 1};
     double at[2], up[3];
 
-    for (int k = 0; k < 2; k++) {
-        at[k] = lab_double(s.position.c[k], 32);
-        seen->far = fmax(seen->far, fabs(at[k]));
-    }
+    place(car, at);
+    seen->far = fmax(seen->far, fmax(fabs(at[0]), fabs(at[1])));
     seen->round += atan2(last[0] * at[1] - last[1] * at[0], last[0] * at[0] + last[1] * at[1]);
     seen->way += hypot(at[0] - last[0], at[1] - last[1]);
     memcpy(last, at, sizeof at);
@@ -220,12 +227,13 @@ static void run(const char *name, bool hands, long frames)
 {
     struct car *car = begin();
     struct seen seen = {.up = 1};
-    double last[2] = {0, 0};
+    double last[2];
     uint64_t random = 20;
     uint32_t keys = 0;
     /* at 4 m/s of the 5.6 that the motors may give, on 76 m; hands brake and go back and forth */
     double rounds = (double)frames / 60 * 4 / 76, way = (double)frames / 60;
 
+    place(car, last);
     for (long frame = 1; frame <= frames; frame++) {
         keys = keys_of(hands, frame, keys, &random);
         lab_expect(scene_game_before(car->scene.game, car->world, (int)frame, keys), "before");
@@ -239,6 +247,7 @@ static void run(const char *name, bool hands, long frames)
         look_at_way(car, last, &seen);
         if (hands && seen.far > HALF_YARD - 2) { /* over the rim: it begins again */
             start(car);
+            place(car, last);
             seen.again++;
             seen.far = 0;
         }
