@@ -40,7 +40,7 @@ SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fn
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
           $(if $(DEBUG),-DCAROM_DEBUG) $(if $(ICOUNT_SHIFT),-DPORT_ICOUNT_SHIFT=$(ICOUNT_SHIFT)) \
-          $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(firstword $(ROM_SCENES)) -I$(B)/gen) \
+          $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(or $(START),$(firstword $(ROM_SCENES))) -I$(B)/gen) \
           $(if $(ROM_GAMES),-DSCENE_ROM_GAMES -DBOARD_GAME_CAPS=$(GAME_CAPS)) \
           $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
@@ -143,13 +143,13 @@ help: ## list the commands
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(SHOWN)'
 
-run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PAPER=1
+run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|chain|crusher|conveyor|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PRESS=N:KEYS,... PAPER=1
 	@tools/need pil
 	@$(SUBMAKE) $(B)/head.elf $(RUNNER) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
 	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
-	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1)
+	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
 
 ifneq ($(ASKED),)
 test: need

@@ -324,7 +324,7 @@ static void report(int frames)
 /* With the pad; frames 0: without end. */
 static void play(int frames)
 {
-    struct scene scene;
+    static struct scene scene; /* not on the stack, of which a game needs more */
     struct show show;
     struct carom_world *world;
     struct port_fb fb = port_fb();

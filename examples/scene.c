@@ -280,9 +280,8 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 
 int scene_before(struct scene *scene, struct carom_world *world, int frame)
 {
-    return SCENE_GAMES && scene->game
-               ? scene_game_before(scene->game, world, frame, SCENE_NOBODY)
-               : scene_sheet_move(scene->sheet, world, frame);
+    return SCENE_GAMES && scene->game ? scene_game_before(scene->game, world, frame, SCENE_NOBODY)
+                                      : scene_sheet_move(scene->sheet, world, frame);
 }
 
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame)

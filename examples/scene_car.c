@@ -96,7 +96,8 @@ static void stand(struct scene_parts *parts, int mesh, const struct place *at, i
         .position = {{at->x_mm * CAROM_POSITION_MM(1), at->y_mm * CAROM_POSITION_MM(1),
                       z_mm * CAROM_POSITION_MM(1)}},
         .rotation = {{at->cosine_q30, 0, 0, at->sine_q30}},
-        .friction_q16 = FRICTION_Q16,
+        /* between a rough tower and a ramp the car would be wedged */
+        .friction_q16 = mesh == MESH_TOWER ? FRICTION_Q16 / 8 : FRICTION_Q16,
         .sensor = mesh == MESH_BALL};
 
     scene_part(parts, mesh, &def);
@@ -108,11 +109,11 @@ static const struct place ramps[CAR_RAMPS] = {
     {10392, 6000, 536870912, 929887697},
     {-10392, 6000, -536870912, 929887697},
 };
-/* Towers outside of it, which come between the car and where the camera would be. */
+/* Towers outside of it, which come between the car and where the camera would be; away from the ramps. */
 static const struct place towers[CAR_TOWERS] = {
     {7000, -13000, 1025033084, 319763936},
-    {9000, 11500, 976891013, 445664022},
-    {-14500, 0, 1064243069, 142497571},
+    {2500, 14500, 976891013, 445664022},
+    {-13500, -5500, 1064243069, 142497571},
 };
 /* Balls: six on the round, one aside of it, one in the middle. */
 static const struct place balls[CAR_PICKUPS] = {

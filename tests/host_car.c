@@ -31,6 +31,7 @@ struct seen {
     double round; /* radians that it went about the middle of the yard */
     double way;   /* that it went */
     double far;   /* the farthest from there along x or y */
+    long again;   /* times that it began again */
     double up;    /* the least of how far the car's z axis points up */
 };
 
@@ -47,17 +48,25 @@ static int still_body(int i)
     return i == 0 ? SCENE_GROUND : CAR_RAMP + i - 1;
 }
 
+static void start(struct car *car)
+{
+    struct carom_config config = scene_config();
+
+    lab_expect(scene_make(&car->scene, &config, car->world_block,
+                          carom_world_bytes(&car->scene.caps), &car->world),
+               "make");
+}
+
 static struct car *begin(void)
 {
     struct car *car = lab_need(sizeof *car);
-    struct carom_config config = scene_config();
     size_t bytes;
 
     car->mesh_block = lab_need(SCENE_MESH_BYTES);
     lab_expect(scene_load(&car->scene, "car", NULL, car->mesh_block, SCENE_MESH_BYTES), "load");
     bytes = carom_world_bytes(&car->scene.caps);
     car->world_block = lab_need(bytes);
-    lab_expect(scene_make(&car->scene, &config, car->world_block, bytes, &car->world), "make");
+    start(car);
     for (int i = 0; i < PARTS; i++) {
         car->part[i] = lab_doubles(&carom_body_mesh(car->world, CAR_CHASSIS + i)->raw);
     }
@@ -171,6 +180,15 @@ static void look_at_part(const struct car *car, int part, struct seen *seen)
 
 /* --------------------------------------------------------------------------- runs */
 
+static void place(const struct car *car, double at[2])
+{
+    const struct carom_body_state s = lab_state(car->world, CAR_CHASSIS);
+
+    for (int k = 0; k < 2; k++) {
+        at[k] = lab_double(s.position.c[k], 32);
+    }
+}
+
 /* Where it is, and how far it went about the middle since the last frame. */
 static void look_at_way(const struct car *car, double last[2], struct seen *seen)
 {
@@ -178,10 +196,8 @@ static void look_at_way(const struct car *car, double last[2], struct seen *seen
     const double z[3] = {0, 0, 1};
     double at[2], up[3];
 
-    for (int k = 0; k < 2; k++) {
-        at[k] = lab_double(s.position.c[k], 32);
-        seen->far = fmax(seen->far, fabs(at[k]));
-    }
+    place(car, at);
+    seen->far = fmax(seen->far, fmax(fabs(at[0]), fabs(at[1])));
     seen->round += atan2(last[0] * at[1] - last[1] * at[0], last[0] * at[0] + last[1] * at[1]);
     seen->way += hypot(at[0] - last[0], at[1] - last[1]);
     memcpy(last, at, sizeof at);
@@ -190,15 +206,14 @@ static void look_at_way(const struct car *car, double last[2], struct seen *seen
 }
 
 /*
- * The script's keys, or others, each for half a second: to a side or not, on or back, now and then lifted. Halfway to
- * the border hands leave it to the script.
+ * The script's keys, or others, each for half a second: to a side or not, on or back, now and then lifted.
  */
-static uint32_t keys_of(bool hands, long frame, const double at[2], uint32_t held, uint64_t *random)
+static uint32_t keys_of(bool hands, long frame, uint32_t held, uint64_t *random)
 {
     static const uint32_t sides[] = {0, PORT_PAD_LEFT, PORT_PAD_RIGHT};
     static const uint32_t ways[] = {0, PORT_PAD_UP, PORT_PAD_UP, PORT_PAD_UP, PORT_PAD_DOWN};
 
-    if (!hands || fmax(fabs(at[0]), fabs(at[1])) > HALF_YARD / 2) {
+    if (!hands) {
         return SCENE_NOBODY;
     }
     if (frame % 30 != 1) {
@@ -212,14 +227,15 @@ static void run(const char *name, bool hands, long frames)
 {
     struct car *car = begin();
     struct seen seen = {.up = 1};
-    double last[2] = {0, 0};
+    double last[2];
     uint64_t random = 20;
     uint32_t keys = 0;
     /* at 4 m/s of the 5.6 that the motors may give, on 76 m; hands brake and go back and forth */
     double rounds = (double)frames / 60 * 4 / 76, way = (double)frames / 60;
 
+    place(car, last);
     for (long frame = 1; frame <= frames; frame++) {
-        keys = keys_of(hands, frame, last, keys, &random);
+        keys = keys_of(hands, frame, keys, &random);
         lab_expect(scene_game_before(car->scene.game, car->world, (int)frame, keys), "before");
         seen.capped += lab_expect(carom_world_step(car->world), "step") != CAROM_OK;
         for (int joint = 0; joint < carom_joint_count(car->world); joint++) {
@@ -229,6 +245,12 @@ static void run(const char *name, bool hands, long frames)
             look_at_part(car, part, &seen);
         }
         look_at_way(car, last, &seen);
+        if (hands && seen.far > HALF_YARD - 2) { /* over the rim: it begins again */
+            start(car);
+            place(car, last);
+            seen.again++;
+            seen.far = 0;
+        }
     }
     seen.round /= 2 * 3.14159265358979;
     lab_report(
@@ -239,9 +261,9 @@ static void run(const char *name, bool hands, long frames)
         "%ld frames, %.0f m, %.1f rounds: %ld cross, %ld under the ground, %ld capped; anchors "
         "%.2f "
         "skins apart at most (frame %ld), bound 4; axes %.1e, bound 1e-3; within %.1f of %.0f, "
-        "its z axis %.2f up at least",
+        "its z axis %.2f up at least; it began again %ld times",
         frames, seen.way, seen.round, seen.crossed, seen.under, seen.capped, seen.apart,
-        seen.apart_frame, seen.axes, seen.far, HALF_YARD, seen.up);
+        seen.apart_frame, seen.axes, seen.far, HALF_YARD, seen.up, seen.again);
     end(car);
 }
 

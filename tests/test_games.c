@@ -247,20 +247,20 @@ static void test_car(void)
 static void drive(uint32_t side, int sign)
 {
     begin("car");
-    while (frame < SECOND) {
+    while (frame < SECOND / 2) {
         step_with(PORT_PAD_UP);
     }
-    CHECK(state_of(CAR_CHASSIS).velocity.c[0] > CAROM_VELOCITY_MM_S(1500, FPS));
+    CHECK(state_of(CAR_CHASSIS).velocity.c[0] > CAROM_VELOCITY_MM_S(500, FPS));
     CHECK_NEAR(heading(CAR_CHASSIS, 1), 0, CAROM_ONE_Q30 / 100);
-    while (frame < 2 * SECOND) {
+    while (frame < 5 * SECOND / 4) {
         step_with(PORT_PAD_UP | side);
     }
-    CHECK(sign * heading(CAR_CHASSIS, 1) > CAROM_ONE_Q30 / 4);
-    while (frame < 7 * SECOND) {
+    CHECK(sign * heading(CAR_CHASSIS, 1) > CAROM_ONE_Q30 / 16);
+    while (frame < 4 * SECOND) {
         step_with(0);
     }
-    CHECK_NEAR(state_of(CAR_CHASSIS).velocity.c[0], 0, CAROM_VELOCITY_MM_S(100, FPS));
-    while (frame < 8 * SECOND) {
+    CHECK_NEAR(state_of(CAR_CHASSIS).velocity.c[0], 0, CAROM_VELOCITY_MM_S(200, FPS));
+    while (frame < 5 * SECOND) {
         step_with(PORT_PAD_DOWN);
     }
     CHECK(state_of(CAR_CHASSIS).velocity.c[0] < -CAROM_VELOCITY_MM_S(300, FPS));

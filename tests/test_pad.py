@@ -46,13 +46,13 @@ class Picture:
         return sum(b > g + 8 for row in self.rows(HEAD) for _, g, b in row)
 
 
-def play(name, press=None):
+def play(name, press=None, *options):
     """Play with some keys; returns the last state and the pictures in turn."""
     folder = os.path.join(OUT, name)
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    options = ["play=1", "frames=%d" % STEPS, "pictures=" + folder]
-    result = run_board.run(IMAGE, options + (["press=" + press] if press else []), 100)
+    every = ["play=1", "frames=%d" % STEPS, "pictures=" + folder, *options]
+    result = run_board.run(IMAGE, every + (["press=" + press] if press else []), 100)
     return result.said.get("hash"), [Picture(os.path.join(folder, each))
                                      for each in sorted(os.listdir(folder))]
 
@@ -61,9 +61,9 @@ def tap(from_, keys):
     return "%d:%d,%d:0" % (from_, keys, from_ + 2)
 
 
-def hash_after(frames):
+def hash_after(frames, *options):
     """The state of the scene when nobody plays."""
-    return run_board.run(IMAGE, ["frames=%d" % frames], 100).said.get("hash")
+    return run_board.run(IMAGE, ["frames=%d" % frames, *options], 100).said.get("hash")
 
 
 def cases():
@@ -93,6 +93,14 @@ def cases():
 
     state, pictures = play("select", tap(HELD_FROM, SELECT))
     yield "select_draws_lines", state == untouched and pictures[last].sky() > 1.2 * plain[last].sky()
+
+    # who walks goes by a script until the first key, and by the keys from then on
+    state, _ = play("walker", None, "scene=walker")
+    yield "untouched_the_walker_goes_its_way", state is not None and \
+        state == hash_after(STEPS, "scene=walker")
+    found = {key: play("walker-%d" % key, tap(2, key), "scene=walker")[0] for key in (A, LEFT, RIGHT)}
+    yield "the_walker_obeys", None not in found.values() and \
+        len({state, *found.values()}) == 1 + len(found)
 
 
 def main():

@@ -11,4 +11,4 @@ PICTURES := 1
 CPU := RV32IM
 CLOCK_MHZ := 100
 DISPLAY := bochs-display
-SCENES := head:15 walker:10 door:10 conveyor:10
+SCENES := head:15 walker:15 door:15 conveyor:10
