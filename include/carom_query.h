@@ -86,7 +86,13 @@ struct carom_query_mesh {
 };
 
 /*
- * The bodies that a mesh crosses where it is, that it is inside of or that are inside of it: in rising order.
+ * The bodies that a mesh has a point in common with where it is, that it is inside of or that are inside of it: in
+ * rising order.
+ *
+ * How near is contact: the mesh's vertices are carried into the axes of a body once and rounded there, each
+ * coordinate off by less than 2^-26 of the largest coordinate of the body's mesh and twice the mesh's radius together.
+ * From then on all is decided in whole numbers without error: what touches overlaps, and what does not is free,
+ * however near.
  *
  *   bodies  out; may be NULL when room is 0
  *
@@ -124,7 +130,7 @@ struct carom_mesh_hit {
  *   filter  may be NULL
  *   hit     out; written when there is one
  *
- * Returns 1 or 0; CAROM_ERR_OVERLAP when the mesh overlaps a body where it begins; as carom_overlap_mesh for the mesh,
+ * Returns 1 or 0; CAROM_ERR_OVERLAP when carom_overlap_mesh finds a body where it begins; as that for the mesh,
  *         CAROM_ERR_RANGE for a way or turn out of range.
  */
 int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Closest points: by hand, and against every pair of edges and of corners and faces in double precision. */
-#include <string.h>
-
-#include "query/query.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "asked.h"
 
 #ifdef TEST_LONG
 #define POSES 3000
@@ -13,45 +8,17 @@
 #define POSES 6
 #endif
 
-#define CAPS 2, 1, 16, 64, 0, 16
-#define UNIT ((int64_t)1 << 32)
-
-static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape shape[4];
-static const carom_quat_q30 upright = {{CAROM_ONE_Q30, 0, 0, 0}};
-
-static struct carom_world *make_world(void)
-{
-    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
-    struct carom_world *world = NULL;
-
-    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
-    return world;
-}
-
-static int add(struct carom_world *world, const struct carom_mesh *mesh, int64_t x, int64_t y,
-               int64_t z, carom_quat_q30 turn)
-{
-    struct carom_body_def def;
-
-    memset(&def, 0, sizeof def);
-    def.mesh = mesh;
-    def.overlap = CAROM_OVERLAP_PASS; /* bodies lie as chance has it */
-    def.stationary = mesh->raw.kind == CAROM_SURFACE;
-    def.position = (carom_v3_q32){{x, y, z}};
-    def.rotation = turn;
-    return carom_body_add(world, &def);
-}
 
 static void test_by_hand(void)
 {
-    struct carom_world *world = make_world();
+    struct carom_world *world = asked_world(0);
     struct carom_closest c;
 
     shape_box(&shape[0], 12, 4096, 4096, 4096);
     shape_plane(&shape[1], 12, 2, 16384);
-    CHECK_EQ(add(world, &shape[1].mesh, 0, 0, 0, upright), 0);
-    CHECK_EQ(add(world, &shape[0].mesh, UNIT / 4, UNIT / 8, 2 * UNIT, upright), 1);
+    CHECK_EQ(asked_add(world, &shape[1].mesh, true, 0, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, UNIT / 4, UNIT / 8, 2 * UNIT, upright), 1);
     CHECK_EQ(carom_closest_points(world, 1, 0, &c), CAROM_OK);
     CHECK_NEAR(c.distance_q32, 3 * UNIT / 2, 64); /* a length is rounded up */
     CHECK_EQ(c.point[0].c[2], 3 * UNIT / 2);
@@ -91,26 +58,6 @@ static double root(double v)
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void place(const struct carom_mesh *mesh, const struct body_state *s, double out[][3])
-{
-    double w = s->rotation.c[0], x = s->rotation.c[1], y = s->rotation.c[2], z = s->rotation.c[3];
-    double n = w * w + x * x + y * y + z * z;
-    double m[3][3] = {{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
-                      {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
-                      {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
-
-    for (uint32_t v = 0; v < mesh->raw.vertex_count; v++) {
-        carom_v3_q22 p = mesh_vertex(mesh, v);
-
-        for (int k = 0; k < 3; k++) {
-            out[v][k] = (double)s->position.c[k] / 4294967296.0;
-            for (int i = 0; i < 3; i++) {
-                out[v][k] += m[k][i] / n * p.c[i] / 4194304.0;
-            }
-        }
-    }
 }
 
 static double clamp01(double v)
@@ -201,14 +148,15 @@ static double corners2(const struct carom_mesh *ma, double p[][3], const struct 
     return best;
 }
 
-static double distance_of(const struct carom_mesh *ma, const struct carom_mesh *mb)
+static double distance_of(const struct carom_world *w, const struct carom_mesh *ma,
+                          const struct carom_mesh *mb)
 {
     static double p[SHAPE_VERTICES][3], q[SHAPE_VERTICES][3];
-    const struct carom_world *w = (const struct carom_world *)(const void *)block;
+    const struct body_state *s = w->now->bodies;
     double best, other;
 
-    place(ma, &w->now->bodies[0], p);
-    place(mb, &w->now->bodies[1], q);
+    asked_place(ma, &s[0].position, &s[0].rotation, p);
+    asked_place(mb, &s[1].position, &s[1].rotation, q);
     best = corners2(ma, p, mb, q);
     other = corners2(mb, q, ma, p);
     best = other < best ? other : best;
@@ -233,7 +181,7 @@ static void test_random(void)
     shape_tetrahedron(&shape[3], 12, 1800);
     for (int n = 0; n < POSES; n++) {
         const struct carom_mesh *ma = &shape[n % 4].mesh, *mb = &shape[n / 4 % 2].mesh;
-        struct carom_world *world = make_world();
+        struct carom_world *world = asked_world(0);
         struct carom_closest c;
         int64_t at[3], size = n % 3 ? UNIT : 4 * UNIT;
         int result;
@@ -241,11 +189,12 @@ static void test_random(void)
         for (int k = 0; k < 3; k++) {
             at[k] = test_random_range(&r, -size, size);
         }
-        add(world, ma, at[0], at[1], at[2], n % 5 ? shape_random_turn(&r) : upright);
-        add(world, mb, 0, 0, 0, n % 7 ? shape_random_turn(&r) : upright);
+        asked_add(world, ma, true, at[0], at[1], at[2], n % 5 ? shape_random_turn(&r) : upright);
+        asked_add(world, mb, true, 0, 0, 0, n % 7 ? shape_random_turn(&r) : upright);
         result = carom_closest_points(world, 0, 1, &c);
         if (result == CAROM_OK) {
-            double expected = distance_of(ma, mb), found = (double)c.distance_q32 / 4294967296.0;
+            double expected = distance_of(world, ma, mb),
+                   found = (double)c.distance_q32 / 4294967296.0;
 
             CHECK(found > expected - 4e-6 && found < expected + 4e-6 + expected * 1e-6);
             CHECK(c.face[0] < ma->raw.face_count && c.face[1] < mb->raw.face_count);

@@ -5,9 +5,7 @@
  */
 #include <string.h>
 
-#include "query/query.h"
-#include "shapes.h"
-#include "test.h"
+#include "asked.h"
 
 #ifdef TEST_LONG
 #define RAYS 20000
@@ -15,40 +13,10 @@
 #define RAYS 300
 #endif
 
-#define CAPS 6, 15, 64, 256, 0, 64
 #define ROOM 64
-#define UNIT ((int64_t)1 << 32)
 
-static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
 static struct shape shape[3];
 static struct carom_ray_hit hits[ROOM];
-
-static struct carom_world *make_world(int n)
-{
-    const struct carom_config config = {.caps = CAROM_CAPS(CAPS),
-                                        .gravity = {{0, 0, -((int64_t)1 << 31)}}};
-    struct carom_world *world = NULL;
-
-    CHECK_EQ(carom_world_init(block[n], sizeof block[n], &config, &world), CAROM_OK);
-    return world;
-}
-
-static int add(struct carom_world *world, const struct carom_mesh *mesh, bool moving, int64_t x,
-               int64_t y, int64_t z, carom_quat_q30 turn)
-{
-    struct carom_body_def def;
-
-    memset(&def, 0, sizeof def);
-    def.mesh = mesh;
-    def.overlap = CAROM_OVERLAP_PASS; /* bodies lie as chance has it */
-    def.stationary = !moving;
-    def.position = (carom_v3_q32){{x, y, z}};
-    def.rotation = turn;
-    def.restitution_q30 = CAROM_ONE_Q30 / 2;
-    return carom_body_add(world, &def);
-}
-
-static const carom_quat_q30 upright = {{CAROM_ONE_Q30, 0, 0, 0}};
 
 /* ------------------------------------------------------------------- by hand */
 
@@ -60,16 +28,16 @@ static struct carom_ray ray_of(int64_t x, int64_t y, int64_t z, int64_t dx, int6
 /* A box of 2 x 1 x 1 units behind another, and a plane under both. */
 static void test_by_hand(void)
 {
-    struct carom_world *world = make_world(0);
+    struct carom_world *world = asked_world(0);
     struct carom_ray ray = ray_of(-8 * UNIT, UNIT / 8, UNIT / 16, 16 * UNIT, 0, 0);
     struct carom_ray_hit hit;
     int count;
 
     shape_box(&shape[0], 12, 8192, 4096, 4096);
     shape_plane(&shape[1], 12, 2, 16384);
-    CHECK_EQ(add(world, &shape[1].mesh, false, 0, 0, -2 * UNIT, upright), 0);
-    CHECK_EQ(add(world, &shape[0].mesh, true, 3 * UNIT, 0, 0, upright), 1);
-    CHECK_EQ(add(world, &shape[0].mesh, false, 0, 0, 0, upright), 2);
+    CHECK_EQ(asked_add(world, &shape[1].mesh, false, 0, 0, -2 * UNIT, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, 3 * UNIT, 0, 0, upright), 1);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, false, 0, 0, 0, upright), 2);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 1);
     CHECK_EQ(hit.body, 2);
     CHECK_EQ(hit.t_q30, CAROM_ONE_Q30 / 16 * 7);
@@ -119,14 +87,14 @@ static bool wants_2(void *context, int body)
 
 static void test_errors(void)
 {
-    struct carom_world *world = make_world(0);
+    struct carom_world *world = asked_world(0);
     struct carom_ray ray = ray_of(0, 0, 0, UNIT, 0, 0);
     struct carom_ray_hit hit = {.body = 77};
     int not_this = 0;
     struct carom_query_filter filter = {.wants = wants_2, .context = &not_this};
 
     shape_box(&shape[0], 12, 4096, 4096, 4096);
-    CHECK_EQ(add(world, &shape[0].mesh, true, 2 * UNIT, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, 2 * UNIT, 0, 0, upright), 0);
     CHECK_EQ(carom_cast_ray(NULL, &ray, NULL, &hit), CAROM_ERR_NULL);
     CHECK_EQ(carom_cast_ray(world, NULL, NULL, &hit), CAROM_ERR_NULL);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, NULL), CAROM_ERR_NULL);
@@ -187,8 +155,8 @@ static void test_watertight(void)
     for (int n = 0; n < 3; n++) {
         const struct carom_mesh *mesh = &shape[n].mesh;
 
-        world = make_world(0);
-        CHECK_EQ(add(world, mesh, false, 0, 0, 0, upright), 0);
+        world = asked_world(0);
+        CHECK_EQ(asked_add(world, mesh, false, 0, 0, 0, upright), 0);
         for (uint32_t i = 0; i < mesh->edge_count; i++) {
             static const int8_t ways[6][3] = {{0, 0, -1},  {1, 0, -1}, {1, 1, -1},
                                               {-1, 0, -2}, {2, 3, -4}, {-1, 1, -1}};
@@ -233,10 +201,10 @@ static void test_watertight(void)
 static void test_beside_edge(void)
 {
     struct test_random r = {21};
-    struct carom_world *world = make_world(0);
+    struct carom_world *world = asked_world(0);
 
     shape_plane(&shape[0], 12, 1, 8192);
-    CHECK_EQ(add(world, &shape[0].mesh, false, 0, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, false, 0, 0, 0, upright), 0);
     for (int n = 0; n < 40; n++) {
         int64_t at = test_random_range(&r, -UNIT, UNIT), side = n % 2 ? 1 : -1;
         struct carom_ray ray = ray_of(at + side, at, UNIT, 0, 0, -2 * UNIT);
@@ -362,10 +330,10 @@ static void test_no_change(void)
     shape_box(&shape[0], 12, 4096, 2868, 2048);
     shape_field(&shape[1], 12, 8, 2048, 500, 6);
     for (int n = 0; n < 2; n++) {
-        world[n] = make_world(n);
-        CHECK_EQ(add(world[n], &shape[1].mesh, false, 0, 0, 0, upright), 0);
-        CHECK_EQ(add(world[n], &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
-        CHECK_EQ(add(world[n], &shape[0].mesh, true, UNIT / 3, 0, 4 * UNIT, upright), 2);
+        world[n] = asked_world(n);
+        CHECK_EQ(asked_add(world[n], &shape[1].mesh, false, 0, 0, 0, upright), 0);
+        CHECK_EQ(asked_add(world[n], &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
+        CHECK_EQ(asked_add(world[n], &shape[0].mesh, true, UNIT / 3, 0, 4 * UNIT, upright), 2);
     }
     for (int frame = 0; frame < 30; frame++) {
         for (int i = 0; i < 4; i++) {

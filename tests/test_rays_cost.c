@@ -119,7 +119,7 @@ static void test_swept(void)
                        (unsigned long)met, SWEEPS);
         }
         CHECK(met > 0);
-        CHECK_BAR(sum / SWEEPS, 200000);
+        CHECK_BAR(sum / SWEEPS, 60000);
     }
 }
 

@@ -5,49 +5,21 @@
  */
 #include <string.h>
 
-#include "query/query.h"
-#include "shapes.h"
-#include "test.h"
+#include "asked.h"
 
 #ifdef TEST_LONG
-#define WAYS  1500
-#define STEPS 40
+#define WAYS       1500
+#define STEPS      40
+#define EVERY_WAYS 4000
 #else
-#define WAYS  8
-#define STEPS 8
+#define WAYS       8
+#define STEPS      8
+#define EVERY_WAYS 12
 #endif
 
-#define CAPS 6, 15, 64, 256, 64, 64
-#define UNIT ((int64_t)1 << 32)
+#define EVERY 8192
 
-static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
 static struct shape shape[4];
-static const carom_quat_q30 upright = {{CAROM_ONE_Q30, 0, 0, 0}};
-
-static struct carom_world *make_world(int n)
-{
-    const struct carom_config config = {.caps = CAROM_CAPS(CAPS),
-                                        .gravity = {{0, 0, -((int64_t)1 << 31)}}};
-    struct carom_world *world = NULL;
-
-    CHECK_EQ(carom_world_init(block[n], sizeof block[n], &config, &world), CAROM_OK);
-    return world;
-}
-
-static int add(struct carom_world *world, const struct carom_mesh *mesh, bool moving, int64_t x,
-               int64_t y, int64_t z, carom_quat_q30 turn)
-{
-    struct carom_body_def def;
-
-    memset(&def, 0, sizeof def);
-    def.mesh = mesh;
-    def.overlap = CAROM_OVERLAP_PASS; /* bodies lie as chance has it */
-    def.stationary = !moving;
-    def.position = (carom_v3_q32){{x, y, z}};
-    def.rotation = turn;
-    def.restitution_q30 = CAROM_ONE_Q30 / 2;
-    return carom_body_add(world, &def);
-}
 
 static struct carom_query_mesh put(const struct carom_mesh *mesh, int64_t x, int64_t y, int64_t z)
 {
@@ -58,16 +30,16 @@ static struct carom_query_mesh put(const struct carom_mesh *mesh, int64_t x, int
 
 static void test_overlap(void)
 {
-    struct carom_world *world = make_world(0);
+    struct carom_world *world = asked_world(0);
     struct carom_query_mesh mesh;
     uint16_t bodies[4];
 
     shape_box(&shape[0], 12, 4096, 4096, 4096);
     shape_box(&shape[1], 12, 512, 512, 512);
     shape_plane(&shape[2], 12, 2, 16384);
-    CHECK_EQ(add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
-    CHECK_EQ(add(world, &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
-    CHECK_EQ(add(world, &shape[1].mesh, true, UNIT, 0, 2 * UNIT, upright), 2);
+    CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
+    CHECK_EQ(asked_add(world, &shape[1].mesh, true, UNIT, 0, 2 * UNIT, upright), 2);
     /* between both boxes: touches neither, then the one, then both; inside the one; around the other */
     mesh = put(&shape[1].mesh, 3 * UNIT / 4 - UNIT / 512, 0, 2 * UNIT);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 0);
@@ -98,7 +70,7 @@ static void test_overlap(void)
 /* Down on a plane, past a box; into the box from the side; away from it and along it. */
 static void test_by_hand(void)
 {
-    struct carom_world *world = make_world(0);
+    struct carom_world *world = asked_world(0);
     struct carom_mesh_way way = {{{0, 0, -8 * UNIT}}, {{0, 0, 0}}};
     struct carom_query_mesh mesh;
     struct carom_mesh_hit hit;
@@ -107,8 +79,8 @@ static void test_by_hand(void)
     shape_box(&shape[0], 12, 4096, 4096, 4096);
     shape_box(&shape[1], 12, 2048, 1024, 512);
     shape_plane(&shape[2], 12, 2, 16384);
-    CHECK_EQ(add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
-    CHECK_EQ(add(world, &shape[0].mesh, true, 0, 0, UNIT, upright), 1);
+    CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
+    CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, UNIT, upright), 1);
     mesh = put(&shape[1].mesh, 2 * UNIT, UNIT / 32, 6 * UNIT);
     gap = (int64_t)(shape[1].mesh.radius_q22 >> 11) << 9; /* half a skin */
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
@@ -162,8 +134,8 @@ static void random_scene(struct carom_world *world, struct test_random *r,
         for (int k = 0; k < 3; k++) {
             at[k] = test_random_range(r, -UNIT, UNIT);
         }
-        CHECK(add(world, &shape[i].mesh, i != 3, at[0], at[1], i == 3 ? at[2] - UNIT : at[2],
-                  shape_random_turn(r)) >= 0);
+        CHECK(asked_add(world, &shape[i].mesh, i != 3, at[0], at[1], i == 3 ? at[2] - UNIT : at[2],
+                        shape_random_turn(r)) >= 0);
     }
     m->mesh = &shape[test_random_range(r, 0, 2)].mesh;
     m->rotation = shape_random_turn(r);
@@ -208,7 +180,7 @@ static void test_random_ways(void)
     shape_box(&shape[2], 12, 3000, 1800, 700);
     shape_field(&shape[3], 11, 8, 4000, 2500, 6); /* so wide that none comes in from its side */
     for (int n = 0; n < WAYS; n++) {
-        struct carom_world *world = make_world(0);
+        struct carom_world *world = asked_world(0);
         struct carom_query_mesh mesh, at;
         struct carom_mesh_way way;
         struct carom_mesh_hit hit;
@@ -247,6 +219,130 @@ static void test_random_ways(void)
     CHECK(late * 10 <= met + 10); /* those that graze */
 }
 
+/* --------------------------------------------------------------- every feature */
+
+static struct candidate every[EVERY];
+
+/* The path of a mesh on a part of its way, as SPEC.md 5.13 has it. */
+static void set_part(struct body *a, const struct body_state *start,
+                     const struct carom_mesh_way *way, int32_t from_q30, int32_t to_q30)
+{
+    body_place(a, start);
+    for (int k = 0; k < 3; k++) {
+        a->path.v.c[k] = carom_shl(way->way.c[k], 8);
+        a->path.u.c[k] = way->turn.c[k];
+    }
+    a->path.turns = (way->turn.c[0] | way->turn.c[1] | way->turn.c[2]) != 0;
+    a->path.u2_q30 = (int32_t)carom_round(carom_dot(a->path.u.c, a->path.u.c), 30);
+    if (from_q30 > 0 || to_q30 < CAROM_ONE_Q30) {
+        body_cut_path(a, start, from_q30, to_q30);
+    }
+}
+
+/* The first hit of any feature of the mesh with any of a body on a part of the way; true when it is before `best`. */
+static bool first_of_body(struct body *a, struct body *b, const struct shape *of[2],
+                          struct boyse_hit *best, bool found)
+{
+    static struct boyse_pair pair;
+    uint32_t roots = 0, n = shape_candidates(of[0], of[1], 0, every, EVERY);
+    bool better = false;
+
+    CHECK(n <= EVERY);
+    boyse_pair_init(&pair, a, b);
+    for (uint32_t i = 0; i < n; i++) {
+        struct boyse_hit hit;
+
+        if (boyse_first(&pair, &every[i], &hit, &roots) && (!found || hit.t_q30 < best->t_q30)) {
+            *best = hit;
+            best->candidate = every[i];
+            found = better = true;
+        }
+    }
+    return better;
+}
+
+/* The body that is met first, or -1; `hit` is that of the part from `from`. */
+static int first_of_all(struct carom_world *world, const struct shape *own,
+                        const struct shape *const others[], const struct carom_query_mesh *mesh,
+                        const struct carom_mesh_way *way, struct carom_mesh_hit *out)
+{
+    struct body a;
+    struct body_state start;
+    struct boyse_hit hit = {0};
+    int32_t length_q30;
+    int body = -1;
+
+    CHECK_EQ(query_put(mesh, &a, &start), CAROM_OK);
+    length_q30 = (int32_t)(2 * fix_length(way->way.c) / ((int64_t)a.radius_q22 << 10)) + 1;
+    length_q30 = CAROM_ONE_Q30 / length_q30;
+    for (int32_t from = 0, to; from < CAROM_ONE_Q30 && body < 0; from = to) {
+        to = length_q30 < CAROM_ONE_Q30 - from ? from + length_q30 : CAROM_ONE_Q30;
+        set_part(&a, &start, way, from, to);
+        for (uint32_t i = 0; i < world->body_count; i++) {
+            const struct shape *of[2] = {own, others[i]};
+            struct body b = world->bodies[i];
+
+            body_place(&b, &world->now->bodies[i]);
+            body = first_of_body(&a, &b, of, &hit, body >= 0) ? (int)i : body;
+        }
+        out->t_q30 = from + (int32_t)((int64_t)(to - from) * hit.t_q30 >> 30);
+    }
+    out->face =
+        hit.candidate.kind == CANDIDATE_VERTEX_FACE ? (uint16_t)hit.candidate.j : CAROM_NO_FACE;
+    out->own_face =
+        hit.candidate.kind == CANDIDATE_FACE_VERTEX ? (uint16_t)hit.candidate.j : CAROM_NO_FACE;
+    return body;
+}
+
+/*
+ * The hit is the very one that comes of trying all features on all parts: neither what is looked at first nor what is
+ * left out behind the hit changes a bit of it.
+ */
+static void test_every_feature(void)
+{
+    static const struct shape *const others[3] = {&shape[0], &shape[2], &shape[3]};
+    struct test_random r = {31};
+    int met = 0;
+
+    shape_l(&shape[0], 12, 1500);
+    shape_tetrahedron(&shape[1], 12, 1700);
+    shape_box(&shape[2], 12, 3000, 1800, 700);
+    shape_field(&shape[3], 11, 6, 1400, 700, 6);
+    for (int n = 0; n < EVERY_WAYS; n++) {
+        struct carom_world *world = asked_world(0);
+        const struct shape *own = &shape[n % 4 == 0 ? 0 : n % 2 + 1];
+        struct carom_query_mesh mesh = {&own->mesh, {{0, 0, 0}}, shape_random_turn(&r)};
+        struct carom_mesh_way way = {{{0, 0, 0}}, {{0, 0, 0}}};
+        struct carom_mesh_hit hit, expected;
+        int found, body;
+
+        for (int i = 0; i < 3; i++) {
+            CHECK_EQ(asked_add(world, &others[i]->mesh, true, (i - 1) * UNIT / 2, 0, -i * UNIT / 2,
+                               i == 2 ? upright : shape_random_turn(&r)),
+                     i);
+        }
+        for (int k = 0; k < 3; k++) {
+            mesh.position.c[k] = test_random_range(&r, -UNIT, UNIT) + (k == 2 ? 2 * UNIT : 0);
+            way.way.c[k] = test_random_range(&r, -UNIT, UNIT) - (k == 2 ? 5 * UNIT / 2 : 0);
+            way.turn.c[k] = n % 5 == 0 ? (int32_t)test_random_range(&r, -(1 << 27), 1 << 27) : 0;
+        }
+        found = carom_cast_mesh(world, &mesh, &way, NULL, &hit);
+        if (found == CAROM_ERR_OVERLAP) {
+            continue;
+        }
+        body = first_of_all(world, own, others, &mesh, &way, &expected);
+        CHECK_EQ(found, body >= 0);
+        if (found == 1 && body >= 0) {
+            CHECK_EQ(hit.body, body);
+            CHECK_EQ(hit.t_q30, expected.t_q30);
+            CHECK(expected.face == CAROM_NO_FACE || hit.face == expected.face);
+            CHECK(expected.own_face == CAROM_NO_FACE || hit.own_face == expected.own_face);
+            met++;
+        }
+    }
+    CHECK(met > EVERY_WAYS / 6);
+}
+
 /* Of two worlds that do the same one is asked everything between its steps. */
 static void test_no_change(void)
 {
@@ -258,10 +354,10 @@ static void test_no_change(void)
     shape_field(&shape[1], 12, 8, 2048, 500, 6);
     shape_ball(&shape[2], 12, 900);
     for (int n = 0; n < 2; n++) {
-        world[n] = make_world(n);
-        CHECK_EQ(add(world[n], &shape[1].mesh, false, 0, 0, 0, upright), 0);
-        CHECK_EQ(add(world[n], &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
-        CHECK_EQ(add(world[n], &shape[0].mesh, true, UNIT / 3, 0, 4 * UNIT, upright), 2);
+        world[n] = asked_world(n);
+        CHECK_EQ(asked_add(world[n], &shape[1].mesh, false, 0, 0, 0, upright), 0);
+        CHECK_EQ(asked_add(world[n], &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
+        CHECK_EQ(asked_add(world[n], &shape[0].mesh, true, UNIT / 3, 0, 4 * UNIT, upright), 2);
     }
     for (int frame = 0; frame < 40; frame++) {
         struct carom_query_mesh mesh = put(&shape[2].mesh, 0, 0, 0);
@@ -289,8 +385,7 @@ static void test_no_change(void)
     CHECK(met > 5);
 }
 
-const struct test tests_swept[] = {{"swept/overlap", test_overlap},
-                                   {"swept/by_hand", test_by_hand},
-                                   {"swept/random_ways", test_random_ways},
-                                   {"swept/no_change", test_no_change},
-                                   {0}};
+const struct test tests_swept[] = {
+    {"swept/overlap", test_overlap},         {"swept/by_hand", test_by_hand},
+    {"swept/random_ways", test_random_ways}, {"swept/every_feature", test_every_feature},
+    {"swept/no_change", test_no_change},     {0}};

@@ -2,9 +2,6 @@
 /* Gathering the candidates of a pair, at once or in chunks, and of all pairs in turn. */
 #include "narrow.h"
 
-/* Normals are carried over by other roundings where they are asked. */
-#define CONE_NOISE_Q30 (1 << 12)
-
 /*
  * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
  * the fastest bodies do not.
@@ -54,7 +51,7 @@ static void choose_asker(struct interfere *w)
  */
 static int64_t off_the_middle_q30(const struct interfere *w)
 {
-    int64_t turn_q30 = w->leaf->angle_q30 / 2 + CONE_NOISE_Q30;
+    int64_t turn_q30 = w->leaf->angle_q30 / 2 + INTERFERE_CONE_NOISE_Q30;
 
     if (!w->by_paths) {
         turn_q30 += w->a->turn_q30 - 2 * w->a->region.u_q30;

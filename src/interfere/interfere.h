@@ -186,6 +186,15 @@ struct interfere_placed {
 int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room);
 
+/* Asked of a face of a and one of b that may cross: whether they do. */
+struct interfere_sure {
+    bool (*cross)(struct interfere_sure *self, uint16_t face_a, uint16_t face_b);
+};
+
+/* Whether any pair of faces of a, a SOLID, and b is sure to cross. */
+bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                          struct interfere_sure *sure);
+
 /* Whether a's first vertex is inside b, or under a SURFACE. No faces of both may interfere. */
 bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
 

@@ -4,6 +4,9 @@
 
 #include "interfere.h"
 
+/* Normals are carried over by other roundings where they are asked. */
+#define INTERFERE_CONE_NOISE_Q30 (1 << 12)
+
 /* The upper word of a.b: q20 from a direction and a length of q22, q18 from one of q20. */
 static inline int32_t interfere_dot(const int32_t a[3], const int32_t b[3])
 {

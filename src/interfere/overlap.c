@@ -12,6 +12,7 @@
 #define BOX_MARGIN_Q22 256
 
 struct interfere_query {
+    struct interfere_sure *sure; /* NULL: pairs that may cross count */
     struct carom_face_pair *out;
     uint32_t room, count;
     bool swapped; /* a is the caller's b */
@@ -166,7 +167,8 @@ static void list_pair(struct interfere *w, const struct target *t, uint32_t i)
     if (q->leaf != w->leaf->leaf) {
         begin_leaf(q, w->leaf->leaf);
     }
-    if (faces_cross(w, t, i)) {
+    if (faces_cross(w, t, i) &&
+        (!q->sure || q->sure->cross(q->sure, (uint16_t)interfere_face(w, i), t->number))) {
         add_pair(w, (uint16_t)interfere_face(w, i), t->number);
     }
 }
@@ -311,12 +313,14 @@ static void visit_leaves(struct interfere *w)
     }
 }
 
-int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
-                    struct carom_face_pair *out, uint32_t room)
+/* interfere_query of pairs that are sure to cross, or of those that may. */
+static int query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                 struct interfere_sure *sure, struct carom_face_pair *out, uint32_t room)
 {
     struct interfere_query q;
     int result;
 
+    q.sure = sure;
     q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
     w->a = q.swapped ? b.body : a.body;
     w->b = q.swapped ? a.body : b.body;
@@ -340,6 +344,20 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
     result = w->error ? w->error : (int)q.count;
     w->error = CAROM_OK;
     return result;
+}
+
+int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                    struct carom_face_pair *out, uint32_t room)
+{
+    return query(w, a, b, NULL, out, room);
+}
+
+bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+                          struct interfere_sure *sure)
+{
+    CAROM_ASSERT(a.body->mesh->raw.kind == CAROM_SOLID);
+    return query(w, a, b, sure, NULL, 0) !=
+           0; /* no room for a pair: the first one ends the search */
 }
 
 /* -------------------------------------------------------------- containment */

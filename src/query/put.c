@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A mesh that is in no world: a body of it in a pose, and what that overlaps. */
 #include "query.h"
+#include "cross.h"
 
 int query_put(const struct carom_query_mesh *mesh, struct body *body, struct body_state *state)
 {
@@ -41,14 +42,15 @@ bool query_overlaps(struct carom_world *w, const struct body *body, const struct
 {
     const struct interfere_placed a = {body, state};
     const struct interfere_placed b = {&w->bodies[other], &world_now(w)->bodies[other]};
+    struct cross c;
 
     /* under a surface is in it, however deep */
     if (b.body->mesh->raw.kind == CAROM_SOLID && spheres_apart(body, state, b.body, b.state)) {
         return false;
     }
-    /* no room for a pair: the first one ends the search */
-    return interfere_query(&w->interfere, a, b, NULL, 0) != 0 || interfere_inside(a, b) ||
-           (b.body->mesh->raw.kind == CAROM_SOLID && interfere_inside(b, a));
+    cross_begin(&c, a, b);
+    return interfere_query_sure(&w->interfere, a, b, &c.base) || cross_inside(&c) ||
+           (b.body->mesh->raw.kind == CAROM_SOLID && cross_around(&c));
 }
 
 int carom_overlap_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,

@@ -7,7 +7,9 @@
  *   strike  whether a ray meets a face, and where: exact
  *   cast    the first hit of a ray, or all of them, in a world
  *   put     a mesh that is in no world: what it overlaps
+ *   cross   whether two bodies have a point in common: exact
  *   swept   its first hit on a way
+ *   ahead   the faces ahead of one that goes straight, in the order in which it comes there
  *   nearest the closest points of two bodies
  */
 #ifndef CAROM_SRC_QUERY_H

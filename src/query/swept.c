@@ -6,9 +6,13 @@
  * a surface that moves.
  */
 #include "query.h"
+#include "ahead.h"
 #include "../contact/contact.h"
 
 #define CANDIDATES 32
+/* Lists for a part, and how long the first window of a list is. */
+#define LISTS  16
+#define WINDOW 512
 /* A way is at most so many radii long, and cut into parts of a half of one. */
 #define WAY_RADII    512
 #define TURN_MAX_Q30 (CAROM_ONE_Q30 / 4)
@@ -19,14 +23,16 @@ struct swept {
     const struct carom_mesh_way *way;
     struct body bodies[2]; /* the mesh on a part of its way, and the body at hand */
     struct body_state state;
+    bool straight;            /* it does not turn */
     int32_t length_q30;       /* of a part */
     int32_t from_q30, to_q30; /* the part at hand */
-    bool set;                 /* the pair of the scratch is that of both */
+    bool set;                 /* the pair of the scratch is that of both on that part */
 
-    /* the first hit */
+    /* the first hit, and the part of the way that it is in */
     bool found;
     uint16_t body;
     struct boyse_hit hit;
+    int32_t hit_from_q30;
 };
 
 /* ---------------------------------------------------------------------- ways */
@@ -61,20 +67,22 @@ static int check_way(struct swept *s)
         length_q32 > WAY_RADII * radius_q32) {
         return CAROM_ERR_RANGE;
     }
+    s->straight = (s->way->turn.c[0] | s->way->turn.c[1] | s->way->turn.c[2]) == 0;
     s->length_q30 = CAROM_ONE_Q30 / (int32_t)(2 * length_q32 / radius_q32 + 1);
     return CAROM_OK;
 }
 
-/* Whether the spheres of both, and some skins, stay apart on the path at hand. */
-static bool stays_apart(const struct swept *s, const struct body *b, const struct body_state *at)
+/* Whether the spheres of both, and some skins, stay apart between two places of the way. */
+static bool stays_apart(const struct swept *s, const struct body *b, const struct body_state *at,
+                        int32_t from_q30, int32_t to_q30)
 {
     const struct body *a = &s->bodies[0];
     int64_t reach_q32 = ((int64_t)a->radius_q22 + b->radius_q22) << 10;
 
     reach_q32 += (int64_t)(a->skin_q22 + b->skin_q22) << 13;
     for (int k = 0; k < 3; k++) {
-        int64_t start = carom_shl(body_path(a)->origin_q22[k], 10) - at->position.c[k];
-        int64_t end = start + (body_path(a)->v.c[k] >> 8);
+        int64_t way = s->way->way.c[k], d = s->state.position.c[k] - at->position.c[k];
+        int64_t start = d + fix_mul_q30(way, from_q30), end = d + fix_mul_q30(way, to_q30);
 
         if ((start > reach_q32 && end > reach_q32) || (start < -reach_q32 && end < -reach_q32)) {
             return true;
@@ -87,6 +95,9 @@ static bool stays_apart(const struct swept *s, const struct body *b, const struc
 
 static bool is_before(const struct swept *s, const struct boyse_hit *hit, uint16_t body)
 {
+    if (s->from_q30 != s->hit_from_q30) {
+        return s->from_q30 < s->hit_from_q30;
+    }
     if (hit->t_q30 != s->hit.t_q30 || body != s->body) {
         return hit->t_q30 < s->hit.t_q30 || (hit->t_q30 == s->hit.t_q30 && body < s->body);
     }
@@ -101,6 +112,7 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
     uint32_t roots = 0;
 
     if (n > 0 && !s->set) {
+        set_path(s, s->from_q30, s->to_q30);
         boyse_pair_begin(pair, &s->bodies[0], &s->bodies[1]);
         s->set = true;
     }
@@ -114,6 +126,7 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
                 s->found = true;
                 s->body = body;
                 s->hit = hit;
+                s->hit_from_q30 = s->from_q30;
             }
         }
     }
@@ -132,11 +145,25 @@ static void copy_body(struct swept *s, uint32_t i)
     b->skin_q22 = from->skin_q22;
     b->island = (uint16_t)i;
     body_place(b, &world_now(s->w)->bodies[i]);
-    body_region_begin(b, &world_now(s->w)->bodies[i], CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
 }
 
-/* The mesh on a part of its way against one body. */
-static int ask_body(struct swept *s, uint32_t i)
+/* --------------------------------------------------------------------- parts */
+
+static void begin_part(struct swept *s, int32_t from_q30)
+{
+    s->from_q30 = from_q30;
+    s->to_q30 = s->length_q30 < CAROM_ONE_Q30 - from_q30 ? from_q30 + s->length_q30 : CAROM_ONE_Q30;
+    s->set = false;
+}
+
+/* Whether the part at hand is behind the hit that is known. */
+static bool is_behind(const struct swept *s, int32_t from_q30)
+{
+    return s->found && from_q30 > s->hit_from_q30;
+}
+
+/* The part at hand against one body: all that is near on it. */
+static int ask_part(struct swept *s)
 {
     static const struct pair pair = {0, 1};
     const struct interfere_pairs all = {s->bodies, &pair, 1};
@@ -145,10 +172,17 @@ static int ask_body(struct swept *s, uint32_t i)
     struct pool pool = {CANDIDATES, 0, 0, 0};
     struct pair_work meeting = {0};
     struct interfere work = s->w->interfere;
+    struct body_state start = s->state;
     int result;
 
-    copy_body(s, i);
-    s->set = false;
+    set_path(s, s->from_q30, s->to_q30);
+    for (int k = 0; k < 3; k++) {
+        start.position.c[k] = carom_shl(body_path(&s->bodies[0])->origin_q22[k], 10);
+    }
+    start.rotation = body_path(&s->bodies[0])->q;
+    body_region_begin(&s->bodies[0], &start, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
+    body_region_begin(&s->bodies[1], &world_now(s->w)->bodies[s->bodies[1].island], CAROM_ONE_Q30,
+                      CAROM_ONE_Q30, 0);
     work.candidates = candidates;
     work.candidate_pool = &pool;
     work.meetings = &meeting;
@@ -158,23 +192,81 @@ static int ask_body(struct swept *s, uint32_t i)
     return result;
 }
 
-/* The first hit on the part of the way at hand. */
-static int ask_part(struct swept *s, const struct carom_query_filter *filter)
+/*
+ * Where what is still of interest of the part at hand ends: at the known hit, and a little more for others that are as
+ * early, when it is on that part.
+ */
+static int32_t end_of_part(const struct swept *s)
 {
-    const struct carom_world *w = s->w;
-    struct body_state start = s->state;
-    int result = CAROM_OK;
+    int64_t part_q30 = s->to_q30 - s->from_q30;
+    int32_t hit_q30;
 
-    set_path(s, s->from_q30, s->to_q30);
-    for (int k = 0; k < 3; k++) {
-        start.position.c[k] = carom_shl(body_path(&s->bodies[0])->origin_q22[k], 10);
+    if (!s->found || s->hit_from_q30 != s->from_q30) {
+        return s->to_q30;
     }
-    start.rotation = body_path(&s->bodies[0])->q;
-    body_region_begin(&s->bodies[0], &start, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
-    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-        if (w->bodies[i].mesh && !stays_apart(s, &w->bodies[i], &world_now(w)->bodies[i]) &&
-            query_wants(w, filter, i)) {
-            result = ask_body(s, i);
+    hit_q30 = s->from_q30 + (int32_t)(part_q30 * s->hit.t_q30 >> 30) + 2;
+    return hit_q30 < s->to_q30 ? hit_q30 : s->to_q30;
+}
+
+/* The windows of a stretch of the part at hand, up to its first hit. */
+static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int32_t to_q30)
+{
+    int32_t window = WINDOW;
+
+    for (int32_t at = 0, to; (at = ahead_first(h, at)) < h->end; at = to) {
+        int32_t place_q30 = (int32_t)((int64_t)(to_q30 - from_q30) * at >> TIMES_BITS);
+
+        if (from_q30 + place_q30 > end_of_part(s)) {
+            return;
+        }
+        to = at + window < h->end ? at + window : h->end;
+        window *= 2;
+        ahead_visit(h, at, to, &s->base);
+    }
+}
+
+/* The part at hand against one body: what is ahead on it, as far as lists go; all that is near when they are many. */
+static int ask_ahead(struct swept *s, struct ahead *h)
+{
+    int32_t from = s->from_q30;
+
+    for (int lists = 0; lists < LISTS; lists++) {
+        int32_t to = end_of_part(s);
+
+        if (from >= to || !ahead_stretch(h, from, to)) {
+            return CAROM_OK;
+        }
+        if (!ahead_list(h)) {
+            break;
+        }
+        ask_windows(s, h, from, to);
+        if (h->end == AHEAD_WHOLE) {
+            return CAROM_OK;
+        }
+        from += (int32_t)((int64_t)(to - from) * h->end >> TIMES_BITS);
+    }
+    return ask_part(s);
+}
+
+/* The mesh on its way against one body. */
+static int ask_body(struct swept *s, uint32_t i)
+{
+    const struct body_state *at = &world_now(s->w)->bodies[i];
+    struct ahead ahead;
+    int result = CAROM_OK;
+    bool straight;
+
+    copy_body(s, i);
+    body_place(&s->bodies[0], &s->state);
+    straight = s->straight && ahead_begin(&ahead, &s->w->interfere, &s->bodies[0], &s->bodies[1],
+                                          &s->way->way, s->length_q30);
+    for (int32_t from = 0; from < CAROM_ONE_Q30 && !is_behind(s, from) && result == CAROM_OK;
+         from = s->to_q30) {
+        begin_part(s, from);
+        if (straight) {
+            result = ask_ahead(s, &ahead);
+        } else if (!stays_apart(s, &s->bodies[1], at, from, s->to_q30)) {
+            result = ask_part(s);
         }
     }
     return result;
@@ -237,9 +329,13 @@ static void complete(struct swept *s, struct carom_mesh_hit *out)
     carom_v3_q40 arm[2];
     carom_v3_q32 way;
 
-    copy_body(s, s->body);
+    if (s->bodies[1].island != s->body) {
+        copy_body(s, s->body);
+    }
+    begin_part(s, s->hit_from_q30);
     set_path(s, s->from_q30, s->to_q30);
-    boyse_pair_init(pair, &s->bodies[0], &s->bodies[1]);
+    boyse_pair_begin(pair, &s->bodies[0], &s->bodies[1]);
+    boyse_pair_for(pair, &s->hit.candidate);
     boyse_touch(pair, &s->hit.candidate, s->hit.root_q30, &touch);
     out->normal = touch.normal;
     out->body = s->body;
@@ -253,7 +349,8 @@ static void complete(struct swept *s, struct carom_mesh_hit *out)
     s->state.position = out->position;
     s->state.rotation = out->rotation;
     body_place(&s->bodies[0], &s->state);
-    boyse_pair_init(pair, &s->bodies[0], &s->bodies[1]);
+    boyse_pair_begin(pair, &s->bodies[0], &s->bodies[1]);
+    boyse_pair_for(pair, &s->hit.candidate);
     contact_place(pair, &s->hit.candidate, &out->normal, arm);
     for (int k = 0; k < 3; k++) {
         out->point.c[k] = out->position.c[k] + (arm[0].c[k] >> 8);
@@ -271,16 +368,18 @@ static bool begins_in_overlap(struct swept *s, const struct carom_query_filter *
     return false;
 }
 
-/* Parts of the way, one after the other, up to the first that has a hit. */
-static int ask_way(struct swept *s, const struct carom_query_filter *filter)
+/* All bodies that the mesh comes near. */
+static int ask_bodies(struct swept *s, const struct carom_query_filter *filter)
 {
+    const struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    while (s->from_q30 < CAROM_ONE_Q30 && !s->found && result == CAROM_OK) {
-        s->from_q30 = s->to_q30;
-        s->to_q30 = s->length_q30 < CAROM_ONE_Q30 - s->from_q30 ? s->from_q30 + s->length_q30
-                                                                : CAROM_ONE_Q30;
-        result = s->from_q30 < CAROM_ONE_Q30 ? ask_part(s, filter) : CAROM_OK;
+    for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
+        if (w->bodies[i].mesh &&
+            !stays_apart(s, &w->bodies[i], &world_now(w)->bodies[i], 0, CAROM_ONE_Q30) &&
+            query_wants(w, filter, i)) {
+            result = ask_body(s, i);
+        }
     }
     return result;
 }
@@ -289,12 +388,16 @@ int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *me
                     const struct carom_mesh_way *way, const struct carom_query_filter *filter,
                     struct carom_mesh_hit *hit)
 {
-    struct swept s = {.base = {visit_swept}, .w = world, .way = way};
+    struct swept s;
     int result;
 
     if (!world || !mesh || !mesh->mesh || !way || !hit) {
         return CAROM_ERR_NULL;
     }
+    s.base.visit = visit_swept;
+    s.w = world;
+    s.way = way;
+    s.found = false;
     result = query_put(mesh, &s.bodies[0], &s.state);
     result = result < 0 ? result : check_way(&s);
     if (result < 0) {
@@ -304,7 +407,7 @@ int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *me
         return CAROM_ERR_OVERLAP;
     }
     world_begin_gather(world);
-    result = ask_way(&s, filter);
+    result = ask_bodies(&s, filter);
     if (result == CAROM_OK && s.found) {
         complete(&s, hit);
         result = 1;

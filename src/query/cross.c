@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Whether two bodies have a point in common where they are. The vertices of a are carried into b's axes once,
+ * each coordinate rounded to a whole number as fine as 30 bits allow; b's are whole numbers there. From then on all is
+ * exact: it is decided by the signs of volumes and areas, and touching counts.
+ */
+#include "cross.h"
+
+typedef struct interfere_vec place;
+
+/* Coordinates are below 2^29. */
+#define PLACE_BITS 29
+
+static inline place minus(const place *a, const place *b)
+{
+    return (place){{a->c[0] - b->c[0], a->c[1] - b->c[1], a->c[2] - b->c[2]}};
+}
+
+static inline int sign_of(int64_t v)
+{
+    return (v > 0) - (v < 0);
+}
+
+/*
+ * The side of the plane through three places that a fourth is on: 1 where they run counter-clockwise seen from it.
+ * Bounds: differences are below 2^30, the cross product below 2^61, and what is summed up below 2^93.
+ */
+static int side_of_plane(const place t[3], const place *p)
+{
+    const place e = minus(&t[1], &t[0]), f = minus(&t[2], &t[0]), d = minus(p, &t[0]);
+    int64_t n[3];
+    struct fix_wide volume;
+
+    fix_cross(n, e.c, f.c);
+    volume = fix_wide_mul(n[0], d.c[0]);
+    fix_wide_add_product(&volume, n[1], d.c[1]);
+    fix_wide_add_product(&volume, n[2], d.c[2]);
+    return fix_wide_sign(&volume);
+}
+
+/* ------------------------------------------------------------------- in a plane */
+
+/* The two axes along which places of a plane are told apart. */
+struct seen {
+    int i, j;
+};
+
+/* The side of the line from a to b that p is on. Bounds: below 2^61. */
+static int side_of_line(struct seen s, const place *a, const place *b, const place *p)
+{
+    return sign_of((int64_t)(b->c[s.i] - a->c[s.i]) * (p->c[s.j] - a->c[s.j]) -
+                   (int64_t)(b->c[s.j] - a->c[s.j]) * (p->c[s.i] - a->c[s.i]));
+}
+
+/* Whether two intervals have a place in common, along an axis. */
+static bool intervals_meet(int k, const place *a, const place *b, const place *c, const place *d)
+{
+    return fix_smaller(a->c[k], b->c[k]) <= fix_larger(c->c[k], d->c[k]) &&
+           fix_smaller(c->c[k], d->c[k]) <= fix_larger(a->c[k], b->c[k]);
+}
+
+static bool segments_meet(struct seen s, const place *a, const place *b, const place *c,
+                          const place *d)
+{
+    return side_of_line(s, a, b, c) * side_of_line(s, a, b, d) <= 0 &&
+           side_of_line(s, c, d, a) * side_of_line(s, c, d, b) <= 0 &&
+           intervals_meet(s.i, a, b, c, d) && intervals_meet(s.j, a, b, c, d);
+}
+
+/* Whether none, or all, of three signs are of one kind: no two are opposite. */
+static bool agree(int x, int y, int z)
+{
+    return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
+}
+
+/* An edge in the plane of a triangle. */
+static bool edge_meets_in_plane(const place t[3], const place *a, const place *b)
+{
+    const place e = minus(&t[1], &t[0]), f = minus(&t[2], &t[0]);
+    struct seen s;
+    int64_t n[3];
+    int most;
+
+    fix_cross(n, e.c, f.c);
+    most = carom_abs(n[1]) > carom_abs(n[0]) ? 1 : 0;
+    most = carom_abs(n[2]) > carom_abs(n[most]) ? 2 : most;
+    if (n[most] == 0) {
+        return false; /* rounded to a line: its edges are those of other faces */
+    }
+    s.i = fix_next(most);
+    s.j = fix_next(s.i);
+    return segments_meet(s, a, b, &t[0], &t[1]) || segments_meet(s, a, b, &t[1], &t[2]) ||
+           segments_meet(s, a, b, &t[2], &t[0]) ||
+           agree(side_of_line(s, &t[0], &t[1], a), side_of_line(s, &t[1], &t[2], a),
+                 side_of_line(s, &t[2], &t[0], a));
+}
+
+/* -------------------------------------------------------------------- triangles */
+
+/* An edge whose ends are on the given sides of a triangle's plane. */
+static bool edge_meets(const place t[3], const place *a, const place *b, int side_a, int side_b)
+{
+    if (side_a * side_b > 0) {
+        return false;
+    }
+    if (side_a == 0 && side_b == 0) {
+        return edge_meets_in_plane(t, a, b);
+    }
+    return agree(side_of_plane((const place[]){*a, t[0], t[1]}, b),
+                 side_of_plane((const place[]){*a, t[1], t[2]}, b),
+                 side_of_plane((const place[]){*a, t[2], t[0]}, b));
+}
+
+/* Whether an edge of p meets q. False at once when p is on one side of q. */
+static bool edges_meet(const place p[3], const place q[3], const int side[3])
+{
+    return edge_meets(q, &p[0], &p[1], side[0], side[1]) ||
+           edge_meets(q, &p[1], &p[2], side[1], side[2]) ||
+           edge_meets(q, &p[2], &p[0], side[2], side[0]);
+}
+
+bool cross_triangles(const struct interfere_vec p[3], const struct interfere_vec q[3])
+{
+    int of_p[3], of_q[3];
+
+    for (int k = 0; k < 3; k++) {
+        of_p[k] = side_of_plane(q, &p[k]);
+    }
+    if (of_p[0] != 0 && of_p[1] == of_p[0] && of_p[2] == of_p[0]) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        of_q[k] = side_of_plane(p, &q[k]);
+    }
+    if (of_q[0] != 0 && of_q[1] == of_q[0] && of_q[2] == of_q[0]) {
+        return false;
+    }
+    /* where two triangles meet, an edge of one of them meets the other */
+    return edges_meet(p, q, of_p) || edges_meet(q, p, of_q);
+}
+
+/* ----------------------------------------------------------------------- places */
+
+/*
+ * A vertex of a in b's axes, from b's origin. Bounds: faces that are asked about have boxes that meet; farther
+ * places are cut off.
+ */
+static place carried(const struct cross *c, uint32_t vertex)
+{
+    carom_v3_q22 v = mesh_vertex(c->a.body->mesh, vertex);
+    place p;
+
+    for (int k = 0; k < 3; k++) {
+        int64_t x = carom_round(carom_dot(c->to_b.c[k], v.c) + c->at_q52[k], 52 - c->bits);
+        int64_t most = (int64_t)1 << PLACE_BITS;
+
+        p.c[k] = (int32_t)(x > most ? most : x < -most ? -most : x);
+    }
+    return p;
+}
+
+static place of_b(const struct cross *c, uint32_t vertex)
+{
+    const struct carom_mesh *mesh = c->b.body->mesh;
+    const int16_t *v = mesh->raw.vertices[vertex];
+    const int32_t one = (int32_t)1 << (c->bits - mesh->raw.quantum_bits);
+
+    return (place){{v[0] * one, v[1] * one, v[2] * one}};
+}
+
+static void set_triangle(const struct cross *c, bool of_a, uint16_t face, place t[3])
+{
+    const struct carom_mesh *mesh = of_a ? c->a.body->mesh : c->b.body->mesh;
+
+    for (int k = 0; k < 3; k++) {
+        t[k] = of_a ? carried(c, mesh->raw.faces[face][k]) : of_b(c, mesh->raw.faces[face][k]);
+    }
+}
+
+static bool sure_cross(struct interfere_sure *self, uint16_t face_a, uint16_t face_b)
+{
+    const struct cross *c = (const struct cross *)self;
+    place p[3], q[3];
+
+    set_triangle(c, true, face_a, p);
+    set_triangle(c, false, face_b, q);
+    return cross_triangles(p, q);
+}
+
+/* Bits of a unit, so that b and what a may reach of it fit. */
+static int bits_for(const struct cross *c)
+{
+    const struct carom_mesh *mesh = c->b.body->mesh;
+    int64_t most = 0;
+
+    for (int k = 0; k < 3; k++) {
+        most = fix_larger((int32_t)most, fix_larger(-mesh->box[0][k], mesh->box[1][k]));
+    }
+    most = (most << (22 - mesh->raw.quantum_bits)) + 2 * (int64_t)c->a.body->radius_q22 + 1024;
+    return 22 + PLACE_BITS - fix_bits((uint64_t)most);
+}
+
+void cross_begin(struct cross *c, struct interfere_placed a, struct interfere_placed b)
+{
+    carom_m3_q30 r_a, r_b;
+    int64_t at_q32[3];
+
+    c->base.cross = sure_cross;
+    c->a = a;
+    c->b = b;
+    c->bits = bits_for(c);
+    fix_matrix(&r_a, &a.state->rotation);
+    fix_matrix(&r_b, &b.state->rotation);
+    interfere_relate(&c->to_b, &r_b, &r_a);
+    for (int k = 0; k < 3; k++) {
+        at_q32[k] = a.state->position.c[k] - b.state->position.c[k];
+    }
+    fix_rotate_back(at_q32, &r_b, at_q32);
+    for (int k = 0; k < 3; k++) {
+        /* bodies that are farther apart do not meet */
+        int64_t far = (int64_t)1 << 41,
+                x = at_q32[k] + carom_shl(b.body->mesh->mass.centre.c[k], 10);
+
+        c->at_q52[k] = carom_shl(x > far ? far : x < -far ? -far : x, 20);
+    }
+}
+
+/* ------------------------------------------------------------------ containment */
+
+/* One that is on the line of an edge counts as moved a little along x, and far less along y, for all alike. */
+static int beside(const place *from, const place *to, const place *p)
+{
+    int side = side_of_line((struct seen){0, 1}, from, to, p);
+
+    if (side == 0) {
+        side = sign_of((int64_t)from->c[1] - to->c[1]);
+    }
+    return side != 0 ? side : sign_of((int64_t)to->c[0] - from->c[0]);
+}
+
+/* 1 for a triangle over a place that looks up, -1 for one that looks down, 0 for one elsewhere. */
+static int is_over(const place t[3], const place *p)
+{
+    int side = beside(&t[0], &t[1], p);
+
+    if (beside(&t[1], &t[2], p) != side || beside(&t[2], &t[0], p) != side) {
+        return 0;
+    }
+    return side_of_plane(t, p) == -side ? side : 0;
+}
+
+/* How often more faces over a place look up than down, of all faces of a or b. */
+static int winding(const struct cross *c, bool of_a, const place *p)
+{
+    const uint32_t faces = (of_a ? c->a : c->b).body->mesh->raw.face_count;
+    int sum = 0;
+
+    for (uint32_t face = 0; face < faces; face++) {
+        place t[3];
+
+        set_triangle(c, of_a, (uint16_t)face, t);
+        sum += is_over(t, p);
+    }
+    return sum;
+}
+
+/* The same of b by the z-list of a cell. */
+static int winding_in_cell(const struct cross *c, const place *p)
+{
+    const struct carom_mesh *mesh = c->b.body->mesh;
+    const int shift = c->bits - mesh->raw.quantum_bits;
+    const int32_t at[3] = {p->c[0] >> shift, p->c[1] >> shift, p->c[2] >> shift};
+    const struct interfere_cells cells = interfere_cells_under(mesh, at, at);
+    const uint32_t *start = &mesh->cell_start[cells.row[0] * mesh->grid_nx + cells.col[0]];
+    int sum = 0;
+
+    for (uint32_t i = start[0]; i < start[1] && mesh->zrefs[i].z1 >= at[2]; i++) {
+        place t[3];
+
+        set_triangle(c, false, mesh->zrefs[i].face, t);
+        sum += is_over(t, p);
+    }
+    return sum;
+}
+
+bool cross_inside(const struct cross *c)
+{
+    const struct carom_mesh *mesh = c->b.body->mesh;
+    const place p = carried(c, 0);
+    const int32_t one = (int32_t)1 << (c->bits - mesh->raw.quantum_bits);
+
+    for (int k = 0; k < 3; k++) {
+        /* under a surface is in it, however deep */
+        bool deep = k == 2 && mesh->raw.kind == CAROM_SURFACE;
+
+        if (p.c[k] > mesh->box[1][k] * one || (!deep && p.c[k] < mesh->box[0][k] * one)) {
+            return false;
+        }
+    }
+    return (interfere_makes_lists(mesh) ? winding(c, false, &p) : winding_in_cell(c, &p)) > 0;
+}
+
+bool cross_around(const struct cross *c)
+{
+    const place p = of_b(c, 0);
+    const int64_t radius = ((int64_t)c->a.body->radius_q22 << 30 >> (52 - c->bits)) + 1;
+
+    for (int k = 0; k < 3; k++) {
+        if (carom_abs(p.c[k] - (c->at_q52[k] >> (52 - c->bits))) > radius) {
+            return false;
+        }
+    }
+    return winding(c, true, &p) > 0;
+}
