@@ -324,7 +324,11 @@ static void report(int frames)
 /* With the pad; frames 0: without end. */
 static void play(int frames)
 {
+#if SCENE_GAMES
     static struct scene scene; /* not on the stack, of which a game needs more */
+#else
+    struct scene scene;
+#endif
     struct show show;
     struct carom_world *world;
     struct port_fb fb = port_fb();

@@ -231,7 +231,7 @@ static void run(const char *name, bool hands, long frames)
     uint64_t random = 20;
     uint32_t keys = 0;
     /* at 4 m/s of the 5.6 that the motors may give, on 76 m; hands brake and go back and forth */
-    double rounds = (double)frames / 60 * 4 / 76, way = (double)frames / 60;
+    double rounds = (double)frames / 60 * 4 / 76, way = (double)frames / 120;
 
     place(car, last);
     for (long frame = 1; frame <= frames; frame++) {
