@@ -459,6 +459,8 @@ static inline const uint32_t *draw_palette(const struct carom_picture *picture)
 
 /* A palette entry as a pixel of the picture, over a whole word as often as it fits. */
 uint32_t draw_colour(const struct carom_picture *picture, uint32_t index);
+/* The same of a format and a palette that are at hand. */
+uint32_t draw_entry(uint8_t format, const uint32_t *palette, uint32_t index);
 
 /* ---- draw.c: a picture and its parts */
 

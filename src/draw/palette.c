@@ -79,12 +79,11 @@ static uint32_t grey(const uint32_t *palette, uint32_t index)
            (ramp[1] * (index % DRAW_SHADES) * 2 + DRAW_SHADES - 1) / (2 * DRAW_SHADES - 2);
 }
 
-uint32_t draw_colour(const struct carom_picture *picture, uint32_t index)
+uint32_t draw_entry(uint8_t format, const uint32_t *palette, uint32_t index)
 {
-    const uint32_t *palette = draw_palette(picture);
     uint32_t rgb = palette[index];
 
-    switch (picture->format) {
+    switch (format) {
     case CAROM_PALETTE8:
         return index * 0x01010101u;
     case CAROM_RGB565:
@@ -96,4 +95,9 @@ uint32_t draw_colour(const struct carom_picture *picture, uint32_t index)
     default:
         return rgb;
     }
+}
+
+uint32_t draw_colour(const struct carom_picture *picture, uint32_t index)
+{
+    return draw_entry(picture->format, draw_palette(picture), index);
 }

@@ -17,7 +17,6 @@
 struct rows {
     const struct draw_view *view;
     const struct draw_list *list;
-    const struct carom_picture *picture;
     const uint32_t *palette;
     uint8_t format;
     struct draw_span *free, *unused,
@@ -111,9 +110,10 @@ static bool begin_faces(struct rows *r, int32_t row)
             return false;
         }
         span->face = face;
-        span->pixel = r->format == CAROM_XRGB8888   ? r->palette[face->colour]
-                      : r->format == CAROM_PALETTE8 ? face->colour * 0x01010101u
-                                                    : draw_colour(r->picture, face->colour);
+        span->pixel = r->format == CAROM_XRGB8888 ? r->palette[face->colour]
+                      : r->format == CAROM_PALETTE8
+                          ? face->colour * 0x01010101u
+                          : draw_entry(r->format, r->palette, face->colour);
         begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
             place = &(*place)->next;
@@ -327,11 +327,8 @@ static void make_room(struct rows *r, struct draw_span *low)
 bool draw_rows(const struct draw_view *view, const struct draw_list *list,
                const struct carom_picture *picture, bool must)
 {
-    struct rows r = {.view = view,
-                     .list = list,
-                     .picture = picture,
-                     .palette = draw_palette(picture),
-                     .format = picture->format};
+    struct rows r = {
+        .view = view, .list = list, .palette = draw_palette(picture), .format = picture->format};
     struct draw_sweep s = {.view = view, .vertices = list->vertices};
     struct draw_span lowest = {.x_q15 = {INT32_MIN, INT32_MIN}};
     const struct draw_rect *rect = &view->rect;
