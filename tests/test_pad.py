@@ -94,14 +94,6 @@ def cases():
     state, pictures = play("select", tap(HELD_FROM, SELECT))
     yield "select_draws_lines", state == untouched and pictures[last].sky() > 1.2 * plain[last].sky()
 
-    # who walks goes by a script until the first key, and by the keys from then on
-    state, _ = play("walker", None, "scene=walker")
-    yield "untouched_the_walker_goes_its_way", state is not None and \
-        state == hash_after(STEPS, "scene=walker")
-    found = {key: play("walker-%d" % key, tap(2, key), "scene=walker")[0] for key in (A, LEFT, RIGHT)}
-    yield "the_walker_obeys", None not in found.values() and \
-        len({state, *found.values()}) == 1 + len(found)
-
 
 def main():
     return board_cases("pad", BOARD, IMAGE, cases)
