@@ -282,10 +282,14 @@ static void refresh(const struct rest *r, struct joint *j)
     }
 }
 
-/* Limits, motors and damping do work by the last row's impulse: all of it but a spring's own, which add_springs2 counts. */
+/*
+ * The last row's impulse does work: all of a motor's is booked. A spring's own is not, for add_springs2 counts it. Limits and
+ * damping take energy alone: if they would give any, the frame's end takes it back.
+ */
 static void book_drive(struct rest *r, const struct joint *j)
 {
     const struct joint_work *w = &j->work;
+    struct fix_wide *sum = &r->bodies[j->a].work2;
     int last = w->rows - 1;
     int64_t before_q40 = w->speed_q40[last], p_q40 = w->row_q40[last];
     int64_t after_q40 = joint_speed_q40(w, last);
@@ -293,7 +297,18 @@ static void book_drive(struct rest *r, const struct joint *j)
     if (w->law.spring) {
         p_q40 += w->elastic_q40 + joint_product_q40(w->half_stiff_q40, after_q40 - before_q40);
     }
-    fix_wide_add_product(&r->bodies[j->a].work2, p_q40, before_q40 + after_q40);
+    if (w->law.motor) {
+        bool limited = w->law.lower || w->law.upper; /* then a limit may have given a part of it */
+        int64_t motor_q40 = limited && p_q40 > w->most_q40    ? w->most_q40
+                            : limited && p_q40 < -w->most_q40 ? -w->most_q40
+                                                              : p_q40;
+
+        fix_wide_add_product(sum, motor_q40, before_q40 + after_q40);
+        p_q40 -= motor_q40;
+    }
+    if ((p_q40 < 0) != (before_q40 + after_q40 < 0)) {
+        fix_wide_add_product(sum, p_q40, before_q40 + after_q40);
+    }
 }
 
 /*

@@ -173,6 +173,22 @@ static bool measure_spring(struct joint_work *w, const struct carom_joint_drive 
     return true;
 }
 
+/* A slice as long as joints come back in at the soonest from where they are off. */
+static int32_t recovery(int32_t slice_q30)
+{
+    return slice_q30 > RECOVERY_MIN_Q30 ? slice_q30 : RECOVERY_MIN_Q30;
+}
+
+/*
+ * By how much V of a coordinate must change so that it gets to a limit that leaves it so much room. From beyond it comes
+ * back no sooner than anchors do: in a short slice that would throw it back.
+ */
+static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32_t time_q30)
+{
+    return per_frame(room_q40, beyond ? recovery(time_q30) : time_q30) -
+           per_frame(change_q40, time_q30);
+}
+
 /* Limits, motor and spring of a coordinate, which changes by change_q40 in the slice. */
 static void measure_drive(struct joint *j, const struct joint_state *state, int64_t now_q40,
                           int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
@@ -180,14 +196,16 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
     const struct carom_joint_drive *d = &state->drive;
     struct joint_work *w = &j->work;
     int32_t time_q30 = slice_q30 > MEASURED_MIN_Q30 ? slice_q30 : MEASURED_MIN_Q30;
-    int64_t then_q40 = now_q40 + change_q40;
 
     w->law.lower = w->law.upper = d->limited && solve != JOINT_PROJECT;
     w->law.motor = d->motor && solve == JOINT_FRAME;
     w->least_q40 = 0;
     if (d->limited) {
-        w->low_q40 = per_frame(carom_shl(d->lower_q32, 8) - then_q40, time_q30);
-        w->high_q40 = per_frame(carom_shl(d->upper_q32, 8) - then_q40, time_q30);
+        int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
+        int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
+
+        w->low_q40 = to_limit(below_q40, below_q40 > 0, change_q40, time_q30);
+        w->high_q40 = to_limit(above_q40, above_q40 < 0, change_q40, time_q30);
         w->least_q40 = w->low_q40 > 0 ? w->low_q40 : w->high_q40 < 0 ? -w->high_q40 : 0;
     }
     if (w->law.motor) {
@@ -204,7 +222,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     struct joint *j = &s->w->rest.joints.joints[i];
     const struct joint_state *state = &s->next->joints[i];
     struct joint_work *w = &j->work;
-    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30, recovery_q30;
+    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30;
     const uint16_t side[2] = {j->a, j->b};
     struct joint_pose now[2], then[2];
     struct joint_error at, to;
@@ -231,14 +249,14 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     w->by_speed = solve == JOINT_PROJECT || slice_q30 < MEASURED_MIN_Q30;
-    recovery_q30 = slice_q30 > RECOVERY_MIN_Q30 ? slice_q30 : RECOVERY_MIN_Q30;
     for (int k = 0; k < w->held; k++) {
         int64_t arm_q30 = (w->angular >> k & 1) != 0 ? s->w->bodies[j->a].radius_q22 : 1 << 22;
         int64_t left_q40 = w->by_speed ? 0 : to.row_q40[k];
 
         left_q40 = carom_abs(fix_mul(left_q40, (int32_t)arm_q30, 22));
         off_q40 = left_q40 > off_q40 ? left_q40 : off_q40;
-        w->wanted_q40[k] = solve == JOINT_PROJECT ? 0 : -per_frame(at.row_q40[k], recovery_q30);
+        w->wanted_q40[k] =
+            solve == JOINT_PROJECT ? 0 : -per_frame(at.row_q40[k], recovery(slice_q30));
         if (!w->by_speed) {
             w->wanted_q40[k] -= per_frame(to.row_q40[k] - at.row_q40[k], slice_q30);
         }

@@ -266,7 +266,7 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
     bool grounded = s->w->bodies[first].grounded;
     struct fix_wide energy = sum.kinetic, changed;
     struct rest_rigid rigid;
-    int32_t factor;
+    int32_t factor, least;
 
     fix_wide_add(owed2, &sum.excess);
     if (!grounded) {
@@ -279,7 +279,10 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
         return;
     }
     factor = lacks_much(&energy, owed2) ? CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
-    factor = fix_larger(factor, CONSERVE_LEAST_Q30);
+    /* what this frame has gained goes at once, whatever is left: a limit may have given it */
+    least = fix_wide_sign(&sum.excess) > 0 ? factor_q30(&energy, &sum.excess) : CAROM_ONE_Q30;
+    least = least < CONSERVE_LEAST_Q30 ? least : CONSERVE_LEAST_Q30;
+    factor = fix_larger(factor, least);
     if (grounded) {
         rest_scale_grounded(&s->w->rest, first, factor);
     } else {
