@@ -9,10 +9,7 @@ static const struct {
     long number;
     const char *why;
 } cases[] = {
-    {"fuzz", 5, "a spring's numbers overflow"},  {"fuzz", 25, "a spring's numbers overflow"},
-    {"fuzz", 29, "a spring's numbers overflow"}, {"fuzz", 30, "a spring's numbers overflow"},
-    {"fuzz", 33, "a spring's numbers overflow"}, {"fuzz", 34, "a spring's numbers overflow"},
-    {"fuzz", 36, "a spring's numbers overflow"}, {0}, /* the end */
+    {0}, /* the end */
 };
 enum { CASES = sizeof cases / sizeof *cases - 1 };
 
