@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * connect - what the files share that step joints: connect.c chooses joints and ends a frame for them, joint_measure.c asks where
+ * they are going to be, joint_led.c keeps account of energy and of kinematic bodies that lead others by joints.
+ */
+#ifndef CAROM_SRC_STEP_CONNECT_H
+#define CAROM_SRC_STEP_CONNECT_H
+
+#include "../world/joints.h"
+#include "parts.h"
+
+/* A body of a joint that moves and is awake; JOINT_WORLD and kinematic bodies do not answer. */
+static inline bool connect_answers(const struct step *s, uint16_t body)
+{
+    return body != JOINT_WORLD && s->w->bodies[body].moving && step_active(s, body);
+}
+
+/* The kinematic body of a joint that is on its way; NULL: there is none. */
+static inline const struct body *connect_led_by(const struct step *s, const struct joint *j)
+{
+    const struct body *b = j->b == JOINT_WORLD ? NULL : &s->w->bodies[j->b];
+
+    return b && body_travels(b) && !b->stands ? b : NULL;
+}
+
+/* Whether the body of a joint is a member. */
+static inline bool connect_is_member(const struct step *s, uint16_t body)
+{
+    return body != JOINT_WORLD && s->w->bodies[body].member;
+}
+
+/* See struct step_joint_calls. */
+int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30);
+bool connect_measure(struct step *s, enum joint_solve solve);
+void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide *sum);
+struct fix_wide *connect_owed2(const struct step *s, uint32_t first);
+uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led);
+void connect_block_leaders(struct step *s);
+bool connect_yield(struct step *s);
+void connect_ground(struct step *s);
+void connect_keep_awake(struct step *s);
+void connect_wake_led(struct carom_world *w, uint16_t body);
+
+#endif

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT */
+/* The energy of joints over a frame; and kinematic bodies that lead others by joints. */
+#include "connect.h"
+
+/* ------------------------------------------------------------------------- energy */
+
+/* Add `times` twice what a spring has stored: k x^2, q80. */
+static void add_spring2(struct fix_wide *sum, const struct joint *j,
+                        const struct joint_state *state, const struct body_state *bodies, int times)
+{
+    struct joint_pose pose[2] = {world_joint_pose(bodies, j->a), world_joint_pose(bodies, j->b)};
+    struct joint_error error;
+    struct fix_wide pull;
+    int64_t x_q40;
+
+    joint_measure(j, pose, &error);
+    x_q40 = error.coordinate_q40 - carom_shl(state->drive.rest_q32, 8);
+    pull = fix_wide_mul(state->drive.stiffness_q40, x_q40);
+    fix_wide_add_product(sum, fix_wide_shift(&pull, 40), times * x_q40);
+}
+
+/* Add what springs of an island have taken up in the frame. */
+void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide *sum)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (joint_holds(list, i) && s->w->bodies[j->a].island == first &&
+            s->next->joints[i].drive.spring) {
+            add_spring2(sum, j, &list->states[i], s->next->bodies, 1);
+            add_spring2(sum, j, &list->states[i], world_now(s->w)->bodies, -1);
+        }
+    }
+}
+
+/* What the joints of an island owe, of which the first is to keep what is left. */
+struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    struct joint_state *keeper = NULL;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (joint_holds(list, i) && s->w->bodies[list->joints[i].a].island == first) {
+            struct joint_state *state = &list->states[i];
+
+            if (!keeper) {
+                keeper = state;
+            } else {
+                fix_wide_add(&keeper->owed2, &state->owed2);
+                state->owed2 = (struct fix_wide){0, 0};
+            }
+        }
+    }
+    return keeper ? &keeper->owed2 : NULL;
+}
+
+/* ------------------------------------------------------------------ led by joints */
+
+/* Whether a joint holds a body to a kinematic one that travels. */
+static bool is_led(const struct step *s, uint32_t i)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    const struct joint *j = &list->joints[i];
+
+    return joint_holds(list, i) && j->b != JOINT_WORLD && body_travels(&s->w->bodies[j->b]);
+}
+
+uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (is_led(s, i) && s->w->bodies[j->a].island == first &&
+            (led == ISLAND_END || j->b == led)) {
+            return j->a;
+        }
+    }
+    return ISLAND_END;
+}
+
+/* What leads members stops. */
+void connect_block_leaders(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (is_led(s, i) && connect_is_member(s, list->joints[i].a)) {
+            step_block(s, list->joints[i].b, list->joints[i].a);
+        }
+    }
+}
+
+/* Kinematic bodies that lead a group stop. */
+static bool block_group(struct step *s, uint16_t group)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    bool any = false;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (s->w->bodies[j->a].joined == group && joint_holds(list, i) && connect_led_by(s, j)) {
+            step_block(s, j->b, j->a);
+            any = true;
+        }
+    }
+    return any;
+}
+
+/*
+ * Kinematic bodies that lead others where these cannot go stop: what a solve has left over of a joint of theirs is more
+ * than some skins. Whether any did.
+ */
+bool connect_yield(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+    bool any = false;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (!j->work.idle && j->work.torn) {
+            any = block_group(s, s->w->bodies[j->a].joined) || any;
+        }
+    }
+    return any;
+}
+
+/*
+ * Bodies that hang on what does not answer are grounded; those that hang on a kinematic body are touched as well: it
+ * gives them whatever energy its way takes, and to keep theirs would hold it back.
+ */
+void connect_ground(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+
+        if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].moving)) {
+            s->w->bodies[j->a].grounded = true;
+            s->w->bodies[j->a].touched |= is_led(s, i);
+        }
+    }
+}
+
+/* What a kinematic body leads along has not been quiet. */
+void connect_keep_awake(struct step *s)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (is_led(s, i)) {
+            s->next->bodies[list->joints[i].a].quiet = 0;
+        }
+    }
+}
+
+void connect_wake_led(struct carom_world *w, uint16_t body)
+{
+    for (uint32_t i = 0; i < w->rest.joints.count; i++) {
+        if (joint_holds(&w->rest.joints, i) && w->rest.joints.joints[i].b == body) {
+            world_wake_joint(w, &w->rest.joints.joints[i]);
+        }
+    }
+}

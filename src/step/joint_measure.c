@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/* Where joints are going to be at the end of a slice, and by how much velocities must change for it. */
+#include "connect.h"
+
+/* A slice shorter than this is not measured: what a row does in it is lost in the last places of positions. */
+#define MEASURED_MIN_Q30 (CAROM_ONE_Q30 / 32)
+/* Where an anchor is off it comes back in a part of a frame that is no shorter than this. */
+#define RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
+/* What is left at the end of a slice: this part of a skin. */
+#define LEFT_DIVISOR 8
+/* A kinematic body that would leave so many skins stops. */
+#define TORN_SKINS 4
+
+/* What joints hold turns by so much in a slice at most: anchors part by what that bends, and solves see it as straight. */
+#define TURN_MOST_Q30 (CAROM_ONE_Q30 / 8)
+
+/* As much of a time as a spin may go on for. */
+static int32_t slice_of_spin(const carom_v3_q40 *spin, int32_t left_q30)
+{
+    int64_t rate_q40 = fix_length(spin->c);
+
+    return fix_mul_q30(rate_q40, left_q30) > (int64_t)TURN_MOST_Q30 << 10
+               ? (int32_t)(((int64_t)TURN_MOST_Q30 << 30) / (rate_q40 >> 10))
+               : left_q30;
+}
+
+/* The longest slice of a body by itself. */
+static int32_t own_slice(const struct body *b, const struct body_state *state, int32_t left_q30)
+{
+    carom_m3_q30 r;
+    carom_v3_q40 spin;
+
+    fix_matrix(&r, &state->rotation);
+    body_spin(b, state, &r, &spin);
+    return slice_of_spin(&spin, left_q30) >> (2 * b->shorter);
+}
+
+/* The longest slice by the kinematic bodies that lead a group. */
+static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
+{
+    const struct joint_list *list = &s->w->rest.joints;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const struct joint *j = &list->joints[i];
+        const struct body *led = joint_holds(list, i) ? connect_led_by(s, j) : NULL;
+
+        if (led && s->w->bodies[j->a].joined == group) {
+            left_q30 = slice_of_spin(&led->extra->route.spin, left_q30);
+        }
+    }
+    return left_q30;
+}
+
+int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
+{
+    uint16_t group = s->w->bodies[i].joined;
+    int32_t least_q30 = led_slice(s, group, left_q30);
+
+    for (uint32_t k = 0; k < s->w->body_count && group != BODY_ALONE; k++) {
+        if (s->w->bodies[k].mesh && s->w->bodies[k].joined == group && step_active(s, k) &&
+            step_in_range(&s->w->bodies[k], &s->next->bodies[k])) {
+            int32_t own_q30 = own_slice(&s->w->bodies[k], &s->next->bodies[k], left_q30);
+            least_q30 = own_q30 < least_q30 ? own_q30 : least_q30;
+        }
+    }
+    return least_q30;
+}
+
+/* ----------------------------------------------------------------------- measure */
+
+/* Where a kinematic body is at a time: its route goes on as it does now. */
+static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
+{
+    struct body *b = &s->w->bodies[i];
+    int32_t slice_q30 = CAROM_ONE_Q30 >> b->extra->route.slice_bits, from_q30 = b->to_q30;
+    bool placed = b->placed;
+    struct body_state state;
+
+    step_look_away(s, i);
+    state = step_state_at(s, i, t_q30 < from_q30 ? t_q30 : from_q30);
+    for (; from_q30 < t_q30; from_q30 += slice_q30) {
+        int32_t part_q30 = t_q30 - from_q30 < slice_q30 ? t_q30 - from_q30 : slice_q30;
+
+        body_follow(b, &state);
+        body_advance(b, &state, part_q30 << b->extra->route.slice_bits, slice_q30, NULL);
+    }
+    step_look_away(s, i);
+    if (placed) {
+        step_look_at(s, i, s->now_q30);
+    }
+    return (struct joint_pose){state.position, state.rotation};
+}
+
+/* Where a body is, or is going to be at the end of a slice that begins now. */
+static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
+{
+    struct joint_pose pose = world_joint_pose(s->next->bodies, i);
+
+    if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].stands) {
+        return led_pose(s, i, s->now_q30 + slice_q30);
+    }
+    /* a body that is out of range goes nowhere: it retires when it sets out */
+    if (connect_answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].stands &&
+        step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
+        struct body *b = &s->w->bodies[i];
+        carom_v3_q32 way;
+
+        body_predict(b, &s->next->bodies[i], slice_q30, b->in_contact ? NULL : &b->acceleration);
+        way = body_way_at(b, CAROM_ONE_Q30);
+        pose.rotation = body_rotation_at(b, CAROM_ONE_Q30);
+        for (int k = 0; k < 3; k++) {
+            pose.position.c[k] += way.c[k];
+        }
+        body_place(b, &s->next->bodies[i]);
+    }
+    return pose;
+}
+
+/* v over a time of the frame. */
+static int64_t per_frame(int64_t v_q40, int32_t time_q30)
+{
+    struct fix_scaled by = fix_ratio(CAROM_ONE_Q30, time_q30);
+
+    return fix_mul_scaled(v_q40, by);
+}
+
+/*
+ * A spring over the frame: half of the change of the coordinate comes on top of where it is now. False when it has
+ * neither stiffness nor damping.
+ */
+static bool measure_spring(struct joint_work *w, const struct carom_joint_drive *d, int64_t now_q40,
+                           int64_t rate_q40)
+{
+    int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
+    struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
+    struct fix_scaled loose; /* the velocity that leads to no pull: q80 over q40 */
+
+    w->half_stiff_q40 = d->stiffness_q40 / 2;
+    w->stiff_q40 = w->half_stiff_q40 + d->damping_q40;
+    if (w->stiff_q40 == 0) {
+        return false;
+    }
+    loose = fix_wide_over(&pull, w->stiff_q40);
+    w->spring_q40 = -rate_q40 - fix_mul_scaled(1, loose);
+    w->elastic_q40 = joint_product_q40(d->stiffness_q40, off_q40) +
+                     joint_product_q40(w->half_stiff_q40, rate_q40);
+    w->least_q40 += carom_abs(w->spring_q40);
+    return true;
+}
+
+/* A slice as long as joints come back in at the soonest from where they are off. */
+static int32_t recovery(int32_t slice_q30)
+{
+    return slice_q30 > RECOVERY_MIN_Q30 ? slice_q30 : RECOVERY_MIN_Q30;
+}
+
+/*
+ * By how much V of a coordinate must change so that it gets to a limit that leaves it so much room. From beyond it comes
+ * back no sooner than anchors do: in a short slice that would throw it back.
+ */
+static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32_t time_q30)
+{
+    return per_frame(room_q40, beyond ? recovery(time_q30) : time_q30) -
+           per_frame(change_q40, time_q30);
+}
+
+/* Limits, motor and spring of a coordinate, which changes by change_q40 in the slice. */
+static void measure_drive(struct joint *j, const struct joint_state *state, int64_t now_q40,
+                          int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
+{
+    const struct carom_joint_drive *d = &state->drive;
+    struct joint_work *w = &j->work;
+    int32_t time_q30 = slice_q30 > MEASURED_MIN_Q30 ? slice_q30 : MEASURED_MIN_Q30;
+
+    w->law.lower = w->law.upper = d->limited && solve != JOINT_PROJECT;
+    w->law.motor = d->motor && solve == JOINT_FRAME;
+    w->least_q40 = 0;
+    if (d->limited) {
+        int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
+        int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
+
+        w->low_q40 = to_limit(below_q40, below_q40 > 0, change_q40, time_q30);
+        w->high_q40 = to_limit(above_q40, above_q40 < 0, change_q40, time_q30);
+        w->least_q40 = w->low_q40 > 0 ? w->low_q40 : w->high_q40 < 0 ? -w->high_q40 : 0;
+    }
+    if (w->law.motor) {
+        w->most_q40 = d->motor_most_q40;
+        w->least_q40 += carom_abs(d->motor_speed_q40);
+    }
+    w->law.spring = d->spring && solve == JOINT_FRAME &&
+                    measure_spring(w, d, now_q40, per_frame(change_q40, time_q30));
+}
+
+/* Rows of a joint as its bodies are, and what they lack on the way to the end of the slice. Whether more than a little. */
+static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
+{
+    struct joint *j = &s->w->rest.joints.joints[i];
+    const struct joint_state *state = &s->next->joints[i];
+    struct joint_work *w = &j->work;
+    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30;
+    const uint16_t side[2] = {j->a, j->b};
+    struct joint_pose now[2], then[2];
+    struct joint_error at, to;
+    int64_t off_q40 = 0, skin_q40 = INT64_MAX;
+
+    w->led = connect_led_by(s, j);
+    for (int k = 0; k < 2; k++) {
+        bool own = connect_answers(s, side[k]) && !s->w->bodies[side[k]].stands;
+
+        w->lever[k].body = connect_answers(s, side[k]) ? &s->w->bodies[side[k]] : NULL;
+        if (own) {
+            slice_q30 = connect_slice(s, side[k], slice_q30);
+            skin_q40 = carom_shl(s->w->bodies[side[k]].skin_q22, 18) < skin_q40
+                           ? carom_shl(s->w->bodies[side[k]].skin_q22, 18)
+                           : skin_q40;
+        }
+        now[k] = pose_of(s, side[k], 0);
+    }
+    for (int k = 0; k < 2; k++) {
+        then[k] = pose_of(s, side[k], solve == JOINT_PROJECT ? 0 : slice_q30);
+    }
+    joint_set_rows(j, state, now);
+    w->idle = !j->chosen || w->rows == 0 || (!w->lever[0].body && !w->lever[1].body);
+    joint_measure(j, now, &at);
+    joint_measure(j, then, &to);
+    w->by_speed = solve == JOINT_PROJECT || slice_q30 < MEASURED_MIN_Q30;
+    for (int k = 0; k < w->held; k++) {
+        int64_t arm_q30 = (w->angular >> k & 1) != 0 ? s->w->bodies[j->a].radius_q22 : 1 << 22;
+        int64_t left_q40 = w->by_speed ? 0 : to.row_q40[k];
+
+        left_q40 = carom_abs(fix_mul(left_q40, (int32_t)arm_q30, 22));
+        off_q40 = left_q40 > off_q40 ? left_q40 : off_q40;
+        w->wanted_q40[k] =
+            solve == JOINT_PROJECT ? 0 : -per_frame(at.row_q40[k], recovery(slice_q30));
+        if (!w->by_speed) {
+            w->wanted_q40[k] -= per_frame(to.row_q40[k] - at.row_q40[k], slice_q30);
+        }
+    }
+    if (w->held < w->rows) {
+        int64_t change_q40 = to.coordinate_q40 - at.coordinate_q40;
+
+        if (j->kind == CAROM_JOINT_HINGE) {
+            change_q40 = joint_turned_q40(at.coordinate_q40, to.coordinate_q40);
+        }
+        measure_drive(j, state, at.coordinate_q40, change_q40, slice_q30, solve);
+    }
+    w->torn = !w->by_speed && off_q40 > TORN_SKINS * skin_q40;
+    return off_q40 > skin_q40 / LEFT_DIVISOR;
+}
+
+bool connect_measure(struct step *s, enum joint_solve solve)
+{
+    bool more = false;
+
+    s->w->rest.joints.solve = solve;
+    for (uint32_t i = 0; i < s->w->rest.joints.count; i++) {
+        struct joint *j = &s->w->rest.joints.joints[i];
+
+        j->work.idle = true;
+        if (j->chosen && joint_holds(&s->w->rest.joints, i)) {
+            more = measure_one(s, i, solve) || more;
+        }
+    }
+    return more;
+}
