@@ -26,6 +26,19 @@ static void join(struct rest *r, const struct body_state *states)
     }
 }
 
+/* Those of a solve: what its joints do not move has no velocity at hand. */
+static void join_solved(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->joints.count; i++) {
+        const struct joint *j = &r->joints.joints[i];
+
+        if (joint_holds(&r->joints, i) && !j->work.idle && j->work.lever[0].body &&
+            j->work.lever[1].body) {
+            island_join(r->bodies, &(struct pair){j->a, j->b});
+        }
+    }
+}
+
 /* Velocities of bodies that joints hold, where no contact asked for them. */
 static void load_velocities(struct rest *r)
 {
@@ -359,6 +372,7 @@ static void book(struct rest *r)
 
 const struct joint_calls joint_calls = {
     .join = join,
+    .join_solved = join_solved,
     .load_velocities = load_velocities,
     .enter = enter,
     .take = take,

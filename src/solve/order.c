@@ -18,7 +18,7 @@ void rest_list_islands(struct rest *r)
         island_join(r->bodies, &r->pairs[r->list.contacts[i].key.pair]);
     }
     if (r->joints.calls) {
-        r->joints.calls->join(r, r->states);
+        r->joints.calls->join_solved(r);
     }
     island_end(r->bodies, r->body_count);
     for (uint32_t i = 0; i < r->body_count; i++) {

@@ -264,6 +264,7 @@ struct rest_sweep;
 struct joint_calls {
     /* islands of bodies that joints hold; with states, but for those that are out of the world */
     void (*join)(struct rest *r, const struct body_state *states);
+    void (*join_solved)(struct rest *r);     /* of those that are solved now */
     void (*load_velocities)(struct rest *r); /* of bodies that no contact asked for */
     void (*enter)(
         struct rest *
