@@ -94,12 +94,7 @@ static int lead_platform(struct carom_world *world, int frame)
 }
 
 /* Shut it stands across the way, from its hinge at y = -DOOR_HALF_MM to the other side. */
-static const struct carom_body_def door_def = {
-    .kinematic = true,
-    .position = POSITION(DOOR_AT_MM, -DOOR_HALF_MM, DOOR_UP_MM),
-    .rotation = {{ROOT_HALF, 0, 0, ROOT_HALF}},
-    .friction_q16 = FRICTION_Q16,
-};
+static const carom_v3_q32 door_position = POSITION(DOOR_AT_MM, -DOOR_HALF_MM, DOOR_UP_MM);
 
 /* Whether the walker stands on the mat, or an error. */
 static int on_the_mat(struct carom_world *world)
@@ -121,7 +116,7 @@ static struct carom_pose door_after(const struct carom_world *world,
 {
     const int64_t cosine_q30 = 1073649836, sine_q30 = opens ? -14054848 : 14054848;
     const int64_t reach_q22 = carom_body_mesh(world, WALKER_DOOR)->mass.centre.c[0];
-    struct carom_pose pose = {.position = door_def.position};
+    struct carom_pose pose = {.position = door_position};
     int64_t c = (state->rotation.c[0] * cosine_q30 - state->rotation.c[3] * sine_q30) >> 30;
     int64_t s = (state->rotation.c[3] * cosine_q30 + state->rotation.c[0] * sine_q30) >> 30;
 
@@ -460,7 +455,10 @@ static int fill(const struct scene *scene, struct carom_world *world)
          {.stationary = true,
           .position = POSITION(4050, 0, 0),
           .rotation = {{0, 0, 0, CAROM_ONE_Q30}}}},
-        {MESH_DOOR, door_def},
+        {MESH_DOOR,
+         {.kinematic = true,
+          .position = POSITION(DOOR_AT_MM, -DOOR_HALF_MM, DOOR_UP_MM),
+          .rotation = {{ROOT_HALF, 0, 0, ROOT_HALF}}}},
         {MESH_MAT,
          {.stationary = true,
           .sensor = true,

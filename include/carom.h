@@ -342,7 +342,8 @@ struct carom_event {
 /*
  * Events of the last step, in a fixed order. At most 3 a pair and 2 a body: never a failure. A CUT
  * for which there is no room is left out; stats.cut_islands counts all of them. So are both events of a body that
- * was in a sensor within the frame alone.
+ * was in a sensor within the frame alone. A sensor and a body of which neither moves freely (stationary, kinematic) do
+ * not look for each other: a sensor that is to see kinematic bodies moves freely itself.
  */
 int carom_events(const struct carom_world *world, const struct carom_event **events);
 
