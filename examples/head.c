@@ -175,7 +175,7 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
-/* What frames need of a scene; a small board has no room for the rest while it steps. */
+/* The parts of a scene that frames need; a small board has no room for the rest while it steps. */
 struct show {
     const struct carom_camera *camera;
     struct scene_sheet *sheet;
@@ -196,7 +196,7 @@ static const struct carom_camera *camera_of(const struct show *show,
     return &camera;
 }
 
-/* What a game says, at the top; the next picture is drawn over it. */
+/* A game's line of text, at the top; the next picture is drawn over it. */
 static void say(const struct show *show, const struct carom_world *world,
                 const struct carom_picture *picture, struct carom_drawn *drawn)
 {

@@ -183,7 +183,7 @@ static int sweep(struct walk *walk, const carom_v3_q32 *way)
     return met;
 }
 
-/* What is left of a way after the last hit: along what was met. Returns whether it is worth going. */
+/* The rest of a way after the last hit goes along what was met. Returns whether it is worth going. */
 static bool go_along(const struct walk *walk, carom_v3_q32 *way)
 {
     const carom_v3_q30 *n = &walk->hit.normal;

@@ -30,7 +30,7 @@ enum carom_joint_kind {
 };
 
 /*
- * What may be changed while the joint is there. The coordinate of a hinge is the angle in radians by which a is
+ * Settings that may be changed while the joint is there. The coordinate of a hinge is the angle in radians by which a is
  * turned about the axis against b since it was added, within +-pi; of a slider the way of a along the axis
  * since then; of a distance joint the distance of its anchors; both in units. A ball and a fixed joint have none.
  */

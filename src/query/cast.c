@@ -109,7 +109,7 @@ static void take_hit(struct query_struck *self, struct query_ray *ray,
     }
 }
 
-/* What there is to say of a hit: where it is, and the normal in the world. */
+/* Describe a hit: its place, and the normal in the world. */
 static void complete(const struct carom_world *w, const struct carom_ray *ray,
                      struct carom_ray_hit *hit)
 {

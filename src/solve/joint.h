@@ -5,7 +5,8 @@
  * A row is a direction d at the joint's point or an axis d, in the world. V of a linear row is d.(v_a + w_a x
  * r_a - v_b - w_b x r_b), of an angular one d.(w_a - w_b). The rows that always hold come first; the last one may be that
  * of the coordinate, which limits, a motor or a spring drive. All rows of a joint are solved at once: K, n x n, is
- * inverted before the sweeps, and where the last row is limited the others follow it.
+ * inverted before the sweeps, and where the last row is limited the others follow it. Rows that always hold are solved for the
+ * whole island at once (joint_direct.c).
  *
  * Units. A linear row counts velocities over 2^down, an angular one at an arm of 2^length_bits of q22, so that K is
  * near 1. Impulses of a row are counted in the unit of velocity times the mass of the island's lightest body, over
@@ -21,7 +22,7 @@
 #define JOINT_FINE_BITS 5
 #define JOINT_WORLD     0xffffu
 
-/* What a row impulse does to one of the two bodies. */
+/* The effect of a row impulse on one of the two bodies. */
 struct joint_lever {
     struct body *body; /* NULL: does not answer */
     int32_t share_q30; /* the lightest body's mass over this one's */
@@ -31,7 +32,7 @@ struct joint_lever {
     int32_t turn[JOINT_ROWS][3]; /* V of each row by du, see contact_lever */
 };
 
-/* Of the last row; velocities and impulses in the solver's units. */
+/* The law of the last row; velocities and impulses in the solver's units. */
 struct joint_law {
     bool lower, upper, motor, spring;
     int32_t low_v, high_v; /* that the limits ask for at least and at most */
@@ -52,7 +53,7 @@ struct joint_row {
 /* Numbers of factors for each joint that a world has room for. */
 #define JOINT_ROOM 128
 
-/* What a solve works out. */
+/* A joint in a solve. */
 struct joint_work {
     struct joint_lever lever[2];
     const struct body *led;      /* b, where it is a kinematic body on its way; else NULL */
@@ -87,7 +88,7 @@ struct joint_work {
     int64_t row_q40[JOINT_ROWS];
 };
 
-/* What a step changes: two of them. All but the sums is hashed and saved. */
+/* The part of a joint that a step changes: two of them. All of it is hashed and saved. */
 struct joint_state {
     struct carom_joint_drive drive;
     int64_t impulse_q40[JOINT_ROWS]; /* of the last frame, along the rows */
@@ -113,7 +114,7 @@ struct joint {
     struct joint_work work;
 };
 
-/* What a solve is for. */
+/* The purpose of a solve. */
 enum joint_solve {
     JOINT_FRAME,  /* the start of a frame: motors and springs as well */
     JOINT_MORE,   /* once more, for what paths bend by */

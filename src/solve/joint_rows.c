@@ -334,7 +334,7 @@ static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q
     return fix_mul_scaled(p_q40, by);
 }
 
-/* What a spring gives of the impulse that leads to its own velocity: k / (k + M), M being what a velocity takes. */
+/* A spring's part of the impulse that leads to its own velocity: k / (k + M), M being the impulse a unit of velocity. */
 static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
 {
     int last = w->rows - 1, bits = -2 * row_shift(w, last);

@@ -22,7 +22,6 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 static bool is_bouncing(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-
     int32_t e_q30 =
         s->w->rest.list.plain ? rest_plain_restitution(a, b) : rest_restitution(&s->w->rest, a, b);
 
@@ -377,7 +376,7 @@ static bool all_in_range(const struct step *s)
     return true;
 }
 
-/* Solve until joints hold at the end of the slice as well; false: they do not after some rounds. */
+/* Solve until joints hold at the end of the slice as well; *held: whether they do after so many rounds. */
 static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
 {
     struct carom_world *w = s->w;

@@ -35,7 +35,7 @@ void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide 
     }
 }
 
-/* What the joints of an island owe, of which the first is to keep what is left. */
+/* The debt of an island's joints; the first of them keeps what is left. */
 struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -82,7 +82,7 @@ uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led)
     return ISLAND_END;
 }
 
-/* What leads members stops. */
+/* Kinematic bodies that lead members stop. */
 void connect_block_leaders(struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -148,7 +148,7 @@ void connect_ground(struct step *s)
     }
 }
 
-/* What a kinematic body leads along has not been quiet. */
+/* Bodies that a kinematic one leads along have not been quiet. */
 void connect_keep_awake(struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;
