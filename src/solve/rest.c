@@ -6,9 +6,12 @@
 /* and then a change of velocity by this part of a skin a frame is as good as none. */
 #define LOOSE_DIVISOR 8
 
-/* Velocities of the bodies that have contacts, each once. */
-static void load_contacts(struct rest *r)
+void rest_load_contacts(struct rest *r)
 {
+    if (r->loaded) {
+        return;
+    }
+    r->loaded = true;
     for (uint32_t i = 0; i < r->body_count; i++) {
         r->bodies[i].solving = r->bodies[i].entering = false;
     }
@@ -27,12 +30,10 @@ static void load_contacts(struct rest *r)
     }
 }
 
-/* The same of all bodies to be solved; but for what rest_enter_contact has left, which came before joints were measured. */
+/* Velocities of all bodies to be solved, by contacts and by joints: the solve is going to change them. */
 static void load_velocities(struct rest *r)
 {
-    if (!r->loaded) {
-        load_contacts(r);
-    }
+    rest_load_contacts(r);
     r->loaded = false;
     if (r->joints.calls) {
         r->joints.calls->load_velocities(r);
@@ -305,7 +306,8 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    load_contacts(r);
+    r->loaded = false;
+    rest_load_contacts(r);
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
 

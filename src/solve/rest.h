@@ -91,6 +91,9 @@ int rest_solve(struct rest *r, int32_t tau_q30, bool warm);
  */
 int rest_project(struct rest *r);
 
+/* Velocities and spins of the bodies that have contacts, each once, for the next solve; nothing where they are loaded. */
+void rest_load_contacts(struct rest *r);
+
 /*
  * Bodies with a contact that is slower than 4 g h, and not idle, take the rest of the frame's
  * gravity at once and move straight. Returns whether any body newly did; only the contacts of such

@@ -226,7 +226,7 @@ static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
 
 /*
  * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
- * both bodies bend. The spins are those of the last look at the contacts; nearly all are slow by a bound of them.
+ * both bodies bend. Nearly all are slow by a bound of their spins.
  */
 static bool bends(const struct step *s, const struct contact *c, int32_t left_q30)
 {
@@ -328,6 +328,7 @@ static void find_chords(struct step *s)
     int32_t slice_q30 = 0;
     bool bent = false;
 
+    rest_load_contacts(&w->rest);
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];
         int64_t way_q22;
