@@ -114,6 +114,33 @@ static void test_changed(void)
     }
 }
 
+/* A snapshot holds whatever friction the function has chosen: bodies without any slide on a plate that answers with mu 4. */
+static void test_saved(void)
+{
+    static uint8_t saved[8192];
+    struct carom_world *w = make(0, true, 0, 0);
+    const carom_v3_q40 weight = {{0, 0, BOXES_Q40(-200)}};
+    struct carom_body_state state;
+    int loads = 0;
+
+    said.changes = true;
+    said.mu_q16 = 4 << 16;
+    CHECK_EQ(carom_world_set_gravity(w, &weight), CAROM_OK);
+    boxes_step(w, 10); /* it lies on the plate by now */
+    state = boxes_state(w, 1);
+    state.velocity.c[0] = BOXES_Q40(700);
+    CHECK_EQ(carom_body_set(w, 1, &state), CAROM_OK);
+    for (int frame = 0; frame < 60; frame++) {
+        int size = carom_snapshot_save(w, saved, sizeof saved);
+
+        CHECK(size > 0);
+        loads += size > 0 && carom_snapshot_load(w, saved, (size_t)size) == CAROM_OK;
+        boxes_step(w, 1);
+    }
+    CHECK_EQ(loads, 60);
+    CHECK_NEAR(boxes_state(w, 1).velocity.c[0], 0, BOXES_Q40(1)); /* so friction did act */
+}
+
 /* What is dropped goes through, and uses up no hits; the other box stays. */
 static void test_dropped(void)
 {
@@ -147,8 +174,6 @@ static void test_needs(void)
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
 }
 
-const struct test tests_ask[] = {{"ask/told", test_told},
-                                 {"ask/changed", test_changed},
-                                 {"ask/dropped", test_dropped},
-                                 {"ask/needs", test_needs},
-                                 {0}};
+const struct test tests_ask[] = {{"ask/told", test_told},   {"ask/changed", test_changed},
+                                 {"ask/saved", test_saved}, {"ask/dropped", test_dropped},
+                                 {"ask/needs", test_needs}, {0}};

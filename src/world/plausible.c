@@ -76,8 +76,8 @@ static int64_t most_impulse_q40(const struct body *b)
 }
 
 /*
- * An impulse presses, along the normal; friction is within the widest cone there is across it; and it
- * is not more than a solve can give, see SPEC.md.
+ * An impulse presses, along the normal, by no more than a solve can give, see SPEC.md. Friction is within the widest
+ * cone there is, not that of the bodies' materials: the caller's callback may have chosen any.
  */
 FIX_APART static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
@@ -91,7 +91,7 @@ FIX_APART static bool impulse_plausible(const struct carom_world *w, const struc
     if (parts.normal_q40 > most_q40 || parts.normal_q40 < -IMPULSE_NOISE_Q40) {
         return false;
     }
-    across_q40 = parts.normal_q40 / (1 << 16) * rest_friction(&w->rest, a, b);
+    across_q40 = parts.normal_q40 / (1 << 16) * CAROM_MU_MAX_Q16;
     across_q40 += across_q40 / 64 + most_q40 / (1 << 20) + IMPULSE_NOISE_Q40;
     return world_each_within(parts.tangent.c, across_q40);
 }
