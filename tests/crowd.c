@@ -12,6 +12,7 @@
 #define ULP_Q40        0x1p-40
 #define LINK_PLACES                                                                                \
     0x1p-26 /* units: places that links are held at, the last place of a rotation on a long arm */
+#define LINK_LEFT         0.125   /* skins: a solve is done when anchors are as near as that */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
@@ -416,16 +417,19 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
 
 /* ------------------------------------------------------------------------ watch */
 
-/* What the springs of an island took up in the frame. */
-static double stored_in(const struct crowd *crowd, int island)
+/* What the springs of an island took up in the frame; and what the last places of their ends are worth. */
+static double stored_in(const struct crowd *crowd, int island, double *rounding)
 {
     double rise = 0;
+
+    *rounding = 0;
 
     for (int i = 0; i < crowd->link_count; i++) {
         const struct crowd_link *link = &crowd->links[i];
 
         if (link->there && crowd->bodies[link->a].island == island) {
             rise += link->stored[1] - link->stored[0];
+            *rounding += link->noise;
         }
     }
     return rise;
@@ -433,7 +437,7 @@ static double stored_in(const struct crowd *crowd, int island)
 
 static void watch_energy(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
-    double rise = stored_in(crowd, island), kinetic[2] = {0}, weight = 0, rounding = 0;
+    double rounding, rise = stored_in(crowd, island, &rounding), kinetic[2] = {0}, weight = 0;
     double gravity[3], allowed;
     bool linked = false, touching = false;
 
@@ -449,14 +453,15 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         }
         linked |= body->linked;
         touching |= body->touching;
+        /* what hangs on a body that is lifted goes along: as one body the two would have more weight and the larger skin */
+        weight += body->touching || body->linked
+                      ? body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin
+                      : 0;
         kinetic[0] += body->before.kinetic;
         kinetic[1] += body->now.kinetic;
         rise +=
             body->now.kinetic - body->before.kinetic + body->now.potential - body->before.potential;
         rounding += noise(crowd, body);
-        if (body->touching) {
-            weight += body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin;
-        }
     }
     if (linked && !touching) {
         return; /* see watch_groups */
@@ -570,8 +575,9 @@ static bool look_at_group(const struct crowd *crowd, int group, double *moves_or
             *rise += body->now.kinetic + body->now.potential - body->before.kinetic -
                      body->before.potential;
             *moves_or_held += body->now.kinetic;
-            *rounding +=
-                body->mass * (LINK_PLACES * real_length(gravity) + LINK_PLACES * LINK_PLACES);
+            *rounding += body->mass * ((LINK_PLACES + LINK_LEFT * crowd->meshes[body->mesh].skin) *
+                                           real_length(gravity) +
+                                       LINK_PLACES * LINK_PLACES);
             alone = alone && !body->touching && !body->driven && !body->now.state.out;
         }
     }

@@ -57,6 +57,7 @@ struct crowd_link {
     int a, b;
     bool there, works; /* it does work: a motor */
     double stored[2];  /* energy that a spring holds, before the frame and after it */
+    double noise;      /* and what of it the rounding of its ends is worth */
 };
 
 /*

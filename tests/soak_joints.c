@@ -124,17 +124,23 @@ static double coordinate(const struct soak_joint *joint, const struct place *p)
     }
 }
 
-double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joint)
+double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joint, double *noise)
 {
     const struct carom_joint_drive *d = &joint->def.drive;
     struct place p;
-    double stretch;
+    double stretch, place;
 
+    *noise = 0;
     if (!d->spring || joint->gone) {
         return 0;
     }
     find(crowd, joint, &p);
     stretch = coordinate(joint, &p) - real(d->rest_q32, 32);
+    /* a rotation is known to q30, an anchor by that times its arm; of a hinge the rotations alone count */
+    place = 0x1p-29 * (1 + (joint->def.kind == CAROM_JOINT_HINGE
+                                ? 0
+                                : real_length(joint->arm[0]) + real_length(joint->arm[1])));
+    *noise = real(d->stiffness_q40, 40) * (fabs(stretch) + place) * place;
     return real(d->stiffness_q40, 40) * stretch * stretch / 2;
 }
 

@@ -56,8 +56,8 @@ struct soak_off {
 
 /* Note where a joint is, as its bodies are now. */
 void soak_joint_note(const struct crowd *crowd, struct soak_joint *joint);
-/* The energy in its spring. */
-double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joint);
+/* The energy in its spring; and by how much of it the rounding of poses may be off. */
+double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joint, double *noise);
 /* How far it is off now, into the largest so far. */
 void soak_joint_look(const struct crowd *crowd, const struct soak_joint *joint, int number,
                      long frame, struct soak_off *off);
