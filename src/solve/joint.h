@@ -88,6 +88,11 @@ struct joint_work {
     int64_t row_q40[JOINT_ROWS];
 };
 
+static inline bool joint_is_angular(const struct joint_work *w, int row)
+{
+    return (w->angular >> row & 1) != 0;
+}
+
 /* The part of a joint that a step changes: two of them. All of it is hashed and saved. */
 struct joint_state {
     struct carom_joint_drive drive;

@@ -205,14 +205,6 @@ static void enlarge(struct rest *r, const struct rest_sweep *sw, int bits)
     }
 }
 
-static void sum_up(struct rest *r)
-{
-    FOR_JOINTS(r, j)
-    {
-        joint_sum_up(j);
-    }
-}
-
 /* All that always holds at once; each joint whose coordinate is driven besides, or each joint where there is no room. */
 static int64_t sweep(struct rest *r, int32_t quiet)
 {
@@ -382,7 +374,7 @@ const struct joint_calls joint_calls = {
     .begin = begin,
     .load_warm = load_warm,
     .enlarge = enlarge,
-    .sum_up = sum_up,
+    .sum_up = joint_sum_up,
     .drop = drop,
     .sweep = sweep,
     .agrees = agrees,

@@ -9,8 +9,11 @@
  */
 #include "joint_parts.h"
 
-/* A pivot below this says nothing that the rows before it do not: the row has no impulse of its own. */
-#define PIVOT_MIN_Q60 ((int64_t)1 << 36)
+/*
+ * A pivot below this is rounding: the row says nothing that the rows before it do not, as in loops or in two joints between the same
+ * bodies. It has no impulse of its own; to divide by what is left of it would give impulses without measure.
+ */
+#define PIVOT_MIN_Q60 ((int64_t)1 << (60 - 24))
 
 static struct joint *next_of(const struct rest *r, const struct joint *j)
 {
@@ -104,9 +107,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
     pivot_q60 = carom_shl(joint_entry_q30(w, i, w, i), 30) - product_q60(r, row, row, place);
     row->inverse = (struct fix_scaled){0, 0};
     if (pivot_q60 > PIVOT_MIN_Q60) {
-        int64_t root = fix_sqrt((uint64_t)pivot_q60);
-
-        row->inverse = fix_scaled_inverse(fix_scale(root, 30));
+        row->inverse = fix_scaled_inverse(fix_scale((int64_t)fix_sqrt((uint64_t)pivot_q60), 30));
     }
 }
 
@@ -147,6 +148,63 @@ static void substitute(struct rest *r, uint32_t n)
     }
 }
 
+/* The changes of a joint's impulses. */
+static void changes_of(const struct rest *r, const struct joint *j, int64_t change[JOINT_ROWS])
+{
+    for (int i = 0; i < JOINT_ROWS; i++) {
+        change[i] = i < j->work.held ? r->joints.rows[j->work.row_at + i].x : 0;
+    }
+}
+
+/* What impulses, or their changes, do to a body. */
+static struct joint_sum sum_of(const struct rest *r, const struct body *b, bool changes)
+{
+    struct joint_sum sum = {{0, 0, 0}, {0, 0, 0}};
+
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        for (int s = 0; s < 2; s++) {
+            int64_t change[JOINT_ROWS];
+
+            if (j->work.lever[s].body != b) {
+                continue;
+            }
+            changes_of(r, j, change);
+            joint_add_effect(&j->work, s, changes ? change : j->work.impulse, &sum);
+        }
+    }
+    return sum;
+}
+
+void joint_sum_up(struct rest *r)
+{
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        struct body_path *in = body_solve(&r->bodies[i]);
+        struct joint_sum sum = sum_of(r, &r->bodies[i], false);
+        int64_t dv[3], du[3];
+
+        joint_round_sum(&r->bodies[i], &sum, dv, du);
+        for (int k = 0; k < 3; k++) {
+            in->wide_dv[k] += dv[k];
+            in->wide_du[k] += du[k];
+        }
+    }
+}
+
+static void push_all(struct rest *r)
+{
+    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
+        int64_t change[JOINT_ROWS];
+
+        changes_of(r, j, change);
+        joint_note(&j->work, change);
+    }
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+        struct joint_sum sum = sum_of(r, &r->bodies[i], true);
+
+        joint_move(&r->bodies[i], &sum);
+    }
+}
+
 int64_t joint_solve_held(struct rest *r, int32_t quiet)
 {
     struct joint_row *rows = r->joints.rows;
@@ -157,7 +215,7 @@ int64_t joint_solve_held(struct rest *r, int32_t quiet)
         for (int i = 0; i < j->work.held; i++, n++) {
             int32_t lack = -joint_present(&j->work, i);
 
-            moved = fix_larger(moved, fix_abs32(lack));
+            moved = rows[n].inverse.m == 0 ? moved : fix_larger(moved, fix_abs32(lack));
             rows[n].x = carom_shl(lack, JOINT_FINE_BITS);
         }
     }
@@ -165,13 +223,6 @@ int64_t joint_solve_held(struct rest *r, int32_t quiet)
         return 0;
     }
     substitute(r, n);
-    for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
-        int64_t change[JOINT_ROWS] = {0};
-
-        for (int i = 0; i < j->work.held; i++) {
-            change[i] = rows[j->work.row_at + i].x;
-        }
-        joint_push(&j->work, change);
-    }
+    push_all(r);
     return moved;
 }

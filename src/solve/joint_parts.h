@@ -16,13 +16,27 @@ int64_t joint_solve_held(struct rest *r, int32_t quiet);
 /* V - wanted V of a row by now, of the last one V; and what changes of impulses do. */
 int32_t joint_present(const struct joint_work *w, int row);
 void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
+/*
+ * Its parts. What impulses do to a body is summed up modulo 2^64: a light one between heavy ones is pushed hard from both sides, and
+ * what is left of it is short though the pushes are long.
+ */
+struct joint_sum {
+    uint64_t way[3], turn[3];
+};
+void joint_note(struct joint_work *w, const int64_t change[JOINT_ROWS]);
+void joint_add_effect(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS],
+                      struct joint_sum *sum);
+/* The sum in units of dv and du; and that to the body's velocity. */
+void joint_round_sum(const struct body *b, const struct joint_sum *sum, int64_t dv[3],
+                     int64_t du[3]);
+void joint_move(struct body *b, const struct joint_sum *sum);
 /* V of a row, q40; and the part of it that is a kinematic body's. */
 int64_t joint_speed_q40(const struct joint_work *w, int row);
 int64_t joint_led_speed_q40(const struct joint_work *w, int row);
 int64_t joint_largest_q40(const struct joint *j);
 void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
 void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
-void joint_sum_up(const struct joint *j);
+void joint_sum_up(struct rest *r);
 int64_t joint_sweep(struct joint *j, int32_t quiet);
 void joint_end(struct joint *j, const struct rest_sweep *sw);
 void joint_apply(struct rest *r, const struct joint *j);
@@ -33,11 +47,6 @@ static inline int64_t joint_limited(int64_t v, int bits)
     const int64_t most = (int64_t)1 << bits;
 
     return v > most ? most : v < -most ? -most : v;
-}
-
-static inline bool joint_is_angular(const struct joint_work *w, int row)
-{
-    return (w->angular >> row & 1) != 0;
 }
 
 #endif

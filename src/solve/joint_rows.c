@@ -325,10 +325,10 @@ static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int 
 static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
 {
     struct fix_scaled by = w->lightest->inverse_mass;
-    const int64_t most = (int64_t)1 << 44;
+    const int64_t most = (int64_t)1 << 58;
 
     by.e += unit + row_shift(w, row) - JOINT_FINE_BITS;
-    if (fix_bits((uint64_t)carom_abs(p_q40)) + 30 - by.e > 44) {
+    if (fix_bits((uint64_t)carom_abs(p_q40)) + 30 - by.e > 58) {
         return p_q40 < 0 ? -most : most;
     }
     return fix_mul_scaled(p_q40, by);

@@ -33,53 +33,75 @@ int32_t joint_present(const struct joint_work *w, int row)
     return rest_clamp(w->before[row] + v + ((int64_t)turn >> 32));
 }
 
-#define IMPULSE_BITS 44
+/* Where K is all but singular an impulse is long, though what it changes is short. */
+#define IMPULSE_BITS   58
+#define WAY_FINER_BITS 8
 
-/* Bits that an impulse may have, of which a shift leaves so many. */
-static int fewer(int bits)
+/* By how many bits sums of turns are finer than du: as far as its shift leaves any. */
+static int finer_bits(const struct body *b)
 {
-    return bits < IMPULSE_BITS ? bits : IMPULSE_BITS;
+    int s = rest_turn_shift(b, JOINT_FINE_BITS);
+
+    return s > WAY_FINER_BITS ? WAY_FINER_BITS : s - 1;
 }
 
-/* What a change of the impulses does to a body. */
-static void push_side(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS])
+void joint_add_effect(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS],
+                      struct joint_sum *sum)
 {
     const struct joint_lever *lever = &w->lever[side];
-    struct body_path *in = body_solve(lever->body);
-    const int s = rest_turn_shift(lever->body, JOINT_FINE_BITS);
-    const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS;
-    /* bits more than dv and du have, as far as the shift of du leaves any */
-    const int finer = s > 8 ? 8 : s - 1;
-    int64_t way[3] = {0, 0, 0}, turn[3] = {0, 0, 0};
+    const int s = rest_turn_shift(lever->body, JOINT_FINE_BITS) - finer_bits(lever->body);
+    const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS - WAY_FINER_BITS;
 
     for (int i = 0; i < w->rows; i++) {
         int64_t own = side == 0 ? change[i] : -change[i];
-        int64_t by_way, by_turn;
 
         own = lever->share_q30 == CAROM_ONE_Q30 ? own : fix_mul_q30(own, lever->share_q30);
-        by_way = joint_limited(own, fewer(29 + down - 8));
-        by_turn = joint_limited(own, fewer(29 + s - finer));
         for (int k = 0; k < 3; k++) {
-            way[k] += joint_is_angular(w, i) ? 0 : fix_mul(by_way, w->direction[i][k], down - 8);
-            turn[k] += fix_mul(by_turn, lever->turn[i][k], s - finer);
+            sum->way[k] +=
+                joint_is_angular(w, i) ? 0 : (uint64_t)fix_mul(own, w->direction[i][k], down);
+            sum->turn[k] += (uint64_t)fix_mul(own, lever->turn[i][k], s);
         }
-    }
-    for (int k = 0; k < 3; k++) { /* more than 2^30 is seen to have outgrown the unit */
-        in->used |=
-            rest_add(&in->dv[k], rest_within(carom_round(way[k], 8), CAROM_ONE_Q30)) |
-            rest_add(&in->du[k], rest_within(fix_round_shift(turn[k], -finer), CAROM_ONE_Q30));
     }
 }
 
-void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
+void joint_round_sum(const struct body *b, const struct joint_sum *sum, int64_t dv[3],
+                     int64_t du[3])
+{
+    for (int k = 0; k < 3; k++) {
+        dv[k] = carom_round((int64_t)sum->way[k], WAY_FINER_BITS);
+        du[k] = fix_round_shift((int64_t)sum->turn[k], -finer_bits(b));
+    }
+}
+
+void joint_move(struct body *b, const struct joint_sum *sum)
+{
+    struct body_path *in = body_solve(b);
+    int64_t dv[3], du[3];
+
+    joint_round_sum(b, sum, dv, du);
+    for (int k = 0; k < 3; k++) { /* more than 2^30 is seen to have outgrown the unit */
+        in->used |= rest_add(&in->dv[k], rest_within(dv[k], CAROM_ONE_Q30)) |
+                    rest_add(&in->du[k], rest_within(du[k], CAROM_ONE_Q30));
+    }
+}
+
+void joint_note(struct joint_work *w, const int64_t change[JOINT_ROWS])
 {
     for (int i = 0; i < w->rows; i++) {
         w->impulse[i] = joint_limited(w->impulse[i] + change[i], IMPULSE_BITS);
         w->gain[i] = rest_clamp(w->gain[i] + change[i]);
     }
+}
+
+void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
+{
+    joint_note(w, change);
     for (int s = 0; s < 2; s++) {
+        struct joint_sum sum = {{0, 0, 0}, {0, 0, 0}};
+
         if (w->lever[s].body) {
-            push_side(w, s, change);
+            joint_add_effect(w, s, change, &sum);
+            joint_move(w->lever[s].body, &sum);
         }
     }
 }
@@ -150,35 +172,4 @@ int64_t joint_sweep(struct joint *j, int32_t quiet)
     }
     joint_push(w, change);
     return moved;
-}
-
-/* -------------------------------------------------------------------------- sums */
-
-void joint_sum_up(const struct joint *j)
-{
-    const struct joint_work *w = &j->work;
-
-    for (int s = 0; s < 2; s++) {
-        const struct joint_lever *lever = &w->lever[s];
-        struct body_path *in;
-
-        if (!lever->body) {
-            continue;
-        }
-        in = body_solve(lever->body);
-        for (int i = 0; i < w->rows; i++) {
-            int64_t own = fix_mul_q30(s == 0 ? w->impulse[i] : -w->impulse[i], lever->share_q30);
-            const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS,
-                      turn = rest_turn_shift(lever->body, JOINT_FINE_BITS);
-            int64_t by_way = joint_limited(own, fewer(29 + down)),
-                    by_turn = joint_limited(own, fewer(29 + turn));
-
-            for (int k = 0; k < 3; k++) {
-                if (!joint_is_angular(w, i)) {
-                    in->wide_dv[k] += fix_mul(by_way, w->direction[i][k], down);
-                }
-                in->wide_du[k] += fix_mul(by_turn, lever->turn[i][k], turn);
-            }
-        }
-    }
 }

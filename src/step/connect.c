@@ -146,6 +146,7 @@ static int break_joints(struct step *s)
             memset(state->impulse_q40, 0, sizeof state->impulse_q40);
             step_add_event(s->w, CAROM_EVENT_BREAK, (uint16_t)i, 0);
             s->broke = true;
+            world_write_off(s->w, s->next->joints, j);
             result = world_part_joint(s->w, s->next, j);
         }
     }

@@ -191,29 +191,103 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
                     measure_spring(w, d, now_q40, per_frame(change_q40, time_q30));
 }
 
+/* What a change by a row comes to where a's farthest point is: units. */
+static int64_t as_way(const struct step *s, const struct joint *j, int row, int64_t v_q40)
+{
+    bool turns = joint_is_angular(&j->work, row);
+
+    return carom_abs(turns ? fix_mul(v_q40, s->w->bodies[j->a].radius_q22, 22) : v_q40);
+}
+
+/* How much of what is off now is to be left at the end of a slice. */
+static int64_t rest_of(int64_t off_q40, int32_t slice_q30)
+{
+    return off_q40 - fix_mul_scaled(off_q40, fix_ratio(slice_q30, recovery(slice_q30)));
+}
+
+/* By how much a coordinate is beyond its limits. */
+static int64_t beyond(const struct carom_joint_drive *d, int64_t q_q40)
+{
+    int64_t below_q40 = carom_shl(d->lower_q32, 8) - q_q40;
+    int64_t above_q40 = q_q40 - carom_shl(d->upper_q32, 8);
+    int64_t most_q40 = below_q40 > above_q40 ? below_q40 : above_q40;
+
+    return most_q40 > 0 ? most_q40 : 0;
+}
+
+/* The bodies of a joint that answer, the slice that they take and the smaller of their skins. */
+static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
+{
+    const uint16_t side[2] = {j->a, j->b};
+    int32_t slice_q30 = CAROM_ONE_Q30 - s->now_q30;
+
+    *skin_q40 = INT64_MAX;
+    for (int k = 0; k < 2; k++) {
+        struct body *b = connect_answers(s, side[k]) ? &s->w->bodies[side[k]] : NULL;
+
+        j->work.lever[k].body = b;
+        if (b && !b->stands) {
+            int64_t own_q40 = carom_shl(b->skin_q22, 18);
+
+            slice_q30 = connect_slice(s, side[k], slice_q30);
+            *skin_q40 = own_q40 < *skin_q40 ? own_q40 : *skin_q40;
+        }
+    }
+    j->work.led = connect_led_by(s, j);
+    return slice_q30;
+}
+
+/* By how much V of the rows that always hold must change. Returns by how much the worst of them is off in the end. */
+static int64_t measure_held(const struct step *s, struct joint *j, const struct joint_error *at,
+                            const struct joint_error *to, int32_t slice_q30)
+{
+    struct joint_work *w = &j->work;
+    int64_t most_q40 = 0;
+
+    for (int k = 0; k < w->held; k++) {
+        int64_t off_q40 = w->by_speed ? 0 : as_way(s, j, k, to->row_q40[k]);
+
+        most_q40 = off_q40 > most_q40 ? off_q40 : most_q40;
+        w->wanted_q40[k] = -per_frame(at->row_q40[k], recovery(slice_q30));
+        if (!w->by_speed) {
+            w->wanted_q40[k] -= per_frame(to->row_q40[k] - at->row_q40[k], slice_q30);
+        }
+    }
+    return most_q40;
+}
+
+/* The coordinate's law. Returns how far beyond its limits it gets on the present paths, but for what is left to later slices. */
+static int64_t measure_last(const struct step *s, struct joint *j, const struct joint_state *state,
+                            const struct joint_error *at, const struct joint_error *to,
+                            int32_t slice_q30, enum joint_solve solve)
+{
+    const struct carom_joint_drive *d = &state->drive;
+    int64_t now_q40 = at->coordinate_q40, change_q40 = to->coordinate_q40 - now_q40, off_q40;
+
+    if (j->kind == CAROM_JOINT_HINGE) {
+        change_q40 = joint_turned_q40(now_q40, to->coordinate_q40);
+    }
+    measure_drive(j, state, now_q40, change_q40, slice_q30, solve);
+    if (!d->limited || j->work.by_speed) {
+        return 0;
+    }
+    off_q40 = beyond(d, now_q40 + change_q40) - rest_of(beyond(d, now_q40), slice_q30);
+    return off_q40 > 0 ? as_way(s, j, j->work.held, off_q40) : 0;
+}
+
 /* Rows of a joint as its bodies are, and what they lack on the way to the end of the slice. Whether more than a little. */
 static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
 {
     struct joint *j = &s->w->rest.joints.joints[i];
     const struct joint_state *state = &s->next->joints[i];
     struct joint_work *w = &j->work;
-    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30;
     const uint16_t side[2] = {j->a, j->b};
     struct joint_pose now[2], then[2];
     struct joint_error at, to;
-    int64_t off_q40 = 0, skin_q40 = INT64_MAX;
+    int64_t held_q40, last_q40 = 0, skin_q40;
+    int32_t slice_q30 = measure_sides(s, j, &skin_q40);
 
-    w->led = connect_led_by(s, j);
     for (int k = 0; k < 2; k++) {
-        bool own = connect_answers(s, side[k]) && !s->w->bodies[side[k]].stands;
-
-        w->lever[k].body = connect_answers(s, side[k]) ? &s->w->bodies[side[k]] : NULL;
-        if (own) {
-            slice_q30 = connect_slice(s, side[k], slice_q30);
-            skin_q40 = carom_shl(s->w->bodies[side[k]].skin_q22, 18) < skin_q40
-                           ? carom_shl(s->w->bodies[side[k]].skin_q22, 18)
-                           : skin_q40;
-        }
         now[k] = pose_of(s, side[k], 0);
     }
     for (int k = 0; k < 2; k++) {
@@ -224,28 +298,15 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
     w->by_speed = solve == JOINT_PROJECT || slice_q30 < MEASURED_MIN_Q30;
-    for (int k = 0; k < w->held; k++) {
-        int64_t arm_q30 = (w->angular >> k & 1) != 0 ? s->w->bodies[j->a].radius_q22 : 1 << 22;
-        int64_t left_q40 = w->by_speed ? 0 : to.row_q40[k];
-
-        left_q40 = carom_abs(fix_mul(left_q40, (int32_t)arm_q30, 22));
-        off_q40 = left_q40 > off_q40 ? left_q40 : off_q40;
-        w->wanted_q40[k] =
-            solve == JOINT_PROJECT ? 0 : -per_frame(at.row_q40[k], recovery(slice_q30));
-        if (!w->by_speed) {
-            w->wanted_q40[k] -= per_frame(to.row_q40[k] - at.row_q40[k], slice_q30);
-        }
+    held_q40 = measure_held(s, j, &at, &to, slice_q30);
+    if (solve == JOINT_PROJECT) {
+        memset(w->wanted_q40, 0, sizeof w->wanted_q40);
     }
     if (w->held < w->rows) {
-        int64_t change_q40 = to.coordinate_q40 - at.coordinate_q40;
-
-        if (j->kind == CAROM_JOINT_HINGE) {
-            change_q40 = joint_turned_q40(at.coordinate_q40, to.coordinate_q40);
-        }
-        measure_drive(j, state, at.coordinate_q40, change_q40, slice_q30, solve);
+        last_q40 = measure_last(s, j, state, &at, &to, slice_q30, solve);
     }
-    w->torn = !w->by_speed && off_q40 > TORN_SKINS * skin_q40;
-    return off_q40 > skin_q40 / LEFT_DIVISOR;
+    w->torn = !w->by_speed && held_q40 > TORN_SKINS * skin_q40;
+    return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / LEFT_DIVISOR;
 }
 
 bool connect_measure(struct step *s, enum joint_solve solve)

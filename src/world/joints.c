@@ -154,11 +154,24 @@ int world_part_joint(struct carom_world *w, struct world_state *state, const str
     return world_note_through(w, state, &p);
 }
 
+void world_write_off(const struct carom_world *w, struct joint_state *states, const struct joint *j)
+{
+    for (uint32_t i = 0; i < w->rest.joints.count; i++) {
+        const struct joint *own = &w->rest.joints.joints[i];
+
+        if (own->used && w->bodies[own->a].joined == w->bodies[j->a].joined &&
+            fix_wide_sign(&states[i].owed2) < 0) {
+            states[i].owed2 = (struct fix_wide){0, 0};
+        }
+    }
+}
+
 void world_drop_joint(struct carom_world *w, uint32_t i)
 {
     struct joint_list *list = &w->rest.joints;
 
     world_wake_joint(w, &list->joints[i]);
+    world_write_off(w, w->now->joints, &list->joints[i]);
     memset(&list->joints[i], 0, sizeof list->joints[i]);
     for (int k = 0; k < 2; k++) {
         memset(&w->states[k].joints[i], 0, sizeof w->states[k].joints[i]);

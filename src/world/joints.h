@@ -15,6 +15,12 @@ void world_group_joints(struct carom_world *w);
  * until they are apart. CAROM_OK or CAROM_ERR_PAIRS_FULL.
  */
 int world_part_joint(struct carom_world *w, struct world_state *state, const struct joint *j);
+/*
+ * A joint is about to hold nothing. What its group is owed of energy was that of all of it, and would come back in the motion
+ * of a part: it is gone with the joint.
+ */
+void world_write_off(const struct carom_world *w, struct joint_state *states,
+                     const struct joint *j);
 /* Take a joint away; groups are to be found anew. */
 void world_drop_joint(struct carom_world *w, uint32_t joint);
 /* Whether a state that was read could be what a step has left. */
