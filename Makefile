@@ -136,7 +136,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards build need clean force
+.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards packages build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -248,6 +248,11 @@ size: ## code, data and stack of what `make run` runs on every board, to out/siz
 boards: ## the table of boards in README.md, with the figures that budget and size left in out/
 	@tools/need python3
 	@tools/board_table.py
+
+packages: ## a stranger's project by every way to install Carom, packages/README.md; SYSTEMS= chooses
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/hello.elf >/dev/null
+	@tools/packages $(SYSTEMS)
 
 build: $(PROGRAMS) $(RUNNER) ## the programs of BOARD, without running them
 
