@@ -170,7 +170,7 @@ static void see_lines(const struct changes *c, struct carom_drawn *drawn)
 /* Whether two paints are the same but for lines and the ramps of bodies. Either may be NULL. */
 static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
 {
-    static const struct carom_paint none;
+    static const struct carom_paint none = {0};
 
     a = a ? a : &none;
     b = b ? b : &none;

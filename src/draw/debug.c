@@ -255,7 +255,7 @@ int carom_debug_draw(const struct carom_world *world, uint32_t flags,
 void carom_debug_keep_line(void *context, const carom_v3_q32 *from, const carom_v3_q32 *to,
                            uint32_t colour)
 {
-    struct carom_debug_lines *kept = context;
+    struct carom_debug_lines *kept = (struct carom_debug_lines *)context;
 
     if (kept->count >= kept->room || !draw_point_in_range(from) || !draw_point_in_range(to)) {
         kept->lost++;

@@ -303,7 +303,7 @@ static bool see_part(struct flat *f)
 /* Lay out the workspace, and find the largest solid. */
 static bool make_flat(struct flat *f, const struct carom_picture *picture)
 {
-    uint8_t *at = picture->workspace;
+    uint8_t *at = (uint8_t *)picture->workspace;
     size_t vertices = 0, faces = 0, bytes;
     int32_t radius_q22 = 0;
 

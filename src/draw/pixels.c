@@ -11,11 +11,11 @@ int draw_pixel_shift(uint8_t format)
 uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y)
 {
     const int32_t *middle = view->middle;
-    uint8_t *row = picture->pixels;
+    uint8_t *row = (uint8_t *)picture->pixels;
 
     if (picture->row) {
-        row = picture->row(picture->context, view->rect.x0 + middle[0], view->rect.x1 + middle[0],
-                           y + middle[1]);
+        row = (uint8_t *)picture->row(picture->context, view->rect.x0 + middle[0],
+                                      view->rect.x1 + middle[0], y + middle[1]);
     } else {
         row += (size_t)(y + middle[1]) * (size_t)picture->stride;
     }
@@ -44,13 +44,13 @@ static void run_bytes(uint8_t *p, uint8_t *end, uint32_t word)
         const draw_four four = {{word, word, word, word}};
 
         for (; end - p >= 64; p += 64) {
-            draw_four *to = (void *)p;
+            draw_four *to = (draw_four *)(void *)p;
 
             to[0] = to[1] = to[2] = to[3] = four;
         }
     }
     for (; end - p >= 32; p += 32) {
-        draw_word *to = (void *)p;
+        draw_word *to = (draw_word *)(void *)p;
 
         to[0] = to[1] = to[2] = to[3] = to[4] = to[5] = to[6] = to[7] = word;
     }

@@ -41,10 +41,10 @@ static void write_row(const struct writing *w, int32_t y, int32_t line)
 {
     const struct carom_picture *picture = w->picture;
     int64_t x = w->x;
-    uint8_t *row = picture->pixels;
+    uint8_t *row = (uint8_t *)picture->pixels;
 
     if (picture->row) {
-        row = picture->row(picture->context, w->rect.x0, w->rect.x1, y);
+        row = (uint8_t *)picture->row(picture->context, w->rect.x0, w->rect.x1, y);
     } else {
         row += (size_t)y * (size_t)picture->stride;
     }

@@ -69,9 +69,9 @@ static bool read_header(struct carom_mesh_raw *raw, const uint8_t *at, size_t by
 int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_bytes, void *mem,
                     size_t bytes)
 {
-    const uint8_t *at = blob;
+    const uint8_t *at = (const uint8_t *)blob;
     struct carom_mesh_raw read;
-    int16_t(*vertices)[3] = mem;
+    int16_t(*vertices)[3] = (int16_t(*)[3])mem;
     uint16_t(*faces)[3];
 
     if (!raw || !blob || !mem) {

@@ -159,7 +159,7 @@ static int build(struct mesh_builder *b)
     if (error) {
         return error;
     }
-    b->faces = arena_carve(&b->arena, mesh->raw.face_count * sizeof b->faces[0]);
+    ARENA_CARVE(&b->arena, b->faces, mesh->raw.face_count);
     mesh->faces = b->faces;
     orientation = find_normals(b);
     if (orientation == CAROM_ERR_MESH_DEGENERATE) {

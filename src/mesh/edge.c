@@ -141,10 +141,11 @@ static void make_edges(struct mesh_builder *b)
 static void make_rings(struct mesh_builder *b)
 {
     struct carom_mesh *mesh = b->mesh;
-    uint32_t *start = arena_carve(&b->arena, (mesh->raw.vertex_count + 1) * sizeof start[0]);
-    uint32_t *ring = arena_carve(&b->arena, 2 * mesh->edge_count * sizeof ring[0]);
+    uint32_t *start, *ring;
     uint32_t end = 0;
 
+    ARENA_CARVE(&b->arena, start, mesh->raw.vertex_count + 1);
+    ARENA_CARVE(&b->arena, ring, 2 * mesh->edge_count);
     for (uint32_t i = 0; i < 2 * mesh->edge_count; i++) {
         start[b->edges[i / 2].vertex[i % 2]]++;
     }
@@ -221,7 +222,7 @@ int mesh_build_edges(struct mesh_builder *b)
     if (error) {
         return error;
     }
-    b->edges = arena_carve(&b->arena, b->mesh->edge_count * sizeof b->edges[0]);
+    ARENA_CARVE(&b->arena, b->edges, b->mesh->edge_count);
     b->mesh->edges = b->edges;
     make_edges(b);
     make_rings(b);

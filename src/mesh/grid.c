@@ -190,11 +190,12 @@ int mesh_build_zlists(struct mesh_builder *b)
 {
     struct carom_mesh *mesh = b->mesh;
     const uint32_t n = mesh->raw.face_count;
-    uint32_t *cell = arena_carve(&b->arena, (CAROM_MESH_CELLS_(n) + 1) * sizeof cell[0]);
     struct carom_zref *zrefs;
+    uint32_t *cell;
     uint32_t total, end = 0, cells;
     int shift = 0;
 
+    ARENA_CARVE(&b->arena, cell, CAROM_MESH_CELLS_(n) + 1);
     do {
         while (!lay_grid(mesh, shift)) {
             shift++;
@@ -208,7 +209,7 @@ int mesh_build_zlists(struct mesh_builder *b)
         cell[c] = end;
     }
     cell[cells] = total;
-    zrefs = arena_carve(&b->arena, total * sizeof zrefs[0]);
+    ARENA_CARVE(&b->arena, zrefs, total);
     fill_lists(mesh, cell, zrefs);
     for (uint32_t c = 0; c < cells; c++) {
         struct carom_zref *list = &zrefs[cell[c]];

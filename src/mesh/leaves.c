@@ -210,10 +210,10 @@ void mesh_build_leaves(struct mesh_builder *b)
     const uint32_t n = mesh->raw.face_count, v = mesh->raw.vertex_count;
     struct leaf_builder l = {0};
 
-    l.leaves = arena_carve(&b->arena, CAROM_MESH_LEAVES_(v, n) * sizeof l.leaves[0]);
-    l.faces = arena_carve(&b->arena, n * sizeof l.faces[0]);
-    l.vertices = arena_carve(&b->arena, CAROM_MESH_LEAF_VERTICES_(v, n) * sizeof l.vertices[0]);
-    l.corners = arena_carve(&b->arena, n * sizeof l.corners[0]);
+    ARENA_CARVE(&b->arena, l.leaves, CAROM_MESH_LEAVES_(v, n));
+    ARENA_CARVE(&b->arena, l.faces, n);
+    ARENA_CARVE(&b->arena, l.vertices, CAROM_MESH_LEAF_VERTICES_(v, n));
+    ARENA_CARVE(&b->arena, l.corners, n);
     for (uint32_t f = 0; f < n; f++) {
         b->keys[f] = f;
     }

@@ -3,7 +3,7 @@
 
 void arena_init(struct arena *a, void *mem, size_t bytes)
 {
-    a->base = mem;
+    a->base = (uint8_t *)mem;
     a->size = bytes;
     a->used = 0;
 }

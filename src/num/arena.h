@@ -22,6 +22,15 @@ void arena_init(struct arena *a, void *mem, size_t bytes);
 /* bytes of zeroed memory aligned to 8, or NULL when the block is too small. */
 void *arena_carve(struct arena *a, size_t bytes);
 
+/* Carve room for `count` of what the pointer `to` points at; `to` then points at the first. */
+#ifdef __cplusplus
+#define ARENA_POINTER_(to) (decltype(to))
+#else
+#define ARENA_POINTER_(to)
+#endif
+#define ARENA_CARVE(arena, to, count)                                                              \
+    ((to) = ARENA_POINTER_(to) arena_carve(arena, (count) * sizeof *(to)))
+
 /* Counters of one pool: how many it can hold, holds, held at most, and how many it turned away. */
 struct pool {
     uint32_t size;

@@ -25,9 +25,9 @@ static inline int sign_of(int64_t v)
  * The side of the plane through three places that a fourth is on: 1 where they run counter-clockwise seen from it.
  * Bounds: differences are below 2^30, the cross product below 2^61, and what is summed up below 2^93.
  */
-static int side_of_plane(const place t[3], const place *p)
+static int side_of_plane(const place *a, const place *b, const place *c, const place *p)
 {
-    const place e = minus(&t[1], &t[0]), f = minus(&t[2], &t[0]), d = minus(p, &t[0]);
+    const place e = minus(b, a), f = minus(c, a), d = minus(p, a);
     int64_t n[3];
     struct fix_wide volume;
 
@@ -106,9 +106,8 @@ static bool edge_meets(const place t[3], const place *a, const place *b, int sid
     if (side_a == 0 && side_b == 0) {
         return edge_meets_in_plane(t, a, b);
     }
-    return agree(side_of_plane((const place[]){*a, t[0], t[1]}, b),
-                 side_of_plane((const place[]){*a, t[1], t[2]}, b),
-                 side_of_plane((const place[]){*a, t[2], t[0]}, b));
+    return agree(side_of_plane(a, &t[0], &t[1], b), side_of_plane(a, &t[1], &t[2], b),
+                 side_of_plane(a, &t[2], &t[0], b));
 }
 
 /* Whether an edge of p meets q. False at once when p is on one side of q. */
@@ -124,13 +123,13 @@ bool cross_triangles(const struct interfere_vec p[3], const struct interfere_vec
     int of_p[3], of_q[3];
 
     for (int k = 0; k < 3; k++) {
-        of_p[k] = side_of_plane(q, &p[k]);
+        of_p[k] = side_of_plane(&q[0], &q[1], &q[2], &p[k]);
     }
     if (of_p[0] != 0 && of_p[1] == of_p[0] && of_p[2] == of_p[0]) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        of_q[k] = side_of_plane(p, &q[k]);
+        of_q[k] = side_of_plane(&p[0], &p[1], &p[2], &q[k]);
     }
     if (of_q[0] != 0 && of_q[1] == of_q[0] && of_q[2] == of_q[0]) {
         return false;
@@ -246,7 +245,7 @@ static int is_over(const place t[3], const place *p)
     if (beside(&t[1], &t[2], p) != side || beside(&t[2], &t[0], p) != side) {
         return 0;
     }
-    return side_of_plane(t, p) == -side ? side : 0;
+    return side_of_plane(&t[0], &t[1], &t[2], p) == -side ? side : 0;
 }
 
 /* How often more faces over a place look up than down, of all faces of a or b. */

@@ -49,7 +49,7 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
 
 int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out)
 {
-    struct impact_problem p = {.w = w, .in = in, .frame.n = in->normal};
+    struct impact_problem p = {.w = w, .in = in, .frame = {.n = in->normal}};
     struct impact_result result = {.slid = false, .energy_rule = false};
     struct impact_answer x, other; /* the sticking one, then the frictionless one */
     bool slips;

@@ -21,7 +21,9 @@ static void join(struct rest *r, const struct body_state *states)
 
         if (joint_holds(&r->joints, i) && j->b != JOINT_WORLD &&
             !(states && (states[j->a].out || states[j->b].out))) {
-            island_join(r->bodies, &(struct pair){j->a, j->b});
+            const struct pair p = {j->a, j->b};
+
+            island_join(r->bodies, &p);
         }
     }
 }
@@ -34,7 +36,9 @@ static void join_solved(struct rest *r)
 
         if (joint_holds(&r->joints, i) && !j->work.idle && j->work.lever[0].body &&
             j->work.lever[1].body) {
-            island_join(r->bodies, &(struct pair){j->a, j->b});
+            const struct pair p = {j->a, j->b};
+
+            island_join(r->bodies, &p);
         }
     }
 }

@@ -60,9 +60,9 @@ uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
 static struct pair_work new_meeting(const struct carom_world *w, const struct pair *p)
 {
     return (struct pair_work){.hit_q30 = PAIRS_NEVER,
-                              .answered_q30 = -1,
+                              .passes = w->passing && world_goes_through(w, world_now(w), p),
                               .senses = w->bodies[p->a].sensor || w->bodies[p->b].sensor,
-                              .passes = w->passing && world_goes_through(w, world_now(w), p)};
+                              .answered_q30 = -1};
 }
 
 static int insert_pair(struct carom_world *w, uint32_t place, uint32_t a, uint32_t b)

@@ -385,7 +385,7 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
         return CAROM_ERR_MEMORY;
     }
     memset(&s, 0, sizeof s);
-    s.out = out;
+    s.out = (uint8_t *)out;
     stream_now(&s, w);
     return size;
 }
@@ -416,7 +416,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     /* built beside the current state, like a step */
     next = world_next(w);
     memset(&s, 0, sizeof s);
-    s.in = in;
+    s.in = (const uint8_t *)in;
     s.size = bytes;
     s.loading = true;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);

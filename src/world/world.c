@@ -74,8 +74,8 @@ static void carve_shared(struct carom_world *w, struct arena *arena)
     size_t found = CAROM_FOUND_BYTES_(caps->bodies, caps->pairs, caps->joints);
     uint8_t *room;
 
-    w->events = arena_carve(arena, EVENTS(caps->bodies, caps->pairs) * sizeof *w->events);
-    room = arena_carve(arena, CAROM_MORE_(solve, found + sizeof *w->scratch));
+    ARENA_CARVE(arena, w->events, EVENTS(caps->bodies, caps->pairs));
+    ARENA_CARVE(arena, room, CAROM_MORE_(solve, found + sizeof *w->scratch));
     w->rest.works = (struct contact_work *)room;
     w->rest.rolls = (struct contact_roll *)(room + works);
     w->scratch = (union world_scratch *)(room + found);
@@ -87,42 +87,38 @@ static void carve(struct carom_world *w, struct arena *arena)
     const struct carom_caps *caps = &w->config.caps;
 
     carve_shared(w, arena);
-    w->bodies = arena_carve(arena, caps->bodies * sizeof *w->bodies);
-    w->pairs = arena_carve(arena, caps->pairs * sizeof *w->pairs);
-    w->meetings = arena_carve(arena, caps->pairs * sizeof *w->meetings);
+    ARENA_CARVE(arena, w->bodies, caps->bodies);
+    ARENA_CARVE(arena, w->pairs, caps->pairs);
+    ARENA_CARVE(arena, w->meetings, caps->pairs);
     for (int i = 0; i < 2; i++) {
         struct world_state *s = &w->states[i];
 
-        s->bodies = arena_carve(arena, caps->bodies * sizeof *s->bodies);
-        s->warm = arena_carve(arena, caps->contacts * sizeof *s->warm);
-        s->touching = arena_carve(arena, caps->pairs * sizeof *s->touching);
+        ARENA_CARVE(arena, s->bodies, caps->bodies);
+        ARENA_CARVE(arena, s->warm, caps->contacts);
+        ARENA_CARVE(arena, s->touching, caps->pairs);
     }
-    w->rest.list.contacts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.contacts);
+    ARENA_CARVE(arena, w->rest.list.contacts, caps->contacts);
     if (caps->entries + caps->extras > 0) { /* what moves as the caller says */
-        w->rest.list.drifts = arena_carve(arena, caps->contacts * sizeof *w->rest.list.drifts);
+        ARENA_CARVE(arena, w->rest.list.drifts, caps->contacts);
     }
     if (caps->extras > 0) {
-        w->rest.list.mixed = arena_carve(arena, caps->contacts * sizeof *w->rest.list.mixed);
+        ARENA_CARVE(arena, w->rest.list.mixed, caps->contacts);
     }
-    w->interfere.faces = arena_carve(arena, caps->faces * sizeof *w->interfere.faces);
-    w->interfere.lists.entry = arena_carve(arena, caps->entries * sizeof *w->interfere.lists.entry);
+    ARENA_CARVE(arena, w->interfere.faces, caps->faces);
+    ARENA_CARVE(arena, w->interfere.lists.entry, caps->entries);
     if (caps->entries > 0) {
-        w->interfere.lists.head =
-            arena_carve(arena, ZLIST_CELLS_MAX * sizeof *w->interfere.lists.head);
+        ARENA_CARVE(arena, w->interfere.lists.head, ZLIST_CELLS_MAX);
     }
-    w->interfere.candidates =
-        arena_carve(arena, caps->candidates * sizeof *w->interfere.candidates);
-    w->hits = arena_carve(arena, caps->hits * sizeof *w->hits);
-    w->extras = arena_carve(arena, caps->extras * sizeof *w->extras);
-    w->rest.joints.joints = arena_carve(arena, caps->joints * sizeof *w->rest.joints.joints);
-    w->rest.joints.rows =
-        arena_carve(arena, caps->joints * JOINT_ROWS * sizeof *w->rest.joints.rows);
+    ARENA_CARVE(arena, w->interfere.candidates, caps->candidates);
+    ARENA_CARVE(arena, w->hits, caps->hits);
+    ARENA_CARVE(arena, w->extras, caps->extras);
+    ARENA_CARVE(arena, w->rest.joints.joints, caps->joints);
+    ARENA_CARVE(arena, w->rest.joints.rows, caps->joints * JOINT_ROWS);
     w->rest.joints.room_size = caps->joints * JOINT_ROOM;
-    w->rest.joints.room =
-        arena_carve(arena, caps->joints * JOINT_ROOM * sizeof *w->rest.joints.room);
-    w->ignored = arena_carve(arena, caps->joints * sizeof *w->ignored);
+    ARENA_CARVE(arena, w->rest.joints.room, caps->joints * JOINT_ROOM);
+    ARENA_CARVE(arena, w->ignored, caps->joints);
     for (int i = 0; i < 2; i++) {
-        w->states[i].joints = arena_carve(arena, caps->joints * sizeof *w->states[i].joints);
+        ARENA_CARVE(arena, w->states[i].joints, caps->joints);
     }
 }
 
@@ -145,7 +141,7 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
         return CAROM_ERR_MEMORY;
     }
     arena_init(&arena, mem, bytes);
-    w = arena_carve(&arena, sizeof *w);
+    ARENA_CARVE(&arena, w, 1);
     w->config = *config;
     w->now = w->states;
 #define SET_SIZE(name, item, low, high) w->pools[CAROM_POOL_##name].size = config->caps.name;
