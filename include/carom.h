@@ -26,6 +26,7 @@
 
 #include "carom_memory.h"
 #include "carom_mesh.h"
+#include "carom_version.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -709,6 +709,24 @@ static void test_texts(void)
     CHECK(carom_result_text(4) != NULL);
 }
 
+/* The number of the library is that of the header, and the text has its three parts. */
+static void test_version(void)
+{
+    int part[3] = {0, 0, 0}, k = 0;
+
+    for (const char *at = CAROM_VERSION_TEXT; *at; at++) {
+        if (*at == '.') {
+            k++;
+            CHECK(k < 3);
+            continue;
+        }
+        part[k] = part[k] * 10 + (*at - '0');
+    }
+    CHECK_EQ(k, 2);
+    CHECK_EQ(part[0], CAROM_VERSION_MAJOR);
+    CHECK_EQ(carom_version(), part[0] * 10000 + part[1] * 100 + part[2]);
+}
+
 static void test_stage_names(void)
 {
     static const char *const names[] = {"predict", "broad", "interfere", "boyse", "contact",
@@ -837,6 +855,7 @@ const struct test tests_world[] = {
     {"world/wake", test_wake},
     {"world/usage", test_usage},
     {"world/texts", test_texts},
+    {"world/version", test_version},
     {"world/stage_names", test_stage_names},
     {"world/report_null", test_report_null},
     {"world/out", test_out},

@@ -2,6 +2,11 @@
 /* What a world tells about its last step, and the texts of the public enums. */
 #include "world.h"
 
+int carom_version(void)
+{
+    return CAROM_VERSION;
+}
+
 const char *carom_result_text(int result)
 {
     static const char *const errors[] = {
