@@ -7,6 +7,8 @@ OPT ?= -O2
 LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
+# 1: the engine is the two sources of `make amalgamation`
+JOINED ?=
 
 # of `make bench` and `make fixtures`, before the board says which scenes it shows
 BENCH_SCENES := $(SCENES)
@@ -31,7 +33,7 @@ ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
 
-B := build/$(BOARD)$(if $(DEBUG),-debug)
+B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(JOINED),-joined)
 TARGET_CC := $(if $(CROSS),$(CROSS)gcc,$(CC))
 TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
@@ -46,8 +48,9 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections
+JOINED_SOURCES := build/amalgamation/carom.c build/amalgamation/carom_draw.c
 PAPER_LINK := -Wl,--wrap=interfere_leaves -Wl,--wrap=interfere_note_faces
-ENGINE_SOURCES := $(wildcard src/*/*.c)
+ENGINE_SOURCES := $(if $(JOINED),$(JOINED_SOURCES),$(wildcard src/*/*.c))
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
 ENGINE_SOURCES += $(wildcard tests/paper/*.c)
@@ -136,7 +139,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards packages build need clean force
+.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards packages amalgamation build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -249,6 +252,10 @@ boards: ## the table of boards in README.md, with the figures that budget and si
 	@tools/need python3
 	@tools/board_table.py
 
+amalgamation: ## two pairs of files to copy into a project, build/amalgamation/carom.[ch] and carom_draw.[ch]
+	@tools/need python3
+	@$(MAKE) $(JOINED_SOURCES)
+
 packages: ## a stranger's project by every way to install Carom, packages/README.md; SYSTEMS= chooses
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/hello.elf >/dev/null
@@ -294,6 +301,12 @@ $(B)/lib%.a:
 	@echo '  ar    $@'
 	rm -f $@
 	$(TARGET_AR) rcs $@ $^
+
+# One command makes both pairs.
+build/amalgamation/carom.c: tools/amalgamate.py tools/gate.py LICENSE $(wildcard src/*/*.[ch] include/*.h)
+	@echo '  join  $(@D)'
+	tools/amalgamate.py $(@D)
+build/amalgamation/carom_draw.c: build/amalgamation/carom.c ;
 
 link = $(TARGET_CC) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) $(LIBS)$(if $(IMAGE_SUFFIX), && \
     $(CROSS)objcopy -O binary $@ $(@:.elf=$(IMAGE_SUFFIX)))$(if $(IMAGE_TOOL), && \

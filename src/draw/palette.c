@@ -22,7 +22,10 @@
 /* In the order of enum carom_colour. */
 #define COLOURS 0x000000, 0xff3030, 0x30e030, 0x4080ff, 0xffe030, 0xff40ff, 0x30e8e8, 0xffffff
 
-/* In the order of enum carom_ramp; the rest is black, for the program. */
+#define BLACK_8 0, 0, 0, 0, 0, 0, 0, 0
+
+/* In the order of enum carom_ramp; then black up to the named colours, for the program. */
+_Static_assert(7 * DRAW_SHADES + 24 == CAROM_COLOUR_BLACK, "colours are where they are named");
 const uint32_t carom_draw_palette[256] = {
     RAMP(0x0e1522, 0x22344c, 0x56708c), /* background */
     RAMP(0x08161c, 0x1f5a5c, 0xcdeeb0), /* stationary */
@@ -31,7 +34,10 @@ const uint32_t carom_draw_palette[256] = {
     RAMP(0x5a1800, 0xf06000, 0xffe040), /* moving, interfering */
     RAMP(0x0a1030, 0x2a5cb0, 0xcfe6ff), /* blue */
     RAMP(0x1a0a30, 0x6c3aa8, 0xe8d0ff), /* violet */
-    [CAROM_COLOUR_BLACK] = COLOURS,
+    BLACK_8,
+    BLACK_8,
+    BLACK_8,
+    COLOURS,
 };
 
 int carom_draw_ramp(uint32_t ramp[CAROM_RAMP_SHADES], uint32_t rgb)
