@@ -9,10 +9,14 @@ static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], room[CAROM_DRAW_BYTES
 int main(void)
 {
     static uint8_t pixels[64 * 64];
-    const struct carom_config config = {CAROM_CAPS(CAPS)};
+    const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
     const struct carom_camera camera = {{{0, 0, 0}}, {{0, CAROM_POSITION_M(1), 0}}, 1 << 16};
-    struct carom_picture picture = {.pixels = pixels, .width = 64, .height = 64, .stride = 64,
-                                    .format = CAROM_PALETTE8, .workspace = room,
+    struct carom_picture picture = {.pixels = pixels,
+                                    .width = 64,
+                                    .height = 64,
+                                    .stride = 64,
+                                    .format = CAROM_PALETTE8,
+                                    .workspace = room,
                                     .workspace_bytes = sizeof room};
     struct carom_world *world;
 
