@@ -50,13 +50,14 @@ static void show_page(int page, const uint8_t columns[WIDTH])
 static uint8_t row[WIDTH], pages[HEIGHT / 8][WIDTH];
 static int32_t drawn = -1; /* the row that is being drawn */
 
-/* The row that is complete, from 32 shades to black and white. The sky is black. */
+/* The row that is complete, from 32 shades to black and white. The sky is black, and the ground darker than the box. */
 static void keep_row()
 {
     static const uint8_t order[4][4] = {{0, 16, 4, 20}, {24, 8, 28, 12}, {6, 22, 2, 18}, {30, 14, 26, 10}};
 
     for (int x = 0; drawn >= 0 && x < WIDTH; x++) {
-        const bool lit = row[x] >= 32 && row[x] % 32 > order[drawn & 3][x & 3];
+        const int ramp = row[x] / 32, shade = row[x] % 32;
+        const bool lit = ramp > 0 && (ramp % 2 == 1 ? shade / 3 : shade) > order[drawn & 3][x & 3];
 
         bitWrite(pages[drawn / 8][x], drawn % 8, lit);
     }
@@ -99,7 +100,7 @@ static void begin_again()
     ground.stationary = true;
     carom_body_add(world, &ground);
     body.mesh = &meshes[1];
-    body.position.c[2] = CAROM_POSITION_MM(1500);
+    body.position.c[2] = CAROM_POSITION_MM(1000);
     body.spin.c[0] = CAROM_SPIN_DEG_S(70, FPS);
     body.spin.c[1] = CAROM_SPIN_DEG_S(40, FPS);
     body.restitution_q30 = CAROM_ONE_Q30 / 2;
@@ -117,8 +118,8 @@ void setup()
 
 void loop()
 {
-    static const carom_camera camera = {{{0, CAROM_POSITION_MM(-3500), CAROM_POSITION_MM(1500)}},
-                                        {{0, 0, CAROM_POSITION_MM(500)}}, 1 << 16};
+    static const carom_camera camera = {{{0, CAROM_POSITION_MM(-1800), CAROM_POSITION_MM(1100)}},
+                                        {{0, 0, CAROM_POSITION_MM(400)}}, 1 << 16};
     carom_picture picture = {};
     carom_body_state state;
 

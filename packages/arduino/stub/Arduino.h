@@ -11,15 +11,31 @@
     ((value) = (uint8_t)((on) ? (value) | 1u << (bit) : (value) & ~(1u << (bit))))
 
 struct StubSerial {
-    void begin(unsigned long) {}
-    void print(const char *text) { fputs(text, stdout); }
-    void print(long number) { printf("%ld", number); }
-    void println(const char *text) { puts(text); }
-    void println(long number) { printf("%ld\n", number); }
+    void begin(unsigned long)
+    {
+    }
+    void print(const char *text)
+    {
+        fputs(text, stdout);
+    }
+    void print(long number)
+    {
+        printf("%ld", number);
+    }
+    void println(const char *text)
+    {
+        puts(text);
+    }
+    void println(long number)
+    {
+        printf("%ld\n", number);
+    }
 };
 static StubSerial Serial __attribute__((unused));
 
-inline void delay(unsigned long) {}
+inline void delay(unsigned long)
+{
+}
 
 void setup();
 void loop();

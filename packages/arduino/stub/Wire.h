@@ -13,9 +13,17 @@ extern size_t stub_sent;
 struct StubWire {
     int control;
 
-    void begin() {}
-    void beginTransmission(int) { control = -1; }
-    int endTransmission() { return 0; }
+    void begin()
+    {
+    }
+    void beginTransmission(int)
+    {
+        control = -1;
+    }
+    int endTransmission()
+    {
+        return 0;
+    }
     size_t write(uint8_t byte)
     {
         if (control < 0) {
