@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: MIT */
+/* The headers that src/bindings.rs has in Rust. */
+#include "carom_version.h"
+#include "carom_body.h"
+#include "carom_debug.h"
+#include "carom_joint.h"
+#include "carom_query.h"
