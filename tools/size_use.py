@@ -59,6 +59,8 @@ USES = [
      "carom_joint_count"),
     ("meshes from vertices and faces", "carom_mesh_bytes carom_mesh_build carom_mesh_check "
      "carom_mesh_read"),
+    ("shapes as meshes", "carom_shape_box carom_shape_sphere carom_shape_capsule "
+     "carom_shape_cylinder carom_shape_cone"),
     ("faces of pairs and points inside", "carom_query_faces carom_query_inside"),
     ("rays", "carom_cast_ray carom_cast_ray_all"),
     ("meshes that are cast and overlaps", "carom_cast_mesh carom_overlap_mesh"),
@@ -94,6 +96,7 @@ def program(calls):
     with open(path, "w") as file:
         file.write('#include "carom.h"\n#include "carom_body.h"\n#include "carom_joint.h"\n'
                    '#include "carom_query.h"\n#include "carom_draw.h"\n#include "carom_debug.h"\n'
+                   '#include "carom_shapes.h"\n'
                    "typedef void any(void);\nany *const calls[] = {%s};\n" %
                    ", ".join("(any *)%s" % name for name in calls))
     return path
