@@ -9,7 +9,7 @@
  * of vertices around z.
  *
  * A shape of n sides has the volume of the round one times, about, 1 - 6.6 / n^2 (cylinder, cone) or
- * 1 - 9.9 / n^2 (sphere), but for the rounding of its vertices.
+ * 1 - 16.5 / n^2 (sphere), but for the rounding of its vertices.
  */
 #ifndef CAROM_SHAPES_H
 #define CAROM_SHAPES_H

@@ -139,6 +139,10 @@ inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::
     std::sort(corners.begin(), corners.end(),
               [&](uint32_t a, uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
 
+    if (touched[sliver]) {
+        return false; /* it has other edges than `uses` knows: the next round takes it */
+    }
+
     const uint32_t low = corners[0], middle = corners[1], high = corners[2];
     const std::vector<EdgeUse> &pair = uses.at({std::min(low, high), std::max(low, high)});
 
@@ -151,7 +155,7 @@ inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::
     }
     const uint32_t other = pair[0].face == sliver ? pair[1].face : pair[0].face;
 
-    if (touched[other] || touched[sliver]) {
+    if (touched[other]) {
         return false;
     }
     touched[other] = touched[sliver] = true;
@@ -189,6 +193,43 @@ inline void mend_slivers(Mesh &mesh)
     }
 }
 
+inline void check_counts(const Mesh &mesh)
+{
+    if (mesh.vertices.size() > count_max || mesh.faces.size() > count_max) {
+        throw Refusal(counted(mesh.vertices.size(), "vertex") + " and " +
+                      counted(mesh.faces.size(), "face") +
+                      " after welding, but at most 65535 of each are possible: simplify the mesh");
+    }
+}
+
+/* The engine's own limits of a mesh's box. */
+inline void check_size(const Mesh &mesh)
+{
+    Point low = in_units(mesh, 0), high = low, side;
+
+    for (uint32_t v = 0; v < mesh.vertices.size(); v++) {
+        const Point p = in_units(mesh, v);
+
+        for (size_t k = 0; k < 3; k++) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    for (size_t k = 0; k < 3; k++) {
+        side[k] = high[k] - low[k];
+    }
+    const double longest = *std::max_element(side.begin(), side.end());
+    const double diagonal = std::hypot(side[0], side[1], side[2]);
+
+    if (longest > side_max || diagonal > diagonal_max) {
+        throw Refusal(
+            format("%.10g x %.10g x %.10g units is too large: a side may have %g units and "
+                   "the diagonal %g; shrink the mesh, e.g. with --scale %.3g",
+                   side[0], side[1], side[2], side_max, diagonal_max,
+                   std::min(side_max / longest, diagonal_max / diagonal) * 0.99));
+    }
+}
+
 inline void check_faces(const Mesh &mesh)
 {
     std::vector<std::string> flat;
@@ -196,11 +237,6 @@ inline void check_faces(const Mesh &mesh)
     if (mesh.faces.empty()) {
         throw Refusal("no face is left after welding: the mesh is too small; enlarge it with "
                       "--scale or give a larger --quantum-bits");
-    }
-    if (mesh.vertices.size() > count_max || mesh.faces.size() > count_max) {
-        throw Refusal(counted(mesh.vertices.size(), "vertex") + " and " +
-                      counted(mesh.faces.size(), "face") +
-                      " after welding, but at most 65535 of each are possible: simplify the mesh");
     }
     for (const Face &f : mesh.faces) {
         if (!has_area(mesh, f)) {

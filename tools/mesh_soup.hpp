@@ -29,6 +29,7 @@ using Edge = std::pair<uint32_t, uint32_t>; /* lower vertex first */
 
 constexpr int bits_min = 7, bits_max = 20;
 constexpr size_t count_max = 65535;
+constexpr double side_max = 256, diagonal_max = 384; /* units, of carom_mesh_build */
 constexpr int32_t coordinate_max = 32767;
 constexpr size_t listed_max = 100; /* places that a message lists */
 
