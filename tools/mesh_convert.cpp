@@ -33,7 +33,7 @@ namespace
 using namespace mend;
 
 struct Options {
-    std::string in, out_c, out_blob, name;
+    std::string in, out_c, out_blob, name, object;
     bool surface = false, check_only = false, indexed = false;
     int bits = 0; /* 0: choose */
     double scale = 1;
@@ -234,7 +234,8 @@ void write_outputs(const Options &options, const Mesh &mesh)
     }
 }
 
-void print_report(const Options &options, const Mesh &mesh, const std::string &doubt)
+void print_report(const Options &options, const Mesh &mesh, const Soup &soup,
+                  const std::string &doubt)
 {
     std::printf("%s: %s, quantum 2^-%d units\n", options.in.c_str(),
                 mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
@@ -256,6 +257,17 @@ void print_report(const Options &options, const Mesh &mesh, const std::string &d
     for (const std::string &what : mesh.mended) {
         std::printf("  mended    %s\n", what.c_str());
     }
+    if (soup.objects.size() > 1 && options.object.empty()) {
+        std::printf("  joined    %zu objects:%s\n", soup.objects.size(),
+                    listed(soup.objects).c_str());
+    }
+    if (soup.materials > 1) {
+        std::printf("  dropped   %zu materials and what they hold: a mesh has no colours\n",
+                    soup.materials);
+    }
+    for (const std::string &what : mesh.notes) {
+        std::printf("  note      %s\n", what.c_str());
+    }
     if (!doubt.empty()) {
         std::printf("  note      %s\n", doubt.c_str());
     }
@@ -274,6 +286,8 @@ const char usage[] =
     "      --quantum-bits N    coordinates in steps of 2^-N units, N from 7 to 20\n"
     "      --scale F           multiply coordinates by F first\n"
     "      --unit mm|m         what a coordinate of the file counts; a unit of Carom is a metre\n"
+    "      --object NAME       only the object of this name, with all below it; otherwise all, "
+    "joined\n"
     "      --up y|z            which axis of the file is up; otherwise z\n";
 
 /* An identifier of C from a file's name. */
@@ -318,6 +332,7 @@ Options parse(int argc, char **argv)
         {"quantum-bits", required_argument, nullptr, 'q'},
         {"scale", required_argument, nullptr, 'f'},
         {"unit", required_argument, nullptr, 'm'},
+        {"object", required_argument, nullptr, 'j'},
         {"up", required_argument, nullptr, 'u'},
         {"help", no_argument, nullptr, 'h'},
         {nullptr, 0, nullptr, 0},
@@ -368,6 +383,9 @@ Options parse(int argc, char **argv)
             options.unit_said = true;
             options.millimetres = std::string(optarg) == "mm";
             break;
+        case 'j':
+            options.object = optarg;
+            break;
         case 'u':
             if (std::string(optarg) != "y" && std::string(optarg) != "z") {
                 throw Refusal("--up: y or z, not " + std::string(optarg));
@@ -405,7 +423,8 @@ int main(int argc, char **argv)
     try {
         options = parse(argc, argv);
 
-        Soup soup = read_file(options.in, options.scale * (options.millimetres ? 0.001 : 1));
+        Soup soup = read_file(options.in, options.scale * (options.millimetres ? 0.001 : 1),
+                              options.object);
 
         if (options.y_up) {
             turn_up(soup.points);
@@ -423,7 +442,7 @@ int main(int argc, char **argv)
             add_doubt(doubt, doubt_about_volume(soup, mesh));
         }
         write_outputs(options, mesh);
-        print_report(options, mesh, doubt);
+        print_report(options, mesh, soup, doubt);
     } catch (const std::exception &refusal) {
         std::fprintf(stderr, "carom-mesh: %s%s%s\n", options.in.c_str(),
                      options.in.empty() ? "" : ": ", refusal.what());

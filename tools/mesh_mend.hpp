@@ -250,13 +250,53 @@ inline void check_faces(const Mesh &mesh)
     }
 }
 
-inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
+/* Open edges, those of a hole behind one another: edges that share a vertex are of one hole. */
+inline std::vector<std::string> holes(const Mesh &mesh, const EdgeUses &uses)
 {
-    std::vector<std::string> open, crowded;
+    std::map<uint32_t, std::vector<Edge>> at;
+    std::set<Edge> seen;
+    std::vector<std::string> lines;
+    size_t number = 0;
 
     for (const auto &[edge, faces] : uses) {
         if (faces.size() == 1) {
-            open.push_back(describe(mesh, edge));
+            at[edge.first].push_back(edge);
+            at[edge.second].push_back(edge);
+        }
+    }
+    for (const auto &start : at) {
+        std::vector<Edge> hole, next = start.second;
+
+        while (!next.empty()) {
+            const Edge edge = next.back();
+
+            next.pop_back();
+            if (seen.insert(edge).second) {
+                hole.push_back(edge);
+                for (uint32_t v : {edge.first, edge.second}) {
+                    next.insert(next.end(), at[v].begin(), at[v].end());
+                }
+            }
+        }
+        if (!hole.empty()) {
+            lines.push_back("hole " + std::to_string(++number) + ", " +
+                            counted(hole.size(), "edge"));
+        }
+        for (const Edge &edge : hole) {
+            lines.push_back("  " + describe(mesh, edge));
+        }
+    }
+    return lines;
+}
+
+inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
+{
+    std::vector<std::string> crowded;
+    size_t open = 0;
+
+    for (const auto &[edge, faces] : uses) {
+        if (faces.size() == 1) {
+            open++;
         } else if (faces.size() > 2) {
             crowded.push_back(describe(mesh, edge) + ": " + counted(faces.size(), "face"));
         }
@@ -266,11 +306,11 @@ inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
                       ", where more than two faces meet: take the parts apart there" +
                       listed(crowded));
     }
-    if (!open.empty() && !mesh.surface) {
-        throw Refusal(counted(open.size(), "open edge") +
+    if (open && !mesh.surface) {
+        throw Refusal(counted(open, "open edge") +
                       ", where only one face is: a SOLID must be closed. Fill the holes, weld more "
                       "with a smaller --quantum-bits, or use --surface for a height field" +
-                      listed(open));
+                      listed(holes(mesh, uses)));
     }
 }
 
@@ -371,6 +411,35 @@ inline bool encloses(const Part &outer, const Part &inner)
     return outer.measure > 0;
 }
 
+/* Parts that both are full and whose boxes cross are named: what both hold counts twice. */
+inline void note_overlaps(Mesh &mesh, const std::vector<Part> &parts)
+{
+    const auto box = [&](const Part &part) {
+        Point low, high;
+
+        for (size_t k = 0; k < 3; k++) {
+            low[k] = std::ldexp(part.low[k], -mesh.bits);
+            high[k] = std::ldexp(part.high[k], -mesh.bits);
+        }
+        return place(low) + " - " + place(high);
+    };
+    for (size_t i = 0; i < parts.size() && mesh.notes.size() < listed_max; i++) {
+        for (size_t j = 0; j < i && mesh.notes.size() < listed_max; j++) {
+            bool cross = parts[i].measure > 0 && parts[j].measure > 0;
+
+            for (size_t k = 0; k < 3; k++) {
+                cross = cross && parts[i].low[k] < parts[j].high[k] &&
+                        parts[j].low[k] < parts[i].high[k];
+            }
+            if (cross) {
+                mesh.notes.push_back("the parts in the boxes " + box(parts[j]) + " and " +
+                                     box(parts[i]) +
+                                     " may overlap: the volume of what both hold counts twice");
+            }
+        }
+    }
+}
+
 /* One winding a part, then outwards (SOLID) or up (SURFACE). A part of negative volume within the
  * box of another is a cavity and stays. */
 inline void orient(Mesh &mesh, const EdgeUses &uses)
@@ -408,6 +477,9 @@ inline void orient(Mesh &mesh, const EdgeUses &uses)
         } else if (part.measure < 0) {
             turn_part(part);
         }
+    }
+    if (!mesh.surface) {
+        note_overlaps(mesh, parts);
     }
     if (disagreed) {
         mesh.mended.push_back("turned " + counted(disagreed, "face") +

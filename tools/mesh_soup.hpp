@@ -44,6 +44,8 @@ struct Soup {
     std::vector<Point> points;
     std::vector<Face> faces;
     size_t polygons = 0;
+    std::vector<std::string> objects; /* names of the nodes that are joined */
+    size_t materials = 0;
     std::string doubt; /* what looked odd about the file; empty: nothing */
 };
 
@@ -55,6 +57,7 @@ struct Mesh {
     size_t polygons = 0, triangles = 0; /* of the file */
     size_t edges = 0;
     std::vector<std::string> mended; /* what was done, in words */
+    std::vector<std::string> notes;  /* what may not be as it was meant */
 };
 
 /* --------------------------------------------------------------------- texts */
