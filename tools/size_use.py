@@ -59,8 +59,6 @@ USES = [
      "carom_joint_count"),
     ("meshes from vertices and faces", "carom_mesh_bytes carom_mesh_build carom_mesh_check "
      "carom_mesh_read"),
-    ("shapes as meshes", "carom_shape_box carom_shape_sphere carom_shape_capsule "
-     "carom_shape_cylinder carom_shape_cone"),
     ("faces of pairs and points inside", "carom_query_faces carom_query_inside"),
     ("rays", "carom_cast_ray carom_cast_ray_all"),
     ("meshes that are cast and overlaps", "carom_cast_mesh carom_overlap_mesh"),
@@ -72,6 +70,8 @@ USES = [
     ("picking", "carom_view_ray carom_draw_pick"),
     ("lines and text over pictures", "carom_draw_line carom_draw_text carom_draw_ramp"),
     ("triangles and lines for other renderers", "carom_debug_draw carom_debug_keep_line"),
+    ("shapes as meshes", "carom_shape_box carom_shape_sphere carom_shape_capsule "
+     "carom_shape_cylinder carom_shape_cone"),
 ]
 
 HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
