@@ -92,6 +92,20 @@ write("points.obj", obj(box, []))
 write("index.obj", obj(box, quads + [(0, 1, 99)]))
 write("nan.obj", obj([("nan", 0, 0)] + box[1:], quads))
 write("infinite.obj", obj([("inf", 0, 0)] + box[1:], quads))
+write("long.obj", obj([(100 * x - 150, y, z) for x, y, z in box], quads))
+write("diagonal.obj", obj([(x * 83 - 125, y * 124 - 124, z * 249 - 124) for x, y, z in box], quads))
+write("micro.obj", obj([(1e-6 * (x / 3 - 0.5), 1e-6 * (y / 2 - 0.5), 1e-6 * (z - 0.5))
+                        for x, y, z in box], quads))
+write("large.obj", obj([(x / 300, y / 300, (x * y % 7) / 300) for x in range(661) for y in range(661)],
+                       [(a, a + 661, a + 662, a + 1) for x in range(660)
+                        for a in range(661 * x, 661 * x + 660)]))
+def named(name, points, polygons, before=0):
+    return "o %s\n" % name + obj(points, moved(polygons, before))
+write("two.obj", named("left", box, quads)
+      + named("right", [(x / 3 + 10, y, z) for x, y, z in box], quads, 8))
+write("nested.obj", named("out", [(3 * x - 3, 3 * y - 2, 3 * z - 1) for x, y, z in box], quads)
+      + named("in", box, quads, 8))
+write("holes.obj", obj(box, quads[:4]))
 write("far.obj", obj([(200 * x, y, z) for x, y, z in box], quads))
 write("hollow.obj", obj([(3 * x - 3, 3 * y - 2, 3 * z - 1) for x, y, z in box] + box,
                         quads + moved(back(quads), 8)))
@@ -200,6 +214,15 @@ done
 accepts polygons_not_convex bent.obj '8 polygons, 20 triangles' 'volume    3' \
     'centre    0.833333333 0.833333333 0.5'
 accepts scale '--scale 0.5 box.obj' 'volume    0.75'
+accepts unit_mm '--unit mm --scale 1000 box.obj' 'volume    6'
+accepts unit_guessed '--scale 40 box.obj' 'looks like millimetres'
+accepts up_y '--up y box.obj' 'volume    6' 'centre    1.5 -0.5 1'
+# corners at half a micrometre are 0.52 quanta of 2^-20 from the origin: 2^-60 * 2^3 / 10^-18 = 6.94
+accepts bent_by_quanta micro.obj 'makes the volume 6.94 times'
+accepts objects_joined two.obj 'joined    2 objects' left right '24 faces' 'volume    8'
+accepts one_object '--object right two.obj' '12 faces' 'volume    2'
+accepts nested_named nested.obj 'the parts in the boxes (-3, -2, -1) - (6, 4, 2) and (0, 0, 0) - (3, 2, 1)' \
+    'counts twice'
 accepts own_grid box.obj 'quantum 2^-7 '
 accepts finest_grid '--scale 0.7 box.obj' 'quantum 2^-13 ' # 2.1 * 2^13 < 32767 < 2.1 * 2^14
 accepts asked_grid '--quantum-bits 9 box.obj' 'quantum 2^-9 '
@@ -235,6 +258,12 @@ for file in nan.obj infinite.obj nan_text.stl nan.gltf; do
 done
 refuses many_vertices '--surface many.obj' '70280 vertices' 'at most 65535' simplify
 refuses coordinates_too_large far.obj '600 units is too large' '255.9921875' --scale
+refuses side_too_long long.obj '300 x 2 x 1 units is too large' 'a side may have 256 units'
+refuses diagonal_too_long '--scale 1 diagonal.obj' '249 x 248 x 249 units is too large' 'the diagonal 384'
+refuses many_faces '--surface large.obj' '436921 vertices and 871200 faces' 'at most 65535' simplify
+refuses bad_unit_size '--unit m long.obj' '300 x 2 x 1 units is too large'
+refuses no_such_object '--object middle two.obj' "no faces of an object 'middle'" left right
+refuses two_holes holes.obj '8 open edges' 'hole 1, 4 edges' 'hole 2, 4 edges'
 refuses quantum_too_fine '--quantum-bits 14 box.obj' 'use --quantum-bits 13'
 refuses too_small '--scale 0.0000001 box.obj' 'too small' --scale
 refuses no_volume ground.obj '4 open edges'

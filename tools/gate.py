@@ -17,7 +17,8 @@ ALONE = {"draw": ["num", "mesh"]}
 
 PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",
           "include/carom_body.h", "include/carom_joint.h", "include/carom_query.h",
-          "include/carom_draw.h", "include/carom_debug.h", "include/carom_version.h"]
+          "include/carom_draw.h", "include/carom_debug.h", "include/carom_shapes.h",
+          "include/carom_version.h"]
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]

@@ -33,10 +33,11 @@ namespace
 using namespace mend;
 
 struct Options {
-    std::string in, out_c, out_blob, name;
+    std::string in, out_c, out_blob, name, object;
     bool surface = false, check_only = false, indexed = false;
     int bits = 0; /* 0: choose */
     double scale = 1;
+    bool y_up = false, unit_said = false, millimetres = false;
 };
 
 /* -------------------------------------------------------------------- making */
@@ -47,9 +48,11 @@ Mesh make_mesh(const Soup &soup, bool surface, int asked_bits)
 
     drop_collapsed_faces(mesh);
     drop_double_faces(mesh);
+    check_counts(mesh);
     mend_slivers(mesh);
     drop_unused_vertices(mesh);
     check_faces(mesh);
+    check_size(mesh);
 
     const EdgeUses uses = edges_of(mesh);
 
@@ -63,6 +66,31 @@ Mesh make_mesh(const Soup &soup, bool surface, int asked_bits)
         throw Refusal("the mesh has no volume: for a height field use --surface");
     }
     return mesh;
+}
+
+/* y up to z up: a quarter of a turn about x. */
+void turn_up(std::vector<Point> &points)
+{
+    for (Point &p : points) {
+        p = {p[0], -p[2], p[1]};
+    }
+}
+
+/* Few things that fall are 30 m long, and many files count millimetres. */
+std::string doubt_about_unit(const std::vector<Point> &points)
+{
+    const double largest = largest_coordinate(points);
+
+    return largest < 30
+               ? ""
+               : format("a coordinate of %.10g looks like millimetres: --unit mm divides by "
+                        "1000, --unit m says that they are metres",
+                        largest);
+}
+
+void add_doubt(std::string &doubt, const std::string &more)
+{
+    doubt += doubt.empty() || more.empty() ? more : "; " + more;
 }
 
 /* ------------------------------------------------------------------- writing */
@@ -102,8 +130,8 @@ std::string c_source(const Mesh &mesh, const std::string &name, const std::strin
     return out.str();
 }
 
-/* The same, indexed. */
-std::string c_source_indexed(const Mesh &mesh, const std::string &name, const std::string &from)
+/* Index a mesh as the engine does, and hand on what it refuses. */
+std::string indexed_source(const Mesh &mesh, const std::string &name)
 {
     std::vector<std::array<int16_t, 3>> vertices;
     std::vector<std::array<uint16_t, 3>> faces;
@@ -125,10 +153,16 @@ std::string c_source_indexed(const Mesh &mesh, const std::string &name, const st
                                 uint8_t(mesh.surface ? CAROM_SURFACE : CAROM_SOLID)};
 
     if (const int result = rom::index(indexed, raw, memory)) {
-        throw Refusal(carom_result_text(result));
+        throw Refusal(std::string("the engine does not take it: ") + carom_result_text(result));
     }
+    return name.empty() ? "" : rom::c_source(indexed, name, false);
+}
+
+/* The same, indexed. */
+std::string c_source_indexed(const Mesh &mesh, const std::string &name, const std::string &from)
+{
     return c_head(from) + "extern const struct carom_mesh " + name + ";\n\n" +
-           rom::c_source(indexed, name, false);
+           indexed_source(mesh, name);
 }
 
 /* Append the low bytes of a number, lowest first. */
@@ -200,7 +234,8 @@ void write_outputs(const Options &options, const Mesh &mesh)
     }
 }
 
-void print_report(const Options &options, const Mesh &mesh, const std::string &doubt)
+void print_report(const Options &options, const Mesh &mesh, const Soup &soup,
+                  const std::string &doubt)
 {
     std::printf("%s: %s, quantum 2^-%d units\n", options.in.c_str(),
                 mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
@@ -222,6 +257,17 @@ void print_report(const Options &options, const Mesh &mesh, const std::string &d
     for (const std::string &what : mesh.mended) {
         std::printf("  mended    %s\n", what.c_str());
     }
+    if (soup.objects.size() > 1 && options.object.empty()) {
+        std::printf("  joined    %zu objects:%s\n", soup.objects.size(),
+                    listed(soup.objects).c_str());
+    }
+    if (soup.materials > 1) {
+        std::printf("  dropped   %zu materials and what they hold: a mesh has no colours\n",
+                    soup.materials);
+    }
+    for (const std::string &what : mesh.notes) {
+        std::printf("  note      %s\n", what.c_str());
+    }
     if (!doubt.empty()) {
         std::printf("  note      %s\n", doubt.c_str());
     }
@@ -238,7 +284,11 @@ const char usage[] =
     "      --surface           a height field, open, z up; otherwise a closed solid\n"
     "      --name NAME         of the mesh in the C source; otherwise the file's\n"
     "      --quantum-bits N    coordinates in steps of 2^-N units, N from 7 to 20\n"
-    "      --scale F           multiply coordinates by F first\n";
+    "      --scale F           multiply coordinates by F first\n"
+    "      --unit mm|m         what a coordinate of the file counts; a unit of Carom is a metre\n"
+    "      --object NAME       only the object of this name, with all below it; otherwise all, "
+    "joined\n"
+    "      --up y|z            which axis of the file is up; otherwise z\n";
 
 /* An identifier of C from a file's name. */
 std::string name_from(const std::string &path)
@@ -281,6 +331,9 @@ Options parse(int argc, char **argv)
         {"name", required_argument, nullptr, 'n'},
         {"quantum-bits", required_argument, nullptr, 'q'},
         {"scale", required_argument, nullptr, 'f'},
+        {"unit", required_argument, nullptr, 'm'},
+        {"object", required_argument, nullptr, 'j'},
+        {"up", required_argument, nullptr, 'u'},
         {"help", no_argument, nullptr, 'h'},
         {nullptr, 0, nullptr, 0},
     };
@@ -323,6 +376,22 @@ Options parse(int argc, char **argv)
                 throw Refusal("--scale: must be above 0");
             }
             break;
+        case 'm':
+            if (std::string(optarg) != "mm" && std::string(optarg) != "m") {
+                throw Refusal("--unit: mm or m, not " + std::string(optarg));
+            }
+            options.unit_said = true;
+            options.millimetres = std::string(optarg) == "mm";
+            break;
+        case 'j':
+            options.object = optarg;
+            break;
+        case 'u':
+            if (std::string(optarg) != "y" && std::string(optarg) != "z") {
+                throw Refusal("--up: y or z, not " + std::string(optarg));
+            }
+            options.y_up = std::string(optarg) == "y";
+            break;
         case 'h':
             std::fputs(usage, stdout);
             std::exit(0);
@@ -354,14 +423,26 @@ int main(int argc, char **argv)
     try {
         options = parse(argc, argv);
 
-        const Soup soup = read_file(options.in, options.scale);
+        Soup soup = read_file(options.in, options.scale * (options.millimetres ? 0.001 : 1),
+                              options.object);
 
+        if (options.y_up) {
+            turn_up(soup.points);
+            turn_up(soup.order);
+        }
         doubt = soup.doubt;
+        if (!options.unit_said) {
+            add_doubt(doubt, doubt_about_unit(soup.points));
+        }
 
         const Mesh mesh = make_mesh(soup, options.surface, options.bits);
 
+        indexed_source(mesh, "");
+        if (!options.surface) {
+            add_doubt(doubt, doubt_about_volume(soup, mesh));
+        }
         write_outputs(options, mesh);
-        print_report(options, mesh, doubt);
+        print_report(options, mesh, soup, doubt);
     } catch (const std::exception &refusal) {
         std::fprintf(stderr, "carom-mesh: %s%s%s\n", options.in.c_str(),
                      options.in.empty() ? "" : ": ", refusal.what());

@@ -139,6 +139,10 @@ inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::
     std::sort(corners.begin(), corners.end(),
               [&](uint32_t a, uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
 
+    if (touched[sliver]) {
+        return false; /* it has other edges than `uses` knows: the next round takes it */
+    }
+
     const uint32_t low = corners[0], middle = corners[1], high = corners[2];
     const std::vector<EdgeUse> &pair = uses.at({std::min(low, high), std::max(low, high)});
 
@@ -151,7 +155,7 @@ inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::
     }
     const uint32_t other = pair[0].face == sliver ? pair[1].face : pair[0].face;
 
-    if (touched[other] || touched[sliver]) {
+    if (touched[other]) {
         return false;
     }
     touched[other] = touched[sliver] = true;
@@ -189,6 +193,43 @@ inline void mend_slivers(Mesh &mesh)
     }
 }
 
+inline void check_counts(const Mesh &mesh)
+{
+    if (mesh.vertices.size() > count_max || mesh.faces.size() > count_max) {
+        throw Refusal(counted(mesh.vertices.size(), "vertex") + " and " +
+                      counted(mesh.faces.size(), "face") +
+                      " after welding, but at most 65535 of each are possible: simplify the mesh");
+    }
+}
+
+/* The engine's own limits of a mesh's box. */
+inline void check_size(const Mesh &mesh)
+{
+    Point low = in_units(mesh, 0), high = low, side;
+
+    for (uint32_t v = 0; v < mesh.vertices.size(); v++) {
+        const Point p = in_units(mesh, v);
+
+        for (size_t k = 0; k < 3; k++) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+    }
+    for (size_t k = 0; k < 3; k++) {
+        side[k] = high[k] - low[k];
+    }
+    const double longest = *std::max_element(side.begin(), side.end());
+    const double diagonal = std::hypot(side[0], side[1], side[2]);
+
+    if (longest > side_max || diagonal > diagonal_max) {
+        throw Refusal(
+            format("%.10g x %.10g x %.10g units is too large: a side may have %g units and "
+                   "the diagonal %g; shrink the mesh, e.g. with --scale %.3g",
+                   side[0], side[1], side[2], side_max, diagonal_max,
+                   std::min(side_max / longest, diagonal_max / diagonal) * 0.99));
+    }
+}
+
 inline void check_faces(const Mesh &mesh)
 {
     std::vector<std::string> flat;
@@ -196,11 +237,6 @@ inline void check_faces(const Mesh &mesh)
     if (mesh.faces.empty()) {
         throw Refusal("no face is left after welding: the mesh is too small; enlarge it with "
                       "--scale or give a larger --quantum-bits");
-    }
-    if (mesh.vertices.size() > count_max || mesh.faces.size() > count_max) {
-        throw Refusal(counted(mesh.vertices.size(), "vertex") + " and " +
-                      counted(mesh.faces.size(), "face") +
-                      " after welding, but at most 65535 of each are possible: simplify the mesh");
     }
     for (const Face &f : mesh.faces) {
         if (!has_area(mesh, f)) {
@@ -214,13 +250,53 @@ inline void check_faces(const Mesh &mesh)
     }
 }
 
-inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
+/* Open edges, those of a hole behind one another: edges that share a vertex are of one hole. */
+inline std::vector<std::string> holes(const Mesh &mesh, const EdgeUses &uses)
 {
-    std::vector<std::string> open, crowded;
+    std::map<uint32_t, std::vector<Edge>> at;
+    std::set<Edge> seen;
+    std::vector<std::string> lines;
+    size_t number = 0;
 
     for (const auto &[edge, faces] : uses) {
         if (faces.size() == 1) {
-            open.push_back(describe(mesh, edge));
+            at[edge.first].push_back(edge);
+            at[edge.second].push_back(edge);
+        }
+    }
+    for (const auto &start : at) {
+        std::vector<Edge> hole, next = start.second;
+
+        while (!next.empty()) {
+            const Edge edge = next.back();
+
+            next.pop_back();
+            if (seen.insert(edge).second) {
+                hole.push_back(edge);
+                for (uint32_t v : {edge.first, edge.second}) {
+                    next.insert(next.end(), at[v].begin(), at[v].end());
+                }
+            }
+        }
+        if (!hole.empty()) {
+            lines.push_back("hole " + std::to_string(++number) + ", " +
+                            counted(hole.size(), "edge"));
+        }
+        for (const Edge &edge : hole) {
+            lines.push_back("  " + describe(mesh, edge));
+        }
+    }
+    return lines;
+}
+
+inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
+{
+    std::vector<std::string> crowded;
+    size_t open = 0;
+
+    for (const auto &[edge, faces] : uses) {
+        if (faces.size() == 1) {
+            open++;
         } else if (faces.size() > 2) {
             crowded.push_back(describe(mesh, edge) + ": " + counted(faces.size(), "face"));
         }
@@ -230,11 +306,11 @@ inline void check_edges(const Mesh &mesh, const EdgeUses &uses)
                       ", where more than two faces meet: take the parts apart there" +
                       listed(crowded));
     }
-    if (!open.empty() && !mesh.surface) {
-        throw Refusal(counted(open.size(), "open edge") +
+    if (open && !mesh.surface) {
+        throw Refusal(counted(open, "open edge") +
                       ", where only one face is: a SOLID must be closed. Fill the holes, weld more "
                       "with a smaller --quantum-bits, or use --surface for a height field" +
-                      listed(open));
+                      listed(holes(mesh, uses)));
     }
 }
 
@@ -335,6 +411,35 @@ inline bool encloses(const Part &outer, const Part &inner)
     return outer.measure > 0;
 }
 
+/* Parts that both are full and whose boxes cross are named: what both hold counts twice. */
+inline void note_overlaps(Mesh &mesh, const std::vector<Part> &parts)
+{
+    const auto box = [&](const Part &part) {
+        Point low, high;
+
+        for (size_t k = 0; k < 3; k++) {
+            low[k] = std::ldexp(part.low[k], -mesh.bits);
+            high[k] = std::ldexp(part.high[k], -mesh.bits);
+        }
+        return place(low) + " - " + place(high);
+    };
+    for (size_t i = 0; i < parts.size() && mesh.notes.size() < listed_max; i++) {
+        for (size_t j = 0; j < i && mesh.notes.size() < listed_max; j++) {
+            bool cross = parts[i].measure > 0 && parts[j].measure > 0;
+
+            for (size_t k = 0; k < 3; k++) {
+                cross = cross && parts[i].low[k] < parts[j].high[k] &&
+                        parts[j].low[k] < parts[i].high[k];
+            }
+            if (cross) {
+                mesh.notes.push_back("the parts in the boxes " + box(parts[j]) + " and " +
+                                     box(parts[i]) +
+                                     " may overlap: the volume of what both hold counts twice");
+            }
+        }
+    }
+}
+
 /* One winding a part, then outwards (SOLID) or up (SURFACE). A part of negative volume within the
  * box of another is a cavity and stays. */
 inline void orient(Mesh &mesh, const EdgeUses &uses)
@@ -372,6 +477,9 @@ inline void orient(Mesh &mesh, const EdgeUses &uses)
         } else if (part.measure < 0) {
             turn_part(part);
         }
+    }
+    if (!mesh.surface) {
+        note_overlaps(mesh, parts);
     }
     if (disagreed) {
         mesh.mended.push_back("turned " + counted(disagreed, "face") +

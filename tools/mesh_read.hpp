@@ -227,15 +227,22 @@ inline void join_mesh(Soup &soup, const aiMesh &in, const aiMatrix4x4 &m, double
 }
 
 inline void join_nodes(Soup &soup, const aiScene &scene, const aiNode &node,
-                       const aiMatrix4x4 &parent, double scale)
+                       const aiMatrix4x4 &parent, double scale, const std::string &object)
 {
     const aiMatrix4x4 transform = parent * node.mTransformation;
 
-    for (unsigned i = 0; i < node.mNumMeshes; i++) {
+    const std::string name = node.mName.C_Str();
+    const bool taken = object.empty() || name == object;
+
+    if (node.mNumMeshes) {
+        soup.objects.push_back(name);
+    }
+    for (unsigned i = 0; i < node.mNumMeshes && taken; i++) {
         join_mesh(soup, *scene.mMeshes[node.mMeshes[i]], transform, scale);
     }
     for (unsigned i = 0; i < node.mNumChildren; i++) {
-        join_nodes(soup, scene, *node.mChildren[i], transform, scale);
+        /* all below an object belongs to it */
+        join_nodes(soup, scene, *node.mChildren[i], transform, scale, taken ? "" : object);
     }
 }
 
@@ -298,7 +305,8 @@ class Complaints : public Assimp::LogStream
     std::string &text_;
 };
 
-inline Soup read_file(const std::string &path, double scale)
+/* Every object of a file, or the one of a name with all below it. */
+inline Soup read_file(const std::string &path, double scale, const std::string &object)
 {
     Soup soup;
     std::string complaints;
@@ -339,7 +347,11 @@ inline Soup read_file(const std::string &path, double scale)
     if (!scene) {
         throw Refusal("its polygons cannot be cut into triangles: triangulate it in the editor");
     }
-    join_nodes(soup, *scene, *scene->mRootNode, aiMatrix4x4(), scale);
+    join_nodes(soup, *scene, *scene->mRootNode, aiMatrix4x4(), scale, object);
+    if (soup.faces.empty()) {
+        throw Refusal("has no faces of an object '" + object + "'; it has" + listed(soup.objects));
+    }
+    soup.materials = scene->mNumMaterials;
     Assimp::DefaultLogger::kill();
     return soup;
 }

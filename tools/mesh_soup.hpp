@@ -29,6 +29,7 @@ using Edge = std::pair<uint32_t, uint32_t>; /* lower vertex first */
 
 constexpr int bits_min = 7, bits_max = 20;
 constexpr size_t count_max = 65535;
+constexpr double side_max = 256, diagonal_max = 384; /* units, of carom_mesh_build */
 constexpr int32_t coordinate_max = 32767;
 constexpr size_t listed_max = 100; /* places that a message lists */
 
@@ -43,6 +44,8 @@ struct Soup {
     std::vector<Point> points;
     std::vector<Face> faces;
     size_t polygons = 0;
+    std::vector<std::string> objects; /* names of the nodes that are joined */
+    size_t materials = 0;
     std::string doubt; /* what looked odd about the file; empty: nothing */
 };
 
@@ -54,6 +57,7 @@ struct Mesh {
     size_t polygons = 0, triangles = 0; /* of the file */
     size_t edges = 0;
     std::vector<std::string> mended; /* what was done, in words */
+    std::vector<std::string> notes;  /* what may not be as it was meant */
 };
 
 /* --------------------------------------------------------------------- texts */

@@ -70,6 +70,8 @@ USES = [
     ("picking", "carom_view_ray carom_draw_pick"),
     ("lines and text over pictures", "carom_draw_line carom_draw_text carom_draw_ramp"),
     ("triangles and lines for other renderers", "carom_debug_draw carom_debug_keep_line"),
+    ("shapes as meshes", "carom_shape_box carom_shape_sphere carom_shape_capsule "
+     "carom_shape_cylinder carom_shape_cone"),
 ]
 
 HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
@@ -94,6 +96,7 @@ def program(calls):
     with open(path, "w") as file:
         file.write('#include "carom.h"\n#include "carom_body.h"\n#include "carom_joint.h"\n'
                    '#include "carom_query.h"\n#include "carom_draw.h"\n#include "carom_debug.h"\n'
+                   '#include "carom_shapes.h"\n'
                    "typedef void any(void);\nany *const calls[] = {%s};\n" %
                    ", ".join("(any *)%s" % name for name in calls))
     return path
