@@ -18,6 +18,7 @@
 /* Bytes that begin what is no call in full; below them is the number of a call. */
 enum replay_token {
     REPLAY_TOKEN_END = 0,
+    REPLAY_TOKEN_CHECK = 0x3c, /* of a step, after its answers and its result */
     REPLAY_TOKEN_MESH = 0x3d,
     REPLAY_TOKEN_ANSWER = 0x3e,
     REPLAY_TOKEN_RESULT = 0x3f,

@@ -98,8 +98,7 @@ static int read_mesh(struct carom_replay *p)
 {
     struct replay_coder c = rest_of(p);
     const bool moving = replay_fixed(&c, 0, 1) != 0;
-    struct carom_mesh_raw raw = {.kind = (uint8_t)replay_fixed(&c, 0, 1),
-                                 .quantum_bits = (uint8_t)replay_fixed(&c, 0, 1)};
+    struct carom_mesh_raw raw = {0};
     struct carom_mesh *mesh = take(p, sizeof *mesh);
     int16_t(*vertices)[3];
     uint16_t(*faces)[3];
@@ -107,6 +106,8 @@ static int read_mesh(struct carom_replay *p)
     void *block;
     int result;
 
+    raw.kind = (uint8_t)replay_fixed(&c, 0, 1);
+    raw.quantum_bits = (uint8_t)replay_fixed(&c, 0, 1);
     raw.vertex_count = (uint32_t)replay_fixed(&c, 0, 4);
     raw.face_count = (uint32_t)replay_fixed(&c, 0, 4);
     if (c.bad || raw.vertex_count < 3 || raw.vertex_count > 65535 || raw.face_count < 1 ||
@@ -222,6 +223,10 @@ static int check(struct carom_replay *p)
     uint64_t digests[CAROM_REPLAY_PARTS];
 
     p->frames++;
+    if (!next_is(p, REPLAY_TOKEN_CHECK)) {
+        return p->at < p->bytes ? CAROM_ERR_FORMAT : CAROM_REPLAY_CUT;
+    }
+    c.at = 1;
     carom_replay_digests(p->world, digests);
     for (int part = p->stages ? 0 : CAROM_REPLAY_STATE; part < CAROM_REPLAY_PARTS; part++) {
         const bool full = part == CAROM_REPLAY_STATE && p->frames % REPLAY_FULL_EVERY == 0;

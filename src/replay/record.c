@@ -75,6 +75,7 @@ static void put_check(struct carom_record *r)
 {
     uint64_t digests[CAROM_REPLAY_PARTS];
 
+    put_token(r, REPLAY_TOKEN_CHECK);
     if (r->stages) {
         carom_replay_digests(r->world, digests);
         for (int part = 0; part < CAROM_REPLAY_STATE; part++) {
