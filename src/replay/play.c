@@ -281,6 +281,9 @@ static int perform(struct carom_replay *p, struct replay_call *call)
             return CAROM_REPLAY_CUT;
         }
     }
+    if (result != wanted && p->run == 0 && p->at >= p->bytes) {
+        return CAROM_REPLAY_CUT; /* before the result was written */
+    }
     if (result != wanted) {
         differ(p, CAROM_REPLAY_IN_RESULT, wanted, result);
     }
