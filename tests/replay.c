@@ -6,8 +6,6 @@
  *   each=1   a line a frame: its state and what its calls were
  *   trace=F  what frame F's stages found, and where its bodies are after it
  */
-#include <stdlib.h>
-#include <string.h>
 
 #include "carom_replay.h"
 #include "port.h"

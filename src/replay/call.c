@@ -2,8 +2,6 @@
 /* Calls as bytes: one description of each serves who writes and who reads it. */
 #include "call.h"
 
-#include <string.h>
-
 /* ------------------------------------------------------------------- numbers */
 
 static uint8_t code_byte(struct replay_coder *c, uint8_t byte)

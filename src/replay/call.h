@@ -5,6 +5,7 @@
 #ifndef CAROM_SRC_CALL_H
 #define CAROM_SRC_CALL_H
 
+#include "../num/fix.h"
 #include "carom_replay.h"
 
 #define REPLAY_VERSION  1

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Playing: the calls of a file are made again, and what comes of them is compared. No byte of it is trusted. */
-#include <string.h>
 
 #include "call.h"
 

@@ -2,8 +2,6 @@
 /* Recording: calls and what came of them, written as they are made. */
 #include "record.h"
 
-#include <string.h>
-
 /* ------------------------------------------------------------------ what is written */
 
 static void put(struct carom_record *r, const void *bytes, size_t count)
