@@ -100,6 +100,7 @@ CORTEX_TESTS := $(patsubst tests/test_%.c,build/mps2-an385/suite_%.elf,$(wildcar
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
 TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
+                tests/replay.c tests/record.c \
                 tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
 
@@ -139,7 +140,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures soak bench matrix figures compare check size boards packages amalgamation build need clean force
+.PHONY: help run test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -217,6 +218,12 @@ matrix: ## one state hash from every instruction set, compiler and option, to ou
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/matrix.elf
 	@tools/matrix.py $(if $(SHORT),--short)
+
+replay: need ## play a recording here and on BOARD=; FILE=, or AGAINST= another one, call by call (docs/replay.md)
+	@test -n '$(FILE)' || { echo 'FILE= names the recording'; false; }
+	@$(SUBMAKE) BOARD=host build/host/replay.elf
+	@$(if $(filter-out host,$(ASKED)),$(SUBMAKE) BOARD=$(BOARD) build/$(BOARD)/replay.elf)
+	@tools/replay.py '$(FILE)' $(if $(AGAINST),--against '$(AGAINST)') $(addprefix --board=,$(filter-out host,$(ASKED)))
 
 figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
 	@tools/need python3 gnuplot
@@ -325,6 +332,22 @@ $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 
 # on every board, however small: nothing else of the tests
 $(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
+	@echo '  link  $@'
+	$(link)
+
+$(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) $(B)/libcarom.a
+	@echo '  link  $@'
+	$(link)
+
+# The scenes as they are, each call on the world recorded.
+$(B)/recorded/%.o: CFLAGS += -include tests/recorded.h
+$(B)/recorded/%.o: %.c $(B)/flags
+	@mkdir -p $(@D)
+	@echo '  cc    $< recorded'
+	$(TARGET_CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+RECORDED := examples/scene.c examples/scene_sheet.c $(GAMES) tests/record.c
+$(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/libcarom.a \
+    $(filter-out $(call objects,$(RECORDED)),$(SCENES_BUILT))
 	@echo '  link  $@'
 	$(link)
 

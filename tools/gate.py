@@ -11,14 +11,14 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 os.chdir(ROOT)
 
 # The folders of src/, a stage each; each may use only those before it.
-STAGES = "num mesh body pairs interfere boyse contact solve world step query draw".split()
+STAGES = "num mesh body pairs interfere boyse contact solve world step query replay draw".split()
 # A library of its own: from folders other than these it takes what the public headers declare.
 ALONE = {"draw": ["num", "mesh"]}
 
 PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",
           "include/carom_body.h", "include/carom_joint.h", "include/carom_query.h",
           "include/carom_draw.h", "include/carom_debug.h", "include/carom_shapes.h",
-          "include/carom_version.h"]
+          "include/carom_replay.h", "include/carom_version.h"]
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 ENGINE_FLAGS = ["-std=c11", "-ffreestanding", "-Iinclude"]

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * replay - calls on a world as bytes: recorded, and played again. The format is in docs/replay.md.
+ */
+#ifndef CAROM_SRC_CALL_H
+#define CAROM_SRC_CALL_H
+
+#include "../num/fix.h"
+#include "carom_replay.h"
+
+#define REPLAY_VERSION  1
+#define REPLAY_MAGIC    "CRPL"
+#define REPLAY_STAGES   1 /* bit of the header's flags */
+#define REPLAY_NOTE_MAX 63
+#define REPLAY_CALL_BYTES                                                                          \
+    256 /* more than any call takes: numbers of 10 bytes at most, 19 of a joint */
+#define REPLAY_FULL_EVERY 64 /* frames: a state is written whole */
+
+/* Bytes that begin what is no call in full; below them is the number of a call. */
+enum replay_token {
+    REPLAY_TOKEN_END = 0,
+    REPLAY_TOKEN_CHECK = 0x3c, /* of a step, after its answers and its result */
+    REPLAY_TOKEN_MESH = 0x3d,
+    REPLAY_TOKEN_ANSWER = 0x3e,
+    REPLAY_TOKEN_RESULT = 0x3f,
+    REPLAY_TOKEN_SLOT = 0x40, /* and a slot's number: that call */
+    REPLAY_TOKEN_RUN =
+        0x80 /* and so many less one: calls, each the one that came after the last before */
+};
+#define REPLAY_RUN_MAX 128
+
+/* A call with what it is given; pointers in it are to what is written behind it. */
+struct replay_call {
+    uint8_t op;     /* enum carom_replay_call */
+    int32_t body;   /* or a joint */
+    uint32_t mesh;  /* of body_add */
+    uint32_t count; /* of vertices, bytes or materials behind the call */
+    uint32_t faces; /* of materials, so many numbers follow */
+    const void *data;
+    const uint8_t *of_face;
+    union {
+        struct carom_config config;
+        struct carom_body_def def;
+        struct carom_body_state state;
+        struct carom_pose pose;
+        struct carom_filter filter;
+        struct {
+            carom_v3_q40 vector;
+            carom_v3_q32 point;
+        } act;
+        struct carom_material material;
+        int64_t numbers[2];
+        struct carom_joint_def joint;
+        struct carom_joint_drive drive;
+    } u;
+};
+
+/* Bytes that are written (out) or read (in), one direction at a time. */
+struct replay_coder {
+    uint8_t *out;
+    const uint8_t *in;
+    size_t at, size;
+    bool bad; /* there was no room, or what was read is no such thing */
+};
+/* A number within low .. high: what is given is written, or what is read returned. */
+int64_t replay_number(struct replay_coder *c, int64_t value, int64_t low, int64_t high);
+/* A number of so many bytes, the lowest first. */
+uint64_t replay_fixed(struct replay_coder *c, uint64_t value, int bytes);
+void replay_material(struct replay_coder *c, struct carom_material *m);
+/* A call without what follows it: op is there already. */
+void replay_code(struct replay_coder *c, struct replay_call *call);
+
+/* Whether data follow a call, so that it is not kept among the last ones. */
+bool replay_has_data(uint8_t op);
+/* Make the call. */
+int replay_do(struct carom_world *world, const struct replay_call *call);
+/* What of a result is the same everywhere: a budget depends on time. */
+int replay_result(uint8_t op, int result);
+
+/* The slot of a call that comes again, or UINT32_MAX; note it as the one after the last; keep a new one. */
+uint32_t replay_find(const struct carom_replay_memory *m, const uint8_t *bytes, size_t size);
+void replay_follow(struct carom_replay_memory *m, uint32_t slot);
+void replay_keep(struct carom_replay_memory *m, const uint8_t *bytes, size_t size);
+
+#define REPLAY_SUM_START 0x811c9dc5u
+/* 32-bit FNV-1a of a file's bytes. */
+uint32_t replay_sum(uint32_t sum, const uint8_t *bytes, size_t count);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* replay - what the functions that record share. */
+#ifndef CAROM_SRC_RECORD_H
+#define CAROM_SRC_RECORD_H
+
+#include "call.h"
+
+/* Whether calls on this world are to be written. */
+bool record_is_open(const struct carom_record *r, const struct carom_world *world);
+/* Write a call, before it is made; and what came of it. */
+void record_call(struct carom_record *r, const struct replay_call *call);
+void record_result(struct carom_record *r, uint8_t op, int result);
+/* Make a call between both. */
+int record_do(struct carom_record *r, struct carom_world *world, const struct replay_call *call);
+
+/* What follows a call. */
+void record_vertices(struct carom_record *r, const int16_t (*vertices)[3], uint32_t count);
+void record_bytes(struct carom_record *r, const void *bytes, uint32_t count);
+void record_material(struct carom_record *r, const struct carom_material *material);
+/* The number of a mesh, which is written if it is a new one. */
+uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh);
+
+#endif

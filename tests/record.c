@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages. The
+ * scenes are compiled as they are, with tests/recorded.h.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "port.h"
+#include "scene_games.h"
+
+struct carom_record recorder;
+
+static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
+
+static void write_file(void *user, const void *bytes, size_t count)
+{
+    if (fwrite(bytes, 1, count, user) != count) {
+        perror("record");
+        exit(2);
+    }
+}
+
+static int expect(int result, const char *what)
+{
+    if (result < 0) {
+        fprintf(stderr, "%s: %s\n", what, carom_result_text(result));
+        exit(2);
+    }
+    return result;
+}
+
+int main(void)
+{
+    const char *name, *path;
+    static struct scene scene;
+    struct carom_config config = scene_config();
+    struct carom_world *world;
+    FILE *file;
+
+    port_init();
+    name = port_option("scene") ? port_option("scene") : "car";
+    path = port_option("to") ? port_option("to") : "out/car.replay";
+    file = fopen(path, "wb");
+    if (!file) {
+        perror(path);
+        exit(2);
+    }
+    expect(carom_record_begin(&recorder, write_file, file, port_number("stages", 0) != 0, name),
+           "begin");
+    expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
+    expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), name);
+    for (uint32_t frame = 1; frame <= port_number("frames", 10000); frame++) {
+        expect(scene_before(&scene, world, (int)frame), "before");
+        expect(carom_world_step(world), "step");
+    }
+    carom_record_end(&recorder);
+    printf("%ld bytes\n", ftell(file));
+    fclose(file);
+    port_exit(0);
+}

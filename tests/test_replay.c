@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Recordings: each call that changes a world is recorded and played, with what a contact callback answered; a
+ * changed, cut or foreign file is named as such, wherever it was changed.
+ */
+#include <string.h>
+
+#include "carom_replay.h"
+#include "test.h"
+
+#define CAPS       8, 16, 64, 256, 64, 256, 2, 6, 4
+#define FILE_BYTES 8192
+#define ROOM       60000
+#define FRAMES     70 /* more than 64: a state is written whole */
+#define FPS        60
+
+static const int16_t corners[][3] = {{99, 99, 99}, {99, -99, -99}, {-99, 99, -99}, {-99, -99, 99}};
+static const uint16_t sides[][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+static const int16_t far_corners[][3] = {{-9999, -9999, 0}, {9999, -9999, 0}, {0, 9999, 0}};
+static const int16_t raised[][3] = {{-9999, -9999, 3}, {9999, -9999, 3}, {0, 9999, 3}};
+static const struct carom_mesh_raw solid = {corners, sides, 4, 4, 8, CAROM_SOLID};
+static const struct carom_mesh_raw flat = {far_corners, sides, 3, 1, 8, CAROM_SURFACE};
+static const struct carom_material materials[2] = {{.friction_q16 = 1 << 14},
+                                                   {.friction_q16 = 1 << 15}};
+static const uint8_t of_face[4] = {0, 1, 0, 1};
+
+static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], ground_block[CAROM_SURFACE_BYTES(3, 1)],
+    solid_block[CAROM_MESH_BYTES(4, 4)], room[ROOM], snapshot[4096];
+static uint8_t file[FILE_BYTES];
+static size_t file_bytes;
+static struct carom_mesh meshes[2];
+static struct carom_record record;
+static struct carom_replay player;
+
+static void write_file(void *user, const void *bytes, size_t count)
+{
+    (void)user;
+    CHECK(file_bytes + count <= sizeof file);
+    if (file_bytes + count <= sizeof file) {
+        memcpy(file + file_bytes, bytes, count);
+        file_bytes += count;
+    }
+}
+
+/* Drops contacts of body 3, and makes those of body 2 slippery. */
+static bool contact(void *user, struct carom_touch *touch)
+{
+    (void)user;
+    touch->friction_q16 = touch->a == 2 || touch->b == 2 ? 0 : touch->friction_q16;
+    return touch->a != 3 && touch->b != 3;
+}
+
+static struct carom_world *make_world(void)
+{
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS),
+                                  .gravity = {{0, 0, CAROM_GRAVITY_MM_S2(-9810, FPS)}},
+                                  .sleep = true,
+                                  .contact = contact};
+    struct carom_body_def def = {&meshes[0], .stationary = true, .friction_q16 = 1 << 15};
+    struct carom_world *world = NULL;
+
+    CHECK_EQ(carom_surface_build(&meshes[0], &flat, ground_block, sizeof ground_block), CAROM_OK);
+    CHECK_EQ(carom_mesh_build(&meshes[1], &solid, solid_block, sizeof solid_block), CAROM_OK);
+    CHECK_EQ(carom_record_world_init(&record, block, sizeof block, &config, &world), CAROM_OK);
+    CHECK_EQ(carom_record_body_add(&record, world, &def), 0);
+    for (int i = 1; i <= 6; i++) {
+        const struct carom_body_def body = {
+            &meshes[1], .kinematic = i == 6,
+            .position = {{CAROM_POSITION_MM(1500) * (i % 3), CAROM_POSITION_MM(1500) * (i / 3),
+                          CAROM_POSITION_MM(900)}},
+            .spin = {{CAROM_SPIN_MRAD_S(900, FPS) * i, 0, CAROM_SPIN_MRAD_S(300, FPS)}},
+            .friction_q16 = 1 << 15};
+
+        CHECK_EQ(carom_record_body_add(&record, world, &body), i);
+    }
+    return world;
+}
+
+/* Settings, once. */
+static void set_all(struct carom_world *w)
+{
+    static const carom_v3_q40 small = {{1 << 28, 1 << 27, 1 << 29}};
+    static const carom_v3_q32 point = {{CAROM_POSITION_MM(1000), 0, CAROM_POSITION_MM(1000)}};
+    static const struct carom_filter all = {.category = 2, .mask = 0xffff};
+    const struct carom_material rough = {CAROM_ONE_Q30 / 4, 1 << 15, 1 << 11, {{0, 1 << 30, 0}}};
+    struct carom_joint_def joint = {.kind = CAROM_JOINT_BALL, .a = 4, .b = 5};
+    struct carom_body_state state;
+    struct carom_record *r = &record;
+
+    carom_body_get(w, 4, &state);
+    joint.anchor = state.position;
+    CHECK_EQ(carom_record_world_set_combine(r, w, CAROM_LARGER, CAROM_MEAN), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_filter(r, w, 1, &all), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_force(r, w, 1, &small), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_force_at(r, w, 2, &small, &point), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_torque(r, w, 1, &small), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_gravity_scale(r, w, 1, 3 << 15), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_damping(r, w, 1, 1 << 20, 1 << 21), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_material(r, w, 1, &rough), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_face_materials(r, w, 2, materials, 2, of_face), CAROM_OK);
+    CHECK_EQ(carom_record_body_set_mass(r, w, 4, 1 << 20), CAROM_OK);
+    CHECK_EQ(carom_record_joint_add(r, w, &joint), 0);
+    joint.kind = CAROM_JOINT_DISTANCE;
+    joint.drive =
+        (struct carom_joint_drive){.limited = true, .upper_q32 = CAROM_POSITION_MM(1000) * 3};
+    joint.anchor_b = joint.anchor;
+    CHECK_EQ(carom_record_joint_add(r, w, &joint), 1);
+    joint.drive.upper_q32 *= 2;
+    CHECK_EQ(carom_record_joint_set(r, w, 1, &joint.drive), CAROM_OK);
+    CHECK(carom_record_body_set_mass(r, w, 0, 1 << 20) < 0); /* an error is recorded, too */
+}
+
+/* What is done before a frame, by its number. */
+static void act(struct carom_world *w, int frame, struct test_random *random)
+{
+    const carom_v3_q40 push = {{test_random_range(random, -(1 << 29), 1 << 29), 0, 1 << 30}};
+    const carom_v3_q40 gravity = {{0, 1 << 20, CAROM_GRAVITY_MM_S2(-9000, FPS)}};
+    const struct carom_pose pose = {
+        .position = {{0, CAROM_POSITION_MM(3000 + 5 * frame), CAROM_POSITION_MM(900)}}};
+    struct carom_record *r = &record;
+    struct carom_body_state state;
+    int bytes;
+
+    CHECK_EQ(carom_record_body_move_to(r, w, 6, &pose), CAROM_OK);
+    carom_body_get(w, 3, &state);
+    switch (frame) {
+    case 20:
+        CHECK_EQ(carom_record_body_push(r, w, 3, &push, &state.position), CAROM_OK);
+        CHECK_EQ(carom_record_body_push_centre(r, w, 2, &push), CAROM_OK);
+        CHECK_EQ(carom_record_body_twist(r, w, 2, &push), CAROM_OK);
+        break;
+    case 30:
+        state.position.c[2] += CAROM_POSITION_MM(1000);
+        CHECK_EQ(carom_record_body_set(r, w, 3, &state), CAROM_OK);
+        CHECK_EQ(carom_record_surface_move(r, w, 0, raised), CAROM_OK);
+        CHECK_EQ(carom_record_world_set_gravity(r, w, &gravity), CAROM_OK);
+        break;
+    case 40:
+        CHECK_EQ(carom_record_joint_remove(r, w, 1), CAROM_OK);
+        CHECK_EQ(carom_record_body_remove(r, w, 5), CAROM_OK);
+        CHECK_EQ(carom_record_surface_set(r, w, 0, raised), CAROM_OK);
+        break;
+    case 50:
+        bytes = carom_snapshot_save(w, snapshot, sizeof snapshot);
+        CHECK(bytes > 0);
+        CHECK_EQ(carom_record_snapshot_load(r, w, snapshot, (size_t)bytes), CAROM_OK);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Record a world to which all is done; returns its last state. */
+static uint64_t record_all(bool stages, uint64_t seed)
+{
+    struct test_random random = {seed};
+    struct carom_world *world;
+
+    file_bytes = 0;
+    CHECK_EQ(carom_record_begin(&record, write_file, NULL, stages, "test"), CAROM_OK);
+    world = make_world();
+    set_all(world);
+    for (int frame = 1; frame <= FRAMES; frame++) {
+        act(world, frame, &random);
+        CHECK(carom_record_world_step(&record, world) >= 0);
+    }
+    CHECK_EQ(carom_record_end(&record), CAROM_OK);
+    return carom_world_hash(world);
+}
+
+/* How playing ends. */
+static int play(size_t bytes)
+{
+    int result = carom_replay_begin(&player, file, bytes, room, sizeof room);
+
+    if (result < 0) {
+        return result;
+    }
+    do {
+        result = carom_replay_frame(&player);
+    } while (result == CAROM_REPLAY_FRAME);
+    return result;
+}
+
+static void test_same(void)
+{
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        const uint64_t hash = record_all(seed % 2 == 0, seed);
+
+        CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
+        CHECK_EQ(player.frames, FRAMES);
+        CHECK(carom_world_hash(player.world) == hash);
+        CHECK(player.note_bytes == 4 && memcmp(player.note, "test", 4) == 0);
+    }
+}
+
+/* A file that ends early is played as far as it goes, or refused. */
+static void test_cut(void)
+{
+    record_all(true, 1);
+    for (size_t bytes = 0; bytes < file_bytes; bytes += bytes < 400 ? 1 : 37) {
+        const int result = play(bytes);
+
+        CHECK(result < 0 || result == CAROM_REPLAY_CUT);
+    }
+}
+
+/* Whatever byte is another one, that is found. */
+static void test_altered(void)
+{
+    record_all(true, 1);
+    for (size_t at = 0; at < file_bytes; at += at < 400 ? 1 : 37) {
+        const uint8_t flip = (uint8_t)(1 << at % 8);
+        int result;
+
+        file[at] ^= flip;
+        result = play(file_bytes);
+        CHECK(result < 0 || result == CAROM_REPLAY_DIFFERS || result == CAROM_REPLAY_CUT);
+        file[at] ^= flip;
+    }
+    CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
+}
+
+/* A digest that is another one is told with its frame and its stage. */
+static void test_named(void)
+{
+    const uint8_t check_bytes = 2 * CAROM_REPLAY_PARTS;
+
+    for (int part = 0; part < CAROM_REPLAY_PARTS; part++) {
+        struct carom_world *world;
+        size_t end;
+
+        file_bytes = 0;
+        CHECK_EQ(carom_record_begin(&record, write_file, NULL, true, NULL), CAROM_OK);
+        world = make_world();
+        for (int frame = 1; frame <= 5; frame++) {
+            CHECK(carom_record_world_step(&record, world) >= 0);
+        }
+        end = file_bytes; /* the last bytes are the check of frame 5 */
+        CHECK(carom_record_world_step(&record, world) >= 0);
+        file[end - check_bytes + 2 * (size_t)part] ^= 1;
+        CHECK_EQ(play(file_bytes), CAROM_REPLAY_DIFFERS);
+        CHECK_EQ(player.frames, 5);
+        CHECK_EQ(player.difference, CAROM_REPLAY_IN_PART);
+        CHECK_EQ(player.part, part);
+    }
+}
+
+/* Another world's calls, and those after the end, go through and are not written. */
+static void test_others(void)
+{
+    struct carom_world *world;
+    size_t bytes;
+
+    record_all(false, 1);
+    bytes = file_bytes;
+    world = record.world;
+    CHECK(carom_record_world_step(&record, world) >= 0);
+    CHECK(carom_record_world_step(NULL, world) >= 0);
+    CHECK_EQ(carom_record_body_set(NULL, world, 1, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(file_bytes, bytes);
+    CHECK_EQ(carom_record_begin(&record, NULL, NULL, false, NULL), CAROM_ERR_NULL);
+    CHECK_EQ(carom_replay_frame(NULL), CAROM_ERR_NULL);
+}
+
+const struct test tests_replay[] = {
+    {"replay/same", test_same},   {"replay/cut", test_cut},       {"replay/altered", test_altered},
+    {"replay/named", test_named}, {"replay/others", test_others}, {0},
+};
