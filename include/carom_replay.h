@@ -163,6 +163,7 @@ int carom_record_body_set_material(struct carom_record *record, struct carom_wor
 int carom_record_body_set_face_materials(struct carom_record *record, struct carom_world *world,
                                          int body, const struct carom_material *materials,
                                          uint32_t count, const uint8_t *of_face);
+/* Masses, surfaces that move, states and joints likewise. */
 int carom_record_body_set_mass(struct carom_record *record, struct carom_world *world, int body,
                                uint32_t mass_q20);
 int carom_record_surface_move(struct carom_record *record, struct carom_world *world, int body,

@@ -1,0 +1,3 @@
+/* SPDX-License-Identifier: MIT */
+/* For Arduino, which looks for headers here: the public one. */
+#include "../include/carom_replay.h"
