@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages. The
- * scenes are compiled as they are, with tests/recorded.h.
+ * scenes are compiled as they are, with tests/recorded.h before them.
  */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "port.h"
+#include "recorded.h"
 #include "scene_games.h"
 
 struct carom_record recorder;

@@ -37,6 +37,7 @@ struct replay_call {
     uint32_t count; /* of vertices, bytes or materials behind the call */
     uint32_t faces; /* of materials, so many numbers follow */
     const void *data;
+    const int16_t (*vertices)[3]; /* data of surfaces, as what they are */
     const uint8_t *of_face;
     union {
         struct carom_config config;

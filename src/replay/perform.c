@@ -50,9 +50,9 @@ static int do_data(struct carom_world *w, const struct replay_call *c)
     case CAROM_CALL_body_set_face_materials:
         return carom_body_set_face_materials(w, c->body, c->data, c->count, c->of_face);
     case CAROM_CALL_surface_move:
-        return carom_surface_move(w, c->body, (const int16_t(*)[3])c->data);
+        return carom_surface_move(w, c->body, c->vertices);
     case CAROM_CALL_surface_set:
-        return carom_surface_set(w, c->body, (const int16_t(*)[3])c->data);
+        return carom_surface_set(w, c->body, c->vertices);
     case CAROM_CALL_snapshot_load:
         return carom_snapshot_load(w, c->data, c->count);
     default:

@@ -58,7 +58,7 @@ static void differ(struct carom_replay *p, int difference, int64_t wanted, int64
 /* ----------------------------------------------------------------------- contacts */
 
 /* Answers as the program did: what is next in the file, if it is about this question. */
-static bool answer(void *user, struct carom_touch *touch)
+static bool answer_as_recorded(void *user, struct carom_touch *touch)
 {
     struct carom_replay *p = user;
     struct replay_coder c = rest_of(p);
@@ -149,7 +149,7 @@ static int read_surface(struct carom_replay *p, struct replay_call *call)
         return CAROM_ERR_MEMORY;
     }
     read_vertices(&c, vertices, call->count);
-    call->data = vertices;
+    call->vertices = (const int16_t(*)[3])vertices;
     return done(p, &c) ? CAROM_OK : CAROM_ERR_FORMAT;
 }
 
@@ -205,7 +205,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
     struct carom_config *config = &call->u.config;
     const size_t bytes = carom_world_bytes(&config->caps);
 
-    config->contact = config->contact_user ? answer : NULL;
+    config->contact = config->contact_user ? answer_as_recorded : NULL;
     config->contact_user = p;
     if (!take_again(p, &p->block, &p->block_bytes, bytes)) {
         return CAROM_ERR_MEMORY;

@@ -198,7 +198,7 @@ uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh)
 /* ----------------------------------------------------------------------- contacts */
 
 /* Asks the program, and keeps the answer if it is more than "as it is". */
-static bool ask(void *user, struct carom_touch *touch)
+static bool ask_program(void *user, struct carom_touch *touch)
 {
     struct carom_record *r = user;
     const struct carom_touch was = *touch;
@@ -270,7 +270,7 @@ int carom_record_world_init(struct carom_record *r, void *mem, size_t bytes,
     }
     call.u.config = *config;
     if (config->contact) {
-        call.u.config.contact = ask;
+        call.u.config.contact = ask_program;
         call.u.config.contact_user = r;
     }
     result = carom_world_init(mem, bytes, &call.u.config, world);

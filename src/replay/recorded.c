@@ -163,7 +163,7 @@ static int surface(struct carom_record *r, struct carom_world *w, enum carom_rep
     const struct replay_call call = {.op = (uint8_t)op,
                                      .body = body,
                                      .count = mesh && vertices ? mesh->raw.vertex_count : 0,
-                                     .data = vertices};
+                                     .vertices = vertices};
     const bool open = record_is_open(r, w) && vertices;
     int result;
 
