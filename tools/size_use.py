@@ -41,7 +41,8 @@ USES = [
     ("filters that change", "carom_body_set_filter carom_body_get_filter"),
     ("events and contacts and interfering faces", "carom_events carom_event_hit carom_contacts "
      "carom_interfering_faces"),
-    ("statistics and texts", "carom_stats carom_usage carom_stage_name carom_result_text"),
+    ("statistics and texts", "carom_stats carom_usage carom_stage_name carom_result_text "
+     "carom_version"),
     ("a hash of the state", "carom_world_hash"),
     ("ids and a pointer of the caller's", "carom_body_id carom_body_number carom_body_user "
      "carom_body_set_user"),
@@ -72,6 +73,10 @@ USES = [
     ("triangles and lines for other renderers", "carom_debug_draw carom_debug_keep_line"),
     ("shapes as meshes", "carom_shape_box carom_shape_sphere carom_shape_capsule "
      "carom_shape_cylinder carom_shape_cone"),
+    ("recordings", " ".join(name for _, name in gate.public_functions()
+                            if name.startswith("carom_record_"))),
+    ("playing recordings", "carom_replay_begin carom_replay_frame carom_replay_call_name "
+     "carom_replay_part_name carom_replay_digests"),
 ]
 
 HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
@@ -96,7 +101,7 @@ def program(calls):
     with open(path, "w") as file:
         file.write('#include "carom.h"\n#include "carom_body.h"\n#include "carom_joint.h"\n'
                    '#include "carom_query.h"\n#include "carom_draw.h"\n#include "carom_debug.h"\n'
-                   '#include "carom_shapes.h"\n'
+                   '#include "carom_shapes.h"\n#include "carom_replay.h"\n'
                    "typedef void any(void);\nany *const calls[] = {%s};\n" %
                    ", ".join("(any *)%s" % name for name in calls))
     return path
