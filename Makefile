@@ -140,7 +140,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation build need clean force
+.PHONY: help run test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -267,6 +267,10 @@ packages: ## a stranger's project by every way to install Carom, packages/README
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/hello.elf >/dev/null
 	@tools/packages $(SYSTEMS)
+
+commands: ## compile_commands.json for editors, as BOARD compiles
+	@tools/need python3
+	@$(MAKE) -Bn BOARD=$(BOARD) build/$(BOARD)/tests.elf build/$(BOARD)/head.elf | tools/compile_commands.py
 
 build: $(PROGRAMS) $(RUNNER) ## the programs of BOARD, without running them
 
