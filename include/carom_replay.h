@@ -63,10 +63,11 @@ const char *carom_replay_call_name(int call);
 /* Calls that were made lately: one that comes again takes a part of a byte. */
 #define CAROM_REPLAY_SLOTS      32
 #define CAROM_REPLAY_SLOT_BYTES 96
+struct carom_replay_slot {
+    uint8_t size, next, bytes[CAROM_REPLAY_SLOT_BYTES];
+};
 struct carom_replay_memory {
-    struct carom_replay_slot {
-        uint8_t size, next, bytes[CAROM_REPLAY_SLOT_BYTES];
-    } slots[CAROM_REPLAY_SLOTS];
+    struct carom_replay_slot slots[CAROM_REPLAY_SLOTS];
     uint8_t last, fresh;
 };
 #define CAROM_REPLAY_MESHES 32

@@ -80,13 +80,10 @@ int carom_replay_digests(const struct carom_world *w, uint64_t digests[CAROM_REP
 
 const char *carom_replay_part_name(int part)
 {
-    static const uint8_t stages[CAROM_REPLAY_PARTS] = {
-        [CAROM_REPLAY_INTERFERE] = CAROM_STAGE_INTERFERE,
-        [CAROM_REPLAY_BOYSE] = CAROM_STAGE_BOYSE,
-        [CAROM_REPLAY_CONTACT] = CAROM_STAGE_CONTACT,
-        [CAROM_REPLAY_IMPACT] = CAROM_STAGE_IMPACT,
-        [CAROM_REPLAY_REST] = CAROM_STAGE_REST,
-        [CAROM_REPLAY_STATE] = CAROM_STAGE_COMMIT};
+    /* in the order of enum carom_replay_part */
+    static const uint8_t stages[CAROM_REPLAY_PARTS] = {CAROM_STAGE_INTERFERE, CAROM_STAGE_BOYSE,
+                                                       CAROM_STAGE_CONTACT,   CAROM_STAGE_IMPACT,
+                                                       CAROM_STAGE_REST,      CAROM_STAGE_COMMIT};
 
     return carom_stage_name(part >= 0 && part < CAROM_REPLAY_PARTS ? stages[part] : -1);
 }

@@ -48,7 +48,8 @@ static int do_data(struct carom_world *w, const struct replay_call *c)
 {
     switch (c->op) {
     case CAROM_CALL_body_set_face_materials:
-        return carom_body_set_face_materials(w, c->body, c->data, c->count, c->of_face);
+        return carom_body_set_face_materials(w, c->body, (const struct carom_material *)c->data,
+                                             c->count, c->of_face);
     case CAROM_CALL_surface_move:
         return carom_surface_move(w, c->body, c->vertices);
     case CAROM_CALL_surface_set:

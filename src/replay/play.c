@@ -22,7 +22,7 @@ static void *take(struct carom_replay *p, size_t bytes)
 static void *take_again(struct carom_replay *p, uint8_t **block, size_t *had, size_t bytes)
 {
     if (!*block || *had < bytes) {
-        *block = take(p, bytes);
+        *block = (uint8_t *)take(p, bytes);
         *had = *block ? bytes : 0;
     }
     return *block;
@@ -60,7 +60,7 @@ static void differ(struct carom_replay *p, int difference, int64_t wanted, int64
 /* Answers as the program did: what is next in the file, if it is about this question. */
 static bool answer_as_recorded(void *user, struct carom_touch *touch)
 {
-    struct carom_replay *p = user;
+    struct carom_replay *p = (struct carom_replay *)user;
     struct replay_coder c = rest_of(p);
     int64_t asked, e_q30, mu_q16;
     bool keep;
@@ -98,7 +98,7 @@ static int read_mesh(struct carom_replay *p)
     struct replay_coder c = rest_of(p);
     const bool moving = replay_fixed(&c, 0, 1) != 0;
     struct carom_mesh_raw raw = {0};
-    struct carom_mesh *mesh = take(p, sizeof *mesh);
+    struct carom_mesh *mesh = (struct carom_mesh *)take(p, sizeof *mesh);
     int16_t(*vertices)[3];
     uint16_t(*faces)[3];
     size_t bytes;
@@ -115,8 +115,8 @@ static int read_mesh(struct carom_replay *p)
     }
     bytes = moving ? CAROM_SURFACE_BYTES(raw.vertex_count, raw.face_count)
                    : CAROM_MESH_BYTES(raw.vertex_count, raw.face_count);
-    vertices = take(p, raw.vertex_count * sizeof *vertices);
-    faces = take(p, raw.face_count * sizeof *faces);
+    vertices = (int16_t(*)[3])take(p, raw.vertex_count * sizeof *vertices);
+    faces = (uint16_t(*)[3])take(p, raw.face_count * sizeof *faces);
     block = take(p, bytes);
     if (!mesh || !vertices || !faces || !block) {
         return CAROM_ERR_MEMORY;
@@ -144,7 +144,8 @@ static int read_surface(struct carom_replay *p, struct replay_call *call)
     if (call->count != (mesh ? mesh->raw.vertex_count : 0) || 6 * (size_t)call->count > c.size) {
         return CAROM_ERR_FORMAT;
     }
-    vertices = take_again(p, &p->scratch, &p->scratch_bytes, 6 * (size_t)call->count + 8);
+    vertices =
+        (int16_t(*)[3])take_again(p, &p->scratch, &p->scratch_bytes, 6 * (size_t)call->count + 8);
     if (!vertices) {
         return CAROM_ERR_MEMORY;
     }
@@ -166,8 +167,8 @@ static int read_materials(struct carom_replay *p, struct replay_call *call)
     if (!mesh || call->faces != mesh->raw.face_count || call->count > 256 || call->count == 0) {
         return CAROM_ERR_FORMAT;
     }
-    materials = take(p, call->count * sizeof *materials);
-    of_face = take(p, call->faces);
+    materials = (struct carom_material *)take(p, call->count * sizeof *materials);
+    of_face = (uint8_t *)take(p, call->faces);
     if (!materials || !of_face) {
         return CAROM_ERR_MEMORY;
     }
@@ -393,7 +394,7 @@ int carom_replay_frame(struct carom_replay *p)
 int carom_replay_begin(struct carom_replay *p, const void *file, size_t bytes, void *mem,
                        size_t room)
 {
-    struct replay_coder c = {.in = file, .at = 4, .size = bytes};
+    struct replay_coder c = {.in = (const uint8_t *)file, .at = 4, .size = bytes};
     uint64_t version, flags;
 
     if (!p || !file || !mem) {
@@ -410,12 +411,12 @@ int carom_replay_begin(struct carom_replay *p, const void *file, size_t bytes, v
         flags > REPLAY_STAGES || p->note_bytes > REPLAY_NOTE_MAX || p->note_bytes > bytes - c.at) {
         return CAROM_ERR_FORMAT;
     }
-    p->file = file;
+    p->file = (const uint8_t *)file;
     p->bytes = bytes;
     p->note = (const char *)p->file + c.at;
     p->at = c.at + p->note_bytes;
     p->stages = flags & REPLAY_STAGES;
-    p->mem = mem;
+    p->mem = (uint8_t *)mem;
     p->room = room;
     return CAROM_OK;
 }

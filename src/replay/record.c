@@ -6,7 +6,7 @@
 
 static void put(struct carom_record *r, const void *bytes, size_t count)
 {
-    r->sum = replay_sum(r->sum, bytes, count);
+    r->sum = replay_sum(r->sum, (const uint8_t *)bytes, count);
     r->write(r->user, bytes, count);
 }
 
@@ -200,7 +200,7 @@ uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh)
 /* Asks the program, and keeps the answer if it is more than "as it is". */
 static bool ask_program(void *user, struct carom_touch *touch)
 {
-    struct carom_record *r = user;
+    struct carom_record *r = (struct carom_record *)user;
     const struct carom_touch was = *touch;
     const bool keep = r->contact(r->contact_user, touch);
 

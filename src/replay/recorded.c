@@ -44,8 +44,10 @@ RECORD_POINT(body_push)
 static int numbers(struct carom_record *r, struct carom_world *w, enum carom_replay_call op,
                    int body, int64_t first, int64_t second)
 {
-    const struct replay_call call = {.op = (uint8_t)op, .body = body, .u.numbers = {first, second}};
+    struct replay_call call = {.op = (uint8_t)op, .body = body};
 
+    call.u.numbers[0] = first;
+    call.u.numbers[1] = second;
     return record_do(r, w, &call);
 }
 
