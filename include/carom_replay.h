@@ -72,7 +72,7 @@ struct carom_replay_memory {
 };
 #define CAROM_REPLAY_MESHES 32
 
-/* What of a step is compared when a recording has stages, in this order; the state always is, as the last. */
+/* Parts of a step that are compared, in this order, when a recording has stages; the state, the last, always is. */
 enum carom_replay_part {
     CAROM_REPLAY_INTERFERE, /* interfering faces */
     CAROM_REPLAY_BOYSE,     /* counts of the search for hits */

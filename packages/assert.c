@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What an assertion of a debug build calls, where there is a console. A program that has a carom_assert_failed of its own
- * is linked with that one.
+ * Assertions of a debug build call this function, where there is a console. A program that has a carom_assert_failed of its
+ * own is linked with that one.
  */
 #include <stdio.h>
 #include <stdlib.h>

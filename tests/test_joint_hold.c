@@ -66,7 +66,7 @@ static int64_t apart(int number)
     return most;
 }
 
-/* What whirls at a rope by 0.4 radian a frame stays within its length and four skins: its way bends by 8 % of it. */
+/* A body that whirls at a rope by 0.4 radian a frame stays within its length and four skins: its way bends by 8 % of it. */
 static void test_rope(void)
 {
     struct carom_joint_def j;

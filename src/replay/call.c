@@ -192,7 +192,7 @@ static void code_joint(struct replay_coder *c, struct carom_joint_def *d)
 
 /* --------------------------------------------------------------------- calls */
 
-/* What the calls take that act by a vector, a place or numbers. */
+/* Arguments of the calls that act by a vector, a place or numbers. */
 static void code_act(struct replay_coder *c, struct replay_call *call)
 {
     switch (call->op) {

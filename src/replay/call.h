@@ -75,7 +75,7 @@ void replay_code(struct replay_coder *c, struct replay_call *call);
 bool replay_has_data(uint8_t op);
 /* Make the call. */
 int replay_do(struct carom_world *world, const struct replay_call *call);
-/* What of a result is the same everywhere: a budget depends on time. */
+/* The part of a result that is the same everywhere: a budget depends on time. */
 int replay_result(uint8_t op, int result);
 
 /* The slot of a call that comes again, or UINT32_MAX; note it as the one after the last; keep a new one. */
