@@ -34,7 +34,7 @@ ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 # ---------------------------------------------------------------- tools, flags
 
 B := build/$(BOARD)$(if $(DEBUG),-debug)$(if $(JOINED),-joined)
-TARGET_CC := $(if $(CROSS),$(CROSS)gcc,$(CC))
+TARGET_CC := $(or $(COMPILER),$(if $(CROSS),$(CROSS)gcc,$(CC)))
 TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
@@ -222,7 +222,8 @@ matrix: ## one state hash from every instruction set, compiler and option, to ou
 replay: need ## play a recording here and on BOARD=; FILE=, or AGAINST= another one, call by call (docs/replay.md)
 	@test -n '$(FILE)' || { echo 'FILE= names the recording'; false; }
 	@$(SUBMAKE) BOARD=host build/host/replay.elf
-	@$(if $(filter-out host,$(ASKED)),$(SUBMAKE) BOARD=$(BOARD) build/$(BOARD)/replay.elf)
+	@$(if $(filter-out host,$(ASKED)),$(SUBMAKE) BOARD=$(BOARD) build/$(BOARD)/replay.elf $(filter build/%,$(RUNNER)) || \
+	    { echo 'replay.elf for $(BOARD) cannot be made$(if $(ROM_SCENES), with $(FILE) in it: perhaps it is too large)'; false; })
 	@tools/replay.py '$(FILE)' $(if $(AGAINST),--against '$(AGAINST)') $(addprefix --board=,$(filter-out host,$(ASKED)))
 
 figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
@@ -339,9 +340,25 @@ $(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-$(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) $(B)/libcarom.a
+$(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) \
+    $(if $(ROM_SCENES),$(B)/replay_file.o $(filter-out $(B)/small/src/draw/%,$(ENGINE:$(B)/%=$(B)/small/%)),$(B)/libcarom.a)
 	@echo '  link  $@'
 	$(link)
+
+# A board that is short of memory has the recording in its image, and plays it in the RAM that is left. All of the engine
+# that changes a world is in that image: at -Os.
+$(B)/small/%.o: CFLAGS += -ffreestanding -Os
+$(B)/small/%.o: %.c $(B)/flags
+	@mkdir -p $(@D)
+	@echo '  cc    $< small'
+	$(TARGET_CC) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(B)/tests/replay.o: CFLAGS += $(if $(ROM_SCENES),-DREPLAY_BUILT_IN)
+replay_file = .section .rodata\n.global replay_file, replay_file_end\nreplay_file: .incbin "$(FILE)"\nreplay_file_end:\n
+$(B)/replay_file.S: force
+	@mkdir -p $(@D)
+	@printf '$(replay_file)' | cmp -s - $@ || printf '$(replay_file)' >$@
+$(B)/replay_file.o: $(B)/replay_file.S $(FILE)
+	$(TARGET_CC) $(ARCH) -c -o $@ $<
 
 # The scenes as they are, each call on the world recorded.
 $(B)/recorded/%.o: CFLAGS += -include tests/recorded.h

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages. The
- * scenes are compiled as they are, with tests/recorded.h before them.
+ * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages,
+ * caps=2,1,16,64,0,64 in a world of these capacities, which a small board has room to play. The scenes are compiled as
+ * they are, with tests/recorded.h before them.
  */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "port.h"
 #include "recorded.h"
@@ -31,6 +33,17 @@ static int expect(int result, const char *what)
     return result;
 }
 
+/* Capacities, in the order of CAROM_POOLS; those that are not named are 0. */
+static void read_caps(struct carom_caps *caps, const char *text)
+{
+    memset(caps, 0, sizeof *caps);
+#define READ_CAP(name, bytes, low, high)                                                           \
+    caps->name = (uint32_t)strtoul(text, (char **)&text, 10);                                      \
+    text += *text == ',';
+    CAROM_POOLS(READ_CAP)
+#undef READ_CAP
+}
+
 int main(void)
 {
     const char *name, *path;
@@ -50,6 +63,10 @@ int main(void)
     expect(carom_record_begin(&recorder, write_file, file, port_number("stages", 0) != 0, name),
            "begin");
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
+    if (port_option("caps")) {
+        read_caps(&scene.caps, port_option("caps"));
+        config.caps = scene.caps;
+    }
     expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), name);
     for (uint32_t frame = 1; frame <= port_number("frames", 10000); frame++) {
         expect(scene_before(&scene, world, (int)frame), "before");

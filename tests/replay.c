@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Play a recording: replay.elf file=FILE. Ends with status 0 if all is the same, 1 for a difference and 2 for a file
+ * Play a recording: replay.elf file=FILE, or the one that is built in. Ends with status 0 if all is the same, 1 for a difference and 2 for a file
  * that cannot be played.
  *
  *   each=1   a line a frame: its state and what its calls were
@@ -10,13 +10,18 @@
 #include "carom_replay.h"
 #include "port.h"
 
-#ifndef REPLAY_FILE_BYTES
-#define REPLAY_FILE_BYTES (2u << 20)
-#define REPLAY_ROOM       (6u << 20)
+#ifdef REPLAY_BUILT_IN /* of a board that is short of memory: the file lies in the image, all RAM that is left is room */
+extern const uint8_t replay_file[], replay_file_end[];
+extern uint8_t room_start[], room_end[]; /* of linker/sections.ld */
+#else
+#define FILE_BYTES (2u << 20)
+#define ROOM       (6u << 20)
+static uint8_t replay_file[FILE_BYTES];
+static const uint8_t *replay_file_end;
+static _Alignas(8) uint8_t room_start[ROOM];
+static uint8_t *const room_end = room_start + ROOM;
 #endif
 
-static uint8_t file[REPLAY_FILE_BYTES];
-static _Alignas(8) uint8_t room[REPLAY_ROOM];
 static struct carom_replay player;
 
 static void put(const char *text)
@@ -134,6 +139,11 @@ static int verdict(int result)
         put_number(player.frames + 1);
         put(" cannot be played: ");
         put(carom_result_text(result));
+        if (result == CAROM_ERR_MEMORY) {
+            put(": the board has room for ");
+            put_number(room_end - room_start);
+            put(" bytes of world and meshes");
+        }
         put("\n");
         return 2;
     }
@@ -143,9 +153,23 @@ static int verdict(int result)
     return result == CAROM_REPLAY_CUT ? 2 : 0;
 }
 
+/* Have the whole file in memory. */
+static bool read_file(void)
+{
+#ifndef REPLAY_BUILT_IN
+    const char *name = port_option("file");
+    const long bytes = name ? port_read_file(name, replay_file, sizeof replay_file) : -1;
+
+    if (bytes < 0 || (size_t)bytes == sizeof replay_file) {
+        return false;
+    }
+    replay_file_end = replay_file + bytes;
+#endif
+    return true;
+}
+
 int main(void)
 {
-    long bytes;
     bool each;
     uint32_t traced;
     int result;
@@ -153,12 +177,12 @@ int main(void)
     port_init();
     each = port_number("each", 0) != 0;
     traced = port_number("trace", 0);
-    bytes = port_option("file") ? port_read_file(port_option("file"), file, sizeof file) : -1;
-    if (bytes < 0 || (size_t)bytes == sizeof file) {
+    if (!read_file()) {
         put("file=FILE names no file, or one that is too large\n");
         port_exit(2);
     }
-    result = carom_replay_begin(&player, file, (size_t)bytes, room, sizeof room);
+    result = carom_replay_begin(&player, replay_file, (size_t)(replay_file_end - replay_file),
+                                room_start, (size_t)(room_end - room_start));
     result = result < 0 ? result : CAROM_REPLAY_FRAME;
     while (result == CAROM_REPLAY_FRAME) {
         const size_t from = player.at;

@@ -1,3 +1,4 @@
+#!/usr/bin/env node
 // SPDX-License-Identifier: MIT
 // Run a program for WebAssembly: node run.mjs PROGRAM ARGUMENT...
 import { readFileSync, writeSync } from "node:fs";
