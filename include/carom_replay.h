@@ -93,13 +93,14 @@ int carom_replay_digests(const struct carom_world *world, uint64_t digests[CAROM
 typedef void carom_record_write(void *user, const void *bytes, size_t count);
 
 /*
- * A recording, of the first world that is made by it; calls on other worlds go through unrecorded. It must stay
- * where it is as long as that world. All of it is Carom's own.
+ * A recording, of the first world that is made by it or given to carom_record_world; calls on other worlds go through unrecorded. It must stay
+ * where it is until it has ended or that world is gone. All of it is Carom's own.
  */
 struct carom_record {
     carom_record_write *write; /* NULL: nothing is recorded */
     void *user;
-    struct carom_world *world; /* NULL before carom_record_world_init */
+    struct carom_world
+        *world; /* NULL before carom_record_world_init or carom_record_world, and after the end */
     carom_contact_function *contact;
     void *contact_user;
     uint32_t asked; /* questions about contacts since the last answer that was written */
@@ -122,6 +123,17 @@ int carom_record_begin(struct carom_record *record, carom_record_write *write, v
  * recording without an end, of a program that crashed, can be played as far as it goes.
  */
 int carom_record_end(struct carom_record *record);
+
+/*
+ * Record a world that is there already, from where it is, after carom_record_begin: its meshes, bodies, joints and a snapshot are
+ * written at once. Its state stays as it is. Ids that the program has go on to name the same bodies.
+ *   mem    to make the snapshot in; free again after the call
+ *   bytes  carom_snapshot_size(world) at least
+ * Returns CAROM_OK; CAROM_ERR_NULL; CAROM_ERR_MEMORY for too few bytes; CAROM_ERR_ARGUMENT for a recording that has a
+ * world, has not begun or has ended. After an error nothing was written.
+ */
+int carom_record_world(struct carom_record *record, struct carom_world *world, void *mem,
+                       size_t bytes);
 
 /*
  * As the functions without record_, recorded; calls that change nothing because of NULL are not. With record NULL, or

@@ -190,6 +190,23 @@ static void code_joint(struct replay_coder *c, struct carom_joint_def *d)
     code_i64(c, &d->most_impulse_q40);
 }
 
+void replay_joint(struct replay_coder *c, struct joint *j)
+{
+    code_bool(c, &j->used);
+    if (!j->used) {
+        return;
+    }
+    code_u8(c, &j->kind);
+    code_bool(c, &j->touch);
+    code_u16(c, &j->a);
+    code_u16(c, &j->b);
+    for (int s = 0; s < 2; s++) {
+        code_three(c, j->arm[s].c);
+        code_rotation(c, &j->frame[s]);
+    }
+    code_i64(c, &j->most_impulse_q40);
+}
+
 /* --------------------------------------------------------------------- calls */
 
 /* Arguments of the calls that act by a vector, a place or numbers. */
@@ -266,6 +283,11 @@ void replay_code(struct replay_coder *c, struct replay_call *call)
         code_act(c, call);
         break;
     }
+}
+
+bool replay_is_of_body(uint8_t op)
+{
+    return op >= CAROM_CALL_body_remove && op <= CAROM_CALL_surface_set;
 }
 
 bool replay_has_data(uint8_t op)

@@ -5,7 +5,7 @@
 #ifndef CAROM_SRC_CALL_H
 #define CAROM_SRC_CALL_H
 
-#include "../num/fix.h"
+#include "../world/joints.h"
 #include "carom_replay.h"
 
 #define REPLAY_VERSION  1
@@ -19,6 +19,9 @@
 /* Bytes that begin what is no call in full; below them is the number of a call. */
 enum replay_token {
     REPLAY_TOKEN_END = 0,
+    REPLAY_TOKEN_ANEW =
+        0x3a, /* bodies were added since the last step: what sleeps looks for sensors */
+    REPLAY_TOKEN_JOINT = 0x3b, /* one that was there when a recording began */
     REPLAY_TOKEN_CHECK = 0x3c, /* of a step, after its answers and its result */
     REPLAY_TOKEN_MESH = 0x3d,
     REPLAY_TOKEN_ANSWER = 0x3e,
@@ -68,9 +71,13 @@ int64_t replay_number(struct replay_coder *c, int64_t value, int64_t low, int64_
 /* A number of so many bytes, the lowest first. */
 uint64_t replay_fixed(struct replay_coder *c, uint64_t value, int bytes);
 void replay_material(struct replay_coder *c, struct carom_material *m);
+/* A joint as it is between its bodies. */
+void replay_joint(struct replay_coder *c, struct joint *j);
 /* A call without what follows it: op is there already. */
 void replay_code(struct replay_coder *c, struct replay_call *call);
 
+/* Whether `body` of a call is one: else it is a joint, or nothing. */
+bool replay_is_of_body(uint8_t op);
 /* Whether data follow a call, so that it is not kept among the last ones. */
 bool replay_has_data(uint8_t op);
 /* Make the call. */

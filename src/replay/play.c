@@ -1,44 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Playing: the calls of a file are made again, and what comes of them is compared. No byte of it is trusted. */
-
-#include "call.h"
-
-/* ------------------------------------------------------------------ memory, bytes */
-
-/* Room that stays taken; NULL when there is none left. */
-static void *take(struct carom_replay *p, size_t bytes)
-{
-    const size_t rounded = (bytes + 7) / 8 * 8;
-    uint8_t *at = p->mem + p->used;
-
-    if (bytes > p->room || rounded > p->room - p->used) {
-        return NULL;
-    }
-    p->used += rounded;
-    return at;
-}
-
-/* A block that the next call may have again. */
-static void *take_again(struct carom_replay *p, uint8_t **block, size_t *had, size_t bytes)
-{
-    if (!*block || *had < bytes) {
-        *block = (uint8_t *)take(p, bytes);
-        *had = *block ? bytes : 0;
-    }
-    return *block;
-}
-
-static struct replay_coder rest_of(const struct carom_replay *p)
-{
-    return (struct replay_coder){.in = p->file + p->at, .size = p->bytes - p->at};
-}
-
-/* How much was read; true if all of it was there and meant something. */
-static bool done(struct carom_replay *p, const struct replay_coder *c)
-{
-    p->at += c->at;
-    return !c->bad;
-}
+#include "play.h"
 
 static bool next_is(const struct carom_replay *p, uint8_t token)
 {
@@ -61,7 +23,7 @@ static void differ(struct carom_replay *p, int difference, int64_t wanted, int64
 static bool answer_as_recorded(void *user, struct carom_touch *touch)
 {
     struct carom_replay *p = (struct carom_replay *)user;
-    struct replay_coder c = rest_of(p);
+    struct replay_coder c = play_rest(p);
     int64_t asked, e_q30, mu_q16;
     bool keep;
 
@@ -84,121 +46,6 @@ static bool answer_as_recorded(void *user, struct carom_touch *touch)
     return keep;
 }
 
-/* ------------------------------------------------------------------------- meshes */
-
-static void read_vertices(struct replay_coder *c, int16_t (*out)[3], uint32_t count)
-{
-    for (uint32_t i = 0; i < 3 * count; i++) {
-        out[i / 3][i % 3] = (int16_t)(uint16_t)replay_fixed(c, 0, 2);
-    }
-}
-
-static int read_mesh(struct carom_replay *p)
-{
-    struct replay_coder c = rest_of(p);
-    const bool moving = replay_fixed(&c, 0, 1) != 0;
-    struct carom_mesh_raw raw = {0};
-    struct carom_mesh *mesh = (struct carom_mesh *)take(p, sizeof *mesh);
-    int16_t(*vertices)[3];
-    uint16_t(*faces)[3];
-    size_t bytes;
-    void *block;
-    int result;
-
-    raw.kind = (uint8_t)replay_fixed(&c, 0, 1);
-    raw.quantum_bits = (uint8_t)replay_fixed(&c, 0, 1);
-    raw.vertex_count = (uint32_t)replay_fixed(&c, 0, 4);
-    raw.face_count = (uint32_t)replay_fixed(&c, 0, 4);
-    if (c.bad || raw.vertex_count < 3 || raw.vertex_count > 65535 || raw.face_count < 1 ||
-        raw.face_count > 65535 || (size_t)6 * (raw.vertex_count + raw.face_count) > c.size - c.at) {
-        return CAROM_ERR_FORMAT;
-    }
-    bytes = moving ? CAROM_SURFACE_BYTES(raw.vertex_count, raw.face_count)
-                   : CAROM_MESH_BYTES(raw.vertex_count, raw.face_count);
-    vertices = (int16_t(*)[3])take(p, raw.vertex_count * sizeof *vertices);
-    faces = (uint16_t(*)[3])take(p, raw.face_count * sizeof *faces);
-    block = take(p, bytes);
-    if (!mesh || !vertices || !faces || !block) {
-        return CAROM_ERR_MEMORY;
-    }
-    read_vertices(&c, vertices, raw.vertex_count);
-    for (uint32_t i = 0; i < 3 * raw.face_count; i++) {
-        faces[i / 3][i % 3] = (uint16_t)replay_fixed(&c, 0, 2);
-    }
-    raw.vertices = (const int16_t(*)[3])vertices;
-    raw.faces = (const uint16_t(*)[3])faces;
-    result = moving ? carom_surface_build(mesh, &raw, block, bytes)
-                    : carom_mesh_build(mesh, &raw, block, bytes);
-    p->meshes[p->mesh_count++ % CAROM_REPLAY_MESHES] = mesh;
-    return done(p, &c) && result >= 0 ? CAROM_OK : CAROM_ERR_FORMAT;
-}
-
-/* ----------------------------------------------------------- what follows a call */
-
-static int read_surface(struct carom_replay *p, struct replay_call *call)
-{
-    const struct carom_mesh *mesh = carom_body_mesh(p->world, call->body);
-    struct replay_coder c = rest_of(p);
-    int16_t(*vertices)[3];
-
-    if (call->count != (mesh ? mesh->raw.vertex_count : 0) || 6 * (size_t)call->count > c.size) {
-        return CAROM_ERR_FORMAT;
-    }
-    vertices =
-        (int16_t(*)[3])take_again(p, &p->scratch, &p->scratch_bytes, 6 * (size_t)call->count + 8);
-    if (!vertices) {
-        return CAROM_ERR_MEMORY;
-    }
-    read_vertices(&c, vertices, call->count);
-    call->vertices = (const int16_t(*)[3])vertices;
-    return done(p, &c) ? CAROM_OK : CAROM_ERR_FORMAT;
-}
-
-static int read_materials(struct carom_replay *p, struct replay_call *call)
-{
-    const struct carom_mesh *mesh = carom_body_mesh(p->world, call->body);
-    struct replay_coder c = rest_of(p);
-    struct carom_material *materials;
-    uint8_t *of_face;
-
-    if (call->faces == 0 && call->count == 0) {
-        return CAROM_OK; /* the body's own again */
-    }
-    if (!mesh || call->faces != mesh->raw.face_count || call->count > 256 || call->count == 0) {
-        return CAROM_ERR_FORMAT;
-    }
-    materials = (struct carom_material *)take(p, call->count * sizeof *materials);
-    of_face = (uint8_t *)take(p, call->faces);
-    if (!materials || !of_face) {
-        return CAROM_ERR_MEMORY;
-    }
-    for (uint32_t i = 0; i < call->count; i++) {
-        replay_material(&c, &materials[i]);
-    }
-    for (uint32_t i = 0; i < call->faces; i++) {
-        of_face[i] = (uint8_t)replay_fixed(&c, 0, 1);
-    }
-    call->data = materials;
-    call->of_face = of_face;
-    return done(p, &c) ? CAROM_OK : CAROM_ERR_FORMAT;
-}
-
-static int read_data(struct carom_replay *p, struct replay_call *call)
-{
-    if (call->op == CAROM_CALL_body_set_face_materials) {
-        return read_materials(p, call);
-    }
-    if (call->op != CAROM_CALL_snapshot_load) {
-        return read_surface(p, call);
-    }
-    if (call->count > p->bytes - p->at) {
-        return CAROM_ERR_FORMAT;
-    }
-    call->data = p->file + p->at;
-    p->at += call->count;
-    return CAROM_OK;
-}
-
 /* -------------------------------------------------------------------------- calls */
 
 static int make_world(struct carom_replay *p, struct replay_call *call)
@@ -208,7 +55,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
 
     config->contact = config->contact_user ? answer_as_recorded : NULL;
     config->contact_user = p;
-    if (!take_again(p, &p->block, &p->block_bytes, bytes)) {
+    if (!play_take_again(p, &p->block, &p->block_bytes, bytes)) {
         return CAROM_ERR_MEMORY;
     }
     p->world = NULL;
@@ -219,7 +66,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
 /* What the step left against what it left when it was recorded. */
 static int check(struct carom_replay *p)
 {
-    struct replay_coder c = rest_of(p);
+    struct replay_coder c = play_rest(p);
     uint64_t digests[CAROM_REPLAY_PARTS];
 
     p->frames++;
@@ -238,46 +85,27 @@ static int check(struct carom_replay *p)
             differ(p, CAROM_REPLAY_IN_PART, (int64_t)wanted, (int64_t)found);
         }
     }
-    if (!done(p, &c)) {
+    if (!play_done(p, &c)) {
         return CAROM_REPLAY_CUT; /* the program ended in this step */
     }
     return p->difference == CAROM_REPLAY_SAME ? CAROM_REPLAY_FRAME : CAROM_REPLAY_DIFFERS;
 }
 
-/* Make a call and compare its result; an error of the file, or how a step went, or CAROM_OK. */
-static int perform(struct carom_replay *p, struct replay_call *call)
+/* What a call returned against what it did when it was recorded. */
+static int compare_result(struct carom_replay *p, int result)
 {
-    struct replay_coder c;
     int64_t wanted = 0;
-    int result;
 
-    p->call = call->op;
-    if (call->op == CAROM_CALL_world_init) {
-        result = make_world(p, call);
-        return result;
-    }
-    if (!p->world) {
-        return CAROM_ERR_FORMAT;
-    }
-    if (call->op == CAROM_CALL_body_add) {
-        if (call->mesh >= CAROM_REPLAY_MESHES || !p->meshes[call->mesh]) {
-            return CAROM_ERR_FORMAT;
-        }
-        call->u.def.mesh = p->meshes[call->mesh];
-    }
-    result = replay_result(call->op, replay_do(p->world, call));
-    if (call->op == CAROM_CALL_body_add && p->meshes[call->mesh]->surface) {
-        p->meshes[call->mesh] = NULL; /* such a mesh is one body's */
-    }
     if (next_is(p, REPLAY_TOKEN_ANSWER)) {
         differ(p, CAROM_REPLAY_IN_ANSWER, 0, p->asked);
         return CAROM_REPLAY_DIFFERS;
     }
     if (next_is(p, REPLAY_TOKEN_RESULT)) {
-        c = rest_of(p);
+        struct replay_coder c = play_rest(p);
+
         c.at = 1;
         wanted = replay_number(&c, 0, INT32_MIN, INT32_MAX);
-        if (!done(p, &c)) {
+        if (!play_done(p, &c)) {
             return CAROM_REPLAY_CUT;
         }
     }
@@ -287,7 +115,32 @@ static int perform(struct carom_replay *p, struct replay_call *call)
     if (result != wanted) {
         differ(p, CAROM_REPLAY_IN_RESULT, wanted, result);
     }
-    return call->op == CAROM_CALL_world_step ? check(p) : CAROM_OK;
+    return CAROM_OK;
+}
+
+/* Make a call and compare its result; an error of the file, or how a step went, or CAROM_OK. */
+static int perform(struct carom_replay *p, struct replay_call *call)
+{
+    struct carom_mesh **mesh = NULL;
+    int result;
+
+    p->call = call->op;
+    if (call->op == CAROM_CALL_world_init) {
+        return make_world(p, call);
+    }
+    if (call->op == CAROM_CALL_body_add && call->mesh < CAROM_REPLAY_MESHES) {
+        mesh = &p->meshes[call->mesh];
+        call->u.def.mesh = *mesh;
+    }
+    if (!p->world || (call->op == CAROM_CALL_body_add && !call->u.def.mesh)) {
+        return CAROM_ERR_FORMAT;
+    }
+    result = replay_result(call->op, replay_do(p->world, call));
+    if (mesh && (*mesh)->surface) {
+        *mesh = NULL; /* such a mesh is one body's */
+    }
+    result = compare_result(p, result);
+    return result == CAROM_OK && call->op == CAROM_CALL_world_step ? check(p) : result;
 }
 
 /* A call of a slot. */
@@ -309,12 +162,12 @@ static int perform_again(struct carom_replay *p, uint8_t slot)
 static int perform_new(struct carom_replay *p, uint8_t op)
 {
     const uint8_t *bytes = p->file + p->at - 1;
-    struct replay_coder c = rest_of(p);
+    struct replay_coder c = play_rest(p);
     struct replay_call call = {.op = op};
     int result;
 
     replay_code(&c, &call);
-    if (!done(p, &c)) {
+    if (!play_done(p, &c)) {
         return p->at >= p->bytes ? CAROM_REPLAY_CUT : CAROM_ERR_FORMAT;
     }
     if (!replay_has_data(op)) {
@@ -324,7 +177,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
     if (!p->world) {
         return CAROM_ERR_FORMAT;
     }
-    result = read_data(p, &call);
+    result = play_data(p, &call);
     return result < 0 ? result : perform(p, &call);
 }
 
@@ -332,11 +185,11 @@ static int perform_new(struct carom_replay *p, uint8_t op)
 static int end(struct carom_replay *p)
 {
     const uint32_t sum = replay_sum(REPLAY_SUM_START, p->file, p->bytes >= 4 ? p->bytes - 4 : 0);
-    struct replay_coder c = rest_of(p);
+    struct replay_coder c = play_rest(p);
     const uint64_t frames = replay_fixed(&c, 0, 4), hash = replay_fixed(&c, 0, 8);
     const uint64_t wanted = replay_fixed(&c, 0, 4);
 
-    if (!done(p, &c)) {
+    if (!play_done(p, &c)) {
         return CAROM_REPLAY_CUT;
     }
     if (p->at != p->bytes || wanted != sum || frames != p->frames ||
@@ -368,7 +221,14 @@ static int go_on(struct carom_replay *p)
         return perform_again(p, (uint8_t)(token - REPLAY_TOKEN_SLOT));
     }
     if (token == REPLAY_TOKEN_MESH) {
-        return read_mesh(p);
+        return play_mesh(p);
+    }
+    if (token == REPLAY_TOKEN_JOINT) {
+        return play_joint(p);
+    }
+    if (token == REPLAY_TOKEN_ANEW && p->world) {
+        p->world->sense_anew = true;
+        return CAROM_OK;
     }
     return token < CAROM_CALL_COUNT ? perform_new(p, token) : CAROM_ERR_FORMAT;
 }

@@ -37,10 +37,28 @@ static void put_run(struct carom_record *r)
     }
 }
 
-static void put_token(struct carom_record *r, uint8_t token)
+void record_token(struct carom_record *r, uint8_t token)
 {
     put_run(r);
     put_fixed(r, token, 1);
+}
+
+/* Ids depend on what had a place before the recording began; numbers do not. One that names no body becomes `none`. */
+static int numbered(const struct carom_record *r, int body, int none)
+{
+    return world_find_body(r->world, &body) ? body : none;
+}
+
+static void put_numbers(const struct carom_record *r, struct replay_call *call)
+{
+    if (call->op == CAROM_CALL_joint_add) {
+        struct carom_joint_def *def = &call->u.joint;
+
+        def->a = numbered(r, def->a, CAROM_WORLD - 1);
+        def->b = def->b == CAROM_WORLD ? def->b : numbered(r, def->b, CAROM_WORLD - 1);
+    } else if (replay_is_of_body(call->op)) {
+        call->body = numbered(r, call->body, -1);
+    }
 }
 
 static void put_call(struct carom_record *r, const struct replay_call *call)
@@ -50,6 +68,7 @@ static void put_call(struct carom_record *r, const struct replay_call *call)
     struct replay_call copy = *call;
     uint32_t slot;
 
+    put_numbers(r, &copy);
     replay_code(&c, &copy);
     slot = replay_find(&r->memory, bytes, c.at);
     if (slot != UINT32_MAX && slot == r->memory.slots[r->memory.last].next) {
@@ -58,7 +77,7 @@ static void put_call(struct carom_record *r, const struct replay_call *call)
             put_run(r);
         }
     } else if (slot != UINT32_MAX) {
-        put_token(r, (uint8_t)(REPLAY_TOKEN_SLOT + slot));
+        record_token(r, (uint8_t)(REPLAY_TOKEN_SLOT + slot));
         replay_follow(&r->memory, slot);
     } else {
         put_run(r);
@@ -73,7 +92,7 @@ static void put_check(struct carom_record *r)
 {
     uint64_t digests[CAROM_REPLAY_PARTS];
 
-    put_token(r, REPLAY_TOKEN_CHECK);
+    record_token(r, REPLAY_TOKEN_CHECK);
     if (r->stages) {
         carom_replay_digests(r->world, digests);
         for (int part = 0; part < CAROM_REPLAY_STATE; part++) {
@@ -103,7 +122,7 @@ void record_result(struct carom_record *r, uint8_t op, int result)
 {
     result = replay_result(op, result);
     if (result != CAROM_OK) {
-        put_token(r, REPLAY_TOKEN_RESULT);
+        record_token(r, REPLAY_TOKEN_RESULT);
         put_number(r, result);
     }
     if (op == CAROM_CALL_world_step) {
@@ -182,7 +201,7 @@ uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh)
     }
     r->meshes[at] = hash;
     r->mesh_count++;
-    put_token(r, REPLAY_TOKEN_MESH);
+    record_token(r, REPLAY_TOKEN_MESH);
     put_fixed(r, mesh->surface != NULL, 1);
     put_fixed(r, raw->kind, 1);
     put_fixed(r, raw->quantum_bits, 1);
@@ -207,7 +226,7 @@ static bool ask_program(void *user, struct carom_touch *touch)
     r->asked++;
     if (r->write && (!keep || was.restitution_q30 != touch->restitution_q30 ||
                      was.friction_q16 != touch->friction_q16)) {
-        put_token(r, REPLAY_TOKEN_ANSWER);
+        record_token(r, REPLAY_TOKEN_ANSWER);
         put_number(r, r->asked);
         put_fixed(r, keep, 1);
         put_number(r, touch->restitution_q30);
@@ -243,18 +262,38 @@ int carom_record_begin(struct carom_record *r, carom_record_write *write, void *
     return CAROM_OK;
 }
 
+void record_ask(struct carom_record *r, struct carom_config *config)
+{
+    r->contact = config->contact;
+    r->contact_user = config->contact_user;
+    if (config->contact) {
+        config->contact = ask_program;
+        config->contact_user = r;
+    }
+}
+
+void record_ask_no_more(struct carom_record *r)
+{
+    if (r->world && r->contact) {
+        r->world->config.contact = r->contact;
+        r->world->config.contact_user = r->contact_user;
+    }
+}
+
 int carom_record_end(struct carom_record *r)
 {
     if (!r) {
         return CAROM_ERR_NULL;
     }
     if (r->write) {
-        put_token(r, REPLAY_TOKEN_END);
+        record_token(r, REPLAY_TOKEN_END);
         put_fixed(r, r->frames, 4);
         put_fixed(r, carom_world_hash(r->world), 8);
         put_fixed(r, r->sum, 4);
     }
+    record_ask_no_more(r);
     r->write = NULL;
+    r->world = NULL;
     return CAROM_OK;
 }
 
@@ -269,14 +308,9 @@ int carom_record_world_init(struct carom_record *r, void *mem, size_t bytes,
         return carom_world_init(mem, bytes, config, world);
     }
     call.u.config = *config;
-    if (config->contact) {
-        call.u.config.contact = ask_program;
-        call.u.config.contact_user = r;
-    }
-    result = carom_world_init(mem, bytes, &call.u.config, world);
+    result = carom_world_init(mem, bytes, config, world);
     if (result >= 0) {
-        r->contact = config->contact;
-        r->contact_user = config->contact_user;
+        record_ask(r, &(*world)->config);
         r->world = *world;
         record_call(r, &call);
         record_result(r, call.op, result);

@@ -13,6 +13,12 @@ void record_result(struct carom_record *r, uint8_t op, int result);
 /* Make a call between both. */
 int record_do(struct carom_record *r, struct carom_world *world, const struct replay_call *call);
 
+/* A byte that begins what is no call. */
+void record_token(struct carom_record *r, uint8_t token);
+/* Contacts of the recorder's world are asked about through it, or by the program itself again. */
+void record_ask(struct carom_record *r, struct carom_config *config);
+void record_ask_no_more(struct carom_record *r);
+
 /* What follows a call. */
 void record_vertices(struct carom_record *r, const int16_t (*vertices)[3], uint32_t count);
 void record_bytes(struct carom_record *r, const void *bytes, uint32_t count);

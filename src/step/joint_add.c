@@ -36,6 +36,14 @@ static int check(const struct carom_world *w, struct carom_joint_def *def)
     return world_check_drive(def->kind, &def->drive);
 }
 
+static bool arm_is_short(const struct carom_world *w, const struct joint *j, int side)
+{
+    const uint16_t body = side == 0 ? j->a : j->b;
+
+    return body == JOINT_WORLD || !w->bodies[body].moving ||
+           fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].radius_q22, 18) * ARM_RADII;
+}
+
 /* An anchor from a body's centre, in its mesh's axes. False when it is too far. */
 static bool set_arm(const struct carom_world *w, struct joint *j, int side,
                     const carom_v3_q32 *anchor)
@@ -49,8 +57,7 @@ static bool set_arm(const struct carom_world *w, struct joint *j, int side,
         j->arm[side].c[k] = carom_shl(anchor->c[k] - pose.position.c[k], 8);
     }
     fix_rotate_back(j->arm[side].c, &r, j->arm[side].c);
-    return body == JOINT_WORLD || !w->bodies[body].moving ||
-           fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].radius_q22, 18) * ARM_RADII;
+    return arm_is_short(w, j, side);
 }
 
 /* The rotation that takes z to an axis: about z x axis, or about x where they are opposite. */
@@ -98,6 +105,54 @@ static void set_frames(const struct carom_world *w, struct joint *j,
     }
 }
 
+/* Put it at a place of the list; with the first one a world learns how joints are solved. */
+static void put(struct carom_world *w, uint32_t place, const struct joint *made,
+                const struct carom_joint_drive *drive)
+{
+    struct joint_list *list = &w->rest.joints;
+
+    list->count = place == list->count ? place + 1 : list->count;
+    list->joints[place] = *made;
+    for (int k = 0; k < 2; k++) {
+        memset(&w->states[k].joints[place], 0, sizeof w->states[k].joints[place]);
+        w->states[k].joints[place].drive = *drive;
+    }
+    list->states = w->now->joints;
+    list->calls = &joint_calls;
+    w->joint_steps = &step_joint_calls;
+    world_group_joints(w);
+}
+
+/* Whether a joint that was read could have been added to these bodies. */
+static bool could_be(const struct carom_world *w, const struct joint *j)
+{
+    const int64_t most_q40 = (int64_t)1 << 54; /* twice the width of the world */
+    bool good = j->kind <= CAROM_JOINT_FIXED && j->most_impulse_q40 >= 0 && j->a != j->b &&
+                j->a < w->body_count && w->bodies[j->a].mesh && w->bodies[j->a].moving &&
+                (j->b == JOINT_WORLD || (j->b < w->body_count && w->bodies[j->b].mesh));
+
+    for (int s = 0; good && s < 2; s++) {
+        good = world_is_unit(j->frame[s].c, 4, 26) && world_each_within(j->arm[s].c, most_q40) &&
+               arm_is_short(w, j, s);
+    }
+    return good;
+}
+
+int step_restore_joint(struct carom_world *w, const struct joint *made)
+{
+    static const struct carom_joint_drive none; /* comes with the snapshot */
+
+    if (made->used && !could_be(w, made)) {
+        return CAROM_ERR_FORMAT;
+    }
+    if (w->rest.joints.count >= w->pools[CAROM_POOL_joints].size ||
+        (made->used && pool_take(&w->pools[CAROM_POOL_joints]) < 0)) {
+        return CAROM_ERR_JOINTS_FULL;
+    }
+    put(w, w->rest.joints.count, made, &none);
+    return CAROM_OK;
+}
+
 int carom_joint_add(struct carom_world *w, const struct carom_joint_def *given)
 {
     struct carom_joint_def numbered;
@@ -134,16 +189,7 @@ int carom_joint_add(struct carom_world *w, const struct carom_joint_def *given)
     while (place < list->count && list->joints[place].used) {
         place++;
     }
-    list->count = place == list->count ? place + 1 : list->count;
-    list->joints[place] = made;
-    for (int k = 0; k < 2; k++) {
-        memset(&w->states[k].joints[place], 0, sizeof w->states[k].joints[place]);
-        w->states[k].joints[place].drive = def->drive;
-    }
-    list->states = w->now->joints;
-    list->calls = &joint_calls;
-    w->joint_steps = &step_joint_calls;
-    world_group_joints(w);
+    put(w, place, &made, &def->drive);
     world_wake_joint(w, &list->joints[place]);
     return (int)place;
 }

@@ -27,4 +27,10 @@ void world_drop_joint(struct carom_world *w, uint32_t joint);
 bool world_joint_plausible(const struct joint *j, const struct joint_state *state);
 void world_wake_joint(struct carom_world *w, const struct joint *j);
 
+/*
+ * Add a joint as one that was in another world, behind the last one; its state comes with a snapshot. One that is not used
+ * is a free place. CAROM_OK; CAROM_ERR_FORMAT; CAROM_ERR_JOINTS_FULL. In src/step/joint_add.c.
+ */
+int step_restore_joint(struct carom_world *w, const struct joint *made);
+
 #endif

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A recording that begins in the middle of a world's life: calls that make a world of the same bodies and joints, and a
+ * snapshot that puts all of them where they are. While they are added all bodies are at 0 and may touch nothing.
+ */
+#include "../mesh/mesh.h"
+#include "record.h"
+
+static void note(struct carom_record *r, const struct replay_call *call, int result)
+{
+    record_call(r, call);
+    record_result(r, call->op, result);
+}
+
+/* In a free place a body is added and taken away again: this one. */
+static const int16_t corners[][3] = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
+static const uint16_t side[][3] = {{0, 1, 2}};
+static const struct carom_mesh stopgap = {.raw = {corners, side, 3, 1, 8, CAROM_SURFACE}};
+
+/* 0 for a mass that follows from the mesh, which 2^-20 need not hold. */
+static uint32_t mass_of(const struct body *b)
+{
+    const struct fix_scaled by_volume = fix_scale(b->mesh->mass.volume_q32, 32);
+
+    return !b->moving || (by_volume.m == b->mass.m && by_volume.e == b->mass.e)
+               ? 0
+               : (uint32_t)fix_mul_scaled((int64_t)1 << 20, b->mass);
+}
+
+static struct carom_body_def def_of(const struct body *b)
+{
+    struct carom_body_def def;
+
+    memset(&def, 0, sizeof def);
+    def.filter.category = 1; /* and no mask; the snapshot has the filter */
+    def.mesh = &stopgap;
+    def.stationary = true;
+    if (b->mesh) {
+        def.mesh = b->mesh;
+        def.kinematic = world_is_kinematic(b);
+        def.stationary = !b->moving && !def.kinematic;
+        def.mass_q20 = mass_of(b);
+        def.restitution_q30 = b->restitution_q30;
+        def.friction_q16 = b->friction_q16;
+        def.sensor = b->sensor;
+        def.one_way = b->one_way;
+    }
+    return def;
+}
+
+/* A surface is written as it was when the last step ended, and moved from there. */
+static void note_body(struct carom_record *r, int body)
+{
+    const struct body *b = &r->world->bodies[body];
+    struct replay_call call = {.op = CAROM_CALL_body_add, .body = body};
+    struct carom_mesh mesh;
+
+    call.u.def = def_of(b);
+    mesh = *call.u.def.mesh;
+    if (mesh.surface) {
+        mesh.raw.vertices = (const int16_t(*)[3])mesh.surface->before;
+    }
+    call.mesh = record_mesh(r, &mesh);
+    note(r, &call, body);
+    if (mesh.surface && mesh.surface->most_q22 != 0) {
+        const struct replay_call move = {
+            .op = CAROM_CALL_surface_move, .body = body, .count = mesh.raw.vertex_count};
+
+        record_call(r, &move);
+        record_vertices(r, (const int16_t(*)[3])mesh.surface->now, move.count);
+        record_result(r, move.op, CAROM_OK);
+    }
+}
+
+/*
+ * Materials by face. The world does not know how many there are: those that faces have, and one more for the largest e
+ * and mu of all.
+ */
+static void note_faces(struct carom_record *r, int body, const struct body_extra *extra)
+{
+    struct replay_call call = {.op = CAROM_CALL_body_set_face_materials, .body = body};
+    struct carom_material most = {.restitution_q30 = extra->most_restitution_q30,
+                                  .friction_q16 = extra->most_friction_q16};
+    uint32_t used = 0;
+
+    call.faces = r->world->bodies[body].mesh->raw.face_count;
+    for (uint32_t i = 0; i < call.faces; i++) {
+        used = extra->face_material[i] >= used ? extra->face_material[i] + 1u : used;
+    }
+    call.count = used < 256 ? used + 1 : used;
+    record_call(r, &call);
+    for (uint32_t i = 0; i < call.count; i++) {
+        record_material(r, i < used ? &extra->materials[i] : &most);
+    }
+    record_bytes(r, extra->face_material, call.faces);
+    record_result(r, call.op, CAROM_OK);
+}
+
+/*
+ * Materials, and an extra for who has one. A world mixes materials by its rules from the first change of one on: so there is
+ * a change, and it is taken back.
+ */
+static void note_extras(struct carom_record *r, int body)
+{
+    const struct body *b = &r->world->bodies[body];
+    struct replay_call call = {.op = CAROM_CALL_body_set_material, .body = body};
+    struct replay_call damping = {.op = CAROM_CALL_body_set_damping, .body = body};
+
+    if (r->world->rest.list.materials) {
+        struct carom_material *m = &call.u.material;
+        uint32_t *changed = b->extra ? &m->rolling_q16 : &m->friction_q16;
+        uint32_t is;
+
+        carom_body_material(r->world, body, m);
+        is = *changed;
+        *changed = is > 0 ? is - 1 : 1;
+        note(r, &call, CAROM_OK);
+        *changed = is;
+        note(r, &call, CAROM_OK);
+    }
+    if (b->extra && b->extra->materials) {
+        note_faces(r, body, b->extra);
+    }
+    for (int k = 1; b->extra && b->moving && k >= 0; k--) {
+        damping.u.numbers[0] = k;
+        note(r, &damping, CAROM_OK);
+    }
+}
+
+static void note_joint(struct carom_record *r, const struct joint *j)
+{
+    uint8_t out[REPLAY_CALL_BYTES];
+    struct replay_coder c = {.out = out, .size = sizeof out};
+    struct joint copy = *j;
+
+    record_token(r, REPLAY_TOKEN_JOINT);
+    replay_joint(&c, &copy);
+    record_bytes(r, out, (uint32_t)c.at);
+}
+
+static void note_all(struct carom_record *r)
+{
+    const struct carom_world *w = r->world;
+    struct replay_call call = {.op = CAROM_CALL_world_set_combine};
+
+    call.u.numbers[0] = w->rest.list.restitution_rule;
+    call.u.numbers[1] = w->rest.list.friction_rule;
+    note(r, &call, CAROM_OK);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        note_body(r, (int)i);
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        const struct replay_call away = {.op = CAROM_CALL_body_remove, .body = (int32_t)i};
+
+        if (w->bodies[i].mesh) {
+            note_extras(r, (int)i);
+        } else {
+            note(r, &away, CAROM_OK);
+        }
+    }
+    for (uint32_t i = 0; i < w->rest.joints.count; i++) {
+        note_joint(r, &w->rest.joints.joints[i]);
+    }
+}
+
+int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem, size_t bytes)
+{
+    struct replay_call call = {.op = CAROM_CALL_world_init};
+    int size;
+
+    if (!r || !w || !mem) {
+        return CAROM_ERR_NULL;
+    }
+    if (!r->write || r->world) {
+        return CAROM_ERR_ARGUMENT;
+    }
+    size = carom_snapshot_save(w, mem, bytes);
+    if (size < 0) {
+        return size;
+    }
+    r->world = w;
+    call.u.config = w->config;
+    note(r, &call, CAROM_OK);
+    note_all(r);
+    call = (struct replay_call){.op = CAROM_CALL_snapshot_load, .count = (uint32_t)size};
+    record_call(r, &call);
+    record_bytes(r, mem, call.count);
+    record_result(r, call.op, CAROM_OK);
+    if (w->sense_anew) {
+        record_token(r, REPLAY_TOKEN_ANEW);
+    }
+    record_ask(r, &w->config);
+    return CAROM_OK;
+}
