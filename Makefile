@@ -164,12 +164,13 @@ else
 test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang m68k-linux-gnu qemu-user
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
-	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf
+	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
 	    build/host/tests.elf build/host-debug/tests.elf build/host-debug/host_fuzz.elf \
+	    build/host-debug/host_replay.elf \
 	    $(CORTEX_TESTS) \
 	    && $(all_built)
 endif
@@ -371,6 +372,9 @@ $(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/l
     $(filter-out $(call objects,$(RECORDED)),$(SCENES_BUILT))
 	@echo '  link  $@'
 	$(link)
+
+# So are the calls of chance that this test makes.
+$(B)/host_replay.elf: $(patsubst %.c,$(B)/recorded/%.o,tests/fuzz.c tests/fuzz_calls.c tests/fuzz_ask.c)
 
 $(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages,
+ * from=FRAME begins with the world as it is before that frame,
  * caps=2,1,16,64,0,64 in a world of these capacities, which a small board has room to play. The scenes are compiled as
  * they are, with tests/recorded.h before them.
  */
@@ -14,6 +15,7 @@
 
 struct carom_record recorder;
 
+static _Alignas(8) uint8_t snapshot[1 << 20];
 static _Alignas(8) uint8_t mesh_block[SCENE_MESH_BYTES], world_block[SCENE_WORLD_BYTES];
 
 static void write_file(void *user, const void *bytes, size_t count)
@@ -31,6 +33,12 @@ static int expect(int result, const char *what)
         exit(2);
     }
     return result;
+}
+
+static void begin(FILE *file, const char *name)
+{
+    expect(carom_record_begin(&recorder, write_file, file, port_number("stages", 0) != 0, name),
+           "begin");
 }
 
 /* Capacities, in the order of CAROM_POOLS; those that are not named are 0. */
@@ -60,8 +68,9 @@ int main(void)
         perror(path);
         exit(2);
     }
-    expect(carom_record_begin(&recorder, write_file, file, port_number("stages", 0) != 0, name),
-           "begin");
+    if (port_number("from", 0) == 0) {
+        begin(file, name);
+    }
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
     if (port_option("caps")) {
         read_caps(&scene.caps, port_option("caps"));
@@ -69,6 +78,10 @@ int main(void)
     }
     expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), name);
     for (uint32_t frame = 1; frame <= port_number("frames", 10000); frame++) {
+        if (frame == port_number("from", 0)) {
+            begin(file, name);
+            expect(carom_record_world(&recorder, world, snapshot, sizeof snapshot), "from");
+        }
         expect(scene_before(&scene, world, (int)frame), "before");
         expect(carom_world_step(world), "step");
     }

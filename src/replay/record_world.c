@@ -163,6 +163,18 @@ static void note_all(struct carom_record *r)
     }
 }
 
+/* What the world knows beside its state, to be faster, a player has to find out anew: so has the world, or digests of stages differ. */
+static void forget(struct carom_world *w)
+{
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        struct body *b = &w->bodies[i];
+
+        b->standing = b->active = b->free = b->boxed = b->in_contact = false;
+    }
+    w->idle = false;
+    w->interfere.stale = true;
+}
+
 int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem, size_t bytes)
 {
     struct replay_call call = {.op = CAROM_CALL_world_init};
@@ -190,5 +202,6 @@ int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem,
         record_token(r, REPLAY_TOKEN_ANEW);
     }
     record_ask(r, &w->config);
+    forget(w);
     return CAROM_OK;
 }
