@@ -68,7 +68,6 @@ static void put_call(struct carom_record *r, const struct replay_call *call)
     struct replay_call copy = *call;
     uint32_t slot;
 
-    put_numbers(r, &copy);
     replay_code(&c, &copy);
     slot = replay_find(&r->memory, bytes, c.at);
     if (slot != UINT32_MAX && slot == r->memory.slots[r->memory.last].next) {
@@ -112,10 +111,19 @@ bool record_is_open(const struct carom_record *r, const struct carom_world *worl
 
 void record_call(struct carom_record *r, const struct replay_call *call)
 {
-    put_call(r, call);
+    struct replay_call copy = *call;
+
+    put_numbers(r, &copy);
+    put_call(r, &copy);
     if (call->op == CAROM_CALL_world_step) {
         put_run(r);
     }
+}
+
+void record_made(struct carom_record *r, const struct replay_call *call, int result)
+{
+    put_call(r, call);
+    record_result(r, call->op, result);
 }
 
 void record_result(struct carom_record *r, uint8_t op, int result)

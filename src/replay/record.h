@@ -10,6 +10,8 @@ bool record_is_open(const struct carom_record *r, const struct carom_world *worl
 /* Write a call, before it is made; and what came of it. */
 void record_call(struct carom_record *r, const struct replay_call *call);
 void record_result(struct carom_record *r, uint8_t op, int result);
+/* Write a call that nobody made, of bodies that only the recording has. */
+void record_made(struct carom_record *r, const struct replay_call *call, int result);
 /* Make a call between both. */
 int record_do(struct carom_record *r, struct carom_world *world, const struct replay_call *call);
 

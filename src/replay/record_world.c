@@ -6,12 +6,6 @@
 #include "../mesh/mesh.h"
 #include "record.h"
 
-static void note(struct carom_record *r, const struct replay_call *call, int result)
-{
-    record_call(r, call);
-    record_result(r, call->op, result);
-}
-
 /* In a free place a body is added and taken away again: this one. */
 static const int16_t corners[][3] = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
 static const uint16_t side[][3] = {{0, 1, 2}};
@@ -61,7 +55,7 @@ static void note_body(struct carom_record *r, int body)
         mesh.raw.vertices = (const int16_t(*)[3])mesh.surface->before;
     }
     call.mesh = record_mesh(r, &mesh);
-    note(r, &call, body);
+    record_made(r, &call, body);
     if (mesh.surface && mesh.surface->most_q22 != 0) {
         const struct replay_call move = {
             .op = CAROM_CALL_surface_move, .body = body, .count = mesh.raw.vertex_count};
@@ -114,16 +108,16 @@ static void note_extras(struct carom_record *r, int body)
         carom_body_material(r->world, body, m);
         is = *changed;
         *changed = is > 0 ? is - 1 : 1;
-        note(r, &call, CAROM_OK);
+        record_made(r, &call, CAROM_OK);
         *changed = is;
-        note(r, &call, CAROM_OK);
+        record_made(r, &call, CAROM_OK);
     }
     if (b->extra && b->extra->materials) {
         note_faces(r, body, b->extra);
     }
     for (int k = 1; b->extra && b->moving && k >= 0; k--) {
         damping.u.numbers[0] = k;
-        note(r, &damping, CAROM_OK);
+        record_made(r, &damping, CAROM_OK);
     }
 }
 
@@ -145,7 +139,7 @@ static void note_all(struct carom_record *r)
 
     call.u.numbers[0] = w->rest.list.restitution_rule;
     call.u.numbers[1] = w->rest.list.friction_rule;
-    note(r, &call, CAROM_OK);
+    record_made(r, &call, CAROM_OK);
     for (uint32_t i = 0; i < w->body_count; i++) {
         note_body(r, (int)i);
     }
@@ -155,7 +149,7 @@ static void note_all(struct carom_record *r)
         if (w->bodies[i].mesh) {
             note_extras(r, (int)i);
         } else {
-            note(r, &away, CAROM_OK);
+            record_made(r, &away, CAROM_OK);
         }
     }
     for (uint32_t i = 0; i < w->rest.joints.count; i++) {
@@ -192,7 +186,7 @@ int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem,
     }
     r->world = w;
     call.u.config = w->config;
-    note(r, &call, CAROM_OK);
+    record_made(r, &call, CAROM_OK);
     note_all(r);
     call = (struct replay_call){.op = CAROM_CALL_snapshot_load, .count = (uint32_t)size};
     record_call(r, &call);
