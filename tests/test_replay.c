@@ -246,6 +246,48 @@ static void test_named(void)
     }
 }
 
+/* Begun in the middle of a world's life: what it was asked before is there, and ids name the bodies that they named. */
+static void test_middle(void)
+{
+    static _Alignas(8) uint8_t mem[4096];
+    static const carom_v3_q40 weak = {{1 << 20, 0, 0}};
+    const struct carom_body_def again = {
+        &meshes[1], .position = {{CAROM_POSITION_MM(-1500), 0, CAROM_POSITION_MM(900)}}};
+
+    for (int from = 2; from <= FRAMES; from += 4) {
+        struct test_random random = {1};
+        struct carom_world *world;
+        int id;
+
+        memset(&record, 0, sizeof record);
+        world = make_world();
+        set_all(world);
+        CHECK_EQ(carom_record_body_remove(&record, world, 1), CAROM_OK);
+        CHECK_EQ(carom_record_body_add(&record, world, &again), 1);
+        for (int frame = 1; frame <= FRAMES; frame++) {
+            if (frame == from) {
+                file_bytes = 0;
+                CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
+                CHECK_EQ(carom_record_begin(&record, write_file, NULL, from % 8 == 2, "middle"),
+                         CAROM_OK);
+                CHECK_EQ(carom_record_world(&record, world, mem, 16), CAROM_ERR_MEMORY);
+                CHECK_EQ(carom_record_world(&record, NULL, mem, sizeof mem), CAROM_ERR_NULL);
+                CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_OK);
+                CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
+                id = carom_body_id(world, 1); /* of the second body of that number */
+                CHECK(id > 4096 + 1);
+                CHECK_EQ(carom_record_body_set_torque(&record, world, id, &weak), CAROM_OK);
+            }
+            act(world, frame, &random);
+            CHECK(carom_record_world_step(&record, world) >= 0);
+        }
+        CHECK_EQ(carom_record_end(&record), CAROM_OK);
+        CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
+        CHECK_EQ(player.frames, FRAMES - from + 1);
+        CHECK(carom_world_hash(player.world) == carom_world_hash(world));
+    }
+}
+
 /* Another world's calls, and those after the end, go through and are not written. */
 static void test_others(void)
 {
@@ -254,7 +296,7 @@ static void test_others(void)
 
     record_all(false, 1);
     bytes = file_bytes;
-    world = record.world;
+    world = (struct carom_world *)block;
     CHECK(carom_record_world_step(&record, world) >= 0);
     CHECK(carom_record_world_step(NULL, world) >= 0);
     CHECK_EQ(carom_record_body_set(NULL, world, 1, NULL), CAROM_ERR_NULL);
@@ -264,6 +306,11 @@ static void test_others(void)
 }
 
 const struct test tests_replay[] = {
-    {"replay/same", test_same},   {"replay/cut", test_cut},       {"replay/altered", test_altered},
-    {"replay/named", test_named}, {"replay/others", test_others}, {0},
+    {"replay/same", test_same},
+    {"replay/cut", test_cut},
+    {"replay/altered", test_altered},
+    {"replay/named", test_named},
+    {"replay/others", test_others},
+    {"replay/middle", test_middle},
+    {0},
 };

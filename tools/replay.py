@@ -67,7 +67,8 @@ def main():
         on_board, said = play(board, given.file)
         print("%s: %s" % (board, said[-1]), flush=True)
         words = said[-1].split()
-        if said[-1] != lines[-1] and words[0] == "frame" and words[1].strip(",").isdecimal():
+        played = "cannot be played" not in said[-1]
+        if played and said[-1] != lines[-1] and words[0] == "frame" and words[1].strip(",").isdecimal():
             name_machines(given.file, board, int(words[1].strip(",")))
         status = max(status, on_board)
     return status
