@@ -140,7 +140,7 @@ static bool could_be(const struct carom_world *w, const struct joint *j)
 
 int step_restore_joint(struct carom_world *w, const struct joint *made)
 {
-    static const struct carom_joint_drive none; /* comes with the snapshot */
+    static const struct carom_joint_drive none = {.limited = false}; /* comes with the snapshot */
 
     if (made->used && !could_be(w, made)) {
         return CAROM_ERR_FORMAT;
