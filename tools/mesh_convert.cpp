@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom-mesh - turns a mesh file of any format that assimp reads into a mesh for Carom.
+ * carom-mesh - turns a mesh file of any format that assimp reads, a grid of heights or a shape's name
+ * into a mesh for Carom.
  *
- *   read     every mesh of the file with its node's transform, polygons cut into triangles
+ *   read     every mesh of the file with its node's transform, polygons cut into triangles; or a grid, or a shape
  *   soup     corners snapped to whole quanta of 2^-N units, equal corners made one vertex
  *   mend     faces without area, double faces, windings
  *   check    what carom_mesh_check would refuse, told with places and a way out
- *   write    a C source, a binary blob, or both; nothing unless all went well
+ *   write    a C source, a binary blob, a picture; nothing unless all went well
  *
  * It runs on the host, so it may use floating point.
  */
@@ -15,9 +16,12 @@
 #include <vector>
 
 #include "mesh_check.hpp"
+#include "mesh_heights.hpp"
 #include "mesh_mend.hpp"
 #include "mesh_options.hpp"
+#include "mesh_preview.hpp"
 #include "mesh_read.hpp"
+#include "mesh_shape.hpp"
 #include "mesh_write.hpp"
 
 namespace
@@ -78,34 +82,140 @@ void add_doubt(std::string &doubt, const std::string &more)
     doubt += doubt.empty() || more.empty() ? more : "; " + more;
 }
 
-/* ------------------------------------------------------------------- writing */
+/* --------------------------------------------------------------------- parts */
 
-/* Both or none. */
-void write_outputs(const Options &options, const Mesh &mesh)
+/* A mesh that is written by itself, and how it came to be. */
+struct Product {
+    std::string name; /* an identifier of C */
+    Soup soup;
+    Mesh mesh;
+    std::string doubt;
+};
+
+std::vector<Soup> read_parts(Options &options)
 {
-    if (options.check_only) {
-        return;
+    const double scale = options.scale * (options.millimetres ? 0.001 : 1);
+
+    if (!options.shape.empty()) {
+        return {read_shape(options.shape, scale, options.bits)};
     }
-    if (!options.out_blob.empty()) {
-        write_file(options.out_blob, binary_blob(mesh));
+    if (options.grid) {
+        return {read_heights(options.in, options.heights, scale)};
     }
-    if (!options.out_c.empty()) {
-        try {
-            write_file(options.out_c, (options.indexed ? c_source_indexed
-                                                       : c_source)(mesh, options.name, options.in));
-        } catch (const Refusal &) {
-            std::remove(options.out_blob.c_str());
-            throw;
+    if (options.objects) {
+        return read_objects(options.in, scale);
+    }
+    return {read_file(options.in, scale, options.object)};
+}
+
+/* All names that the C source of a mesh defines, indexed or not. */
+std::vector<std::string> symbols_of(const std::string &name)
+{
+    std::vector<std::string> symbols = {name};
+
+    for (const char *array :
+         {"vertices", "corners", "faces", "edges", "ring_start", "ring", "leaves", "leaf_faces",
+          "leaf_vertices", "leaf_corners", "cell_start", "zrefs"}) {
+        symbols.push_back(name + "_" + array);
+    }
+    return symbols;
+}
+
+/* An identifier from an object's name, numbered when another object has it. */
+std::string name_part(const std::string &object, std::set<std::string> &taken)
+{
+    const std::string plain = identifier_from(object);
+    std::string name = plain;
+
+    for (int number = 2;; number++) {
+        const std::vector<std::string> symbols = symbols_of(name);
+
+        if (std::none_of(symbols.begin(), symbols.end(),
+                         [&](const std::string &s) { return taken.count(s) > 0; })) {
+            taken.insert(symbols.begin(), symbols.end());
+            return name;
         }
+        name = plain + "_" + std::to_string(number);
     }
 }
 
-void print_report(const Options &options, const Mesh &mesh, const Soup &soup,
-                  const std::string &doubt)
+void make_part(Product &part, const Options &options)
 {
-    std::printf("%s: %s, quantum 2^-%d units\n", options.in.c_str(),
-                mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
-    std::printf("  file      %zu polygons, %zu triangles\n", mesh.polygons, mesh.triangles);
+    Soup &soup = part.soup;
+
+    if (options.y_up) {
+        turn_up(soup.points);
+        turn_up(soup.order);
+    }
+    part.doubt = soup.doubt;
+    if (!options.unit_said && !options.grid && options.shape.empty()) {
+        add_doubt(part.doubt, doubt_about_unit(soup.points));
+    }
+    part.mesh = make_mesh(soup, options.surface, options.bits);
+    Indexed engine(part.mesh); /* which may refuse it */
+
+    if (!options.surface) {
+        add_doubt(part.doubt, doubt_about_volume(soup, part.mesh));
+    }
+}
+
+/* ------------------------------------------------------------------- writing */
+
+/* The path of a file that holds one part: FILE.crm, or FILE.NAME.crm where each object has its own. */
+std::string path_of(const std::string &path, const Options &options, const Product &part)
+{
+    const std::filesystem::path plain(path);
+
+    return options.objects ? (plain.parent_path() / plain.stem()).string() + "." + part.name +
+                                 plain.extension().string()
+                           : path;
+}
+
+std::string c_file(const Options &options, const std::vector<Product> &parts)
+{
+    std::string text = c_head(options.in);
+
+    for (const Product &part : parts) {
+        text += &part == &parts[0] ? "" : "\n";
+        text += options.indexed
+                    ? c_source_indexed(part.mesh, part.name)
+                    : c_source(part.mesh, part.name, options.objects ? part.name + "_" : "");
+    }
+    return text;
+}
+
+void write_outputs(const Options &options, const std::vector<Product> &parts)
+{
+    std::vector<Output> outputs;
+
+    for (const Product &part : parts) {
+        if (!options.out_blob.empty()) {
+            outputs.push_back({path_of(options.out_blob, options, part), binary_blob(part.mesh)});
+        }
+        if (!options.out_picture.empty()) {
+            outputs.push_back({path_of(options.out_picture, options, part), preview(part.mesh)});
+        }
+    }
+    if (!options.out_c.empty()) {
+        outputs.push_back({options.out_c, c_file(options, parts)});
+    }
+    if (!options.check_only) {
+        write_files(outputs);
+    }
+}
+
+void print_report(const Options &options, const Product &part)
+{
+    const Mesh &mesh = part.mesh;
+    const Soup &soup = part.soup;
+
+    std::printf(
+        "%s: %s%s, quantum 2^-%d units\n", options.in.c_str(),
+        options.objects ? ("object '" + soup.objects[0] + "' as " + part.name + ": ").c_str() : "",
+        mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
+    if (mesh.polygons) { /* of an object by itself they are not counted */
+        std::printf("  file      %zu polygons, %zu triangles\n", mesh.polygons, mesh.triangles);
+    }
     std::printf("  mesh      %zu faces, %zu edges, %zu vertices\n", mesh.faces.size(), mesh.edges,
                 mesh.vertices.size());
     if (!mesh.surface) {
@@ -134,8 +244,8 @@ void print_report(const Options &options, const Mesh &mesh, const Soup &soup,
     for (const std::string &what : mesh.notes) {
         std::printf("  note      %s\n", what.c_str());
     }
-    if (!doubt.empty()) {
-        std::printf("  note      %s\n", doubt.c_str());
+    if (!part.doubt.empty()) {
+        std::printf("  note      %s\n", part.doubt.c_str());
     }
 }
 
@@ -144,36 +254,31 @@ void print_report(const Options &options, const Mesh &mesh, const Soup &soup,
 int main(int argc, char **argv)
 {
     Options options;
-    std::string doubt;
+    std::vector<Product> parts;
+    std::set<std::string> taken;
 
     try {
         options = parse(argc, argv);
+        for (const Soup &soup : read_parts(options)) {
+            const std::string name =
+                options.objects ? name_part(soup.objects[0], taken) : options.name;
 
-        Soup soup = read_file(options.in, options.scale * (options.millimetres ? 0.001 : 1),
-                              options.object);
-
-        if (options.y_up) {
-            turn_up(soup.points);
-            turn_up(soup.order);
+            parts.push_back({name, soup, {}, ""});
+            make_part(parts.back(), options);
         }
-        doubt = soup.doubt;
-        if (!options.unit_said) {
-            add_doubt(doubt, doubt_about_unit(soup.points));
+        write_outputs(options, parts);
+        for (const Product &part : parts) {
+            print_report(options, part);
         }
-
-        const Mesh mesh = make_mesh(soup, options.surface, options.bits);
-
-        indexed_source(mesh, "");
-        if (!options.surface) {
-            add_doubt(doubt, doubt_about_volume(soup, mesh));
-        }
-        write_outputs(options, mesh);
-        print_report(options, mesh, soup, doubt);
     } catch (const std::exception &refusal) {
-        std::fprintf(stderr, "carom-mesh: %s%s%s\n", options.in.c_str(),
-                     options.in.empty() ? "" : ": ", refusal.what());
-        if (!doubt.empty()) {
-            std::fprintf(stderr, "  note: %s\n", doubt.c_str());
+        const bool of_object = options.objects && !parts.empty() && parts.back().mesh.edges == 0;
+
+        std::fprintf(stderr, "carom-mesh: %s%s%s%s\n", options.in.c_str(),
+                     options.in.empty() ? "" : ": ",
+                     of_object ? ("object '" + parts.back().soup.objects[0] + "': ").c_str() : "",
+                     refusal.what());
+        if (!parts.empty() && !parts.back().doubt.empty()) {
+            std::fprintf(stderr, "  note: %s\n", parts.back().doubt.c_str());
         }
         return 1;
     }

@@ -246,6 +246,25 @@ inline void join_nodes(Soup &soup, const aiScene &scene, const aiNode &node,
     }
 }
 
+/* Each node that has faces, as a soup of its own. */
+inline void part_nodes(std::vector<Soup> &parts, const Soup &file, const aiScene &scene,
+                       const aiNode &node, const aiMatrix4x4 &parent, double scale)
+{
+    const aiMatrix4x4 transform = parent * node.mTransformation;
+    Soup soup = file;
+
+    for (unsigned i = 0; i < node.mNumMeshes; i++) {
+        join_mesh(soup, *scene.mMeshes[node.mMeshes[i]], transform, scale);
+    }
+    if (!soup.faces.empty()) {
+        soup.objects = {node.mName.C_Str()};
+        parts.push_back(soup);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; i++) {
+        part_nodes(parts, file, scene, *node.mChildren[i], transform, scale);
+    }
+}
+
 /* Polygons of the whole node tree: a mesh counts as often as it is placed. */
 inline size_t count_polygons(const aiScene &scene, const aiNode &node)
 {
@@ -305,13 +324,18 @@ class Complaints : public Assimp::LogStream
     std::string &text_;
 };
 
-/* Every object of a file, or the one of a name with all below it. */
-inline Soup read_file(const std::string &path, double scale, const std::string &object)
+struct LoggerEnd {
+    ~LoggerEnd()
+    {
+        Assimp::DefaultLogger::kill();
+    }
+};
+
+/* What can be told of a file before assimp reads it: its doubts, and its vertices in its own order. */
+inline Soup examine(const std::string &path, double scale)
 {
-    Soup soup;
-    std::string complaints;
-    Assimp::Importer importer;
     const std::string kind = extension(path);
+    Soup soup;
 
     check_readable(path);
     if (kind == ".stl") {
@@ -322,6 +346,16 @@ inline Soup read_file(const std::string &path, double scale, const std::string &
         soup.doubt = doubt_about_obj(path);
         soup.order = obj_vertex_order(path, scale);
     }
+    return soup;
+}
+
+/* The scene of a file, its polygons cut into triangles, and how many they were. */
+inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &path,
+                                 size_t &polygons)
+{
+    std::string complaints;
+    const LoggerEnd end; /* before the text that the logger writes to goes */
+
     Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(new Complaints(complaints),
                                                Assimp::Logger::Err | Assimp::Logger::Warn);
@@ -332,8 +366,8 @@ inline Soup read_file(const std::string &path, double scale, const std::string &
             "cannot be read: it is truncated or not a mesh file; export it again, e.g. as OBJ" +
             complaints);
     }
-    soup.polygons = count_polygons(*scene, *scene->mRootNode);
-    if (soup.polygons == 0) {
+    polygons = count_polygons(*scene, *scene->mRootNode);
+    if (polygons == 0) {
         throw Refusal("holds no faces: export the mesh, not only its points" + complaints);
     }
     for (unsigned i = 0; i < scene->mNumMeshes; i++) {
@@ -347,13 +381,35 @@ inline Soup read_file(const std::string &path, double scale, const std::string &
     if (!scene) {
         throw Refusal("its polygons cannot be cut into triangles: triangulate it in the editor");
     }
-    join_nodes(soup, *scene, *scene->mRootNode, aiMatrix4x4(), scale, object);
+    return *scene;
+}
+
+/* Every object of a file, or the one of a name with all below it. */
+inline Soup read_file(const std::string &path, double scale, const std::string &object)
+{
+    Assimp::Importer importer;
+    Soup soup = examine(path, scale);
+    const aiScene &scene = read_scene(importer, path, soup.polygons);
+
+    join_nodes(soup, scene, *scene.mRootNode, aiMatrix4x4(), scale, object);
     if (soup.faces.empty()) {
         throw Refusal("has no faces of an object '" + object + "'; it has" + listed(soup.objects));
     }
-    soup.materials = scene->mNumMaterials;
-    Assimp::DefaultLogger::kill();
+    soup.materials = scene.mNumMaterials;
     return soup;
+}
+
+/* Each object of a file by itself. */
+inline std::vector<Soup> read_objects(const std::string &path, double scale)
+{
+    Assimp::Importer importer;
+    std::vector<Soup> parts;
+    size_t polygons;
+    const Soup file = examine(path, scale);
+    const aiScene &scene = read_scene(importer, path, polygons);
+
+    part_nodes(parts, file, scene, *scene.mRootNode, aiMatrix4x4(), scale);
+    return parts;
 }
 
 } // namespace mend

@@ -5,6 +5,7 @@
 #ifndef CAROM_TOOLS_MESH_WRITE_HPP
 #define CAROM_TOOLS_MESH_WRITE_HPP
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -30,18 +31,20 @@ inline std::string c_head(const std::string &from)
            ": do not edit. */\n#include \"carom.h\"\n\n";
 }
 
-inline std::string c_source(const Mesh &mesh, const std::string &name, const std::string &from)
+/* prefix: of the names of its arrays. */
+inline std::string c_source(const Mesh &mesh, const std::string &name, const std::string &prefix)
 {
     std::ostringstream out;
 
-    out << c_head(from) << "extern const struct carom_mesh_raw " << name << ";\n\n"
-        << "static const int16_t vertices[" << mesh.vertices.size() << "][3] = {\n";
+    out << "extern const struct carom_mesh_raw " << name << ";\n\n"
+        << "static const int16_t " << prefix << "vertices[" << mesh.vertices.size() << "][3] = {\n";
     write_triples(out, mesh.vertices);
-    out << "};\n\nstatic const uint16_t faces[" << mesh.faces.size() << "][3] = {\n";
+    out << "};\n\nstatic const uint16_t " << prefix << "faces[" << mesh.faces.size()
+        << "][3] = {\n";
     write_triples(out, mesh.faces);
     out << "};\n\nconst struct carom_mesh_raw " << name << " = {\n"
-        << "    .vertices = vertices,\n"
-        << "    .faces = faces,\n"
+        << "    .vertices = " << prefix << "vertices,\n"
+        << "    .faces = " << prefix << "faces,\n"
         << "    .vertex_count = " << mesh.vertices.size() << ",\n"
         << "    .face_count = " << mesh.faces.size() << ",\n"
         << "    .quantum_bits = " << mesh.bits << ",\n"
@@ -50,40 +53,41 @@ inline std::string c_source(const Mesh &mesh, const std::string &name, const std
     return out.str();
 }
 
-/* Index a mesh as the engine does, and hand on what it refuses. */
-inline std::string indexed_source(const Mesh &mesh, const std::string &name)
-{
+/* A mesh as the engine indexes it, with all that it refers to. */
+struct Indexed {
     std::vector<std::array<int16_t, 3>> vertices;
     std::vector<std::array<uint16_t, 3>> faces;
     std::vector<uint64_t> memory;
-    carom_mesh indexed;
+    carom_mesh mesh;
 
-    for (const Vertex &v : mesh.vertices) {
-        vertices.push_back({int16_t(v[0]), int16_t(v[1]), int16_t(v[2])});
-    }
-    for (const Face &f : mesh.faces) {
-        faces.push_back({uint16_t(f[0]), uint16_t(f[1]), uint16_t(f[2])});
-    }
+    explicit Indexed(const Mesh &from)
+    {
+        for (const Vertex &v : from.vertices) {
+            vertices.push_back({int16_t(v[0]), int16_t(v[1]), int16_t(v[2])});
+        }
+        for (const Face &f : from.faces) {
+            faces.push_back({uint16_t(f[0]), uint16_t(f[1]), uint16_t(f[2])});
+        }
 
-    const carom_mesh_raw raw = {reinterpret_cast<const int16_t(*)[3]>(vertices.data()),
-                                reinterpret_cast<const uint16_t(*)[3]>(faces.data()),
-                                uint32_t(vertices.size()),
-                                uint32_t(faces.size()),
-                                uint8_t(mesh.bits),
-                                uint8_t(mesh.surface ? CAROM_SURFACE : CAROM_SOLID)};
+        const carom_mesh_raw raw = {reinterpret_cast<const int16_t(*)[3]>(vertices.data()),
+                                    reinterpret_cast<const uint16_t(*)[3]>(faces.data()),
+                                    uint32_t(vertices.size()),
+                                    uint32_t(faces.size()),
+                                    uint8_t(from.bits),
+                                    uint8_t(from.surface ? CAROM_SURFACE : CAROM_SOLID)};
 
-    if (const int result = rom::index(indexed, raw, memory)) {
-        throw Refusal(std::string("the engine does not take it: ") + carom_result_text(result));
+        if (const int result = rom::index(mesh, raw, memory)) {
+            throw Refusal(std::string("the engine does not take it: ") + carom_result_text(result));
+        }
     }
-    return name.empty() ? "" : rom::c_source(indexed, name, false);
-}
+    Indexed(const Indexed &) = delete;
+};
 
 /* The same, indexed. */
-inline std::string c_source_indexed(const Mesh &mesh, const std::string &name,
-                                    const std::string &from)
+inline std::string c_source_indexed(const Mesh &mesh, const std::string &name)
 {
-    return c_head(from) + "extern const struct carom_mesh " + name + ";\n\n" +
-           indexed_source(mesh, name);
+    return "extern const struct carom_mesh " + name + ";\n\n" +
+           rom::c_source(Indexed(mesh).mesh, name, false);
 }
 
 /* Append the low bytes of a number, lowest first. */
@@ -132,6 +136,28 @@ inline void write_file(const std::string &path, const std::string &content)
     if (!file) {
         std::remove(path.c_str());
         throw Refusal("cannot write " + path + ": check the folder and the space on the disk");
+    }
+}
+
+struct Output {
+    std::string path, content;
+};
+
+/* All or none. */
+inline void write_files(const std::vector<Output> &outputs)
+{
+    size_t written = 0;
+
+    try {
+        for (const Output &output : outputs) {
+            write_file(output.path, output.content);
+            written++;
+        }
+    } catch (const Refusal &) {
+        while (written > 0) {
+            std::remove(outputs[--written].path.c_str());
+        }
+        throw;
     }
 }
 
