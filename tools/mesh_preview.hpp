@@ -19,7 +19,7 @@ namespace picture
 constexpr int32_t side = 600, fineness = 2; /* pixels of a view; drawn so many times as fine */
 constexpr int32_t drawn = side * fineness;
 constexpr double focal = 2;     /* picture heights: a long lens bends little */
-constexpr double margin = 0.44; /* of a picture's side, from its middle, that a mesh may fill */
+constexpr double margin = 0.42; /* of a picture's side, from its middle, that a mesh may fill */
 constexpr int bits = 11;        /* quanta of the enlarged mesh: it is about 32 units long */
 constexpr size_t lines_max = 4096;
 constexpr double sharp = 0.94; /* cosine of 20 degrees: what is flatter is no edge of a fine mesh */
@@ -129,6 +129,30 @@ inline void fit(View &view, const Mesh &mesh)
     view.distance *= 1.01; /* the last step moved the target */
 }
 
+/* The sides of a mesh's box, units. */
+inline Point sides_of(const Mesh &mesh)
+{
+    Point sides;
+
+    for (size_t k = 0; k < 3; k++) {
+        const auto [low, high] =
+            std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                [k](const Vertex &a, const Vertex &b) { return a[k] < b[k]; });
+
+        sides[k] = std::ldexp((*high)[k] - (*low)[k], -mesh.bits);
+    }
+    return sides;
+}
+
+/* What is as thin as a pixel shows nothing but its edges, and black ones would not be seen. */
+inline bool is_needle(const Mesh &mesh)
+{
+    Point sides = sides_of(mesh);
+
+    std::sort(sides.begin(), sides.end());
+    return sides[1] * 150 < sides[2];
+}
+
 /* The edges that are drawn: all, or of a mesh that has too many those that are sharp or open. */
 inline std::vector<carom_paint_line> lines_of(const Mesh &mesh)
 {
@@ -146,13 +170,13 @@ inline std::vector<carom_paint_line> lines_of(const Mesh &mesh)
         }
     }
     const bool all = normals.size() <= lines_max;
+    const uint16_t colour = is_needle(mesh) ? CAROM_COLOUR_WHITE : CAROM_COLOUR_BLACK;
 
     for (const auto &[edge, beside] : normals) {
         if ((all || beside.size() < 2 || dot(beside[0], beside[1]) < sharp) &&
             lines.size() < lines_max) {
             lines.push_back({fixed<carom_v3_q32>(in_units(mesh, edge.first), 32),
-                             fixed<carom_v3_q32>(in_units(mesh, edge.second), 32),
-                             CAROM_COLOUR_BLACK});
+                             fixed<carom_v3_q32>(in_units(mesh, edge.second), 32), colour});
         }
     }
     return lines;
@@ -186,7 +210,7 @@ class Scene
 
     /* A square picture of 0x00RRGGBB. */
     std::vector<uint32_t> draw(const View &view, const std::vector<carom_paint_line> &lines,
-                               const std::string &text) const
+                               const std::string &below) const
     {
         const carom_mesh_raw &raw = indexed_.mesh.raw;
         std::vector<uint32_t> pixels(size_t(drawn) * drawn);
@@ -199,13 +223,12 @@ class Scene
             uint8_t(raw.kind == CAROM_SURFACE ? CAROM_RAMP_STATIONARY : CAROM_RAMP_MOVING)};
         carom_paint paint = {};
         carom_picture picture = {};
-        carom_text where = {};
 
         paint.bodies = &skin;
         paint.body_count = 1;
         paint.light =
-            fixed<carom_v3_q30>(unit(sum(sum(view.back, view.right, -0.6), view.up, 0.5)), 30);
-        paint.ambient_q30 = 1 << 28;
+            fixed<carom_v3_q30>(unit(sum(sum(view.back, view.right, -1.3), view.up, 0.5)), 30);
+        paint.ambient_q30 = 1 << 27;
         paint.lines = lines.data();
         paint.line_count = uint32_t(lines.size());
         picture.pixels = pixels.data();
@@ -215,15 +238,24 @@ class Scene
         picture.workspace = workspace.data();
         picture.workspace_bytes = workspace.size() * 8;
         picture.paint = &paint;
-        where.x = where.y = 10 * fineness;
-        where.scale = 2 * fineness;
-        where.colour = CAROM_COLOUR_WHITE;
         expect(carom_draw(world_, &camera, &picture, CAROM_DRAW_FLAT));
-        expect(carom_draw_text(&picture, &where, text.c_str(), nullptr));
+        write(picture, 10, view.title);
+        write(picture, side - 10 - 2 * CAROM_TEXT_HEIGHT, below);
         return pixels;
     }
 
   private:
+    static void write(const carom_picture &picture, int32_t y, const std::string &text)
+    {
+        carom_text where = {};
+
+        where.x = 10 * fineness;
+        where.y = y * fineness;
+        where.scale = 2 * fineness;
+        where.colour = CAROM_COLOUR_WHITE;
+        expect(carom_draw_text(&picture, &where, text.c_str(), nullptr));
+    }
+
     Indexed indexed_;
     carom_config config_ = {
         CAROM_CAPS(1, 1, 1, 1, 1, 1), {}, false, 0, 0, nullptr, 0, nullptr, nullptr};
@@ -253,20 +285,6 @@ inline void put_half(std::vector<uint8_t> &rgb, const std::vector<uint32_t> &pix
     }
 }
 
-/* The sides of a mesh's box, units. */
-inline std::string size_text(const Mesh &mesh)
-{
-    Point low = in_units(mesh, 0), high = low;
-
-    for (uint32_t i = 0; i < mesh.vertices.size(); i++) {
-        for (size_t k = 0; k < 3; k++) {
-            low[k] = std::min(low[k], in_units(mesh, i)[k]);
-            high[k] = std::max(high[k], in_units(mesh, i)[k]);
-        }
-    }
-    return format("%.4g x %.4g x %.4g units", high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-}
-
 } // namespace picture
 
 /* A PNG of two views side by side. */
@@ -278,16 +296,15 @@ inline std::string preview(const Mesh &mesh)
     const Scene scene(large);
     const std::vector<carom_paint_line> lines = lines_of(large);
     View views[] = {
-        {{0.6, -1, 0.7}, "front, above"},
+        {{0.6, -1, mesh.surface ? 1.2 : 0.7}, "front, above"},
         {{-0.6, 1, mesh.surface ? 1.2 : -0.7}, mesh.surface ? "back, above" : "back, below"}};
+    const Point sides = sides_of(mesh);
+    const std::string size = format("%.4g x %.4g x %.4g units", sides[0], sides[1], sides[2]);
     std::vector<uint8_t> rgb(size_t(3 * 2 * side * side));
 
     for (int32_t i = 0; i < 2; i++) {
         fit(views[i], large);
-        put_half(rgb,
-                 scene.draw(views[i], lines,
-                            views[i].title + (i ? std::string() : "\n" + size_text(mesh))),
-                 i);
+        put_half(rgb, scene.draw(views[i], lines, i ? "" : size), i);
     }
     return png::written(rgb, 2 * side, side);
 }
