@@ -129,6 +129,21 @@ inline void fit(View &view, const Mesh &mesh)
     view.distance *= 1.01; /* the last step moved the target */
 }
 
+/* Where a surface looks on the whole: one that slopes away from the eye would show no face. */
+inline Point mean_normal(const Mesh &mesh)
+{
+    Point total = {0, 0, 0};
+
+    for (const Face &face : mesh.faces) {
+        const Point a = in_units(mesh, face[0]);
+
+        total =
+            sum(total,
+                cross(sum(in_units(mesh, face[1]), a, -1), sum(in_units(mesh, face[2]), a, -1)), 1);
+    }
+    return unit(total);
+}
+
 /* The sides of a mesh's box, units. */
 inline Point sides_of(const Mesh &mesh)
 {
@@ -295,9 +310,15 @@ inline std::string preview(const Mesh &mesh)
     const Mesh large = enlarged(mesh);
     const Scene scene(large);
     const std::vector<carom_paint_line> lines = lines_of(large);
-    View views[] = {
-        {{0.6, -1, mesh.surface ? 1.2 : 0.7}, "front, above"},
-        {{-0.6, 1, mesh.surface ? 1.2 : -0.7}, mesh.surface ? "back, above" : "back, below"}};
+    View views[] = {{{0.6, -1, 0.7}, "front, above"}, {{-0.6, 1, -0.7}, "back, below"}};
+
+    if (mesh.surface) {
+        const Point looks = mean_normal(large);
+
+        views[0] = {sum(unit({0.6, -1, 0.3}), looks, 1), "front, above"};
+        views[1] = {sum(unit({-0.6, 1, 0.3}), looks, 1), "back, above"};
+    }
+
     const Point sides = sides_of(mesh);
     const std::string size = format("%.4g x %.4g x %.4g units", sides[0], sides[1], sides[2]);
     std::vector<uint8_t> rgb(size_t(3 * 2 * side * side));
