@@ -117,7 +117,7 @@ endif
 
 # A sub-make knows the board, and has two jobs unless it is given a number.
 SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
-NEED_MESHES := python3 c++ assimp png
+NEED_MESHES := python3 c++ assimp meshopt png
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
 # Boards are built for a command one after another; one whose tools cannot be installed is left out, but
@@ -457,7 +457,7 @@ build/tools/libengine.a: $(TOOL_ENGINE:%.c=build/tools/%.o)
 build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o) \
                         $(patsubst %.c,build/tools/%.o,$(wildcard src/draw/*.c)) build/tools/libengine.a
 	@echo '  link  $@'
-	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp -lpng
+	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp -lmeshoptimizer -lpng
 
 # What counts the instructions of a program in QEMU's user mode.
 build/tools/count.so: tools/count.c port/linux/count.h

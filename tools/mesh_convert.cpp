@@ -5,7 +5,7 @@
  *
  *   read     every mesh of the file with its node's transform, polygons cut into triangles; or a grid, or a shape
  *   soup     corners snapped to whole quanta of 2^-N units, equal corners made one vertex
- *   mend     faces without area, double faces, windings
+ *   mend     faces without area, double faces, windings; open holes and too many faces, if asked to
  *   check    what carom_mesh_check would refuse, told with places and a way out
  *   write    a C source, a binary blob, a picture; nothing unless all went well
  *
@@ -15,9 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh_check.hpp"
 #include "mesh_heights.hpp"
-#include "mesh_mend.hpp"
+#include "mesh_make.hpp"
 #include "mesh_options.hpp"
 #include "mesh_preview.hpp"
 #include "mesh_read.hpp"
@@ -30,32 +29,6 @@ namespace
 using namespace mend;
 
 /* -------------------------------------------------------------------- making */
-
-Mesh make_mesh(const Soup &soup, bool surface, int asked_bits)
-{
-    Mesh mesh = weld(soup, surface, choose_bits(soup.points, asked_bits));
-
-    drop_collapsed_faces(mesh);
-    drop_double_faces(mesh);
-    check_counts(mesh);
-    mend_slivers(mesh);
-    drop_unused_vertices(mesh);
-    check_faces(mesh);
-    check_size(mesh);
-
-    const EdgeUses uses = edges_of(mesh);
-
-    check_edges(mesh, uses);
-    orient(mesh, uses);
-    mesh.edges = uses.size();
-    if (surface) {
-        check_looks_up(mesh);
-        check_single_layer(mesh);
-    } else if (mass_of(mesh).volume <= 0) {
-        throw Refusal("the mesh has no volume: for a height field use --surface");
-    }
-    return mesh;
-}
 
 /* y up to z up: a quarter of a turn about x. */
 void turn_up(std::vector<Point> &points)
@@ -151,7 +124,7 @@ void make_part(Product &part, const Options &options)
     if (!options.unit_said && !options.grid && options.shape.empty()) {
         add_doubt(part.doubt, doubt_about_unit(soup.points));
     }
-    part.mesh = make_mesh(soup, options.surface, options.bits);
+    part.mesh = make_mesh(soup, options.surface, options.bits, options.repairs);
     Indexed engine(part.mesh); /* which may refuse it */
 
     if (!options.surface) {

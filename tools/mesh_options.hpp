@@ -30,6 +30,7 @@ struct Options {
     bool heights_said = false; /* an option that is of use with --heights only */
     int bits = 0;              /* 0: choose */
     double scale = 1;
+    Repairs repairs;
     bool y_up = false, unit_said = false, millimetres = false;
 };
 
@@ -53,6 +54,10 @@ inline const char usage[] =
     "all,\n"
     "                          FILE.crm and FILE.png become FILE.OBJECT.crm and FILE.OBJECT.png\n"
     "      --up y|z            which axis of the file is up; otherwise z\n"
+    "      --close             fill the holes that are flat\n"
+    "      --simplify N        bring the mesh down to at most N faces\n"
+    "      --overlaps allow    take parts that overlap, though what both hold counts twice; or "
+    "refuse\n"
     "      --heights           FILE is a grid of heights, its first row in the north (+y):\n"
     "      --cell F              units from one sample to the next; otherwise 1\n"
     "      --height F            units from black to white, otherwise 10; of a CSV, units for a 1\n"
@@ -184,6 +189,12 @@ inline void take_text(Options &options, int letter, const char *text)
         options.unit_said = true;
         options.millimetres = is_first("--unit", text, "mm", "m");
         break;
+    case 'N':
+        options.repairs.most_faces = size_t(whole_number("--simplify", text, 4, count_max));
+        break;
+    case 'V':
+        options.repairs.overlaps = is_first("--overlaps", text, "allow", "refuse");
+        break;
     case 'u':
         options.y_up = is_first("--up", text, "y", "z");
         break;
@@ -209,6 +220,9 @@ inline void take(Options &options, int letter, const char *text)
         break;
     case 'J':
         options.objects = true;
+        break;
+    case 'F':
+        options.repairs.close = true;
         break;
     case 'h':
         std::fputs(usage, stdout);
@@ -260,6 +274,9 @@ inline Options parse(int argc, char **argv)
         {"object", required_argument, nullptr, 'j'},
         {"objects", no_argument, nullptr, 'J'},
         {"up", required_argument, nullptr, 'u'},
+        {"close", no_argument, nullptr, 'F'},
+        {"simplify", required_argument, nullptr, 'N'},
+        {"overlaps", required_argument, nullptr, 'V'},
         {"heights", no_argument, nullptr, 'H'},
         {"cell", required_argument, nullptr, 'C'},
         {"height", required_argument, nullptr, 'Z'},

@@ -60,6 +60,13 @@ struct Mesh {
     std::vector<std::string> notes;  /* what may not be as it was meant */
 };
 
+/* What is done to a mesh only when it is asked for. */
+struct Repairs {
+    bool close = false;    /* fill flat holes */
+    bool overlaps = false; /* allow parts that overlap */
+    size_t most_faces = 0; /* bring the mesh down to so many; 0: leave it */
+};
+
 /* --------------------------------------------------------------------- texts */
 
 __attribute__((format(printf, 1, 2))) inline std::string format(const char *pattern, ...)
