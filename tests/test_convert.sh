@@ -171,8 +171,6 @@ accepts up_y '--up y box.obj' 'volume    6' 'centre    1.5 -0.5 1'
 accepts bent_by_quanta micro.obj 'makes the volume 6.94 times'
 accepts objects_joined two.obj 'joined    2 objects' left right '24 faces' 'volume    8'
 accepts one_object '--object right two.obj' '12 faces' 'volume    2'
-accepts nested_named nested.obj 'the parts in the boxes (-3, -2, -1) - (6, 4, 2) and (0, 0, 0) - (3, 2, 1)' \
-    'counts twice'
 accepts own_grid box.obj 'quantum 2^-7 '
 accepts finest_grid '--scale 0.7 box.obj' 'quantum 2^-13 ' # 2.1 * 2^13 < 32767 < 2.1 * 2^14
 accepts asked_grid '--quantum-bits 9 box.obj' 'quantum 2^-9 '

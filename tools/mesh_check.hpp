@@ -181,13 +181,15 @@ inline double volume_of(const Soup &soup)
 }
 
 /*
- * A warning when quanta bend the volume by more than a hundredth; empty: they do not. Faces that the file has twice
- * or turned against each other enclose nothing that could be compared.
+ * A warning when quanta bend the volume by more than a hundredth; empty: they do not. A file with
+ * faces twice or turned against each other, holes or parts within parts has no volume to compare.
  */
 inline std::string doubt_about_volume(const Soup &soup, const Mesh &mesh)
 {
     for (const std::string &what : mesh.mended) {
-        if (what.find("given twice") != std::string::npos || what.find("turned") == 0) {
+        if (what.find("given twice") != std::string::npos || what.find("turned") == 0 ||
+            what.find("closed") == 0 || what.find("simplified") == 0 ||
+            what.find("dropped a part") == 0) {
             return "";
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * mesh_close - closes the flat holes of a mesh: the loops of open edges that lie in one plane are
- * filled. A loop within another that runs the other way round is left open: the two bound a ring.
+ * filled. A loop within another that runs the other way round bounds a ring with it.
  */
 #ifndef CAROM_TOOLS_MESH_CLOSE_HPP
 #define CAROM_TOOLS_MESH_CLOSE_HPP
@@ -188,6 +188,18 @@ inline std::vector<size_t> rings(const Mesh &mesh, const std::vector<Hole> &foun
     return outer;
 }
 
+/* Faces are within a loop that nothing or a ring is around. */
+inline bool is_filled(const std::vector<size_t> &outer, size_t number)
+{
+    bool filled = true;
+
+    while (outer[number] != number) {
+        number = outer[number];
+        filled = !filled;
+    }
+    return filled;
+}
+
 /* Fill one hole and those that make rings with it; false: it cannot be. */
 inline bool close_hole(Mesh &mesh, const std::vector<Hole> &found, const std::vector<size_t> &outer,
                        size_t number)
@@ -225,10 +237,7 @@ inline void close_holes(Mesh &mesh, const EdgeUses &uses)
     const std::vector<size_t> outer = rings(mesh, found);
 
     for (size_t i = 0; i < found.size(); i++) {
-        if (outer[outer[i]] != outer[i]) {
-            left.push_back("at " + place(in_units(mesh, found[i].vertices[0])) +
-                           ": it lies in a ring of holes that lies in another");
-        } else if (outer[i] == i && !close_hole(mesh, found, outer, i)) {
+        if (is_filled(outer, i) && !close_hole(mesh, found, outer, i)) {
             left.push_back("at " + place(in_units(mesh, found[i].vertices[0])) +
                            ": it meets another hole of its plane");
         }

@@ -42,8 +42,74 @@ inline Mesh simplified(const Mesh &mesh, size_t target, double &error)
     return result;
 }
 
-/* Whether all edges are as they must be, and all faces have an area. */
-inline bool is_sound(const Mesh &mesh)
+/* For each face a number that it shares with those it hangs together with by edges of two faces. */
+inline std::vector<uint32_t> sheets_of(const Mesh &mesh, const EdgeUses &uses)
+{
+    std::vector<uint32_t> sheet(mesh.faces.size());
+
+    for (uint32_t f = 0; f < sheet.size(); f++) {
+        sheet[f] = f;
+    }
+    const auto root = [&](uint32_t f) {
+        while (sheet[f] != f) {
+            f = sheet[f] = sheet[sheet[f]];
+        }
+        return f;
+    };
+    for (const auto &[edge, faces] : uses) {
+        if (faces.size() == 2) {
+            sheet[root(faces[0].face)] = root(faces[1].face);
+        }
+    }
+    for (uint32_t f = 0; f < sheet.size(); f++) {
+        sheet[f] = root(f);
+    }
+    return sheet;
+}
+
+/*
+ * The library may pinch a small bubble off, which then hangs at one edge of four faces: of the
+ * sheets that meet at an edge of more than two faces all go but the largest.
+ */
+inline void drop_bubbles(Mesh &mesh)
+{
+    const EdgeUses uses = edges_of(mesh);
+    const std::vector<uint32_t> sheet = sheets_of(mesh, uses);
+    std::vector<size_t> size(mesh.faces.size());
+    std::set<uint32_t> gone;
+    std::vector<Face> kept;
+
+    for (uint32_t s : sheet) {
+        size[s]++;
+    }
+    for (const auto &[edge, faces] : uses) {
+        const auto larger = [&](const EdgeUse &a, const EdgeUse &b) {
+            return size[sheet[a.face]] < size[sheet[b.face]];
+        };
+        const uint32_t main = sheet[std::max_element(faces.begin(), faces.end(), larger)->face];
+
+        for (const EdgeUse &use : faces) {
+            if (faces.size() > 2 && sheet[use.face] != main) {
+                gone.insert(sheet[use.face]);
+            }
+        }
+    }
+    for (uint32_t f = 0; f < mesh.faces.size(); f++) {
+        if (!gone.count(sheet[f])) {
+            kept.push_back(mesh.faces[f]);
+        }
+    }
+    mesh.faces = kept;
+}
+
+/* Vertices less edges plus faces: 2 for each ball, 0 for each torus. */
+inline int64_t euler_number(const Mesh &mesh, const EdgeUses &uses)
+{
+    return int64_t(mesh.vertices.size()) - int64_t(uses.size()) + int64_t(mesh.faces.size());
+}
+
+/* Whether all edges are as they must be, all faces have an area, and no part or handle is lost. */
+inline bool is_sound(const Mesh &mesh, size_t parts, int64_t euler)
 {
     try {
         const EdgeUses uses = edges_of(mesh);
@@ -52,11 +118,10 @@ inline bool is_sound(const Mesh &mesh)
         check_faces(mesh);
         check_crowded(mesh, uses);
         check_open(mesh, uses);
-        parts_of(copy, uses);
+        return parts_of(copy, uses).size() == parts && euler_number(mesh, uses) == euler;
     } catch (const Refusal &) {
         return false;
     }
-    return true;
 }
 
 inline double measure_of(const std::vector<Part> &parts)
@@ -69,6 +134,36 @@ inline double measure_of(const std::vector<Part> &parts)
     return sum;
 }
 
+/* Simplify and mend what is left; false: it is not sound. */
+inline bool try_simplify(Mesh &less, const Mesh &mesh, size_t parts, size_t target, double &error)
+{
+    const int64_t euler = euler_number(mesh, edges_of(mesh));
+
+    less = simplified(mesh, target, error);
+    drop_collapsed_faces(less);
+    drop_double_faces(less);
+    mend_slivers(less);
+    drop_bubbles(less);
+    drop_unused_vertices(less);
+    less.mended = mesh.mended;
+    return !less.faces.empty() && is_sound(less, parts, euler);
+}
+
+[[noreturn]] inline void refuse_simplify(const Mesh &mesh, size_t parts, size_t most)
+{
+    size_t target = most;
+    Mesh less = mesh;
+    double error;
+
+    do {
+        target += 1 + target / 4;
+    } while (target < mesh.faces.size() && !try_simplify(less, mesh, parts, target, error));
+    throw Refusal(format("--simplify %zu cannot be reached: %zu faces can, of %zu, with all parts "
+                         "and handles of the mesh kept",
+                         most, target < mesh.faces.size() ? less.faces.size() : mesh.faces.size(),
+                         mesh.faces.size()));
+}
+
 /*
  * Bring a mesh to at most so many faces. Where what is left is not sound (two sheets that came to
  * share an edge), fewer faces are tried: the library then takes other vertices away.
@@ -76,39 +171,25 @@ inline double measure_of(const std::vector<Part> &parts)
  */
 inline void simplify(Mesh &mesh, const std::vector<Part> &parts, size_t most)
 {
-    const size_t before = mesh.faces.size();
-    size_t reached = before;
+    const size_t attempts = 12, before = mesh.faces.size();
+    Mesh less;
     double error = 0;
 
-    for (size_t attempt = 0; attempt < 12; attempt++) {
-        Mesh less = simplified(mesh, most - most * attempt / 24, error);
+    for (size_t i = 0; i < attempts; i++) {
+        if (try_simplify(less, mesh, parts.size(), most - most * i / (2 * attempts), error) &&
+            less.faces.size() <= most) {
+            Mesh copy = less;
+            const double ratio = measure_of(parts_of(copy, edges_of(copy))) / measure_of(parts);
 
-        less.mended.clear();
-        drop_collapsed_faces(less);
-        drop_double_faces(less);
-        mend_slivers(less);
-        drop_unused_vertices(less);
-        if (less.faces.empty() || !is_sound(less)) {
-            continue;
+            mesh = less;
+            mesh.mended.push_back(
+                format("simplified %zu faces to %zu, at most %.3g units off; %s %+.3g %%", before,
+                       mesh.faces.size(), error, mesh.surface ? "area from above" : "volume",
+                       100 * (ratio - 1)));
+            return;
         }
-        reached = std::min(reached, less.faces.size());
-        if (less.faces.size() > most) {
-            continue;
-        }
-        less.mended = mesh.mended;
-        mesh = less;
-
-        const double ratio = measure_of(parts_of(less, edges_of(less))) / measure_of(parts);
-
-        mesh.mended.push_back(
-            format("simplified %zu faces to %zu, at most %.3g units off; %s %+.3g %%", before,
-                   mesh.faces.size(), error, mesh.surface ? "area from above" : "volume",
-                   100 * (ratio - 1)));
-        return;
     }
-    throw Refusal(format("--simplify %zu: the fewest faces that were reached with the mesh still "
-                         "sound are %zu, of %zu; give a larger number",
-                         most, reached, before));
+    refuse_simplify(mesh, parts.size(), most);
 }
 
 } // namespace mend
