@@ -183,7 +183,7 @@ inline void simplify(Mesh &mesh, const std::vector<Part> &parts, size_t most)
 
             mesh = less;
             mesh.mended.push_back(
-                format("simplified %zu faces to %zu, at most %.3g units off; %s %+.3g %%", before,
+                format("simplified %zu faces to %zu, about %.3g units off; %s %+.3g %%", before,
                        mesh.faces.size(), error, mesh.surface ? "area from above" : "volume",
                        100 * (ratio - 1)));
             return;
