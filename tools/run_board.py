@@ -3,9 +3,9 @@
 """Run a program on a board: tools/run_board.py IMAGE [ARGUMENT...]
 
 The board is the name of the folder that holds the image: build/BOARD/program.elf, or
-build/BOARD-debug. The program's text goes to stdout, its exit status is passed on. On a QEMU board
-one instruction takes exactly 2^ICOUNT_SHIFT ns of virtual time; one that QEMU does not have names a
-RUNNER of its own.
+build/BOARD-debug, or build/BOARD-joined. The program's text goes to stdout, its exit status is
+passed on. On a QEMU board one instruction takes exactly 2^ICOUNT_SHIFT ns of virtual time; one that
+QEMU does not have names a RUNNER of its own.
 """
 import os
 import re
@@ -16,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def board_of(image):
-    return os.path.basename(os.path.dirname(os.path.abspath(image))).removesuffix("-debug")
+    return os.path.basename(os.path.dirname(os.path.abspath(image))).removesuffix("-joined").removesuffix("-debug")
 
 
 def variables(path):

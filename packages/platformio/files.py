@@ -1,0 +1,57 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""What PlatformIO compiles of a library, by its library.json: files.py FOLDER prints the sources, a line each;
+files.py FOLDER --flags the folders for headers and the flags.
+
+PlatformIO's rules that are applied: build.srcFilter is a list of +<pattern> and -<pattern>, in their order; a pattern is one of
+glob below build.srcDir, and a folder that it names is all that is below. build.includeDir and build.srcDir are in the path
+for headers. build.flags are left out: the file's only one says the first again, and the library is to compile without it.
+"""
+import glob
+import json
+import os
+import re
+import sys
+
+SOURCES = (".c", ".cc", ".cpp", ".cxx", ".S", ".s", ".asm")
+
+
+def below(path):
+    """A file, or all files of a folder."""
+    if not os.path.isdir(path):
+        return {path}
+    return {os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names}
+
+
+def chosen(root, rules):
+    """The sources below a folder that the rules leave."""
+    found = set()
+    for sign, pattern in re.findall(r"([+-])<([^>]*)>", " ".join(rules)):
+        matched = set()
+        for path in glob.glob(os.path.join(glob.escape(root), pattern), recursive=True):
+            matched |= below(path)
+        found = found | matched if sign == "+" else found - matched
+    return sorted(path for path in found if path.endswith(SOURCES))
+
+
+def main():
+    root = sys.argv[1]
+    with open(os.path.join(root, "library.json")) as file:
+        library = json.load(file)
+    build = library["build"]
+    source = os.path.join(root, build["srcDir"])
+    if "--flags" in sys.argv:
+        include = os.path.join(root, build["includeDir"])
+        missing = [name for name in library["headers"] if not os.path.exists(os.path.join(include, name))]
+        if missing:
+            sys.exit("library.json names headers that are not there: " + " ".join(missing))
+        print("-I" + include, "-I" + source)
+        return
+    paths = chosen(source, build["srcFilter"])
+    if not paths:
+        sys.exit("srcFilter leaves nothing")
+    print("\n".join(paths))
+
+
+if __name__ == "__main__":
+    main()
