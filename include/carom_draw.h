@@ -88,6 +88,10 @@ struct carom_paint_line {
     uint16_t colour;       /* an entry of the palette */
 };
 
+/* What draws shadows: a program that does not name it does not hold it. */
+struct carom_shadows;
+extern const struct carom_shadows carom_shadows;
+
 /*
  * The things that a picture shows otherwise than usual; all zero changes nothing. It and all that it points to are the
  * caller's, and only read.
@@ -105,6 +109,14 @@ struct carom_paint {
 
     carom_v3_q30 light;  /* the direction towards the light, of any length; 0: the usual one */
     int32_t ambient_q30; /* of the light, what comes from everywhere: 0 .. 1 */
+    bool horizon; /* ramp 0 is the sky down to the horizon, 16 shades, and the ground below it */
+
+    /*
+     * &carom_shadows, or NULL for none. FLAT: solids keep the light from other bodies, though not from themselves. The
+     * edge of a shadow is exact to a part of a pixel. Shadows take room in the workspace, about 64 KiB for a head over a
+     * landscape; a solid of which the outline does not fit into a third of what is left has none.
+     */
+    const struct carom_shadows *shadows;
 
     const struct carom_paint_line *lines;
     uint32_t line_count; /* up to 4096; each takes 52 bytes of the workspace */

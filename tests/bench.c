@@ -5,7 +5,7 @@
  *
  * Options: scene=NAME  frames=600  first=1 (the first frame that has a row)  awake=1 (no sleep)
  *          throw=N (the N-th way to throw the scene's first body; 0: the scene's own)
- *          draw=N (every N-th of those frames is drawn as well, in both sizes)
+ *          draw=N (every N-th of those frames is drawn as well, in both sizes), shadows=1 (with shadows)
  *          caps=B,P,C,F,E,N (capacities of the world)
  */
 #include <stdlib.h>
@@ -25,8 +25,11 @@ static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
 
 static _Alignas(8) uint8_t mesh_block[BENCH_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-static _Alignas(8) uint8_t draw_block[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
-                                                       SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
+/* Shadows take room as more faces do. */
+#define SHADOW_BYTES 65536
+static _Alignas(8) uint8_t
+    draw_block[SHADOW_BYTES + CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,
+                                               SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
 static uint32_t pixels[512 * 512];
 
 static int expect(int result, const char *what)
@@ -150,16 +153,21 @@ static void print_ticks(uint32_t ticks)
     port_print(",%lu", (unsigned long)port_instructions(ticks));
 }
 
+static const struct carom_paint shaded = {.shadows = &carom_shadows};
+
 static void print_draw(const struct carom_world *world, const struct carom_camera *camera,
                        const int32_t size[2])
 {
+    const bool shadows = port_option("shadows") != NULL;
     const struct carom_picture picture = {.pixels = pixels,
                                           .width = size[0],
                                           .height = size[1],
                                           .stride = size[0] * 4,
                                           .format = CAROM_XRGB8888,
                                           .workspace = draw_block,
-                                          .workspace_bytes = sizeof draw_block};
+                                          .workspace_bytes =
+                                              sizeof draw_block - (shadows ? 0 : SHADOW_BYTES),
+                                          .paint = shadows ? &shaded : NULL};
     uint32_t start = port_ticks();
 
     expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");

@@ -17,7 +17,7 @@
 #define Q32(n, d) CAROM_RATIO(n, d, 32)
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
-static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(48, 72)];
+static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(48, 72) + 12288]; /* with shadows */
 static uint8_t pixels[SIZE][SIZE];
 
 static const struct carom_camera above = {

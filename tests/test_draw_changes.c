@@ -45,9 +45,11 @@ static struct carom_picture picture_of(void *to, uint8_t format, size_t bytes)
 
 /* ------------------------------------------------------------- whole scenes */
 
+static const struct carom_paint shaded = {.shadows = &carom_shadows};
+
 /* Frames of a scene in two buffers in turn; each is to be a full picture. */
 static void compare_scene(const char *name, uint8_t format, enum carom_draw_style style,
-                          size_t bytes)
+                          size_t bytes, const struct carom_paint *paint)
 {
     struct carom_config config = scene_config();
     struct carom_world *world = NULL;
@@ -64,9 +66,11 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
 
         CHECK(scene_before(&scene, world, frame) >= 0);
         CHECK(carom_world_step(world) >= 0);
+        picture.paint = paint;
         memset(full, 0, sizeof full);
         CHECK_EQ(carom_draw(world, scene.camera, &picture, style), CAROM_OK);
         picture = picture_of(buffers[k], format, bytes);
+        picture.paint = paint;
         CHECK_EQ(carom_draw_changes(world, scene.camera, &picture, style, &drawn[k]), CAROM_OK);
         CHECK(memcmp(full, buffers[k], sizeof full) == 0);
         for (int i = 0; i < drawn[k].changed_count; i++) {
@@ -77,7 +81,7 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
                     (r->x1 - r->x0) * (r->y1 - r->y0) < WIDTH * HEIGHT / 2;
         }
     }
-    /* one head changes less than half of the picture, while it moves at all */
+    /* one head and its shadow change less than half of the picture, while it moves at all */
     CHECK(strcmp(name, "head") != 0 || less >= FRAMES / 2);
 }
 
@@ -85,12 +89,16 @@ static void scenes(void)
 {
     const size_t least = CAROM_DRAW_BYTES_LEAST(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES);
 
-    compare_scene("head", CAROM_PALETTE8, CAROM_DRAW_FLAT, sizeof scene_workspace);
-    compare_scene("head", CAROM_GREY4, CAROM_DRAW_WIRE, least);
-    compare_scene("head-spin2", CAROM_GREY4, CAROM_DRAW_FLAT, 24000);
-    compare_scene("pile", CAROM_BGR555, CAROM_DRAW_FLAT, 24000);
-    compare_scene("pile", CAROM_XRGB8888, CAROM_DRAW_WIRE, sizeof scene_workspace);
-    compare_scene("sheet", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace);
+    compare_scene("head", CAROM_PALETTE8, CAROM_DRAW_FLAT, sizeof scene_workspace, NULL);
+    compare_scene("head", CAROM_GREY4, CAROM_DRAW_WIRE, least, NULL);
+    compare_scene("head-spin2", CAROM_GREY4, CAROM_DRAW_FLAT, 24000, NULL);
+    compare_scene("pile", CAROM_BGR555, CAROM_DRAW_FLAT, 24000, NULL);
+    compare_scene("pile", CAROM_XRGB8888, CAROM_DRAW_WIRE, sizeof scene_workspace, NULL);
+    compare_scene("sheet", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace, NULL);
+    compare_scene("head", CAROM_PALETTE8, CAROM_DRAW_FLAT, sizeof scene_workspace, &shaded);
+    compare_scene("pile", CAROM_XRGB8888, CAROM_DRAW_FLAT, sizeof scene_workspace, &shaded);
+    compare_scene("pile", CAROM_GREY4, CAROM_DRAW_FLAT, 60000, &shaded);
+    compare_scene("car", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace, &shaded);
 }
 
 /* -------------------------------------------------------------- what changes */

@@ -352,7 +352,46 @@ static void errors(void)
 #undef EXPECT
 }
 
+/* Sky above the horizon, ground below it, for cameras anywhere: as the ray through the middle of each row looks. */
+static void horizon(void)
+{
+    const struct carom_paint paint = {.horizon = true};
+    struct test_random random = {31};
+    struct carom_world *world = new_world();
+    int seen = 0;
+
+    for (int i = 0; i < 200; i++) {
+        struct carom_picture picture = picture_8();
+        struct carom_camera camera = {.focal_q16 =
+                                          (int32_t)test_random_range(&random, 1 << 14, 1 << 17)};
+
+        picture.paint = &paint;
+        picture.height = (int32_t)test_random_range(&random, 1, SIZE);
+        for (int k = 0; k < 3; k++) {
+            camera.target.c[k] =
+                i < 3 && k < 2 ? 0 : test_random_range(&random, -Q32(3, 1), Q32(3, 1));
+        }
+        CHECK_EQ(carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+        for (int y = 0; y < picture.height; y++) {
+            struct carom_ray ray;
+            int before = y > 0 ? pixels[y - 1][0] : 0;
+
+            CHECK_EQ(carom_view_ray(&camera, SIZE, picture.height, 128, 256 * y + 128, &ray),
+                     CAROM_OK);
+            CHECK_EQ(ramp_at(0, y), CAROM_RAMP_BACKGROUND);
+            CHECK(pixels[y][0] >= before && pixels[y][SIZE - 1] == pixels[y][0]);
+            /* a ray is thousands of units long: one so nearly level may be either */
+            if (carom_abs(ray.way.c[2]) > (int64_t)1 << 27) {
+                CHECK_EQ(pixels[y][0] >= 16, ray.way.c[2] < 0);
+            }
+            seen += y > 0 && (before < 16) != (pixels[y][0] < 16);
+        }
+    }
+    CHECK(seen > 20); /* the horizon is in some of the pictures */
+}
+
 const struct test tests_draw_paint[] = {
+    {"draw_paint/horizon", horizon},
     {"draw_paint/nothing_is_usual", nothing_is_usual},
     {"draw_paint/bodies", bodies},
     {"draw_paint/faces", faces},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere.
+ * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere; and their shadows on
+ * each other and on the ground, with the light from anywhere.
  */
 #include "draw_scene.h"
 
@@ -47,14 +48,11 @@ static void turn_matrix(double r[3][3], const int8_t q[5])
     }
 }
 
-/*
- * How far ahead a ray enters a cube of +-1/2, by its three slabs; a large number when it does not.
- * In front of the near plane, 1/32 unit ahead, the faces are cut, and the far ones look away.
- */
-static double meet(const struct ray *ray, const struct solid *s)
+/* The part of a ray inside a cube of +-1/2, by its three slabs: none when it enters after it leaves. */
+static void slabs(double part[2], const struct ray *ray, const struct solid *s)
 {
-    double enter = 0, leave = 1e30;
-
+    part[0] = -1e30;
+    part[1] = 1e30;
     for (int k = 0; k < 3; k++) {
         double o = 0, d = 0, t0, t1;
 
@@ -65,30 +63,107 @@ static double meet(const struct ray *ray, const struct solid *s)
         d = d == 0 ? 1e-12 : d;
         t0 = (-0.5 - o) / d;
         t1 = (0.5 - o) / d;
-        enter = t0 < t1 ? (t0 > enter ? t0 : enter) : (t1 > enter ? t1 : enter);
-        leave = t0 < t1 ? (t1 < leave ? t1 : leave) : (t0 < leave ? t0 : leave);
+        part[0] = t0 < t1 ? (t0 > part[0] ? t0 : part[0]) : (t1 > part[0] ? t1 : part[0]);
+        part[1] = t0 < t1 ? (t1 < part[1] ? t1 : part[1]) : (t0 < part[1] ? t0 : part[1]);
     }
-    return enter < leave && enter > 1.0 / 32 ? enter : 1e30;
 }
 
-/* The ramp that a point of the picture shows; solids[1] moves. */
-static int see(const double eye[3], double axes[3][3], double x, double y,
-               const struct solid solids[2])
+/*
+ * How far ahead a ray enters a cube; a large number when it does not. In front of the near plane, 1/32 unit
+ * ahead, the faces are cut, and the far ones look away.
+ */
+static double meet(const struct ray *ray, const struct solid *s)
 {
-    struct ray ray;
-    double t0, t1;
+    double part[2];
+
+    slabs(part, ray, s);
+    return part[0] < part[1] && part[0] > 1.0 / 32 ? part[0] : 1e30;
+}
+
+/* How far ahead a ray meets the ground at z = -1, +-32 wide, from above. */
+static double meet_ground(const struct ray *ray)
+{
+    double t = ray->along[2] < 0 ? (-1 - ray->from[2]) / ray->along[2] : 1e30;
+    double x = ray->from[0] + t * ray->along[0], y = ray->from[1] + t * ray->along[1];
+
+    return t > 1.0 / 32 && x > -32 && x < 32 && y > -32 && y < 32 ? t : 1e30;
+}
+
+/* Whether the face of a cube that a point lies on looks towards the light. */
+static bool faces_light(const double point[3], const double light[3], const struct solid *s)
+{
+    double most = 0, towards = 0;
 
     for (int k = 0; k < 3; k++) {
-        ray.from[k] = eye[k];
-        ray.along[k] =
-            axes[2][k] + (x - SIZE / 2) / SIZE * axes[0][k] + (y - SIZE / 2) / SIZE * axes[1][k];
+        double at = 0, along = 0;
+
+        for (int i = 0; i < 3; i++) {
+            at += s->r[i][k] * (point[i] - s->x[i]);
+            along += s->r[i][k] * light[i];
+        }
+        if (at * at > most) {
+            most = at * at;
+            towards = at > 0 ? along : -along;
+        }
     }
-    t0 = meet(&ray, &solids[0]);
-    t1 = meet(&ray, &solids[1]);
-    if (t0 > 1e29 && t1 > 1e29) {
+    return towards > 0;
+}
+
+/* A world of a ray caster; without `ground` there are only the cubes, and without `light` no shadows. */
+struct view {
+    double eye[3], axes[3][3], light[3];
+    struct solid solids[2];
+    bool ground;
+};
+
+/*
+ * Whether another cube keeps the light from a point of a body, 0, 1 or 2 for the ground: 1; 2 for a point inside of that cube,
+ * which only an eye in there sees.
+ */
+static int is_dark(const struct view *v, const double point[3], int body)
+{
+    struct ray ray;
+    int dark = 0;
+
+    memcpy(ray.from, point, sizeof ray.from);
+    memcpy(ray.along, v->light, sizeof ray.along);
+    for (int i = 0; i < 2; i++) {
+        double part[2];
+
+        slabs(part, &ray, &v->solids[i]);
+        if (i != body && part[0] < part[1] && part[1] > 0) {
+            dark = part[0] < 0 ? 2 : 1;
+        }
+    }
+    return body == 2 ? dark * (v->light[2] > 0)
+                     : dark * faces_light(point, v->light, &v->solids[body]);
+}
+
+/* The ramp that a point of the picture shows, solids[1] moves; and 8 more in shadow, 16 where that is not known. */
+static int see(const struct view *v, double x, double y)
+{
+    struct ray ray;
+    double t[3], point[3];
+    int body = 0;
+
+    for (int k = 0; k < 3; k++) {
+        ray.from[k] = v->eye[k];
+        ray.along[k] = v->axes[2][k] + (x - SIZE / 2) / SIZE * v->axes[0][k] +
+                       (y - SIZE / 2) / SIZE * v->axes[1][k];
+    }
+    t[0] = meet(&ray, &v->solids[0]);
+    t[1] = meet(&ray, &v->solids[1]);
+    t[2] = v->ground ? meet_ground(&ray) : 1e30;
+    for (int i = 1; i < 3; i++) {
+        body = t[i] < t[body] ? i : body;
+    }
+    if (t[body] > 1e29) {
         return DRAW_BACKGROUND;
     }
-    return t0 < t1 ? DRAW_STATIONARY : DRAW_MOVING;
+    for (int k = 0; k < 3; k++) {
+        point[k] = ray.from[k] + t[body] * ray.along[k];
+    }
+    return (body == 1 ? DRAW_MOVING : DRAW_STATIONARY) + 8 * is_dark(v, point, body);
 }
 
 static void camera_axes(double axes[3][3], const double eye[3], const double target[3])
@@ -113,67 +188,118 @@ static void camera_axes(double axes[3][3], const double eye[3], const double tar
     }
 }
 
-/* Random pixels of two crossing cubes; skipped where the ray's neighbours see something else. */
-static void compare_rays(struct test_random *random, const double eye[3], double axes[3][3],
-                         const struct solid solids[2])
+/* The world without shadows, to tell which pixels are darker for them. */
+static uint8_t bright[SIZE][SIZE];
+
+/* Pixels compared, those of them in shadow, and those that are wrong. */
+struct counts {
+    int all, dark, wrong;
+};
+
+/* Compare random pixels, but for those where a ray `beside`, in pixels, sees something else. */
+static void compare_rays(struct counts *counts, struct test_random *random, const struct view *v,
+                         double beside)
 {
     for (int i = 0; i < 24; i++) {
         int x = (int)test_random_range(random, 0, SIZE - 1);
         int y = (int)test_random_range(random, 0, SIZE - 1);
-        int seen = see(eye, axes, x + 0.5, y + 0.5, solids);
-        bool same = true;
+        int seen = see(v, x + 0.5, y + 0.5);
+        bool same = seen < 16;
 
         for (int k = 0; k < 4 && same; k++) {
-            same = see(eye, axes, x + (k & 1 ? 0.3 : 0.7), y + (k & 2 ? 0.3 : 0.7), solids) == seen;
+            same = see(v, x + 0.5 + (k & 1 ? -beside : beside),
+                       y + 0.5 + (k & 2 ? -beside : beside)) == seen;
         }
         if (same) {
-            CHECK_EQ(ramp_at(x, y), seen);
+            counts->all++;
+            counts->dark += seen >= 8;
+            counts->wrong += ramp_at(x, y) + 8 * (pixels[y][x] < bright[y][x]) != seen;
         }
     }
+}
+
+/* Two cubes that may cross, and a camera; sometimes the near plane cuts a cube, or the eye is inside one. */
+static struct carom_camera place(struct carom_world *world, struct view *v,
+                                 struct test_random *random, bool close)
+{
+    struct carom_camera camera = {.focal_q16 = 1 << 16};
+    const int64_t far = close ? Q32(1, 1) : Q32(3, 1);
+    double target[3];
+
+    for (int b = 0; b < 2; b++) {
+        const int8_t *q = turns[test_random_range(random, 0, sizeof turns / sizeof turns[0] - 1)];
+        carom_quat_q30 rotation;
+        carom_v3_q32 x;
+
+        for (int k = 0; k < 4; k++) {
+            rotation.c[k] = (int32_t)(q[k] * (int64_t)CAROM_ONE_Q30 / q[4]);
+        }
+        for (int k = 0; k < 3; k++) {
+            x.c[k] = test_random_range(random, Q32(-1, 2), Q32(1, 2));
+            v->solids[b].x[k] = (double)x.c[k] / 4294967296.0;
+        }
+        turn_matrix(v->solids[b].r, q);
+        add(world, &cube, x, rotation, b == 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        camera.eye.c[k] = test_random_range(random, -far, far);
+        camera.target.c[k] = test_random_range(random, Q32(-1, 4), Q32(1, 4));
+        v->eye[k] = (double)camera.eye.c[k] / 4294967296.0;
+        target[k] = (double)camera.target.c[k] / 4294967296.0;
+    }
+    camera_axes(v->axes, v->eye, target);
+    return camera;
 }
 
 static void cubes(void)
 {
     struct test_random random = {20};
+    struct counts counts = {0, 0, 0};
 
     for (int scene = 0; scene < ORACLE_SCENES; scene++) {
         struct carom_world *world = new_world();
-        struct carom_camera camera = {.focal_q16 = 1 << 16};
-        struct solid solids[2];
-        double eye[3], target[3], axes[3][3];
+        struct view v = {.ground = false, .light = {0, 0, 0}};
+        struct carom_camera camera = place(world, &v, &random, scene % 3 == 0);
 
-        for (int b = 0; b < 2; b++) {
-            const int8_t *q =
-                turns[test_random_range(&random, 0, sizeof turns / sizeof turns[0] - 1)];
-            carom_quat_q30 rotation;
-            carom_v3_q32 x;
-
-            for (int k = 0; k < 4; k++) {
-                rotation.c[k] = (int32_t)(q[k] * (int64_t)CAROM_ONE_Q30 / q[4]);
-            }
-            for (int k = 0; k < 3; k++) {
-                x.c[k] = test_random_range(&random, Q32(-1, 2), Q32(1, 2));
-                solids[b].x[k] = (double)x.c[k] / 4294967296.0;
-            }
-            turn_matrix(solids[b].r, q);
-            add(world, &cube, x, rotation, b == 1);
-        }
-        /* sometimes close enough for the near plane to cut a cube, or with the eye inside one */
-        for (int k = 0; k < 3; k++) {
-            int64_t far = scene % 3 == 0 ? Q32(1, 1) : Q32(3, 1);
-
-            camera.eye.c[k] = test_random_range(&random, -far, far);
-            camera.target.c[k] = test_random_range(&random, Q32(-1, 4), Q32(1, 4));
-            eye[k] = (double)camera.eye.c[k] / 4294967296.0;
-            target[k] = (double)camera.target.c[k] / 4294967296.0;
-        }
-        camera_axes(axes, eye, target);
         draw_8(world, &camera, CAROM_DRAW_FLAT);
-        compare_rays(&random, eye, axes, solids);
+        memcpy(bright, pixels, sizeof bright);
+        compare_rays(&counts, &random, &v, 0.2);
     }
+    CHECK(counts.all > 10 * ORACLE_SCENES);
+    CHECK_EQ(counts.wrong, 0);
+}
+
+static void shadows(void)
+{
+    struct test_random random = {21};
+    struct counts counts = {0, 0, 0};
+
+    for (int scene = 0; scene < 2 * ORACLE_SCENES; scene++) {
+        struct carom_world *world = new_world();
+        struct view v = {.ground = true};
+        struct carom_camera camera = place(world, &v, &random, scene % 3 == 0);
+        struct carom_paint paint = {.ambient_q30 = 0};
+        struct carom_picture picture = picture_8();
+
+        add(world, &plain, at(0, 0, Q32(-1, 1)), upright, false);
+        for (int k = 0; k < 3; k++) {
+            paint.light.c[k] = (int32_t)test_random_range(&random, -1000, 1000);
+            v.light[k] = paint.light.c[k];
+        }
+        picture.paint = &paint;
+        CHECK_EQ(carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+        memcpy(bright, pixels, sizeof bright);
+        paint.shadows = &carom_shadows;
+        CHECK_EQ(carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+        compare_rays(&counts, &random, &v, 1);
+    }
+    /* corners are rounded to a 16th of a pixel, which now and then shows where light or eye graze a face */
+    CHECK(counts.dark > ORACLE_SCENES);
+    CHECK(counts.wrong <= counts.all / 10000);
 }
 
 const struct test tests_draw_rays[] = {
     {"draw_rays/cubes", cubes},
+    {"draw_rays/shadows", shadows},
     {0},
 };

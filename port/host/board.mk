@@ -6,3 +6,4 @@ CPU := of the machine that compiles
 DISPLAY := memory 512 x 512
 SCENES := head pile sheet box car walker door chain crusher conveyor
 PICTURES := 1
+SHADOWS := 1

@@ -87,6 +87,38 @@ static struct carom_rect find_rect(const struct changes *c, const struct carom_b
     return draw_on_picture(&c->view, draw_extent_end(&extent, &c->view));
 }
 
+/* Beyond this, q16, a body's place could not be told from the eye. */
+#define REACH_MOST ((int64_t)1024 << 16)
+
+/* Where a body and its shadows show: they are between it and where it would be as far behind as they may fall. */
+static struct carom_rect find_all(const struct changes *c, uint32_t number,
+                                  const struct carom_body_look *look)
+{
+    const struct carom_shadows *shadows = draw_shadows(&c->source);
+    int64_t reach = shadows ? shadows->reach(&c->source, &c->view, number, look) : 0;
+    struct carom_body_look end = *look;
+    struct draw_extent extent;
+    struct draw_body body;
+
+    if (reach == 0) {
+        return find_rect(c, look, NULL, 0);
+    }
+    if (reach > REACH_MOST) {
+        return draw_on_picture(&c->view, c->view.rect);
+    }
+    for (int k = 0; k < 3; k++) {
+        end.position.c[k] -= c->view.sun.c[k] * reach >> 14;
+    }
+    draw_extent_begin(&extent);
+    for (int i = 0; i < 2; i++) {
+        draw_body_place(&body, &c->view, i ? &end : look);
+        for (uint32_t v = 0; v < look->mesh->raw.vertex_count; v++) {
+            draw_extent_add(&extent, &body, v);
+        }
+    }
+    return draw_on_picture(&c->view, draw_extent_end(&extent, &c->view));
+}
+
 /*
  * Look at a body: what changes of it is added to `drawn`, unless all is drawn anyway. How far one that
  * stands still reaches is not worth finding out before it is set elsewhere.
@@ -106,7 +138,7 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
     if (same) {
         now.all = before->all;
     } else if (now.look.mesh) {
-        now.all = drawn->shows || now.look.moving ? find_rect(c, &now.look, NULL, 0)
+        now.all = drawn->shows || now.look.moving ? find_all(c, number, &now.look)
                                                   : draw_on_picture(&c->view, c->view.rect);
     }
     if (drawn->shows) {
@@ -177,7 +209,8 @@ static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
     return a->palette == b->palette && draw_ramps(a) == draw_ramps(b) &&
            a->hide_interfering == b->hide_interfering &&
            a->interfering_ramp == b->interfering_ramp &&
-           memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->ambient_q30 == b->ambient_q30;
+           memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->ambient_q30 == b->ambient_q30 &&
+           a->shadows == b->shadows && a->horizon == b->horizon;
 }
 
 /* Whether the pixels are those that were drawn before, in the same way. */

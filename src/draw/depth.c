@@ -3,9 +3,10 @@
 
 void draw_depths(const struct draw_sweep *s, struct draw_span *span)
 {
-    uint32_t a = s->vertices[span->face->corner[0]].w_q26;
-    uint32_t b = s->vertices[span->face->corner[1]].w_q26;
-    uint32_t c = s->vertices[span->face->corner[2]].w_q26;
+    const uint16_t *corner = draw_plane(span->face)->corner;
+    uint32_t a = s->vertices[corner[0]].w_q26;
+    uint32_t b = s->vertices[corner[1]].w_q26;
+    uint32_t c = s->vertices[corner[2]].w_q26;
     uint32_t low = a < b ? a : b, high = a < b ? b : a;
 
     span->w_low = low < c ? low : c;
@@ -53,7 +54,8 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
 static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a, struct draw_span *b,
                              int32_t x)
 {
-    struct slope wa = slope_at(s, a->face, x, s->y), wb = slope_at(s, b->face, x, s->y);
+    struct slope wa = slope_at(s, draw_plane(a->face), x, s->y);
+    struct slope wb = slope_at(s, draw_plane(b->face), x, s->y);
 
     return (struct slope){wa.w - wb.w, wa.dx - wb.dx};
 }
@@ -76,8 +78,24 @@ static bool in_front(const struct draw_sweep *s, struct draw_span *a, struct dra
     return ahead > 0 || (ahead == 0 && later(a, b));
 }
 
+/* Forget spans that ended. Out of line: it is hardly ever needed. */
+DRAW_OUT_OF_LINE void drop_ended_spans(struct draw_sweep *s)
+{
+    int n = 0;
+
+    for (int i = 0; i < s->under_count; i++) {
+        if (s->under[i]->x_q15[1] >> 15 > s->x) {
+            s->under[n++] = s->under[i];
+        }
+    }
+    s->under_count = n;
+}
+
 static void put_under(struct draw_sweep *s, struct draw_span *span)
 {
+    if (s->under_count == DRAW_UNDER_MAX) {
+        drop_ended_spans(s);
+    }
     if (s->under_count < DRAW_UNDER_MAX) {
         s->under[s->under_count++] = span;
         if (s->under_high < span->w_high) {

@@ -34,6 +34,18 @@
 
 #define DRAW_GUARD 1024
 
+/*
+ * Some compilers would rather have one copy of what two callers share; and the copy that a program's pixels
+ * do not need is to stay out of what others have in fast memory.
+ */
+#if defined __GNUC__
+#define DRAW_INLINE      __attribute__((always_inline)) static inline
+#define DRAW_OUT_OF_LINE __attribute__((noinline)) static
+#else
+#define DRAW_INLINE      static inline
+#define DRAW_OUT_OF_LINE static
+#endif
+
 /* Ramps of a palette. Interfering faces are HOT. */
 #define DRAW_BACKGROUND     CAROM_RAMP_BACKGROUND
 #define DRAW_STATIONARY     CAROM_RAMP_STATIONARY
@@ -95,6 +107,7 @@ struct draw_view {
     int64_t focal_q16; /* pixels */
     int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
     int z_shift;
+    int32_t horizon;       /* the first row that looks down, or one far outside of the picture */
     int32_t middle[2];     /* the pixel from which pixels are counted; in an even column */
     int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
     struct draw_rect rect; /* the part, counted from there */
@@ -102,6 +115,8 @@ struct draw_view {
     struct draw_cover cover;
     carom_v3_q30 light; /* towards it, in the world; its length is half of what shades differ by */
     uint32_t shade_q24; /* of what is across it */
+    int shift_least;    /* of bodies */
+    carom_v3_q30 sun;   /* towards the light, of length 1 */
 };
 
 /* Ramps of a body, with its paint if it has one. */
@@ -131,6 +146,8 @@ struct draw_body {
                                       shade; in q24 */
     carom_v3_q30 light;            /* the view's, in mesh axes */
     struct draw_coat coat;
+    const uint32_t *
+        hot; /* flat.c: a bit for each face, whether it interferes; there if there is a paint; or NULL */
     /* view = (to_view (vertex << up) + origin) / 2^30 */
     carom_m3_q30 to_view;
     int64_t origin[3];
@@ -180,6 +197,9 @@ static inline struct draw_rect draw_whole(const struct draw_view *view,
 /* Prepare a body for the view's part; false when nothing of it can show there. */
 bool draw_body_init(struct draw_body *body, const struct draw_view *view,
                     const struct carom_body_look *look);
+/* The same of a body that need not show there; without `sees`. */
+void draw_body_place(struct draw_body *body, const struct draw_view *view,
+                     const struct carom_body_look *look);
 /*
  * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
  * 1, or 2 when all of it does.
@@ -188,6 +208,12 @@ int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, i
 
 /* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
+
+/* A vertex of the mesh in view coordinates: right, down, forward; each below 2^30 in size. */
+void draw_place(const struct draw_body *body, uint32_t number, int32_t at[3]);
+
+/* A point in view coordinates, inside of the guard band and beyond the near plane, on the picture. */
+struct draw_vertex draw_project(const struct draw_body *body, const int32_t at[3]);
 
 /* How far some vertices reach on the picture. */
 struct draw_extent {
@@ -200,6 +226,11 @@ void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, u
 /* A pixel more on each side, within the view's part; nothing of no vertices. */
 struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view);
 
+/* A body for points of the world that belong to none, with `shift` set. */
+void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift);
+
+/* ---- clip.c: what is left of faces and edges in the guard band */
+
 /*
  * Clip a face, or an edge as a polygon of two corners, given by its vertices.
  *   out  what is left, on the picture; of an edge, the first two
@@ -208,12 +239,19 @@ struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct 
 #define DRAW_CLIP_MAX 8
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
-/* The same of corners in view coordinates; these are overwritten. */
+/* The same of corners in view coordinates; these are overwritten, with those of what is left. */
 int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
                      struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* A body for points of the world that belong to none, with `shift` set. */
-void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift);
+/* A corner of what is left, cut again perhaps, on the picture. */
+struct draw_vertex draw_clipped_vertex(const struct draw_body *body, int32_t at[3]);
+
+/*
+ * Sutherland and Hodgman's step: the part of a convex polygon inside one plane.
+ *   inside  how far each corner is inside of it, up to a factor; within +-2^32
+ * Returns the number of corners that are left.
+ */
+int draw_cut(int32_t polygon[DRAW_CLIP_MAX][3], const int64_t inside[DRAW_CLIP_MAX], int n);
 
 /* ---- divide.c: quotients for processors that cannot divide */
 
@@ -257,14 +295,93 @@ static inline bool draw_covers(const struct draw_cover *cover, const struct draw
 int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect);
 
+struct draw_list;
+
+/* ---- outline.c: what the light sees of a solid */
+
+/* An edge of the outline. Heights are along across[1], q, and p along across[0] is how far right it is. */
+struct draw_outline_edge {
+    int32_t at[2][3]; /* its lower and its upper end, view coordinates */
+    int32_t p[2], q[2];
+    int32_t up; /* 1; -1 when what is lit is on its right */
+};
+
+/* Between two edges and two heights. */
+struct draw_trapezoid {
+    uint16_t left, right;
+    int32_t low, high;
+};
+
+struct draw_outline {
+    carom_v3_q30 across[2]; /* seen from the light, right and up; view coordinates */
+    struct draw_outline_edge *edges;
+    uint32_t edge_count;
+    struct draw_trapezoid *trapezoids;
+    uint32_t trapezoid_count;
+    uint64_t *keys;   /* ends of edges, by height */
+    uint16_t *active; /* edges at the height at hand, and how far right each of them is */
+    int64_t *place;
+};
+
+/*
+ * The outline of a placed solid and the trapezoids that it holds, in scratch memory that is aligned to 8.
+ *   sun  towards the light, view coordinates
+ * Returns whether there was room.
+ */
+bool draw_outline_find(struct draw_outline *outline, const struct draw_body *body,
+                       const int32_t sun[3], void *scratch, size_t bytes);
+/* A point of an edge at a height. */
+void draw_outline_point(const struct draw_outline *outline, uint32_t edge, int32_t q,
+                        int32_t at[3]);
+/* How far right and up a point is. */
+void draw_outline_across(const struct draw_outline *outline, const int32_t at[3], int32_t pq[2]);
+
+/* ---- shadow.c: the parts of faces that solids keep the light from */
+
+struct draw_list;
+
+struct carom_shadows {
+    /* Before bodies of a picture are placed: all have one scale then. */
+    void (*init)(const struct draw_source *source, struct draw_view *view);
+    /* How far behind the centre of a body its shadow may fall on others: q16; 0 for none. */
+    int64_t (*reach)(const struct draw_source *source, const struct draw_view *view,
+                     uint32_t number, const struct carom_body_look *look);
+    /*
+     * List the shadows of all solids on a body. One of which the outline does not fit into the scratch memory has
+     * none. False when there is no room in the list.
+     */
+    bool (*list)(const struct draw_source *source, const struct draw_view *view,
+                 const struct draw_body *body, uint32_t number, struct draw_list *list,
+                 void *scratch, size_t bytes);
+};
+
+/* NULL without shadows. */
+static inline const struct carom_shadows *draw_shadows(const struct draw_source *source)
+{
+    return source->paint ? source->paint->shadows : NULL;
+}
+
 /* ---- scanline.c: their pixels, row by row */
 
 /* A triangle on the picture. It begins with its top corner and runs counter-clockwise. */
 struct draw_face {
     uint16_t corner[3]; /* into the vertices */
     uint16_t next;      /* in its row's list: 1 + where it is, 0 at the end */
-    uint16_t colour;    /* palette entry */
+    uint16_t colour;    /* palette entry, and DRAW_DECAL */
 };
+
+/*
+ * A decal lies on another face: its depth is that of the face listed after it, which is in no row. So both agree on
+ * their depth to the last bit, whatever their corners are rounded to.
+ */
+#define DRAW_DECAL  0x8000u
+#define DRAW_COLOUR 0x1fffu /* palettes have at most 256 ramps of 32 */
+
+/* The face that gives a face its depth. Faces are listed downward. */
+static inline const struct draw_face *draw_plane(const struct draw_face *face)
+{
+    return face->colour & DRAW_DECAL ? face - 1 : face;
+}
 
 /*
  * What shows in a part of the picture: vertices from one end of the workspace, faces from the

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "draw.h"
+#include "list.h"
 
-#define OUTSIDE   0x8000u /* in place of a vertex's place, which is below */
-#define FACES_MAX 0xffffu
+#define OUTSIDE LIST_VERTICES_MAX /* in place of a vertex's place, which is below */
 
 /* The most that a leaf may list: its faces, clipped, and their corners. */
 #define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
@@ -19,70 +18,16 @@ struct flat {
     struct draw_list list;
     struct draw_body body;
     uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
-    uint32_t *hot;  /* a bit for each face of the body: whether it interferes; NULL for none */
-    bool painted;   /* the body, by the paint; `hot` is there then */
     uint32_t *hot_bits;
     uint16_t *rows;
     struct draw_vertex *vertices;
-    uint8_t *end;     /* of the workspace */
+    uint8_t *end;  /* of the workspace */
+    void *scratch; /* after that, for shadows */
+    size_t scratch_bytes;
     uint32_t largest; /* of the solids, its number; none: their count */
 };
 
 /* ------------------------------------------------------------ into the list */
-
-/* The number of a new vertex. There must be room. */
-static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
-{
-    list->vertices[list->vertex_count] = vertex;
-    return list->vertex_count++;
-}
-
-/* List a face by its first row, if it shows in the part of the picture. There must be room. */
-static inline void list_face(const struct draw_rect *rect, struct draw_list *list, uint32_t i,
-                             uint32_t j, uint32_t k, uint32_t colour, bool inside)
-{
-    int32_t a = list->vertices[i].yx_q4, b = list->vertices[j].yx_q4;
-    int32_t c = list->vertices[k].yx_q4, top, end;
-    struct draw_face *face;
-    uint16_t *row;
-
-    /* the top corner first */
-    if (b < a && b <= c) {
-        int32_t yx_q4 = a;
-        uint32_t place = i;
-
-        a = b, b = c, c = yx_q4;
-        i = j, j = k, k = place;
-    } else if (c < a) {
-        int32_t yx_q4 = a;
-        uint32_t place = i;
-
-        a = c, c = b, b = yx_q4;
-        i = k, k = j, j = place;
-    }
-    top = draw_row(a);
-    end = draw_row(b > c ? b : c);
-    if (!inside) {
-        int32_t left = rect->x0 * 16, right = rect->x1 * 16;
-
-        top = top > rect->y0 ? top : rect->y0;
-        if (top >= rect->y1 || (draw_x(a) < left && draw_x(b) < left && draw_x(c) < left) ||
-            (draw_x(a) >= right && draw_x(b) >= right && draw_x(c) >= right)) {
-            return;
-        }
-    }
-    if (top >= end) {
-        return;
-    }
-    face = &list->faces[-(int32_t)list->face_count];
-    row = &list->rows[top - rect->y0];
-    face->corner[0] = (uint16_t)i;
-    face->corner[1] = (uint16_t)j;
-    face->corner[2] = (uint16_t)k;
-    face->next = *row;
-    face->colour = (uint16_t)colour;
-    *row = (uint16_t)list->face_count++;
-}
 
 static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t colour)
 {
@@ -145,28 +90,11 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
 
 /* ------------------------------------------------------- over bodies, faces */
 
-/*
- * Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
- * The light is a little short, so that shades stay below DRAW_SHADES; the ramp is in the bits above.
- */
-static inline uint32_t face_colour(const struct draw_body *body, const carom_v3_q30 *normal)
-{
-    return ((uint32_t)(carom_dot(normal->c, body->light.c) >> 32) + body->ramp) >> 24;
-}
-
-/* The same of a face of a body that has paint. */
-static uint32_t paint_colour(const struct flat *f, uint32_t number, uint32_t colour, bool hot)
-{
-    const struct draw_coat *coat = &f->body.coat;
-    uint32_t ramp = hot ? coat->hot : draw_face_ramp(coat, f->source->paint, number);
-
-    return ramp * DRAW_SHADES + colour % DRAW_SHADES;
-}
-
 /* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
 static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
                      const struct draw_cover *cover)
 {
+    const struct carom_paint *paint = f->source->paint;
     const struct draw_body *body = &f->body;
     const struct carom_face *faces = body->mesh->faces;
     const uint16_t *numbers = &body->mesh->leaf_faces[leaf->first_face];
@@ -180,17 +108,8 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
 
         /* q(20 - shift): what is seen so much edge-on that it matters does not show */
         if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
-            uint32_t colour = face_colour(body, &face->normal);
+            uint32_t colour = list_colour(body, paint, &face->normal, number);
 
-            if (f->hot) {
-                bool hot = f->hot[number >> 5] >> (number & 31) & 1;
-
-                if (f->painted) {
-                    colour = paint_colour(f, number, colour, hot);
-                } else if (hot) {
-                    colour += (DRAW_STATIONARY_HOT - DRAW_STATIONARY) * DRAW_SHADES;
-                }
-            }
             see_face(f, number, colour, inside, cover);
         }
     }
@@ -203,26 +122,19 @@ static void mark_hot(struct flat *f, uint32_t number)
     uint32_t faces = f->body.mesh->raw.face_count;
     const size_t bytes = (faces + 31) / 32 * sizeof f->hot_bits[0];
 
-    f->hot = NULL;
-    if (f->painted) {
-        f->hot = f->hot_bits;
-        memset(f->hot, 0, bytes);
+    f->body.hot = f->source->paint ? f->hot_bits : NULL;
+    if (f->body.hot) {
+        memset(f->hot_bits, 0, bytes);
     }
     for (int i = 0; i < f->source->hot_count; i++) {
         if (refs[i].body == number && refs[i].face < faces) {
-            if (f->hot == NULL) {
-                f->hot = f->hot_bits;
-                memset(f->hot, 0, bytes);
+            if (f->body.hot == NULL) {
+                f->body.hot = f->hot_bits;
+                memset(f->hot_bits, 0, bytes);
             }
-            f->hot[refs[i].face >> 5] |= 1u << (refs[i].face & 31);
+            f->hot_bits[refs[i].face >> 5] |= 1u << (refs[i].face & 31);
         }
     }
-}
-
-static size_t room(const struct draw_list *list)
-{
-    return (size_t)((const uint8_t *)(list->faces - (list->face_count - 1)) -
-                    (const uint8_t *)(list->vertices + list->vertex_count));
 }
 
 /* List the lines of the paint; false when there is no room for all of them. */
@@ -238,7 +150,8 @@ static bool see_lines(struct flat *f)
         if (!draw_segment(f->view, &line->from, &line->to, ends)) {
             continue;
         }
-        if (room(&f->list) < LINE_ROOM || at + 4 > OUTSIDE || f->list.face_count + 2 > FACES_MAX) {
+        if (list_room(&f->list) < LINE_ROOM || at + 4 > LIST_VERTICES_MAX ||
+            f->list.face_count + 2 > LIST_FACES_MAX) {
             return false;
         }
         draw_ribbon(ends, corner);
@@ -254,6 +167,7 @@ static bool see_lines(struct flat *f)
 /* List what shows in the part; false when there is no room for all of it. */
 static bool see_part(struct flat *f)
 {
+    const struct carom_shadows *shadows = draw_shadows(f->source);
     const struct draw_rect *rect = &f->view->rect;
 
     f->list.vertices = f->vertices;
@@ -270,7 +184,6 @@ static bool see_part(struct flat *f)
             continue;
         }
         mesh = look.mesh;
-        f->painted = f->source->paint != NULL;
         draw_paint_body(&f->body.coat, f->source->paint, i);
         mark_hot(f, i);
         memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
@@ -283,13 +196,18 @@ static bool see_part(struct flat *f)
                 sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
             }
             if (sees) {
-                if (room(&f->list) < LEAF_ROOM || f->list.vertex_count + LEAF_VERTICES > OUTSIDE ||
-                    f->list.face_count + LEAF_FACES > FACES_MAX) {
+                if (list_room(&f->list) < LEAF_ROOM ||
+                    f->list.vertex_count + LEAF_VERTICES > LIST_VERTICES_MAX ||
+                    f->list.face_count + LEAF_FACES > LIST_FACES_MAX) {
                     return false;
                 }
                 may = covered && draw_may_cover(f->view, &f->body, leaf);
                 see_leaf(f, leaf, sees == 2, may ? &f->view->cover : NULL);
             }
+        }
+        if (shadows && !shadows->list(f->source, f->view, &f->body, i, &f->list, f->scratch,
+                                      f->scratch_bytes)) {
+            return false;
         }
     }
     return see_lines(f);
@@ -331,6 +249,12 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
     f->rows = f->seen + vertices;
     f->vertices = (struct draw_vertex *)(void *)(at + bytes);
     f->end = at + picture->workspace_bytes / 8 * 8;
+    f->scratch_bytes = 0;
+    if (draw_shadows(f->source)) {
+        f->scratch_bytes = ((size_t)(f->end - (uint8_t *)f->vertices) - ROOM_LEAST) / 24 * 8;
+        f->end -= f->scratch_bytes;
+    }
+    f->scratch = f->end;
     return true;
 }
 
@@ -345,7 +269,7 @@ static bool try_part(struct flat *f, const struct carom_picture *picture, struct
     if (!see_part(f) && !must) {
         return false;
     }
-    f->list.room = room(&f->list);
+    f->list.room = list_room(&f->list);
     return draw_rows(f->view, &f->list, picture, must);
 }
 
@@ -357,6 +281,7 @@ static bool try_part(struct flat *f, const struct carom_picture *picture, struct
 int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect)
 {
+    const struct carom_shadows *shadows = draw_shadows(source);
     struct flat f = {.source = source, .view = view};
     int32_t x = rect.x0, y = rect.y0, columns = rect.x1 - rect.x0, rows = rect.y1 - rect.y0;
 
@@ -364,6 +289,9 @@ int draw_flat(const struct draw_source *source, struct draw_view *view,
         return CAROM_ERR_MEMORY;
     }
     draw_cover_init(view, source, f.largest);
+    if (shadows) {
+        shadows->init(source, view);
+    }
     while (y < rect.y1) {
         struct draw_rect part = {x, y, x + columns, y + rows};
 

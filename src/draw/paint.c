@@ -72,6 +72,7 @@ void draw_paint_light(struct draw_view *view, const struct carom_paint *paint)
         }
         fix_normalise(&light, direction);
     }
+    view->sun = light;
     low = carom_round(most * paint->ambient_q30, 30);
     half = (most - low) / 2;
     view->shade_q24 = (uint32_t)(low + half + SLACK_Q24 / 2);

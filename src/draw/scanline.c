@@ -1,18 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "draw.h"
 
-/*
- * Some compilers would rather have one copy of what two callers share; and the copy that a program's pixels
- * do not need is to stay out of what others have in fast memory.
- */
-#if defined __GNUC__
-#define FORCE_INLINE __attribute__((always_inline)) static inline
-#define OUT_OF_LINE  __attribute__((noinline)) static
-#else
-#define FORCE_INLINE static inline
-#define OUT_OF_LINE  static
-#endif
-
 /* The state of a walk over the rows of a part. */
 struct rows {
     const struct draw_view *view;
@@ -101,6 +89,7 @@ static bool begin_faces(struct rows *r, int32_t row)
     while (number) {
         const struct draw_face *face = &r->list->faces[-(int32_t)number];
         struct draw_span *span = r->free, **place = &r->fresh;
+        uint32_t colour;
 
         if (span) {
             r->free = span->next;
@@ -110,10 +99,10 @@ static bool begin_faces(struct rows *r, int32_t row)
             return false;
         }
         span->face = face;
-        span->pixel = r->format == CAROM_XRGB8888 ? r->palette[face->colour]
-                      : r->format == CAROM_PALETTE8
-                          ? face->colour * 0x01010101u
-                          : draw_entry(r->format, r->palette, face->colour);
+        colour = face->colour & DRAW_COLOUR;
+        span->pixel = r->format == CAROM_XRGB8888   ? r->palette[colour]
+                      : r->format == CAROM_PALETTE8 ? colour * 0x01010101u
+                                                    : draw_entry(r->format, r->palette, colour);
         begin_span(span, r->list->vertices, row);
         while (*place && (*place)->x_q15[0] < span->x_q15[0]) {
             place = &(*place)->next;
@@ -234,8 +223,8 @@ static void overlap(struct draw_sweep *s, struct draw_span *span)
     }
 }
 
-FORCE_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
-                           int pixel_shift)
+DRAW_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
+                          int pixel_shift)
 {
     int32_t x = s->x, end = x, gate = x, safe = s->safe;
     uint32_t pixel = s->ground, ground = s->ground;
@@ -298,7 +287,7 @@ FORCE_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans,
 }
 
 /* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
-OUT_OF_LINE void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
+DRAW_OUT_OF_LINE void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
     fill_row(s, spans, x1, 2);
 }

@@ -34,6 +34,20 @@ static bool camera_axes(carom_m3_q30 *axes, const struct carom_camera *camera)
     return true;
 }
 
+/* A row looks down by the same angle everywhere: the camera does not roll. */
+static int32_t find_horizon(const struct draw_view *view, int32_t height)
+{
+    const int32_t far = 1 << 14, ahead = view->axes.c[2][2], down = -view->axes.c[1][2];
+    int64_t row;
+
+    if (down <= 1 << 16) { /* straight up or down */
+        return ahead < 0 ? -far : far;
+    }
+    /* the middle of a row is half a pixel below the one from which rows are counted; of an odd height, on it */
+    row = (view->focal_q16 * ahead / down + (height & 1 ? 1 << 16 : 1 << 15)) >> 16;
+    return row < -far ? -far : row > far ? far : (int32_t)row;
+}
+
 int draw_view_init(struct draw_view *view, const struct carom_camera *camera, int32_t width,
                    int32_t height)
 {
@@ -49,7 +63,8 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     }
     view->eye = camera->eye;
     view->cover = (struct draw_cover){.radius2_q8 = 0};
-    view->light = usual_light;
+    view->light = view->sun = usual_light;
+    view->shift_least = 0;
     view->shade_q24 = 1u << 28;
     view->middle[0] = width / 4 * 2;
     view->middle[1] = height / 2;
@@ -60,6 +75,7 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
      * x at most 1, so that no coordinate grows. focal <= 2^15 pixels, so z_shift <= 5.
      */
     view->focal_q16 = (int64_t)camera->focal_q16 * height;
+    view->horizon = find_horizon(view, height);
     view->z_shift = 0;
     while (view->focal_q16 >> view->z_shift > (int64_t)DRAW_GUARD << 16) {
         view->z_shift++;
@@ -146,7 +162,7 @@ static void place_eye(struct draw_body *body, const struct draw_view *view, cons
         eye[k] = carom_round(eye[k], 32 - 22);
         reach += (uint64_t)carom_abs(eye[k]);
     }
-    body->shift = 0;
+    body->shift = view->shift_least;
     while (reach >> body->shift >> 29) {
         body->shift++;
     }
@@ -205,15 +221,11 @@ void draw_body_of_points(struct draw_body *body, const struct draw_view *view, i
     scale_to_view(body, view);
 }
 
-bool draw_body_init(struct draw_body *body, const struct draw_view *view,
-                    const struct carom_body_look *look)
+void draw_body_place(struct draw_body *body, const struct draw_view *view,
+                     const struct carom_body_look *look)
 {
     carom_m3_q30 r;
 
-    body->sees = sees_body(view, &look->position, look->mesh->radius_q22);
-    if (body->sees == 0) {
-        return false;
-    }
     body->mesh = look->mesh;
     body->moving = look->moving;
     body->coat = draw_usual_coat(look->moving);
@@ -231,6 +243,16 @@ bool draw_body_init(struct draw_body *body, const struct draw_view *view,
     }
     carom_rotate_back(body->light.c, &r, view->light.c);
     carom_rotate_back(body->cover.c, &r, view->cover.axis.c);
+}
+
+bool draw_body_init(struct draw_body *body, const struct draw_view *view,
+                    const struct carom_body_look *look)
+{
+    body->sees = sees_body(view, &look->position, look->mesh->radius_q22);
+    if (body->sees == 0) {
+        return false;
+    }
+    draw_body_place(body, view, look);
     return true;
 }
 
@@ -252,7 +274,6 @@ static inline int32_t view_coordinate(const int32_t row[3], int64_t origin, int3
                      30);
 }
 
-/* Vertex number `number` in view coordinates. */
 static inline void place(const struct draw_body *body, uint32_t number, int32_t at[3])
 {
     const int16_t *quanta = body->mesh->raw.vertices[number];
@@ -262,6 +283,11 @@ static inline void place(const struct draw_body *body, uint32_t number, int32_t 
     at[0] = view_coordinate(m[0], body->origin[0], x, y, z);
     at[1] = view_coordinate(m[1], body->origin[1], x, y, z);
     at[2] = view_coordinate(m[2], body->origin[2], x, y, z);
+}
+
+void draw_place(const struct draw_body *body, uint32_t number, int32_t at[3])
+{
+    place(body, number, at);
 }
 
 /* A view coordinate x, |x| <= z, in q4 pixels: 2^14 x / z; inverse is 2^62 / (z << up). */
@@ -297,6 +323,11 @@ static inline struct draw_vertex project(const struct draw_body *body, const int
 
     CAROM_ASSERT(body->w_shift >= up);
     return vertex;
+}
+
+struct draw_vertex draw_project(const struct draw_body *body, const int32_t at[3])
+{
+    return project(body, at);
 }
 
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex)
@@ -369,108 +400,4 @@ struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct 
         pixel_at(extent->high[0], half_q4[0], rect->x0 - 2, rect->x1 - 2) + 2,
         pixel_at(extent->high[1], half_q4[1], rect->y0 - 2, rect->y1 - 2) + 2,
     };
-}
-
-/* ----------------------------------------------------------------- clipping */
-
-/*
- * How far inside of a plane: the near plane, then left, right, top and bottom of the guard band. Up
- * to a factor; |result| <= 2^30.
- */
-static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], int plane)
-{
-    switch (plane) {
-    case 0:
-        return at[2] - body->near;
-    case 1:
-        return at[2] + at[0];
-    case 2:
-        return at[2] - at[0];
-    case 3:
-        return at[2] + at[1];
-    default:
-        return at[2] - at[1];
-    }
-}
-
-/*
- * Where an edge crosses a plane. Always computed from the inner end, so that two faces get the same
- * point of the edge that they share.
- */
-static void cross_plane(int32_t out[3], const int32_t inner[3], const int32_t outer[3],
-                        int32_t d_inner, int32_t d_outer)
-{
-    /*
-     * d_inner >= 0 > d_outer, both at most 2^30: the fraction is below 1 and the product below 2^61
-     */
-    int64_t t_q30 = (int64_t)d_inner * CAROM_ONE_Q30 / ((int64_t)d_inner - d_outer);
-
-    for (int k = 0; k < 3; k++) {
-        out[k] = inner[k] + (int32_t)carom_round(((int64_t)outer[k] - inner[k]) * t_q30, 30);
-    }
-}
-
-/* Sutherland and Hodgman's step: the part of a convex polygon inside one plane. */
-static int clip_plane(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
-                      int plane)
-{
-    int32_t kept[DRAW_CLIP_MAX][3];
-    int m = 0;
-
-    for (int i = 0; i < n; i++) {
-        const int32_t *a = polygon[i], *b = polygon[i + 1 < n ? i + 1 : 0];
-        int32_t da = clip_distance(body, a, plane), db = clip_distance(body, b, plane);
-
-        /* A triangle gains at most one corner a plane: 3 + 5 = DRAW_CLIP_MAX. */
-        CAROM_ASSERT(m + (da >= 0) + ((da >= 0) != (db >= 0)) <= DRAW_CLIP_MAX);
-        if (da >= 0) {
-            memcpy(kept[m++], a, sizeof kept[0]);
-        }
-        if (da >= 0 && db < 0) {
-            cross_plane(kept[m++], a, b, da, db);
-        } else if (da < 0 && db >= 0) {
-            cross_plane(kept[m++], b, a, db, da);
-        }
-    }
-    memcpy(polygon, kept, sizeof kept[0] * (size_t)m);
-    return m;
-}
-
-/* Project a corner that clipping made: rounding may have left it a hair outside. */
-static struct draw_vertex project_clipped(const struct draw_body *body, int32_t at[3])
-{
-    if (at[2] < body->near) {
-        at[2] = body->near;
-    }
-    for (int k = 0; k < 2; k++) {
-        if (at[k] > at[2]) {
-            at[k] = at[2];
-        } else if (at[k] < -at[2]) {
-            at[k] = -at[2];
-        }
-    }
-    return project(body, at);
-}
-
-int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
-                     struct draw_vertex out[DRAW_CLIP_MAX])
-{
-    for (int plane = 0; plane < DRAW_SIDES; plane++) {
-        n = clip_plane(body, polygon, n, plane);
-    }
-    for (int i = 0; i < n; i++) {
-        out[i] = project_clipped(body, polygon[i]);
-    }
-    return n;
-}
-
-int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
-              struct draw_vertex out[DRAW_CLIP_MAX])
-{
-    int32_t polygon[DRAW_CLIP_MAX][3];
-
-    for (int i = 0; i < n; i++) {
-        place(body, numbers[i], polygon[i]);
-    }
-    return draw_clip_placed(body, polygon, n, out);
 }

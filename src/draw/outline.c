@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The outline of a solid, as the light sees it: the edges between faces that take the light and faces that do not.
+ * All that the solid hides lies behind it. A sweep across the light cuts what is inside into trapezoids: at
+ * each height the edges are crossed from left to right, and a stretch is inside where more of them go up than down, or
+ * the other way. Edges that cross between two corners' heights are taken in their order half way.
+ */
+#include "../num/sort.h"
+#include "list.h"
+
+/* Two coordinates across the light, of a point in view coordinates. */
+static void across(const struct draw_outline *o, const int32_t at[3], int32_t pq[2])
+{
+    for (int k = 0; k < 2; k++) {
+        pq[k] = (int32_t)(carom_dot(o->across[k].c, at) >> 30);
+    }
+}
+
+static bool is_lit(const struct draw_body *body, uint32_t face)
+{
+    return carom_dot(body->mesh->faces[face].normal.c, body->light.c) > 0;
+}
+
+/* Add an edge of which the lit side is on the left; one that is level bounds nothing. */
+static void add_edge(struct draw_outline *o, const struct draw_body *body, uint32_t from,
+                     uint32_t to)
+{
+    struct draw_outline_edge *edge = &o->edges[o->edge_count];
+    int32_t a[2], b[2];
+
+    draw_place(body, from, edge->at[0]);
+    draw_place(body, to, edge->at[1]);
+    across(o, edge->at[0], a);
+    across(o, edge->at[1], b);
+    if (a[1] == b[1]) {
+        return;
+    }
+    edge->up = a[1] < b[1] ? 1 : -1;
+    if (edge->up < 0) {
+        draw_place(body, to, edge->at[0]);
+        draw_place(body, from, edge->at[1]);
+    }
+    edge->p[0] = edge->up > 0 ? a[0] : b[0];
+    edge->p[1] = edge->up > 0 ? b[0] : a[0];
+    edge->q[0] = edge->up > 0 ? a[1] : b[1];
+    edge->q[1] = edge->up > 0 ? b[1] : a[1];
+    o->edge_count++;
+}
+
+/* List the edges of the outline; false when there are more than fit. */
+static bool find_edges(struct draw_outline *o, const struct draw_body *body, uint32_t most)
+{
+    const struct carom_mesh *mesh = body->mesh;
+
+    for (uint32_t e = 0; e < mesh->edge_count; e++) {
+        const struct carom_edge *edge = &mesh->edges[e];
+        bool first = is_lit(body, edge->face[0]);
+
+        if (first != is_lit(body, edge->face[1])) {
+            if (o->edge_count == most) {
+                return false;
+            }
+            add_edge(o, body, edge->vertex[!first], edge->vertex[first]);
+        }
+    }
+    return true;
+}
+
+/* How far up an edge a height is, q30. */
+static int64_t part_of(const struct draw_outline_edge *edge, int32_t q)
+{
+    return ((int64_t)q - edge->q[0]) * CAROM_ONE_Q30 / ((int64_t)edge->q[1] - edge->q[0]);
+}
+
+void draw_outline_point(const struct draw_outline *o, uint32_t number, int32_t q, int32_t at[3])
+{
+    const struct draw_outline_edge *edge = &o->edges[number];
+    int64_t part_q30 = part_of(edge, q);
+
+    for (int k = 0; k < 3; k++) {
+        at[k] =
+            edge->at[0][k] + (int32_t)(((int64_t)edge->at[1][k] - edge->at[0][k]) * part_q30 >> 30);
+    }
+}
+
+/* -------------------------------------------------------------------- sweep */
+
+#define STRETCHES_MAX 16
+
+/* The stretches inside of the outline at one height; each is a trapezoid that is not ended yet. */
+struct stretches {
+    struct draw_trapezoid open[STRETCHES_MAX];
+    int count;
+};
+
+/* Put the edges that are crossed half way between two heights in order from left to right. */
+static void order_edges(struct draw_outline *o, uint32_t count, int32_t low, int32_t high)
+{
+    int32_t q = (int32_t)(((int64_t)low + high) >> 1);
+
+    for (uint32_t i = 0; i < count; i++) {
+        const struct draw_outline_edge *edge = &o->edges[o->active[i]];
+        uint16_t number = o->active[i];
+        int64_t p = edge->p[0] + (((int64_t)edge->p[1] - edge->p[0]) * part_of(edge, q) >> 30);
+        uint32_t at = i;
+
+        for (; at > 0 && o->place[at - 1] > p; at--) {
+            o->place[at] = o->place[at - 1];
+            o->active[at] = o->active[at - 1];
+        }
+        o->place[at] = p;
+        o->active[at] = number;
+    }
+}
+
+/* The stretches between edges in order. */
+static void find_stretches(const struct draw_outline *o, uint32_t count, int32_t low,
+                           struct stretches *now)
+{
+    int winding = 0;
+    uint16_t left = 0;
+
+    now->count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int before = winding;
+
+        winding += o->edges[o->active[i]].up;
+        if (before == 0) {
+            left = o->active[i];
+        } else if (winding == 0 && now->count < STRETCHES_MAX) {
+            now->open[now->count++] = (struct draw_trapezoid){left, o->active[i], low, low};
+        }
+    }
+}
+
+/* Go on with those that have the same edges as before; end the others. False when there is no room. */
+static bool join_stretches(struct draw_outline *o, const struct stretches *before,
+                           struct stretches *now, int32_t q, uint32_t most)
+{
+    for (int i = 0; i < before->count; i++) {
+        const struct draw_trapezoid *old = &before->open[i];
+        bool goes_on = false;
+
+        for (int k = 0; k < now->count; k++) {
+            if (now->open[k].left == old->left && now->open[k].right == old->right) {
+                now->open[k].low = old->low;
+                goes_on = true;
+            }
+        }
+        if (!goes_on) {
+            if (o->trapezoid_count == most) {
+                return false;
+            }
+            o->trapezoids[o->trapezoid_count] = *old;
+            o->trapezoids[o->trapezoid_count++].high = q;
+        }
+    }
+    return true;
+}
+
+/* Leave out edges that end at a height or below it. */
+static uint32_t drop_ended(struct draw_outline *o, uint32_t count, int32_t q)
+{
+    uint32_t n = 0;
+
+    for (uint32_t i = 0; i < count; i++) {
+        if (o->edges[o->active[i]].q[1] > q) {
+            o->active[n++] = o->active[i];
+        }
+    }
+    return n;
+}
+
+/* A height and an edge as a key that sorts by height. */
+static uint64_t key_of(int32_t q, uint32_t edge)
+{
+    return (uint64_t)((uint32_t)q ^ 0x80000000u) << 32 | edge;
+}
+
+static int32_t height_of(uint64_t key)
+{
+    return (int32_t)((uint32_t)(key >> 32) ^ 0x80000000u);
+}
+
+static bool sweep(struct draw_outline *o, uint32_t most)
+{
+    struct stretches was = {.count = 0}, now;
+    uint32_t active = 0, n = 2 * o->edge_count;
+
+    /* an edge begins at its even number and ends at its odd one */
+    for (uint32_t i = 0; i < n; i++) {
+        o->keys[i] = key_of(o->edges[i / 2].q[i % 2], i);
+    }
+    sort_keys(o->keys, n);
+    for (uint32_t i = 0; i < n;) {
+        int32_t q = height_of(o->keys[i]);
+
+        active = drop_ended(o, active, q);
+        for (; i < n && height_of(o->keys[i]) == q; i++) {
+            uint32_t end = (uint32_t)o->keys[i];
+
+            if (end % 2 == 0) {
+                o->active[active++] = (uint16_t)(end / 2);
+            }
+        }
+        now.count = 0;
+        if (i < n) {
+            order_edges(o, active, q, height_of(o->keys[i]));
+            find_stretches(o, active, q, &now);
+        }
+        if (!join_stretches(o, &was, &now, q, most)) {
+            return false;
+        }
+        was = now;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------- outline */
+
+/* Two directions across the light. */
+static bool find_across(struct draw_outline *o, const int32_t sun[3])
+{
+    int64_t v[3] = {0, 0, 0};
+    int flat =
+        carom_abs(sun[0]) > carom_abs(sun[1]); /* x and y: neither need be far from the light */
+
+    v[flat ? 0 : 1] = -(int64_t)sun[2];
+    v[2] = sun[flat ? 0 : 1];
+    if (!fix_normalise(&o->across[0], v)) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        v[k] = (int64_t)sun[i] * o->across[0].c[j] - (int64_t)sun[j] * o->across[0].c[i];
+    }
+    return fix_normalise(&o->across[1], v);
+}
+
+#define EDGE_BYTES                                                                                 \
+    (sizeof(struct draw_outline_edge) + 3 * sizeof(uint64_t) + 3 * sizeof(struct draw_trapezoid) + \
+     sizeof(uint16_t))
+
+bool draw_outline_find(struct draw_outline *o, const struct draw_body *body, const int32_t sun[3],
+                       void *scratch, size_t bytes)
+{
+    size_t most = bytes / EDGE_BYTES;
+
+    most = most < 0x7fff ? most : 0x7fff;
+    o->keys = (uint64_t *)scratch; /* two for each edge */
+    o->place = (int64_t *)(o->keys + 2 * most);
+    o->edges = (struct draw_outline_edge *)(void *)(o->place + most);
+    o->trapezoids = (struct draw_trapezoid *)(void *)(o->edges + most);
+    o->active = (uint16_t *)(void *)(o->trapezoids + 3 * most);
+    o->edge_count = o->trapezoid_count = 0;
+    return find_across(o, sun) && find_edges(o, body, (uint32_t)most) &&
+           sweep(o, 3 * (uint32_t)most);
+}
+
+void draw_outline_across(const struct draw_outline *o, const int32_t at[3], int32_t pq[2])
+{
+    across(o, at, pq);
+}

@@ -1,0 +1,484 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Shadows. The outline of a solid, as the light sees it, is cut into triangles; each keeps the light from all that lies
+ * in a prism behind it, whose sides go through its edges along the light. A shadow on a face is the part of that
+ * face inside of the prism, a polygon. It is drawn as a decal over the face, in a darker shade, so that its edge is
+ * exact at every size of the picture. All is done in view coordinates: they are linear in the world's.
+ */
+#include "list.h"
+
+#define SIDES 4
+
+/* How far something reaches across the light: right and up. */
+struct extent {
+    int32_t low[2], high[2];
+};
+
+/* Where a triangle keeps the light from. */
+struct prism {
+    carom_v3_q30 side[SIDES]; /* inward, q28; the last one is the triangle's own plane */
+    int32_t corner[3][3];     /* on side k lies corner k, and 0 on the last */
+    struct extent extent;
+};
+
+/* A solid that keeps the light from a body. */
+struct caster {
+    struct draw_outline outline;
+    struct prism *prisms;
+    uint32_t prism_count;
+    struct extent extent; /* of all of them */
+    int32_t from[3];      /* the body -> the solid, world, q16 */
+    int32_t radius;       /* q16 */
+};
+
+/* The body that shadows fall on. */
+struct receiver {
+    const struct draw_source *source;
+    const struct draw_view *view;
+    const struct draw_body *body;
+    struct draw_list *list;
+    carom_m3_q30 turn; /* its axes to the world's */
+    int32_t sun[3];    /* view coordinates */
+    void *scratch;     /* for an outline and its prisms */
+    size_t bytes;
+};
+
+static void init(const struct draw_source *source, struct draw_view *view)
+{
+    struct draw_body body;
+    int shift = 0;
+
+    for (uint32_t i = 0; i < source->count; i++) {
+        struct carom_body_look look;
+
+        if (draw_look(source, i, &look)) {
+            draw_body_place(&body, view, &look);
+            shift = body.shift > shift ? body.shift : shift;
+        }
+    }
+    view->shift_least = shift;
+}
+
+/* ------------------------------------------------------------------- prisms */
+
+/* Inward of the plane through an edge and the light: q28, and false for an edge along the light. */
+static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t a[3],
+                         const int32_t b[3])
+{
+    int64_t across[3], edge[3];
+    bool is;
+
+    for (int k = 0; k < 3; k++) {
+        edge[k] = (int64_t)b[k] - a[k];
+    }
+    /* the sun is at most 2^30 long, an edge less than 2^31: below 2^62 */
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        across[k] = sun[i] * edge[j] - sun[j] * edge[i];
+    }
+    is = fix_normalise(side, across);
+    for (int k = 0; k < 3; k++) {
+        side->c[k] >>= 2;
+    }
+    return is;
+}
+
+/* The plane of a face, inward: away from the light. */
+static bool plane_of(carom_v3_q30 *side, int32_t corner[3][3])
+{
+    int32_t to[3];
+
+    for (int k = 0; k < 3; k++) {
+        to[k] = (corner[0][k] >> 1) - (corner[1][k] >> 1);
+    }
+    return side_through(side, to, corner[0], corner[2]);
+}
+
+/* Complete the prism of a triangle, counter-clockwise to the light; false for one that is edge-on to it. */
+static bool make_prism(struct prism *prism, const int32_t sun[3])
+{
+    bool is = true;
+
+    for (int k = 0; k < 3; k++) {
+        is = is &&
+             side_through(&prism->side[k], sun, prism->corner[k], prism->corner[k < 2 ? k + 1 : 0]);
+    }
+    return is && plane_of(&prism->side[3], prism->corner);
+}
+
+static const struct extent nothing = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
+
+/* Have an extent hold a point. */
+static void reach(struct extent *extent, const struct draw_outline *o, const int32_t at[3])
+{
+    int32_t pq[2];
+
+    draw_outline_across(o, at, pq);
+    for (int k = 0; k < 2; k++) {
+        extent->low[k] = fix_smaller(extent->low[k], pq[k]);
+        extent->high[k] = fix_larger(extent->high[k], pq[k]);
+    }
+}
+
+static bool overlap(const struct extent *a, const struct extent *b)
+{
+    return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1] &&
+           b->low[1] <= a->high[1];
+}
+
+/* Add the prisms of a trapezoid, two at most. */
+static void add_prisms(struct caster *c, const struct draw_trapezoid *t, const int32_t sun[3])
+{
+    const struct draw_outline *o = &c->outline;
+    int32_t corner[4][3];
+
+    draw_outline_point(o, t->left, t->low, corner[0]);
+    draw_outline_point(o, t->right, t->low, corner[1]);
+    draw_outline_point(o, t->right, t->high, corner[2]);
+    draw_outline_point(o, t->left, t->high, corner[3]);
+    for (int i = 2; i < 4; i++) {
+        struct prism *prism = &c->prisms[c->prism_count];
+
+        prism->extent = nothing;
+        for (int k = 0; k < 3; k++) {
+            const int32_t *at = corner[k == 0 ? 0 : i + k - 2];
+
+            memcpy(prism->corner[k], at, sizeof corner[0]);
+            reach(&prism->extent, o, at);
+        }
+        c->prism_count += make_prism(prism, sun);
+    }
+}
+
+/* Make the prisms of a placed solid behind its outline in the scratch memory; false when there is no room. */
+static bool make_prisms(struct caster *c, const struct receiver *r, const struct draw_body *body)
+{
+    const struct draw_outline *o = &c->outline;
+    const uint8_t *end = (const uint8_t *)r->scratch + r->bytes;
+
+    if (!draw_outline_find(&c->outline, body, r->sun, r->scratch, r->bytes)) {
+        return false;
+    }
+    c->prisms = (struct prism *)(void *)(o->trapezoids + o->trapezoid_count);
+    c->prism_count = 0;
+    if ((size_t)(end - (const uint8_t *)c->prisms) / sizeof *c->prisms < 2 * o->trapezoid_count) {
+        return false;
+    }
+    for (uint32_t i = 0; i < o->trapezoid_count; i++) {
+        add_prisms(c, &o->trapezoids[i], r->sun);
+    }
+    c->extent = nothing;
+    for (uint32_t i = 0; i < 2 * o->edge_count; i++) {
+        reach(&c->extent, o, o->edges[i / 2].at[i % 2]);
+    }
+    return true;
+}
+
+/* Cut a polygon to the inside of a prism. */
+static int cut_to_prism(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int n)
+{
+    for (int s = 0; s < SIDES && n > 0; s++) {
+        const int32_t *corner = prism->corner[s % 3];
+        int64_t inside[DRAW_CLIP_MAX];
+        bool any = false, all = true;
+
+        for (int i = 0; i < n; i++) {
+            int32_t from[3];
+
+            for (int k = 0; k < 3; k++) {
+                from[k] = polygon[i][k] - corner[k];
+            }
+            inside[i] = (carom_dot(prism->side[s].c, from) >> 28) + 1;
+            any = any || inside[i] > 0;
+            all = all && inside[i] >= 0;
+        }
+        n = !any ? 0 : all ? n : draw_cut(polygon, inside, n);
+    }
+    return n;
+}
+
+/* ------------------------------------------------------------------- decals */
+
+/* A face in shadow keeps some of its relief. */
+static uint32_t shadowed(uint32_t colour)
+{
+    uint32_t shade = colour % DRAW_SHADES;
+
+    return colour - shade + shade * 3 / 8;
+}
+
+/* A triangle that takes the light, all in the guard band. */
+struct lit {
+    int32_t corner[3][3];     /* view coordinates */
+    struct draw_vertex on[3]; /* the picture, to the same bit as those of the face */
+    uint32_t colour;          /* in shadow */
+    uint32_t plane[3];        /* where these are in the list; all 0: not there yet */
+};
+
+/* The room that the decals of one prism on one triangle may take. */
+#define DECAL_VERTICES (3 + DRAW_CLIP_MAX)
+#define DECAL_FACES    (2 * (DRAW_CLIP_MAX - 2))
+#define DECAL_ROOM                                                                                 \
+    (DECAL_VERTICES * sizeof(struct draw_vertex) + DECAL_FACES * sizeof(struct draw_face))
+
+static bool has_room(const struct draw_list *list)
+{
+    return list_room(list) >= DECAL_ROOM &&
+           list->vertex_count + DECAL_VERTICES <= LIST_VERTICES_MAX &&
+           list->face_count + DECAL_FACES <= LIST_FACES_MAX;
+}
+
+/* List the corners that give the decals of a triangle their depth, the top one first as in a face. */
+static void list_plane(const struct receiver *r, struct lit *lit)
+{
+    int32_t a = lit->on[0].yx_q4, b = lit->on[1].yx_q4, c = lit->on[2].yx_q4;
+    int top = b < a && b <= c ? 1 : c < a ? 2 : 0;
+
+    for (int k = 0; k < 3 && lit->plane[2] == 0; k++) {
+        lit->plane[k] = list_vertex(r->list, lit->on[(top + k) % 3]);
+    }
+}
+
+/* List a triangle of a shadow, and after it the plane that gives its depth. */
+static void list_decal(const struct receiver *r, const struct lit *lit, uint32_t a, uint32_t b,
+                       uint32_t c)
+{
+    uint32_t before = r->list->face_count;
+
+    list_face(&r->view->rect, r->list, a, b, c, lit->colour | DRAW_DECAL, false);
+    if (r->list->face_count > before) {
+        struct draw_face *plane = &r->list->faces[-(int32_t)r->list->face_count++];
+
+        for (int k = 0; k < 3; k++) {
+            plane->corner[k] = (uint16_t)lit->plane[k];
+        }
+    }
+}
+
+/* List the part of a triangle that a prism keeps the light from; false for too little room. */
+static bool list_shadow(const struct receiver *r, struct lit *lit, const struct prism *prism)
+{
+    const uint32_t faces = r->list->face_count, vertices = r->list->vertex_count;
+    int32_t polygon[DRAW_CLIP_MAX][3];
+    uint32_t place[DRAW_CLIP_MAX], last = lit->plane[2];
+    int n;
+
+    memcpy(polygon, lit->corner, sizeof lit->corner);
+    n = cut_to_prism(prism, polygon, 3);
+    if (n < 3) {
+        return true;
+    }
+    if (!has_room(r->list)) {
+        return false;
+    }
+    list_plane(r, lit);
+    for (int i = 0; i < n; i++) {
+        place[i] = list_vertex(r->list, draw_clipped_vertex(r->body, polygon[i]));
+    }
+    for (int i = 2; i < n; i++) {
+        list_decal(r, lit, place[0], place[i - 1], place[i]);
+    }
+    if (r->list->face_count == faces) { /* nothing of it shows */
+        r->list->vertex_count = vertices;
+        lit->plane[2] = last;
+    }
+    return true;
+}
+
+/* List the shadows of a solid on a triangle. */
+static bool shade_triangle(const struct receiver *r, const struct caster *c, struct lit *lit)
+{
+    struct extent extent = nothing;
+
+    for (int k = 0; k < 3; k++) {
+        reach(&extent, &c->outline, lit->corner[k]);
+    }
+    for (uint32_t i = 0; i < c->prism_count; i++) {
+        if (overlap(&extent, &c->prisms[i].extent) && !list_shadow(r, lit, &c->prisms[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The same on a face, of which the guard band may leave a few triangles. */
+static bool shade_face(const struct receiver *r, const struct caster *c, uint32_t face)
+{
+    int32_t polygon[DRAW_CLIP_MAX][3];
+    struct draw_vertex on[DRAW_CLIP_MAX];
+    struct extent extent = nothing;
+    bool fits = true;
+    int n;
+
+    for (int k = 0; k < 3; k++) {
+        draw_place(r->body, r->body->mesh->raw.faces[face][k], polygon[k]);
+        reach(&extent, &c->outline, polygon[k]);
+    }
+    if (!overlap(&extent, &c->extent)) {
+        return true;
+    }
+    n = draw_clip_placed(r->body, polygon, 3, on);
+    for (int i = 2; i < n && fits; i++) {
+        const int corner[3] = {0, i - 1, i};
+        struct lit lit = {.colour =
+                              shadowed(list_colour(r->body, r->source->paint,
+                                                   &r->body->mesh->faces[face].normal, face))};
+
+        for (int k = 0; k < 3; k++) {
+            memcpy(lit.corner[k], polygon[corner[k]], sizeof lit.corner[k]);
+            lit.on[k] = on[corner[k]];
+        }
+        fits = shade_triangle(r, c, &lit);
+    }
+    return fits;
+}
+
+/* ---------------------------------------------------------- bodies and leaves */
+
+/*
+ * Whether a sphere may keep the light from another, `from` being the way to its centre and `radius` both radii, q16
+ * below 2^29: it is not behind, and the ray of light through its centre goes by closely enough.
+ */
+static bool may_shade(const struct draw_view *view, const int32_t from[3], int32_t radius)
+{
+    int64_t along = carom_dot(from, view->sun.c) >> 30;
+
+    /* squares below 2^60, three of them below 2^62 */
+    return along >= -radius && carom_dot(from, from) - along * along <=
+                                   ((int64_t)radius + 4) * (radius + 4) + 64 * along;
+}
+
+static int32_t radius_q16(int32_t radius_q22)
+{
+    return (radius_q22 >> 6) + 1;
+}
+
+/* The centre of a leaf from the centre of its body, in the world's axes, q16. */
+static void leaf_centre(int32_t out[3], const carom_m3_q30 *turn, const struct carom_leaf *leaf)
+{
+    int32_t at[3];
+
+    for (int k = 0; k < 3; k++) {
+        at[k] = leaf->centre.c[k] >> 6;
+    }
+    carom_rotate(out, turn, at);
+}
+
+static int64_t find_reach(const struct draw_source *source, const struct draw_view *view,
+                          uint32_t number, const struct carom_body_look *look)
+{
+    int64_t reach = 0;
+
+    if (look->mesh->raw.kind != CAROM_SOLID) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < source->count; i++) {
+        struct carom_body_look other;
+        int32_t from[3], radius;
+
+        if (i == number || !draw_look(source, i, &other)) {
+            continue;
+        }
+        for (int k = 0; k < 3; k++) {
+            from[k] = (int32_t)((look->position.c[k] - other.position.c[k]) >> 16);
+        }
+        radius = radius_q16(look->mesh->radius_q22) + radius_q16(other.mesh->radius_q22);
+        if (may_shade(view, from, radius)) {
+            int64_t along = (carom_dot(from, view->sun.c) >> 30) + radius;
+
+            reach = along > reach ? along : reach;
+        }
+    }
+    return reach;
+}
+
+/* Whether a face shows and takes the light, as far as its own body goes. */
+static bool may_be_shaded(const struct draw_body *body, uint32_t number)
+{
+    const struct carom_face *face = &body->mesh->faces[number];
+
+    return carom_dot(face->normal.c, body->light.c) > 0 &&
+           (int32_t)(carom_dot(face->normal.c, body->eye) >> 32) > face->offset_q22 >>
+               (2 + body->shift);
+}
+
+/* List the shadows of a solid on the body. */
+static bool shade_by_caster(const struct receiver *r, const struct caster *c)
+{
+    const struct carom_mesh *mesh = r->body->mesh;
+
+    for (uint32_t l = 0; l < mesh->leaf_count; l++) {
+        const struct carom_leaf *leaf = &mesh->leaves[l];
+        const uint16_t *numbers = &mesh->leaf_faces[leaf->first_face];
+        int32_t way[3];
+
+        leaf_centre(way, &r->turn, leaf);
+        for (int k = 0; k < 3; k++) {
+            way[k] = c->from[k] - way[k];
+        }
+        if (!may_shade(r->view, way, c->radius + radius_q16(leaf->radius_q22)) ||
+            draw_sees_sphere(r->body, &leaf->centre, leaf->radius_q22) == 0) {
+            continue;
+        }
+        for (uint32_t i = 0; i < leaf->face_count; i++) {
+            if (may_be_shaded(r->body, numbers[i]) && !shade_face(r, c, numbers[i])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* The same of one that may be too far aside, and may have too long an outline. */
+static bool shade_by(const struct receiver *r, const struct carom_body_look *own,
+                     const struct carom_body_look *look)
+{
+    struct caster c = {.radius = radius_q16(look->mesh->radius_q22)};
+    struct draw_body body;
+
+    for (int k = 0; k < 3; k++) {
+        c.from[k] = (int32_t)((look->position.c[k] - own->position.c[k]) >> 16);
+    }
+    if (!may_shade(r->view, c.from, c.radius + radius_q16(own->mesh->radius_q22))) {
+        return true;
+    }
+    draw_body_place(&body, r->view, look);
+    return !make_prisms(&c, r, &body) || shade_by_caster(r, &c);
+}
+
+static bool list_shadows(const struct draw_source *source, const struct draw_view *view,
+                         const struct draw_body *body, uint32_t number, struct draw_list *list,
+                         void *scratch, size_t bytes)
+{
+    struct receiver r = {.source = source,
+                         .view = view,
+                         .body = body,
+                         .list = list,
+                         .scratch = scratch,
+                         .bytes = bytes};
+    struct carom_body_look own, look;
+    struct draw_body frame;
+
+    if (!draw_look(source, number, &own)) {
+        return true;
+    }
+    fix_matrix(&r.turn, &own.rotation);
+    draw_body_of_points(&frame, view, body->shift);
+    for (int k = 0; k < 3; k++) {
+        r.sun[k] = (int32_t)(carom_dot(frame.to_view.c[k], view->sun.c) >> 30);
+    }
+    for (uint32_t i = 0; i < source->count; i++) {
+        if (i != number && draw_look(source, i, &look) && look.mesh->raw.kind == CAROM_SOLID &&
+            !shade_by(&r, &own, &look)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const struct carom_shadows carom_shadows = {
+    .init = init,
+    .reach = find_reach,
+    .list = list_shadows,
+};
