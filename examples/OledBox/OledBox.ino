@@ -50,16 +50,32 @@ static void show_page(int page, const uint8_t columns[WIDTH])
 static uint8_t row[WIDTH], pages[HEIGHT / 8][WIDTH];
 static int32_t drawn = -1; /* the row that is being drawn */
 
-/* The row that is complete, from 32 shades to black and white. The sky is black, and the ground darker than the box. */
+/* The light comes from above, so that the box's sides differ: its top is white, and the side that looks away from the light black. */
+static carom_paint paint()
+{
+    carom_paint paint = {};
+
+    paint.light.c[0] = -3;
+    paint.light.c[1] = -4;
+    paint.light.c[2] = 8;
+    return paint;
+}
+
+/* How bright a pixel is, 0 .. 32: the sky is black, and the ground darker than the box. */
+static int brightness(int pixel)
+{
+    const int ramp = pixel / 32, shade = pixel % 32;
+
+    return ramp == 0 ? 0 : ramp % 2 == 1 ? 3 : 2 * (shade - 12);
+}
+
+/* The row that is complete, in black and white. */
 static void keep_row()
 {
     static const uint8_t order[4][4] = {{0, 16, 4, 20}, {24, 8, 28, 12}, {6, 22, 2, 18}, {30, 14, 26, 10}};
 
     for (int x = 0; drawn >= 0 && x < WIDTH; x++) {
-        const int ramp = row[x] / 32, shade = row[x] % 32;
-        const bool lit = ramp > 0 && (ramp % 2 == 1 ? shade / 3 : shade) > order[drawn & 3][x & 3];
-
-        bitWrite(pages[drawn / 8][x], drawn % 8, lit);
+        bitWrite(pages[drawn / 8][x], drawn % 8, brightness(row[x]) > order[drawn & 3][x & 3]);
     }
 }
 
@@ -118,8 +134,9 @@ void setup()
 
 void loop()
 {
-    static const carom_camera camera = {{{0, CAROM_POSITION_MM(-1800), CAROM_POSITION_MM(1100)}},
+    static const carom_camera camera = {{{CAROM_POSITION_MM(400), CAROM_POSITION_MM(-1300), CAROM_POSITION_MM(900)}},
                                         {{0, 0, CAROM_POSITION_MM(400)}}, 1 << 16};
+    static const carom_paint light = paint();
     carom_picture picture = {};
     carom_body_state state;
 
@@ -130,6 +147,7 @@ void loop()
     picture.workspace = room;
     picture.workspace_bytes = sizeof room;
     picture.row = next_row;
+    picture.paint = &light;
     drawn = -1;
     carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT);
     keep_row();
