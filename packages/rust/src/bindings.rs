@@ -942,6 +942,14 @@ pub struct carom_paint_line {
 }
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct carom_shadows {
+    _unused: [u8; 0],
+}
+extern "C" {
+    pub static carom_shadows: carom_shadows;
+}
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct carom_paint {
     pub palette: *const u32,
     pub ramps: u32,
@@ -951,6 +959,8 @@ pub struct carom_paint {
     pub interfering_ramp: u8,
     pub light: carom_v3_q30,
     pub ambient_q30: i32,
+    pub horizon: bool,
+    pub shadows: *const carom_shadows,
     pub lines: *const carom_paint_line,
     pub line_count: u32,
 }

@@ -6,6 +6,11 @@
 #![no_std]
 #![allow(non_camel_case_types, non_upper_case_globals)]
 
+/// The README's program is compiled with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 /// The types of C that the bindings use, by the names that bindgen gives them.
 mod c {
     pub use core::ffi::c_void;
