@@ -248,8 +248,9 @@ else
 	    $(COMPARE_SCENES)
 endif
 
-check: ## the gates: format, layers, symbols, sizes, stack
-	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format
+check: ## the gates: format, layers, symbols, sizes, stack, licences
+	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format reuse
+	@mkdir -p build
 	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
 	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status
 
