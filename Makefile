@@ -74,7 +74,7 @@ SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LI
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
-EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene%,$(wildcard examples/*.c)))
+EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene% examples/show%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 # what the generators make, by the number of faces; without one, that of the paper
 HEADS := head head48 head80 head100 head450 head836
@@ -332,7 +332,7 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-$(B)/head.elf: $(call objects,examples/scene_play.c)
+$(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
 
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'

@@ -14,6 +14,7 @@
 #include "scene.h"
 #include "scene_games.h"
 #include "scene_play.h"
+#include "show.h"
 
 #ifdef SCENE_ROM
 /* A board with meshes in ROM has no memory for others, nor for one that moves. */
@@ -175,27 +176,6 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
-/* The parts of a scene that frames need; a small board has no room for the rest while it steps. */
-struct show {
-    const struct carom_camera *camera;
-    struct scene_sheet *sheet;
-    const struct scene_game *game;
-};
-
-/* Where a picture is seen from: a game's camera may go with what it looks at. */
-static const struct carom_camera *camera_of(const struct show *show,
-                                            const struct carom_world *world)
-{
-    static struct carom_camera camera;
-
-    if (!SCENE_GAMES || !show->game || !show->game->look) {
-        return show->camera;
-    }
-    camera = *show->camera;
-    show->game->look(world, &camera);
-    return &camera;
-}
-
 /* A game's line of text, at the top; the next picture is drawn over it. */
 static void say(const struct show *show, const struct carom_world *world,
                 const struct carom_picture *picture, struct carom_drawn *drawn)
@@ -208,8 +188,8 @@ static void say(const struct show *show, const struct carom_world *world,
                                      .paper = CAROM_COLOUR_BLACK};
     char text[SCENE_TEXT];
 
-    if (SCENE_GAMES && show->game && show->game->say) {
-        show->game->say(world, text);
+    show_say(show, world, text);
+    if (text[0]) {
         expect(carom_draw_text(picture, &where, text, &drawn->touched), "text");
     }
 }
@@ -223,22 +203,21 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
 {
     static struct carom_drawn_body bodies[BODIES_MOST];
     static struct carom_drawn drawn = {.bodies = bodies, .room = BODIES_MOST};
-    struct carom_picture picture = {
-        .pixels = fb->pixels,
-        .width = fb->width,
-        .height = height,
-        .stride = fb->stride,
-        .format = fb->format,
-        .row = fb->row,
-        .workspace = draw_block,
-        .workspace_bytes = sizeof draw_block,
-        .paint = SCENE_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL};
+    struct carom_picture picture = {.pixels = fb->pixels,
+                                    .width = fb->width,
+                                    .height = height,
+                                    .stride = fb->stride,
+                                    .format = fb->format,
+                                    .row = fb->row,
+                                    .workspace = draw_block,
+                                    .workspace_bytes = sizeof draw_block,
+                                    .paint = show_paint(show)};
     uint32_t start = port_ticks();
 
     if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
         return 0;
     }
-    expect(carom_draw_changes(world, camera_of(show, world), &picture, style, &drawn), "draw");
+    expect(carom_draw_changes(world, show_camera(show, world), &picture, style, &drawn), "draw");
     say(show, world, &picture, &drawn);
     return port_ticks() - start;
 }
@@ -267,9 +246,7 @@ static struct carom_world *start(struct show *show)
                (unsigned long)CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts,
                                                 caps->faces, caps->entries, caps->candidates,
                                                 caps->joints, caps->extras, caps->hits));
-    show->camera = scene.camera;
-    show->sheet = scene.sheet;
-    show->game = scene.game;
+    *show = show_of(&scene);
     return world;
 }
 
@@ -281,12 +258,6 @@ static uint32_t keys_held(void)
 
     played |= keys != 0;
     return played ? keys : SCENE_NOBODY;
-}
-
-static int before(const struct show *show, struct carom_world *world, int frame, uint32_t keys)
-{
-    return SCENE_GAMES && show->game ? scene_game_before(show->game, world, frame, keys)
-                                     : scene_sheet_move(show->sheet, world, frame);
 }
 
 /* A row of figures a frame. */
@@ -305,7 +276,7 @@ static void report(int frames)
         int status;
 
         if (BOARD_MOVES) {
-            expect(before(&show, world, frame, keys_held()), "scene");
+            expect(show_before(&show, world, frame, keys_held()), "scene");
         }
         status = expect(carom_world_step(world), "step");
         uint32_t draw_ticks = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
@@ -339,14 +310,14 @@ static void play(int frames)
 
     load(&scene);
     world = make(&scene);
-    show = (struct show){scene.camera, scene.sheet, scene.game};
+    show = show_of(&scene);
     for (int frame = 1; frames == 0 || frame <= frames; frame++) {
         uint32_t keys = keys_held();
 
         /* what the hands did to it may be too much for the pools */
         age++;
         if (!scene_play_keys(&play, &scene, world, keys == SCENE_NOBODY ? 0 : keys) ||
-            before(&show, world, age, keys) < 0 || carom_world_step(world) < 0) {
+            show_before(&show, world, age, keys) < 0 || carom_world_step(world) < 0) {
             world = make(&scene);
             age = 0;
         }

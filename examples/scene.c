@@ -152,7 +152,7 @@ static void stack(int i, struct carom_body_def *def)
 
 /* How a scene's bodies start; their meshes are scene_meshes' business. */
 static const struct scene_recipe {
-    const char *name;
+    const char *name, *text;
     const struct carom_body_def *start;
     void (*arrange)(int i, struct carom_body_def *def); /* NULL: one body, at start */
     uint8_t others;                                     /* bodies but the first */
@@ -160,36 +160,49 @@ static const struct scene_recipe {
     uint8_t substep_cap, sweep_cap;
     const struct scene_game *game; /* puts the bodies in */
 } recipes[] = {
-    {"head", &head_start, NULL, 0, 0, 0, NULL},
-    {"head-spin", &spin_starts[0], NULL, 0, 0, 0, NULL},
-    {"head-spin2", &spin_starts[1], NULL, 0, 0, 0, NULL},
-    {"head48", &head_start, NULL, 0, 1, 5, NULL},
-    {"head100", &head_start, NULL, 0, 3, 10, NULL},
-    {"head450", &head_start, NULL, 0, 0, 0, NULL},
-    {"head836", &head_start, NULL, 0, 0, 0, NULL},
-    {"apart", &far_start, NULL, 0, 0, 0, NULL},
-    {"box", &box_start, NULL, 0, 0, 0, NULL},
-    {"pair", &dull_start, in_turn, 1, 3, 10, NULL},
-    {"brick", &box_start, NULL, 0, 3, 10, NULL},
-    {"boxes3", &dull_start, one_by_one, 2, 2, 6, NULL},
-    {"boxes10", &box_start, lay, 9, 0, 0, NULL},
-    {"stack10", &box_start, stack, 9, 0, 0, NULL},
-    {"pile", &head_start, pile, 15, 0, 0, NULL},
-    {"pile32", &head_start, wide_pile, 31, 0, 0, NULL},
-    {"flight32", &head_start, fly, 31, 0, 0, NULL},
-    {"growth-512", &growth_starts[0], NULL, 0, 0, 0, NULL},
-    {"growth-3034", &growth_starts[1], NULL, 0, 0, 0, NULL},
-    {"growth-12012", &growth_starts[2], NULL, 0, 0, 0, NULL},
-    {"growth-49928", &growth_starts[3], NULL, 0, 0, 0, NULL},
-    {"sheet", &box_start, NULL, 0, 0, 0, NULL},
-    {"user", &head_start, NULL, 0, 0, 0, NULL},
+    {"head", "a head of 1876 faces falls on a height field of 3034", &head_start, NULL, 0, 0, 0,
+     NULL},
+    {"head-spin", "the head, thrown and turning fast", &spin_starts[0], NULL, 0, 0, 0, NULL},
+    {"head-spin2", "the head, thrown down and turning about the upright", &spin_starts[1], NULL, 0,
+     0, 0, NULL},
+    {"head48", "a head of 48 faces and half the size on a field of 128", &head_start, NULL, 0, 1, 5,
+     NULL},
+    {"head100", "a head of 100 faces on a field of 128", &head_start, NULL, 0, 3, 10, NULL},
+    {"head450", "a head of 450 faces on a field of 386", &head_start, NULL, 0, 0, 0, NULL},
+    {"head836", "a head of 836 faces on a field of 512", &head_start, NULL, 0, 0, 0, NULL},
+    {"apart", "the head a thousand units above the field", &far_start, NULL, 0, 0, 0, NULL},
+    {"box", "a box falls on a plane", &box_start, NULL, 0, 0, 0, NULL},
+    {"pair", "a tetrahedron and a box fall one after the other", &dull_start, in_turn, 1, 3, 10,
+     NULL},
+    {"brick", "the box on the plane, for the smallest boards", &box_start, NULL, 0, 3, 10, NULL},
+    {"boxes3", "three boxes fall on a field one after the other", &dull_start, one_by_one, 2, 2, 6,
+     NULL},
+    {"boxes10", "ten boxes lie on the plane", &box_start, lay, 9, 0, 0, NULL},
+    {"stack10", "ten boxes stand on each other", &box_start, stack, 9, 0, 0, NULL},
+    {"pile", "16 boxes, tetrahedra and L-shapes are poured on the field", &head_start, pile, 15, 0,
+     0, NULL},
+    {"pile32", "32 bodies of 12 to 80 faces are poured on the field", &head_start, wide_pile, 31, 0,
+     0, NULL},
+    {"flight32", "the same 32 are thrown up", &head_start, fly, 31, 0, 0, NULL},
+    {"growth-512", "the head put on a field of 512 faces", &growth_starts[0], NULL, 0, 0, 0, NULL},
+    {"growth-3034", "the head put on a field of 3034 faces", &growth_starts[1], NULL, 0, 0, 0,
+     NULL},
+    {"growth-12012", "the head put on a field of 12012 faces", &growth_starts[2], NULL, 0, 0, 0,
+     NULL},
+    {"growth-49928", "the head put on a field of 49928 faces", &growth_starts[3], NULL, 0, 0, 0,
+     NULL},
+    {"sheet", "a box rides on a sheet of 800 faces that waves", &box_start, NULL, 0, 0, 0, NULL},
+    {"user", "a mesh of your own falls on the field", &head_start, NULL, 0, 0, 0, NULL},
 #if SCENE_GAMES
-    {"door", &still, NULL, 3, 0, 0, &scene_door},
-    {"chain", &still, NULL, 19, 0, 0, &scene_chain},
-    {"crusher", &still, NULL, 2, 0, 0, &scene_crusher},
-    {"conveyor", &still, NULL, 4, 0, 0, &scene_conveyor},
-    {"car", &still, NULL, CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
-    {"walker", &still, NULL, WALKER_CRATE - 1, 0, 0, &scene_walker},
+    {"door", "a ball opens a door on a hinge with limits", &still, NULL, 3, 0, 0, &scene_door},
+    {"chain", "20 links on ball joints swing", &still, NULL, 19, 0, 0, &scene_chain},
+    {"crusher", "a block comes down on a box, and stops there", &still, NULL, 2, 0, 0,
+     &scene_crusher},
+    {"conveyor", "boxes ride a belt whose surface moves", &still, NULL, 4, 0, 0, &scene_conveyor},
+    {"car", "a car of hinges, springs and motors in a yard with ramps", &still, NULL,
+     CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
+    {"walker", "someone walks, jumps, pushes and goes through a door", &still, NULL,
+     WALKER_CRATE - 1, 0, 0, &scene_walker},
 #endif
 };
 
@@ -201,6 +214,16 @@ static const struct scene_recipe *find(const char *name)
         }
     }
     return NULL;
+}
+
+const char *scene_name(int n)
+{
+    return n >= 0 && n < (int)(sizeof recipes / sizeof recipes[0]) ? recipes[n].name : NULL;
+}
+
+const char *scene_text(int n)
+{
+    return scene_name(n) ? recipes[n].text : NULL;
 }
 
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def)

@@ -61,6 +61,9 @@ struct scene_sheet {
 };
 
 struct scene_game; /* scene_games.h */
+/* In the place of keys: nobody plays, so a game's script does. */
+#define SCENE_NOBODY UINT32_MAX
+#define SCENE_TEXT   40 /* characters of what a game says, the last one 0 */
 
 struct scene {
     struct carom_body_def ground, body;
@@ -145,6 +148,10 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
 /* Make a world in a block of its own and put the bodies in. Returns CAROM_OK or an error. */
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
+
+/* The n-th scene that scene_load knows and a line about it; NULL past the last one. A board with meshes in ROM loads its own only. */
+const char *scene_name(int n);
+const char *scene_text(int n);
 
 /* The i-th moving body as it starts, 0 being scene->body. */
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def);

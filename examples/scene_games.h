@@ -31,8 +31,6 @@
         }                                                                                          \
     }
 
-#define SCENE_TEXT 40 /* characters of what a game says, the last one 0 */
-
 /* NULL in the place of a function: the game does not do that. */
 struct scene_game {
     struct carom_caps caps;
@@ -52,8 +50,6 @@ struct scene_game {
     uint32_t paint_count;
 };
 
-/* In the place of keys: nobody plays, so the script does. */
-#define SCENE_NOBODY UINT32_MAX
 /* Prepare a frame of a game. Returns >= 0 or an error. */
 int scene_game_before(const struct scene_game *game, struct carom_world *world, int frame,
                       uint32_t keys);
