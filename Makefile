@@ -141,7 +141,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
+.PHONY: help run scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -155,6 +155,12 @@ run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|doo
 	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
 	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
+
+scenes: ## the scenes, a line each
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/head.elf >/dev/null
+	@build/host/head.elf scenes=1 | sed 's/^scene \([^:]*\): /\1|/' | while IFS='|' read -r name text; do \
+	    printf '  %-14s %s\n' "$$name" "$$text"; done
 
 ifneq ($(ASKED),)
 test: need

@@ -5,6 +5,7 @@
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
+ *          scenes=1: names and lines of the scenes that scene.h knows, and no more
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  *
  * A game of scene_games.h goes by the keys of the pad with and without play=1.
@@ -124,13 +125,25 @@ static bool read_mesh(struct carom_mesh_raw *user)
 #endif
 }
 
+static void print_scenes(void)
+{
+    for (int i = 0; scene_name(i); i++) {
+        port_print("scene %s: %s\n", scene_name(i), scene_text(i));
+    }
+}
+
 static void load(struct scene *scene)
 {
     const char *name = port_option("scene") ? port_option("scene") : TEXT(BOARD_SCENE);
     struct carom_mesh_raw user;
     bool is_user = read_mesh(&user);
 
-    expect(scene_load(scene, name, is_user ? &user : NULL, mesh_block, sizeof mesh_block), name);
+    int result = scene_load(scene, name, is_user ? &user : NULL, mesh_block, sizeof mesh_block);
+
+    if (result == CAROM_ERR_ARGUMENT) {
+        print_scenes();
+    }
+    expect(result, name);
     port_print("scene %s: %d x %lu faces on %lu\n", name, 1 + scene->other_count,
                (unsigned long)scene->body.mesh->raw.face_count,
                (unsigned long)scene->ground.mesh->raw.face_count);
@@ -340,6 +353,10 @@ int main(void)
     int frames;
 
     port_init();
+    if (port_option("scenes")) {
+        print_scenes();
+        port_exit(0);
+    }
     frames = (int)port_number("frames", port_arg(0) ? 600 : 0);
     if (BOARD_DRAWS && (frames == 0 || port_option("play"))) {
         play(frames);
