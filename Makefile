@@ -169,7 +169,7 @@ test: need
 	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
 else
 test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)

@@ -20,6 +20,7 @@ import time
 from PIL import Image
 
 import run_board
+import terminal
 
 GIF_EVERY = 3  # frames
 GIF_WIDTH = 256  # pixels
@@ -79,16 +80,10 @@ def take_ppm(out, frame):
         os.remove(ppm)
 
 
-def progress(frame, frames):
-    if sys.stdout.isatty():
-        print("\rframe %d of %d" % (frame, frames), end="\n" if frame == frames else "", flush=True)
-    elif frame % 100 == 0 or frame == frames:
-        print("frame %d of %d" % (frame, frames), flush=True)
-
-
 def follow(process, camera, out, frames):
     """Read what the program prints until it ends."""
     run = Run()
+    progress = terminal.Progress(frames)
     pictures = 0
     for line in process.stdout:
         word, _, rest = line.rstrip("\n").partition(" ")
@@ -102,7 +97,7 @@ def follow(process, camera, out, frames):
         elif word == "frame":
             run.rows.append(rest.split(","))
             take_ppm(out, len(run.rows))
-            progress(len(run.rows), frames)
+            progress.show(len(run.rows))
         elif word == "usage":
             run.usage.append(rest.split(","))
         elif word == "hash":
@@ -155,22 +150,35 @@ def write_csv(run, out, budget):
         writer.writerows(rows)
 
 
+def pictures(out):
+    return sorted(glob.glob(os.path.join(out, "frame-*.png")))
+
+
 def write_gif(out, name):
-    paths = sorted(glob.glob(os.path.join(out, "frame-*.png")))[::GIF_EVERY]
+    paths = pictures(out)[::GIF_EVERY]
     if not paths:
         return
     middle = Image.open(paths[len(paths) // 2]).convert("RGB")
     size = GIF_WIDTH, GIF_WIDTH * middle.height // middle.width
     palette = middle.quantize(64)
-    pictures = [
+    shrunk = [
         Image.open(path).convert("RGB").resize(size, Image.LANCZOS)
         .quantize(palette=palette, dither=Image.Dither.NONE)
         for path in paths
     ]
     path = os.path.join(out, name + ".gif")
-    pictures[0].save(path, save_all=True, append_images=pictures[1:], loop=0,
+    shrunk[0].save(path, save_all=True, append_images=shrunk[1:], loop=0,
                      duration=int(1000 * GIF_SECONDS))
     print("%s: %.1f MB" % (path, os.path.getsize(path) / 1e6))
+
+
+def show_result(out):
+    """The last picture, where the terminal can, and where the rest is."""
+    paths = pictures(out)
+    if paths:
+        terminal.show_picture(Image.open(paths[-1]))
+        print("pictures: %s to %s" % (paths[0], os.path.basename(paths[-1])))
+    print("a row a frame: " + os.path.join(out, "frames.csv"))
 
 
 def column(run, name):
@@ -237,6 +245,7 @@ def main():
         write_gif(out, os.path.basename(out))
     if status == 0:
         print_table(run, budget)
+        show_result(out)
         print("hash " + run.hash)
     return status
 

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""For someone who watches a terminal: how far a run is, how long it will still take, and a picture in characters."""
+import os
+import sys
+import time
+
+COLUMNS_MOST = 72  # characters of a picture
+UPPER_HALF = "\u2580"  # its upper half has the colour of the text, its lower half that of the paper
+SURE_AFTER = 0.5  # seconds until a guess of the time left is worth reading
+
+
+class Progress:
+    """A line that is written over, frame by frame; where nobody watches, a line for every hundred."""
+
+    def __init__(self, frames, stream=sys.stdout, clock=time.monotonic):
+        self.frames, self.stream, self.clock = frames, stream, clock
+        self.start, self.width = clock(), 0
+
+    def text(self, frame):
+        passed = self.clock() - self.start
+        text = "frame %d of %d" % (frame, self.frames)
+        if frame == self.frames:
+            return "%s, %.0f s" % (text, passed)
+        if passed < SURE_AFTER:
+            return text
+        return "%s, %.0f s left" % (text, passed / frame * (self.frames - frame))
+
+    def show(self, frame):
+        if self.stream.isatty():
+            text = self.text(frame)
+            end = "\n" if frame == self.frames else ""
+            print("\r" + text.ljust(self.width), end=end, file=self.stream, flush=True)
+            self.width = len(text)
+        elif frame % 100 == 0 or frame == self.frames:
+            print("frame %d of %d" % (frame, self.frames), file=self.stream, flush=True)
+
+
+def colours(environment):
+    """How many colours a terminal has, by what it says of itself: 2^24, 256, or 0 for too few."""
+    if environment.get("NO_COLOR"):
+        return 0
+    if environment.get("COLORTERM") in ("truecolor", "24bit"):
+        return 1 << 24
+    return 256 if "256color" in environment.get("TERM", "") else 0
+
+
+def colour(rgb, count):
+    """The end of an escape sequence that names a colour; of 256 the nearest of their cube of 6 x 6 x 6."""
+    if count > 256:
+        return "2;%d;%d;%d" % rgb
+    red, green, blue = (min(range(6), key=lambda i: abs(part - (i and 55 + 40 * i))) for part in rgb)
+    return "5;%d" % (16 + 36 * red + 6 * green + blue)
+
+
+def picture(image, columns, count):
+    """Lines of characters for an image of Pillow's, two rows of pixels to a line."""
+    rows = max(1, columns * image.height // image.width // 2)
+    small = image.convert("RGB").resize((columns, 2 * rows))
+    for y in range(0, 2 * rows, 2):
+        cells = ("\033[38;%s;48;%sm%s" % (colour(small.getpixel((x, y)), count),
+                                          colour(small.getpixel((x, y + 1)), count), UPPER_HALF)
+                 for x in range(columns))
+        yield "".join(cells) + "\033[0m"
+
+
+def show_picture(image, stream=sys.stdout, environment=os.environ):
+    """Show an image where the stream is a terminal with colours that takes the character; whether it was."""
+    count = colours(environment)
+    if not stream.isatty() or count == 0 or "utf" not in (stream.encoding or "").lower():
+        return False
+    columns = min(COLUMNS_MOST, os.get_terminal_size(stream.fileno()).columns or COLUMNS_MOST)
+    for line in picture(image, columns, count):
+        print(line, file=stream)
+    return True
