@@ -340,6 +340,17 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 
 $(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
 
+# The page: one file with the module in it.
+VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)
+$(B)/page.wasm: $(B)/port/wasm/page.o $(VIEWER) $(SCENES_BUILT) $(call objects,port/nolibc/string.c) $(B)/libcarom.a
+	@echo '  link  $@'
+	$(TARGET_CC) -nostdlib -Wl,--no-entry,--gc-sections,--strip-all,-z,stack-size=262144 \
+	    $(PAGE_EXPORTS:%=-Wl,--export=%) -o $@ $^
+out/web/index.html: tools/page.py $(wildcard examples/web/*) tests/bench_scenes.csv build/wasm/page.wasm
+	@mkdir -p $(@D)
+	@echo '  page  $@'
+	tools/page.py build/wasm/page.wasm $@
+
 $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)

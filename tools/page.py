@@ -1,0 +1,53 @@
+#!/usr/bin/python3 -B
+# SPDX-License-Identifier: MIT
+"""The page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html
+
+The module, the states of the boards that tests/bench_scenes.csv has, style and scripts go into
+examples/web/page.html, so that it works from a folder, without a server.
+"""
+import base64
+import csv
+import json
+import os
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+SOURCES = os.path.join(ROOT, "examples", "web")
+
+
+def read(name):
+    with open(os.path.join(SOURCES, name)) as file:
+        return file.read()
+
+
+def boards_states():
+    """The frame and state of each scene that the boards ran as it is."""
+    states = {}
+    with open(os.path.join(ROOT, "tests", "bench_scenes.csv")) as file:
+        for row in csv.DictReader(file):
+            options = {each.split("=")[0] for each in row["options"].split()}
+            if row["label"] == row["scene"] and options <= {"draw", "first"}:
+                states[row["scene"]] = {"frame": int(row["frames"]), "hash": row["hash"]}
+    return states
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with open(sys.argv[1], "rb") as file:
+        module = file.read()
+    page = read("page.html")
+    for mark, text in [("/*STYLE*/", read("page.css")),
+                       ("/*SCRIPT*/", "".join(map(read, ["mesh.js", "module.js", "page.js"]))),
+                       ("/*STATES*/", json.dumps(boards_states())),
+                       ("/*MODULE*/", base64.b64encode(module).decode())]:
+        if page.count(mark) != 1:
+            sys.exit("page.html: %s is there %d times" % (mark, page.count(mark)))
+        page = page.replace(mark, text)
+    with open(sys.argv[2], "w") as file:
+        file.write(page)
+    print("%s: %d bytes, the module %d" % (sys.argv[2], len(page), len(module)))
+
+
+if __name__ == "__main__":
+    main()
