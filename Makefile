@@ -141,7 +141,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
+.PHONY: help run web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -155,6 +155,10 @@ run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|doo
 	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
 	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
+
+web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh of yours does, links
+	@tools/need $(NEED_MESHES) $(NEED_HOST) clang lld llvm
+	@$(SUBMAKE) BOARD=wasm out/web/index.html
 
 scenes: ## the scenes, a line each
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
