@@ -103,7 +103,7 @@ ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c)
 TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
                 tests/replay.c tests/record.c \
                 tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
-SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py)
+SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py tests/test_*.mjs)
 
 # ------------------------------------------------------------------- commands
 
@@ -173,10 +173,12 @@ test: need
 	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
 else
 test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium
+	@tools/need npm:tools/web
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
+	@$(SUBMAKE) BOARD=wasm out/web/index.html
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \

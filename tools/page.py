@@ -7,6 +7,7 @@ examples/web/page.html, so that it works from a folder, without a server.
 """
 import base64
 import csv
+import gzip
 import json
 import os
 import sys
@@ -46,7 +47,8 @@ def main():
         page = page.replace(mark, text)
     with open(sys.argv[2], "w") as file:
         file.write(page)
-    print("%s: %d bytes, the module %d" % (sys.argv[2], len(page), len(module)))
+    print("%s: %d bytes, the module %d, %d as a server packs it" % (
+        sys.argv[2], len(page), len(module), len(gzip.compress(module, 9))))
 
 
 if __name__ == "__main__":

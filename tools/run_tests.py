@@ -38,6 +38,8 @@ def wanted(path, select):
 def command(path, select):
     if path.endswith(".sh"):
         return ["sh", path]
+    if path.endswith(".mjs"):
+        return ["node", path]
     if path.endswith(".py"):
         return [sys.executable, "-B", path]
     return run_board.command(path, [select] if select and is_runner(path) else [])

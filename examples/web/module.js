@@ -8,7 +8,7 @@ function startModule(base64) {
 
 function wrap(its) {
     const memory = (type, name, count) => new type(its.memory.buffer, its[name].value, count);
-    const [textBytes, verticesMax, facesMax, pixelsMax] = [0, 1, 2, 3].map(its.page_room);
+    const [textBytes, verticesMax, facesMax, pixelsMax, stageCount] = [0, 1, 2, 3, 4].map(its.page_room);
 
     function text(at) {
         if (!at) {
@@ -52,7 +52,7 @@ function wrap(its) {
     };
     const texts = list(its.scene_text);
     return {
-        its, text, checked, openMesh, pixelsMax,
+        its, text, checked, openMesh, pixelsMax, stageCount,
         scenes: list(its.scene_name).map((name, i) => ({ name, text: texts[i] })),
         open: (name) => checked(its.view_open(give(name), 0), name),
         follow: (link) => checked(its.view_follow(give(link)), "This is no link of Carom's, or not all of one"),

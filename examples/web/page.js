@@ -167,7 +167,7 @@ function startPage(engine) {
     function bars() {
         view.took.forEach((took, i) => {
             const row = at("bars").children[i];
-            row.children[1].firstChild.style.width = Math.min(100, (100 * took) / (view.took.at(-1) || 1)) + "%";
+            row.children[1].firstChild.style.width = Math.min(100, (100 * took) / (view.took[engine.stageCount] || 1)) + "%";
             row.children[2].textContent = (took / 1000).toFixed(2) + " ms";
         });
     }
@@ -255,10 +255,7 @@ function fillLists(engine, open, its) {
         };
     }
     its.view_toggles(sum);
-    const names = [];
-    for (let i = 0, name; i < 32 && (name = engine.text(its.carom_stage_name(i))) && name !== "?" && /^\w+$/.test(name); i++) {
-        names.push(name);
-    }
+    const names = Array.from({ length: engine.stageCount }, (_, i) => engine.text(its.carom_stage_name(i)));
     for (const name of [...names, "all"]) {
         const row = at("bars").appendChild(document.createElement("div"));
         row.className = "bar";

@@ -3,20 +3,16 @@
  * page.c - the viewer of view.h in a page: memory for what goes between it and JavaScript. All else the page calls
  * itself: board.mk exports it. Text goes both ways in page_text, with a 0 at its end.
  */
-#include <string.h>
-
 #include "port.h"
 #include "scene.h"
 #include "view.h"
 
-#define EXPORT         __attribute__((used, visibility("default")))
-#define IMPORT(name)   __attribute__((import_module("page"), import_name(#name)))
-#define PIXELS_MAX     (1920 * 1080)
-#define TEXT_BYTES     (1 << 18)
-#define VERTICES_MAX   24000 /* of a mesh that the page brings */
-#define FACES_MAX      (2 * VERTICES_MAX)
-#define BODIES_MAX     (VERTICES_MAX + SCENE_FIELD_VERTICES)
-#define BODY_FACES_MAX (FACES_MAX + SCENE_FIELD_FACES)
+#define EXPORT       __attribute__((used, visibility("default")))
+#define IMPORT(name) __attribute__((import_module("page"), import_name(#name)))
+#define PIXELS_MAX   (1920 * 1080)
+#define TEXT_BYTES   (1 << 18)
+#define VERTICES_MAX 24000 /* of a mesh that the page brings */
+#define FACES_MAX    (2 * VERTICES_MAX)
 
 /* Microseconds, by the browser's clock, which goes in steps of its own. */
 IMPORT(ticks) uint32_t page_ticks(void);
@@ -36,9 +32,10 @@ static uint32_t pixels[PIXELS_MAX];
 static _Alignas(8) uint8_t mesh_check[CAROM_MESH_BYTES(VERTICES_MAX, FACES_MAX)];
 static struct carom_picture picture;
 
+/* How much there may be of things: text, vertices, faces, pixels; and how many stages a step has. */
 int page_room(int what)
 {
-    const int room[] = {TEXT_BYTES, VERTICES_MAX, FACES_MAX, PIXELS_MAX};
+    static const int room[] = {TEXT_BYTES, VERTICES_MAX, FACES_MAX, PIXELS_MAX, CAROM_STAGE_COUNT};
 
     return room[what];
 }
