@@ -274,6 +274,7 @@ size: ## code, data and stack of what `make run` runs on every board, to out/siz
 boards: ## the table of boards in README.md, with the figures that budget and size left in out/
 	@tools/need python3
 	@tools/board_table.py
+	@tools/page.py --readme
 
 amalgamation: ## two pairs of files to copy into a project, build/amalgamation/carom.[ch] and carom_draw.[ch]
 	@tools/need python3

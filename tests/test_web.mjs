@@ -56,19 +56,21 @@ async function stepTo(page, last) {
     return { frame: await frame(page), hash: await text(page, "hash") };
 }
 
-// The middle of what is brown in the picture, the moving body: rows from the top, 0 .. 1.
-const bodyRow = (page) => page.evaluate(() => {
+// The middle of what is brown in the picture, the moving body: column and row from the top left, 0 .. 1.
+const bodyPlace = (page) => page.evaluate(() => {
     const canvas = document.getElementById("canvas");
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let sum = 0, pixels = 0;
+    let column = 0, row = 0, pixels = 0;
     for (let i = 0; i < data.length; i += 4) {
         if (data[i] > data[i + 1] + 16 && data[i + 1] >= data[i + 2]) {
-            sum += Math.floor(i / 4 / canvas.width);
+            column += (i / 4) % canvas.width;
+            row += Math.floor(i / 4 / canvas.width);
             pixels++;
         }
     }
-    return pixels ? sum / pixels / canvas.height : -1;
+    return pixels ? [column / pixels / canvas.width, row / pixels / canvas.height] : [-1, -1];
 });
+const bodyRow = async (page) => (await bodyPlace(page))[1];
 
 async function runs() {
     const page = await open();
@@ -136,6 +138,31 @@ async function links() {
     await changed.context().close();
 }
 
+// A hand takes the box, draws it aside and lets go; the link has it all.
+async function throws() {
+    const free = await open("#box"), alone = await stepTo(free, 120);
+    await free.context().close();
+    const page = await open("#box");
+    await stepTo(page, 30);
+    const [x, y] = await bodyPlace(page), box = await page.locator("#canvas").boundingBox();
+    const place = (aside) => [box.x + x * box.width + aside, box.y + y * box.height - aside];
+    await page.mouse.move(...place(0));
+    await page.mouse.down();
+    for (let i = 1; i <= 6; i++) {
+        await page.mouse.move(...place(12 * i));
+        await stepTo(page, (await frame(page)) + 2);
+    }
+    await page.mouse.up();
+    const thrown = await stepTo(page, 120), link = await page.inputValue("#link");
+    check("a hand moves a body", x > 0 && thrown.frame === alone.frame && thrown.hash !== alone.hash, [x, y, thrown, alone]);
+    await page.context().close();
+    const other = await open(link.slice(link.indexOf("#")));
+    await other.waitForFunction(() => !document.getElementById("verdict").hidden, null, { timeout: 20000 });
+    check("the link does it again", (await text(other, "hash")) === thrown.hash && (await frame(other)) === thrown.frame,
+        [await text(other, "verdict"), thrown]);
+    await other.context().close();
+}
+
 // The least contrast of text on what is behind it, and the colour of the page.
 const colours = (page) => page.evaluate(() => {
     const parts = (colour) => colour.match(/[\d.]+/g).map(Number);
@@ -181,7 +208,7 @@ async function looks() {
     check("light and dark differ", new Set(backs).size === 2, backs);
 }
 
-for (const part of [runs, meshFalls, badMeshes, links, looks]) {
+for (const part of [runs, meshFalls, badMeshes, links, throws, looks]) {
     await part().catch((error) => check(part.name, false, error.message.slice(0, 300)));
 }
 check("no error, no request", errors.length === 0, errors);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html
+"""The page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html; its size, to README.md: --readme
 
 The module, the states of the boards that tests/bench_scenes.csv has, style and scripts go into
 examples/web/page.html, so that it works from a folder, without a server.
@@ -13,6 +13,9 @@ import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+README = os.path.join(ROOT, "README.md")
+MODULE = os.path.join(ROOT, "build", "wasm", "page.wasm")
+PAGE = os.path.join(ROOT, "out", "web", "index.html")
 SOURCES = os.path.join(ROOT, "examples", "web")
 
 
@@ -32,7 +35,26 @@ def boards_states():
     return states
 
 
+def write_size():
+    """The sizes of the page and of the module, between two comments of README.md."""
+    if not os.path.exists(MODULE) or not os.path.exists(PAGE):
+        return
+    with open(MODULE, "rb") as file:
+        module = file.read()
+    line = "The page is one file of %d KB; the module in it has %d KB, %d packed by gzip.\n" % (
+        os.path.getsize(PAGE) // 1024, len(module) // 1024, len(gzip.compress(module, 9)) // 1024)
+    with open(README) as file:
+        before, begin, rest = file.read().partition("<!-- page -->\n")
+    _, end, after = rest.partition("<!-- end of page -->\n")
+    if not begin or not end:
+        sys.exit("README.md has no place for the page's size")
+    with open(README, "w") as file:
+        file.write(before + begin + line + end + after)
+
+
 def main():
+    if sys.argv[1:] == ["--readme"]:
+        return write_size()
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     with open(sys.argv[1], "rb") as file:
