@@ -103,7 +103,9 @@ ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c)
 TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
                 tests/replay.c tests/record.c \
                 tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
-SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py tests/test_*.mjs)
+# the page, once the viewer's core is there
+PAGE := $(if $(wildcard examples/view.c),out/web/index.html)
+SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py $(if $(PAGE),tests/test_*.mjs))
 
 # ------------------------------------------------------------------- commands
 
@@ -158,7 +160,8 @@ run: need ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|doo
 
 web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh of yours does, links
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang lld llvm
-	@$(SUBMAKE) BOARD=wasm out/web/index.html
+	@$(if $(PAGE),,echo 'examples/view.c is not there: the page needs it'; false)
+	@$(SUBMAKE) BOARD=wasm $(PAGE)
 
 scenes: ## the scenes, a line each
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
@@ -178,7 +181,7 @@ test: ## every test, here and on a board, and a scene on every board; BOARD= all
 	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
-	@$(SUBMAKE) BOARD=wasm out/web/index.html
+	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
 	@$(call build_boards,$(SHOWN)); \
 	    tools/run_tests.py --select '$(TEST)' --frames 120 --first --boards "$$ready" \
 	    $(HOST_TESTS) $(SCRIPT_TESTS) \
