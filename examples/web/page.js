@@ -49,6 +49,7 @@ function startPage(engine) {
         say("");
         judge("");
         const known = states[scene()];
+        view.untouched = known && !aim ? engine.link() : null;
         at("known").textContent = known ? `Boards end frame ${known.frame} of this scene in ${known.hash}.`
             : "The boards' tests have no state of this scene.";
         at("check").hidden = !known;
@@ -56,6 +57,10 @@ function startPage(engine) {
         at("link").value = "";
         at("copy").disabled = scene() === "user";
         document.querySelectorAll("#list button").forEach((each) => each.setAttribute("aria-current", each.dataset.name === scene()));
+        const current = document.querySelector("#list [aria-current=true]");
+        if (current) {
+            at("list").scrollTop = current.offsetTop - at("list").offsetTop - 60;
+        }
     }
 
     const open = guard((name) => {
@@ -116,7 +121,7 @@ function startPage(engine) {
             const same = view.aim.hash === here;
             judge(`Frame ${frame()}: ${same ? "the hash of the link" : "not the hash of the link, which is " + view.aim.hash}.`, same);
             pause(true);
-        } else if (known && known.frame === frame()) {
+        } else if (known && known.frame === frame() && engine.link() === view.untouched) {
             const same = known.hash === here;
             judge(`Frame ${frame()}: ${same ? "the boards' hash" : "the boards have " + known.hash}.`, same);
         }
