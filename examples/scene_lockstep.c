@@ -67,9 +67,29 @@ static int64_t push(int side, int64_t speed_q40)
     return side * speed_q40 < FASTEST ? side * PUSH : 0;
 }
 
+/* Over the walls and gone: it falls in again over its place, as soon as there is room. */
+static int put_back(struct carom_world *world, int body)
+{
+    struct carom_body_state state;
+    int result = carom_body_get(world, body, &state);
+
+    if (result < 0 || state.position.c[2] > CAROM_POSITION_MM(-1000)) {
+        return result;
+    }
+    state = (struct carom_body_state){.position = rink_bodies[body].position};
+    state.position.c[2] = CAROM_POSITION_MM(1500);
+    state.rotation.c[0] = CAROM_ONE_Q30;
+    result = carom_body_set(world, body, &state);
+    return result == CAROM_ERR_OVERLAP ? CAROM_OK : result;
+}
+
 int rink_act(struct carom_world *world, const uint8_t keys[NET_PLAYERS])
 {
     int result = CAROM_OK;
+
+    for (int body = RINK_PUCK; body < RINK_BODIES && result >= 0; body++) {
+        result = put_back(world, body);
+    }
 
     for (int i = 0; i < NET_PLAYERS && result >= 0; i++) {
         const int x = !!(keys[i] & PORT_PAD_RIGHT) - !!(keys[i] & PORT_PAD_LEFT);
@@ -277,8 +297,8 @@ static void say(const struct carom_world *world, char text[SCENE_TEXT])
 static const uint8_t rink_faces[RINK_FACES] = {TWO(SCENE_DARK), WALL, WALL, WALL,
                                                TWO(SCENE_MEADOW)};
 #define RINK_PAINTS                                                                                \
-    {rink_faces, 0}, {NULL, SCENE_RED}, {NULL, SCENE_YELLOW}, {NULL, 0}, {NULL, SCENE_WOOD},       \
-        {NULL, SCENE_WOOD},                                                                        \
+    {rink_faces, 0}, {NULL, SCENE_RED}, {NULL, SCENE_YELLOW}, {NULL, SCENE_DARK},                  \
+        {NULL, SCENE_WOOD}, {NULL, SCENE_WOOD},                                                    \
     {                                                                                              \
         NULL, SCENE_WOOD                                                                           \
     }
@@ -293,7 +313,7 @@ static const struct carom_body_paint paints[LOCKSTEP_BODIES] = {
 
 const struct scene_game scene_lockstep = {
     .caps = CAROM_CAPS(LOCKSTEP_BODIES, 1, 1, 1, 0, 64),
-    .camera = {POSITION(0, -10500, 9500), POSITION(0, 300, 0), 1 << 16},
+    .camera = {POSITION(0, -14500, 14500), POSITION(0, 1000, 0), 1 << 16},
     .fill = fill,
     .script = script,
     .before = before,
