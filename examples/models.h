@@ -23,6 +23,8 @@ extern const struct carom_mesh_raw steps_mesh;     /* four steps, to a height of
 extern const struct carom_mesh_raw jump_mesh;      /* a ramp 3 long along x, to a height of 0.35 */
 extern const struct carom_mesh_raw tower_mesh;     /* 1.2 x 1.2, 5 high */
 extern const struct carom_mesh_raw mat_mesh;       /* 2.4 long along x, 0.03 thick */
+extern const struct carom_mesh_raw rink_mesh;      /* a floor of 8 x 6 with walls, at height 0 */
+extern const struct carom_mesh_raw puck_mesh;      /* of 8 sides, 0.5 high, from 0 */
 extern const struct carom_mesh_raw yard_mesh;      /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
@@ -45,6 +47,10 @@ extern const struct carom_mesh_raw yard_mesh;      /* a surface of 48 x 48 with 
 #define TOWER_FACES        12
 #define MAT_VERTICES       8
 #define MAT_FACES          12
+#define RINK_VERTICES      16
+#define RINK_FACES         28
+#define PUCK_VERTICES      16
+#define PUCK_FACES         28
 #define YARD_VERTICES      289
 #define YARD_FACES         512
 

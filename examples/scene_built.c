@@ -203,6 +203,7 @@ static const struct materials {
      {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh, &mat_mesh},
      0},
     {"conveyor", &flat_mesh, {&box_mesh, &belt_mesh}, 0},
+    {"lockstep", &flat_mesh, {&rink_mesh, &puck_mesh, &ball_mesh, &box_mesh}, 0},
 };
 
 static const struct materials *find(const char *name)

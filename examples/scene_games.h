@@ -74,7 +74,7 @@ const struct carom_paint *scene_paint(const struct scene_game *game);
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
-    scene_walker;
+    scene_walker, scene_lockstep;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -114,6 +114,11 @@ enum {
     WALKER_BLOCK = WALKER_WALL + 2,
     WALKER_CRATE
 };
+
+/* Two rinks of as many bodies each, and packets that fly over them. */
+#define LOCKSTEP_RINK_BODIES 7
+#define LOCKSTEP_DELAY       9 /* ticks; the longest there is in the scene */
+#define LOCKSTEP_BODIES      (1 + 2 * LOCKSTEP_RINK_BODIES + 2 * LOCKSTEP_DELAY)
 
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {
