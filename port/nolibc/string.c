@@ -72,3 +72,15 @@ int strcmp(const char *a, const char *b)
 {
     return strncmp(a, b, SIZE_MAX);
 }
+
+char *strstr(const char *text, const char *part)
+{
+    size_t length = strlen(part);
+
+    for (; strncmp(text, part, length) != 0; text++) {
+        if (!*text) {
+            return NULL;
+        }
+    }
+    return (char *)text;
+}

@@ -12,5 +12,6 @@ int memcmp(const void *a, const void *b, size_t bytes);
 size_t strlen(const char *text);
 int strcmp(const char *a, const char *b);
 int strncmp(const char *a, const char *b, size_t most);
+char *strstr(const char *text, const char *part);
 
 #endif
