@@ -421,7 +421,7 @@ $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))
 build/gen/head%: GENERATOR := tools/gen_head
 build/gen/field%: GENERATOR := tools/gen_field
 $(SHAPES:%=build/gen/%.obj): GENERATOR := tools/gen_shapes
-build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes
+build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes tools/solids.py
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
 	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""Ways to make a closed mesh of outlines: points, and faces that are counter-clockwise seen from outside."""
+
+
+def extrude(outline, low, high, triangles=None):
+    """A prism along y over an outline in x, z, counter-clockwise seen from -y: its points and faces."""
+    n = len(outline)
+    points = [(x, y, z) for y in (low, high) for x, z in outline]
+    caps = triangles or [(0, k, k + 1) for k in range(1, n - 1)]
+    faces = list(caps) + [(a + n, c + n, b + n) for a, b, c in caps]
+    for k in range(n):
+        i = (k + 1) % n
+        faces += [(k, k + n, i + n), (k, i + n, i)]
+    return points, faces
+
+
+def ears(outline):
+    """Triangles of an outline that is counter-clockwise and does not cross itself."""
+    def turn(a, b, c):
+        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+    left, found = list(range(len(outline))), []
+    while len(left) > 3:
+        for i, b in enumerate(left):
+            a, c = left[i - 1], left[(i + 1) % len(left)]
+            corners = [outline[k] for k in (a, b, c)]
+            if turn(*corners) > 0 and not any(
+                    all(turn(corners[k], corners[(k + 1) % 3], outline[p]) >= 0 for k in range(3))
+                    for p in left if p not in (a, b, c)):
+                found.append((a, b, c))
+                left.pop(i)
+                break
+    return found + [tuple(left)]
+
+
+def rings(outlines):
+    """Outlines of as many corners each, joined from one to the next, and the first and last closed as quads or fans."""
+    n = len(outlines[0])
+    points = [p for outline in outlines for p in outline]
+    faces = [(0, k + 1, k) for k in range(1, n - 1)]
+    for ring in range(len(outlines) - 1):
+        for k in range(n):
+            a, b = ring * n + k, ring * n + (k + 1) % n
+            faces += [(a, b, b + n), (a, b + n, a + n)]
+    last = len(points) - n
+    return points, faces + [(last, last + k, last + k + 1) for k in range(1, n - 1)]
