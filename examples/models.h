@@ -25,7 +25,13 @@ extern const struct carom_mesh_raw tower_mesh;     /* 1.2 x 1.2, 5 high */
 extern const struct carom_mesh_raw mat_mesh;       /* 2.4 long along x, 0.03 thick */
 extern const struct carom_mesh_raw rink_mesh;      /* a floor of 8 x 6 with walls, at height 0 */
 extern const struct carom_mesh_raw puck_mesh;      /* of 8 sides, 0.5 high, from 0 */
-extern const struct carom_mesh_raw yard_mesh;      /* a surface of 48 x 48 with hills and a rim */
+extern const struct carom_mesh_raw
+    gear10_mesh; /* wheels of so many teeth about y, 0.1 of diameter a tooth */
+extern const struct carom_mesh_raw gear24_mesh;
+extern const struct carom_mesh_raw gear16_mesh;
+extern const struct carom_mesh_raw gear12_mesh;
+extern const struct carom_mesh_raw board_mesh; /* 6 long along x, 4.2 high, 0.15 thick */
+extern const struct carom_mesh_raw yard_mesh;  /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
 #define CHARACTER_FACES    96

@@ -203,6 +203,8 @@ static const struct scene_recipe {
      CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
     {"walker", "someone walks, jumps, pushes and goes through a door", &still, NULL,
      WALKER_CRATE - 1, 0, 0, &scene_walker},
+    {"gears", "four toothed wheels, of which a motor turns the first", &still, NULL, GEARS - 1 + 1,
+     0, 0, &scene_gears},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

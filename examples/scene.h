@@ -30,6 +30,7 @@
  *   conveyor    boxes on a belt whose surface moves
  *   car         a car of hinges, motors and springs, ramps, things to pick up, a camera that follows
  *   walker      someone who goes up steps, on a platform that moves, down a ramp and through a door
+ *   gears       four toothed wheels of different size, of which a motor turns the first
  *   lockstep    two worlds fed the same keys over a bad link, and what flies over it
  *
  * A frame is 1/60 s and a unit 1 m.

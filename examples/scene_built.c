@@ -203,6 +203,7 @@ static const struct materials {
      {&character_mesh, &steps_mesh, &ramp_mesh, &door_mesh, &box_mesh, &mat_mesh},
      0},
     {"conveyor", &flat_mesh, {&box_mesh, &belt_mesh}, 0},
+    {"gears", &flat_mesh, {&gear10_mesh, &gear24_mesh, &gear16_mesh, &gear12_mesh, &board_mesh}, 0},
     {"lockstep", &flat_mesh, {&rink_mesh, &puck_mesh, &ball_mesh, &box_mesh}, 0},
 };
 

@@ -74,7 +74,7 @@ const struct carom_paint *scene_paint(const struct scene_game *game);
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
-    scene_walker, scene_lockstep;
+    scene_walker, scene_lockstep, scene_gears;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -119,6 +119,15 @@ enum {
 #define LOCKSTEP_RINK_BODIES 7
 #define LOCKSTEP_DELAY       9 /* ticks; the longest there is in the scene */
 #define LOCKSTEP_BODIES      (1 + 2 * LOCKSTEP_RINK_BODIES + 2 * LOCKSTEP_DELAY)
+
+/* Wheels, each with a hinge of the same number less one; then the board behind them. */
+#define GEARS 4
+enum { GEARS_FIRST = SCENE_BODY, GEARS_BOARD = GEARS_FIRST + GEARS };
+#define GEARS_TEETH                                                                                \
+    {                                                                                              \
+        10, 24, 16, 12                                                                             \
+    }
+#define GEARS_TURNS_A_MINUTE 48 /* of the first */
 
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

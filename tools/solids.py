@@ -26,7 +26,7 @@ def ears(outline):
             corners = [outline[k] for k in (a, b, c)]
             if turn(*corners) > 0 and not any(
                     all(turn(corners[k], corners[(k + 1) % 3], outline[p]) >= 0 for k in range(3))
-                    for p in left if p not in (a, b, c)):
+                    for p in left if outline[p] not in corners):
                 found.append((a, b, c))
                 left.pop(i)
                 break
@@ -44,3 +44,40 @@ def rings(outlines):
             faces += [(a, b, b + n), (a, b + n, a + n)]
     last = len(points) - n
     return points, faces + [(last, last + k, last + k + 1) for k in range(1, n - 1)]
+
+
+def joined(loops):
+    """One outline of the first loop and the holes in it, as places in the list of all their corners, by the shortest bridges."""
+    places, first = [], 0
+    for loop in loops:
+        places.append(list(range(first, first + len(loop))))
+        first += len(loop)
+    corners = [p for loop in loops for p in loop]
+
+    def away(pair):
+        (ax, ay), (bx, by) = corners[pair[0]], corners[pair[1]]
+        return (ax - bx) ** 2 + (ay - by) ** 2
+
+    whole, holes = places[0], places[1:]
+    while holes:
+        hole, (a, b) = min(((hole, min(((a, b) for a in whole for b in hole), key=away)) for hole in holes),
+                           key=lambda one: away(one[1]))
+        at, turn = whole.index(a), hole.index(b)
+        whole = whole[:at + 1] + hole[turn:] + hole[:turn + 1] + whole[at:]
+        holes.remove(hole)
+    return whole
+
+
+def pierced(loops, low, high):
+    """A prism along y over an outline in x, z with holes, which are clockwise. Its sides come first, in the order of the corners."""
+    corners = [p for loop in loops for p in loop]
+    whole = joined(loops)
+    n, first, faces = len(corners), 0, []
+    for loop in loops:
+        for k in range(len(loop)):
+            a, b = first + k, first + (k + 1) % len(loop)
+            faces += [(a, a + n, b + n), (a, b + n, b)]
+        first += len(loop)
+    caps = [tuple(whole[k] for k in ear) for ear in ears([corners[k] for k in whole])]
+    faces += caps + [(a + n, c + n, b + n) for a, b, c in caps]
+    return [(x, y, z) for y in (low, high) for x, z in corners], faces

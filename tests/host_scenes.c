@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The scenes of scene_games.h that show one thing each, played by themselves and judged in double precision from what
+ * the public interface says: faces never cross, and what the scene is about happens. How much of it follows from
+ * the numbers of the scene.
+ *
+ *   host_scenes.elf [scene]
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host_scenes.h"
+#include "real.h"
+
+#define CROSSING_TOLERANCE 1e-9
+
+static void begin(struct play *play, const char *name)
+{
+    struct carom_config config = scene_config();
+    size_t bytes;
+
+    memset(play, 0, sizeof *play);
+    play->mesh_block = lab_need(SCENE_MESH_BYTES);
+    lab_expect(scene_load(&play->scene, name, NULL, play->mesh_block, SCENE_MESH_BYTES), name);
+    bytes = carom_world_bytes(&play->scene.caps);
+    play->world_block = lab_need(bytes);
+    lab_expect(scene_make(&play->scene, &config, play->world_block, bytes, &play->world), name);
+    play->bodies = carom_body_count(play->world);
+    lab_expect(play->bodies <= PLAY_BODIES ? CAROM_OK : CAROM_ERR_BODIES_FULL, name);
+    for (int i = 0; i < play->bodies; i++) {
+        play->mesh[i] = lab_doubles(&carom_body_mesh(play->world, i)->raw);
+        play->first[i] = play->now[i] = lab_state(play->world, i);
+    }
+}
+
+static void end(struct play *play)
+{
+    for (int i = 0; i < play->bodies; i++) {
+        oracle_mesh_free(&play->mesh[i]);
+    }
+    free(play->world_block);
+    free(play->mesh_block);
+}
+
+double play_at(const struct carom_body_state *state, int axis)
+{
+    return lab_double(state->position.c[axis], 32);
+}
+
+double play_turn(const struct play *play, int body, int axis)
+{
+    double q[4];
+
+    lab_quaternion(q, &play->now[body].rotation);
+    return 2 * atan2(q[1 + axis], q[0]);
+}
+
+double play_turned(double *total, double turn)
+{
+    *total += remainder(turn - *total, 2 * REAL_PI);
+    return *total;
+}
+
+/* Whether two bodies can touch at all: their spheres meet. A surface has none. */
+static bool are_near(const struct play *play, int a, int b)
+{
+    const struct carom_mesh *of_a = carom_body_mesh(play->world, a);
+    const struct carom_mesh *of_b = carom_body_mesh(play->world, b);
+    double apart[3];
+
+    if (of_a->raw.kind == CAROM_SURFACE || of_b->raw.kind == CAROM_SURFACE) {
+        return true;
+    }
+    for (int k = 0; k < 3; k++) {
+        apart[k] = play_at(&play->now[a], k) - play_at(&play->now[b], k);
+    }
+    return real_length(apart) < lab_double(of_a->radius_q22 + (int64_t)of_b->radius_q22, 22);
+}
+
+/* The pairs of faces that cross, of all bodies of which one moves. */
+static void look_for_crossings(struct play *play)
+{
+    struct oracle_pose pose[PLAY_BODIES];
+
+    for (int i = 0; i < play->bodies; i++) {
+        pose[i] = lab_pose_of(play->world, i, carom_body_mesh(play->world, i));
+    }
+    for (int b = 1; b < play->bodies; b++) {
+        for (int a = 0; a < b; a++) {
+            struct carom_body_look look[2];
+
+            lab_expect(carom_body_look(play->world, a, &look[0]), "look");
+            lab_expect(carom_body_look(play->world, b, &look[1]), "look");
+            if ((look[0].moving || look[1].moving) && are_near(play, a, b)) {
+                play->crossings += (long)oracle_crossings(&play->mesh[a], &pose[a], &play->mesh[b],
+                                                          &pose[b], CROSSING_TOLERANCE)
+                                       .pairs;
+                play->looked++;
+            }
+        }
+    }
+}
+
+static void run(const struct play_scene *scene)
+{
+    static struct play play;
+    bool good;
+
+    begin(&play, scene->name);
+    while (play.frame < scene->frames) {
+        play.frame++;
+        lab_expect(scene_before(&play.scene, play.world, play.frame), scene->name);
+        lab_expect(carom_world_step(play.world), scene->name);
+        for (int i = 0; i < play.bodies; i++) {
+            play.now[i] = lab_state(play.world, i);
+        }
+        if (scene->watch) {
+            scene->watch(&play);
+        }
+        if (play.frame % scene->look_every == 0) {
+            look_for_crossings(&play);
+        }
+    }
+    good = scene->judge(&play) && play.crossings == 0 && play.looked > 0;
+    lab_report(good, scene->name, "%s; %ld faces cross in %ld pairs of bodies", play.said,
+               play.crossings, play.looked);
+    end(&play);
+}
+
+/* -------------------------------------------------------------------- gears */
+
+#define GEARS_MODULE 0.1 /* of diameter a tooth */
+/*
+ * What teeth leave free along the circles that roll on each other (tools/machines.py): both wheels' teeth are narrower by
+ * 0.006, and where a chord of 0.085 stands for a flank that is bent with a radius of 0.21, or of 0.51 on the large wheel,
+ * up to 0.0043 + 0.0018 is missing on either side.
+ */
+#define GEARS_LEAST 0.012
+#define GEARS_MOST  (GEARS_LEAST + 2 * (0.0043 + 0.0018) / 0.906)
+
+/*
+ * The way along the rolling circles that each wheel has turned, against the next one: what their teeth leave free.
+ * mark: the turn of each wheel, and the least and the most of these differences.
+ */
+static void watch_gears(struct play *play)
+{
+    static const int teeth[GEARS] = GEARS_TEETH;
+
+    for (int i = 0; i < GEARS; i++) {
+        play_turned(&play->mark[i], play_turn(play, GEARS_FIRST + i, 1));
+    }
+    for (int i = 0; i + 1 < GEARS; i++) {
+        double *range = &play->mark[GEARS + 2 * i];
+        double apart =
+            GEARS_MODULE / 2 * (play->mark[i] * teeth[i] + play->mark[i + 1] * teeth[i + 1]);
+
+        range[0] = fmin(range[0], apart);
+        range[1] = fmax(range[1], apart);
+    }
+    if (play->frame == 6 * FPS) {
+        play->mark[GEARS * 3] = play->mark[0];
+    }
+}
+
+/* The motor's turns in six seconds, but for what it takes to start; the play is used and nothing beyond it. */
+static bool judge_gears(struct play *play)
+{
+    const double turns = play->mark[GEARS * 3] / (2 * REAL_PI),
+                 wanted = GEARS_TURNS_A_MINUTE / 10.0;
+    double most = 0, least = HUGE_VAL;
+
+    for (int i = 0; i + 1 < GEARS; i++) {
+        const double *range = &play->mark[GEARS + 2 * i];
+
+        most = fmax(most, range[1] - range[0]);
+        least = fmin(least, range[1] - range[0]);
+    }
+    snprintf(play->said, sizeof play->said, "%.2f turns of %.1f, teeth loose by %.4f to %.4f",
+             turns, wanted, least, most);
+    return turns > 0.95 * wanted && turns < 1.001 * wanted && least > GEARS_LEAST &&
+           most < GEARS_MOST;
+}
+
+static const struct play_scene scenes[] = {
+    {"gears", 14 * FPS, 4, watch_gears, judge_gears},
+};
+
+int main(int count, char **arguments)
+{
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        if (count < 2 || strcmp(arguments[1], scenes[i].name) == 0) {
+            run(&scenes[i]);
+        }
+    }
+    return lab_finish();
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* host_scenes - a scene that plays by itself and is watched frame by frame. */
+#ifndef CAROM_TESTS_HOST_SCENES_H
+#define CAROM_TESTS_HOST_SCENES_H
+
+#include "lab.h"
+#include "scene_games.h"
+
+#define PLAY_BODIES 64
+
+struct play {
+    struct scene scene;
+    struct carom_world *world;
+    void *mesh_block, *world_block;
+    int bodies, frame;
+    struct oracle_mesh mesh[PLAY_BODIES];
+    struct carom_body_state first[PLAY_BODIES], now[PLAY_BODIES];
+    long crossings, looked;   /* pairs of faces that cross, and of bodies that were asked */
+    double mark[PLAY_BODIES]; /* what a watcher keeps; 0 at first */
+    char said[120];           /* what a judge says */
+};
+
+struct play_scene {
+    const char *name;
+    int frames, look_every;           /* frames from one look for crossings to the next */
+    void (*watch)(struct play *play); /* after each frame; or NULL */
+    bool (*judge)(struct play *play); /* at the end */
+};
+
+/* Where a body is along an axis. */
+double play_at(const struct carom_body_state *state, int axis);
+/* How far a body that turns about one axis of the world is turned, within a full turn. */
+double play_turn(const struct play *play, int body, int axis);
+/* Add to a total what a turn within a full turn has gone on by; returns it. */
+double play_turned(double *total, double turn);
+
+#endif
