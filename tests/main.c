@@ -28,12 +28,9 @@ void test_check(bool ok, const char *file, int line, const char *text)
     }
 }
 
-void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
-                     const char *text)
+static void check_values(bool ok, int64_t a, int64_t b, const char *file, int line,
+                         const char *text)
 {
-    bool ok =
-        (a < b ? (uint64_t)b - (uint64_t)a : (uint64_t)a - (uint64_t)b) <= (uint64_t)tolerance;
-
     current.checks++;
     if (!ok && current.failed++ == 0) {
         /* in two halves: the small printf of newlib has no 64-bit formats */
@@ -41,6 +38,44 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
                    (unsigned long)((uint64_t)a >> 32), (unsigned long)(a & 0xffffffff),
                    (unsigned long)((uint64_t)b >> 32), (unsigned long)(b & 0xffffffff));
     }
+}
+
+#define IN_ORDER(a, order, b)                                                                      \
+    ((order) == TEST_LESS      ? (a) < (b)                                                         \
+     : (order) == TEST_AT_MOST ? (a) <= (b)                                                        \
+     : (order) == TEST_MORE    ? (a) > (b)                                                         \
+                               : (a) >= (b))
+
+void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
+                      const char *text)
+{
+    check_values(IN_ORDER(a, order, b), a, b, file, line, text);
+}
+
+/* Billionths, the largest number of them for what is beyond it. */
+static long billionths(double v)
+{
+    return v * 1e9 > INT32_MAX ? INT32_MAX : v * 1e9 < -INT32_MAX ? -INT32_MAX : (long)(v * 1e9);
+}
+
+void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
+                           const char *text)
+{
+    bool ok = IN_ORDER(a, order, b);
+
+    current.checks++;
+    if (!ok && current.failed++ == 0) {
+        port_print("# %s:%d: %s: %ld billionths against %ld\n", file, line, text, billionths(a),
+                   billionths(b));
+    }
+}
+
+void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
+                     const char *text)
+{
+    uint64_t apart = a < b ? (uint64_t)b - (uint64_t)a : (uint64_t)a - (uint64_t)b;
+
+    check_values(apart <= (uint64_t)tolerance, a, b, file, line, text);
 }
 
 int main(void)

@@ -17,10 +17,25 @@ struct test {
 };
 
 void test_check(bool ok, const char *file, int line, const char *text);
+enum test_order { TEST_LESS, TEST_AT_MOST, TEST_MORE, TEST_AT_LEAST };
+void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
+                      const char *text);
+void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
+                           const char *text);
 void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
                      const char *text);
 
 #define CHECK(condition) test_check((condition), __FILE__, __LINE__, #condition)
+/* Comparisons print both values, so they are not written as a CHECK. Numbers of tests' own oracles may be double. */
+#define CHECK_ORDER_(a, order, b, text)                                                            \
+    _Generic((a) + (b), double                                                                     \
+             : test_check_real_order((double)(a), order, (double)(b), __FILE__, __LINE__, text),   \
+               default                                                                             \
+             : test_check_order((int64_t)(a), order, (int64_t)(b), __FILE__, __LINE__, text))
+#define CHECK_LESS(a, b)     CHECK_ORDER_(a, TEST_LESS, b, #a " < " #b)
+#define CHECK_AT_MOST(a, b)  CHECK_ORDER_(a, TEST_AT_MOST, b, #a " <= " #b)
+#define CHECK_MORE(a, b)     CHECK_ORDER_(a, TEST_MORE, b, #a " > " #b)
+#define CHECK_AT_LEAST(a, b) CHECK_ORDER_(a, TEST_AT_LEAST, b, #a " >= " #b)
 #define CHECK_EQ(a, b)                                                                             \
     test_check_near((int64_t)(a), (int64_t)(b), 0, __FILE__, __LINE__, #a " == " #b)
 #define CHECK_NEAR(a, b, tolerance)                                                                \
@@ -37,7 +52,7 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
 #else
 #define TEST_BARS 0
 #endif
-#define CHECK_BAR(count, bar) CHECK(!TEST_BARS || (count) <= (bar))
+#define CHECK_BAR(count, bar) CHECK_AT_MOST(TEST_BARS ? (count) : 0, bar)
 
 /* A stream of numbers that is the same everywhere. */
 struct test_random {

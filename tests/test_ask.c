@@ -110,7 +110,7 @@ static void test_changed(void)
             other = boxes_state(w, 1);
             CHECK(boxes_same(&one, &other));
         }
-        CHECK(said.calls > 20);
+        CHECK_MORE(said.calls, 20);
     }
 }
 
@@ -133,7 +133,7 @@ static void test_saved(void)
     for (int frame = 0; frame < 60; frame++) {
         int size = carom_snapshot_save(w, saved, sizeof saved);
 
-        CHECK(size > 0);
+        CHECK_MORE(size, 0);
         loads += size > 0 && carom_snapshot_load(w, saved, (size_t)size) == CAROM_OK;
         boxes_step(w, 1);
     }
@@ -152,7 +152,7 @@ static void test_dropped(void)
     for (int frame = 0; frame < 50; frame++) {
         calls = said.calls;
         boxes_step(w, 1); /* CAROM_OK: none is cut */
-        CHECK(said.calls - calls < 40);
+        CHECK_LESS(said.calls - calls, 40);
         CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 1, 0), 0);
         CHECK_EQ(boxes_events(w, CAROM_EVENT_BEGIN, 1, 0), 0);
     }
@@ -160,7 +160,7 @@ static void test_dropped(void)
     CHECK_NEAR(boxes_state(w, 1).velocity.c[2], BOXES_Q40(-10) + 50 * boxes_config.gravity.c[2],
                100000);
     CHECK_NEAR(boxes_state(w, 1).velocity.c[0], BOXES_Q40(4), 1000);
-    CHECK(boxes_state(w, other).position.c[2] > BOXES_Q32(128));
+    CHECK_MORE(boxes_state(w, other).position.c[2], BOXES_Q32(128));
 }
 
 static void test_needs(void)

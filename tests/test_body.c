@@ -218,7 +218,7 @@ static void test_nutation(void)
     memset(inverse, 0, sizeof inverse);
     for (int k = 0; k < 3; k++) {
         /* the box lies along the axes of its mesh */
-        CHECK(real_abs(inertia[k][(k + 1) % 3]) < 1e-8);
+        CHECK_LESS(real_abs(inertia[k][(k + 1) % 3]), 1e-8);
         inverse[k][k] = 1 / (inertia[k][k] * real(shape.mesh.mass.volume_q32, 32));
     }
     integrate(axes, inverse, l, FRAMES);
@@ -230,7 +230,7 @@ static void test_nutation(void)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             /* turned by 2 radians in all; the error of a frame's step is a few 0.06^3 / 12 */
-            CHECK(real_abs(real(m.c[i][k], 30) - axes[i][k]) < 2e-3);
+            CHECK_LESS(real_abs(real(m.c[i][k], 30) - axes[i][k]), 2e-3);
         }
     }
 }
@@ -261,8 +261,8 @@ static void test_tumble(void)
         first = n == 0 ? energy : first;
         most = real_abs(energy / first - 1) > most ? real_abs(energy / first - 1) : most;
     }
-    CHECK(most < 5e-6);
-    CHECK(memcmp(&angular, &state.angular, sizeof angular) == 0);
+    CHECK_LESS(most, 5e-6);
+    CHECK_EQ(memcmp(&angular, &state.angular, sizeof angular), 0);
     for (int k = 0; k < 4; k++) {
         square_q60 += (int64_t)state.rotation.c[k] * state.rotation.c[k];
     }
@@ -301,13 +301,13 @@ static void test_needle(void)
         real_vector(now, spin.c, 40);
         fastest = real_length(now) > fastest ? real_length(now) : fastest;
     }
-    CHECK(most < 2e-6);
+    CHECK_LESS(most, 2e-6);
     /*
      * Across the axis the spin keeps its 0.36 radians a frame, W. Euler's equations about it are those
      * of a pendulum: w^2 rises by W^2 (14^2 - 10^2) / (14^2 + 10^2) at most, so |w, W|^2 stays below
      * 0.2^2 + 1.33 W^2.
      */
-    CHECK(fastest < 0.5);
+    CHECK_LESS(fastest, 0.5);
 }
 
 /* ---------------------------------------------------------------- parabola */
@@ -369,12 +369,12 @@ static void test_parabola(void)
                        real_round(dv * real(shape.mesh.mass.volume_q32, 32) * real_power2(40)),
                        real_round(real_abs(dv) * 2048) + 3);
         }
-        CHECK(memcmp(&next.angular, &state.angular, sizeof next.angular) == 0);
+        CHECK_EQ(memcmp(&next.angular, &state.angular, sizeof next.angular), 0);
         /* at 0 it is where it was */
         next = state;
         body_advance(&body, &next, 0, tau_q30, &g);
-        CHECK(memcmp(&next.position, &state.position, sizeof next.position) == 0);
-        CHECK(memcmp(&next.rotation, &state.rotation, sizeof next.rotation) == 0);
+        CHECK_EQ(memcmp(&next.position, &state.position, sizeof next.position), 0);
+        CHECK_EQ(memcmp(&next.rotation, &state.rotation, sizeof next.rotation), 0);
     }
 }
 
@@ -396,7 +396,7 @@ static void test_still(void)
         before = state;
         body_predict(&body, &state, CAROM_ONE_Q30, &g);
         body_advance(&body, &state, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
-        CHECK(memcmp(&before, &state, sizeof before) == 0);
+        CHECK_EQ(memcmp(&before, &state, sizeof before), 0);
         body_path_length(&body, CAROM_ONE_Q30, &way_q22, &turn_q30);
         CHECK(way_q22 <= 8 && turn_q30 <= 1);
     }
@@ -450,17 +450,17 @@ static void test_path_length(void)
                 }
                 most = real_length(p) > most ? real_length(p) : most;
                 /* the places themselves are rounded */
-                CHECK(real_length(p) <= real(way_q22, 22) + 2 * real_power2(-22));
+                CHECK_AT_MOST(real_length(p), real(way_q22, 22) + 2 * real_power2(-22));
             }
             /* 2 atan |t u| <= 2 t |u| */
-            CHECK(
+            CHECK_AT_MOST(
                 2 *
                     real_length((double[3]){real(body.path.u.c[0], 30), real(body.path.u.c[1], 30),
                                             real(body.path.u.c[2], 30)}) *
-                    real(t_q30, 30) <=
+                    real(t_q30, 30),
                 real(turn_q30, 30));
         }
-        CHECK(real(way_q22, 22) >= most); /* and is no wild guess */
+        CHECK_AT_LEAST(real(way_q22, 22), most); /* and is no wild guess */
     }
 }
 
@@ -482,7 +482,7 @@ static void test_slice(void)
         real_vector(w, spin.c, 40);
         turn = real_length(w) * real(slice_q30, 30);
         CHECK(slice_q30 >= 1 && slice_q30 <= tau_q30);
-        CHECK(turn <= 0.5 * (1 + 1e-9));
+        CHECK_AT_MOST(turn, 0.5 * (1 + 1e-9));
         /* the longest: all of it, or within a millionth of the limit */
         CHECK(slice_q30 == tau_q30 || turn >= 0.5 * (1 - 1e-6));
     }
@@ -563,7 +563,7 @@ static void test_inertia(void)
                         sum += m[a][i] * j[i][k] * m[b][k];
                     }
                 }
-                CHECK(real_abs(sum - mine[a][b]) <= 12 * real_power2(-turned.e));
+                CHECK_AT_MOST(real_abs(sum - mine[a][b]), 12 * real_power2(-turned.e));
             }
         }
         /* L = R J R^T w m, and twice the energy is p.v + L.w */
@@ -577,12 +577,12 @@ static void test_inertia(void)
         mass = real(body.mass.m, body.mass.e);
         energy = real_dot(p, p) / mass;
         for (int i = 0; i < 3; i++) {
-            CHECK(real_abs(lb[i] * mass - l[i]) < 1e-7);
+            CHECK_LESS(real_abs(lb[i] * mass - l[i]), 1e-7);
             for (int k = 0; k < 3; k++) {
                 energy += mass * wb[i] * j[i][k] * wb[k];
             }
         }
-        CHECK(real_abs((real(e.hi, 16) + (double)e.lo * real_power2(-80)) / energy - 1) < 1e-7);
+        CHECK_LESS(real_abs((real(e.hi, 16) + (double)e.lo * real_power2(-80)) / energy - 1), 1e-7);
     }
 }
 
@@ -606,8 +606,10 @@ static void test_calm(void)
         fix_matrix(&m, &state.rotation);
         body_velocity(&body, &state, &v);
         body_spin(&body, &state, &m, &w);
-        CHECK(real_length((double[3]){real(v.c[0], 40), real(v.c[1], 40), real(v.c[2], 40)}) < 64);
-        CHECK(real_length((double[3]){real(w.c[0], 40), real(w.c[1], 40), real(w.c[2], 40)}) < 0.5);
+        CHECK_LESS(real_length((double[3]){real(v.c[0], 40), real(v.c[1], 40), real(v.c[2], 40)}),
+                   64);
+        CHECK_LESS(real_length((double[3]){real(w.c[0], 40), real(w.c[1], 40), real(w.c[2], 40)}),
+                   0.5);
     }
     CHECK(calm > cases / 5 && thin > 0);
 }

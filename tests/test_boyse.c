@@ -65,7 +65,7 @@ static bool first_of_all(int kind, struct boyse_hit *best)
 /* Within the search's slack of four units of length and rounding, at that speed. */
 static void check_time(const struct boyse_hit *hit, double t, double speed)
 {
-    CHECK(real_abs(real(hit->t_q30, 30) - t) <= 7 * DUO_UNIT / speed + 1e-8);
+    CHECK_AT_MOST(real_abs(real(hit->t_q30, 30) - t), 7 * DUO_UNIT / speed + 1e-8);
 }
 
 static uint32_t edge_between(const struct shape *s, uint16_t v, uint16_t w)
@@ -170,7 +170,7 @@ static void test_turning_vertex(void)
     above(0.3, 0.2, 0.25, false);
     duo_set_paths(still, (double[3]){0, 0.48, 0}, NULL);
     u = real_length(duo.motion[0].u);
-    CHECK(real_abs(u - 0.24) < 1e-6);
+    CHECK_LESS(real_abs(u - 0.24), 1e-6);
     h = 0.25 - real(duo.pair.skin_q22 / 2, 22);
     CHECK(first_of_all(CANDIDATE_VERTEX_FACE, &hit));
     /* turning about +y takes +x down */
@@ -263,7 +263,7 @@ static void test_flat_ridges(void)
         CHECK(shape_owns_edge(&duo.shape[0], c.i) && shape_owns_edge(&duo.shape[1], c.j));
         boyse_touch(&duo.pair, &c, 0, &touch);
         CHECK(touch.valid && touch.normal.c[2] > CAROM_ONE_Q30 / 10 * 9);
-        CHECK(touch.gap_q22 > 0);
+        CHECK_MORE(touch.gap_q22, 0);
         CHECK(boyse_first(&duo.pair, &c, &hit, &roots));
     }
 }
@@ -292,7 +292,7 @@ static void test_at_start(void)
     check_time(&hit, real(skin - skin / 2, 22) / 0.125, 0.125);
     /* closer than that: at once, or it would come nearer at every hit */
     CHECK(start_at(skin / 4, -0.125, &hit));
-    CHECK(real(hit.t_q30, 30) * 0.125 <= 4 * DUO_UNIT);
+    CHECK_AT_MOST(real(hit.t_q30, 30) * 0.125, 4 * DUO_UNIT);
     /* touching or overlapping: at once while it approaches, never while it leaves */
     CHECK(start_at(0, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == 0);
     CHECK(start_at(-skin / 4, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == -skin / 4);

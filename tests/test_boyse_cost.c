@@ -40,7 +40,7 @@ static void tally_end(const struct tally *t, const char *name, uint32_t bar)
         port_print("# %s: mean %lu, worst %lu instructions, %lu candidates\n", name,
                    (unsigned long)mean, (unsigned long)t->worst, (unsigned long)t->count);
     }
-    CHECK(t->count > 0);
+    CHECK_MORE(t->count, 0);
     CHECK_BAR(mean, bar);
 }
 
@@ -133,14 +133,14 @@ static void test_misses(void)
     for (int frame = 0; frame < FRAMES; frame++) {
         struct carom_stats stats;
 
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
         carom_stats(world, &stats);
         if (frame % EVERY == 0) {
             /* a body in contact moves straight */
             time_frame(&fall, world, stats.contacts > 0 ? NULL : &config.gravity);
         }
     }
-    CHECK(fall.hits > 0); /* it does come down */
+    CHECK_MORE(fall.hits, 0); /* it does come down */
     tally_end(&fall.misses[0], "vertex and face that miss", bar_miss[0]);
     tally_end(&fall.misses[1], "edges that miss", bar_miss[1]);
 }
@@ -166,7 +166,7 @@ static void test_hits(void)
         plan.kind = kinds[n % 4];
         meeting_make(&meeting, &r, &plan);
         CHECK(timed_first(&meeting.pair, &meeting.candidate, &hit, &cost));
-        CHECK((long double)hit.t_q30 <= meeting.time * CAROM_ONE_Q30);
+        CHECK_AT_MOST((long double)hit.t_q30, meeting.time * CAROM_ONE_Q30);
         tally_add(&hits[plan.kind == CANDIDATE_EDGE_EDGE], cost);
     }
     tally_end(&hits[0], "vertex and face that meet", bar_hit[0]);

@@ -227,7 +227,7 @@ static void check_touch(const struct boyse_touch *touch, const struct candidate 
     for (int k = 0; k < 3; k++) {
         double n = (c->kind == CANDIDATE_FACE_VERTEX ? -1 : a->sign) * f.n[k];
 
-        CHECK(real_abs(real(touch->normal.c[k], 30) - n) < 1e-8 + early / f.sine);
+        CHECK_LESS(real_abs(real(touch->normal.c[k], 30) - n), 1e-8 + early / f.sine);
     }
 }
 
@@ -266,20 +266,20 @@ static bool check_case(const struct candidate *c)
     duo_features_at(&f, c, t);
     gap = a.sign * f.gap;
     CHECK(hit.t_q30 >= 0 && t <= a.t);
-    CHECK(gap >= 0); /* never past the surface */
+    CHECK_AT_LEAST(gap, 0); /* never past the surface */
     CHECK(hit.touch.valid && hit.touch.sign == a.sign);
     if (a.open > 1.1 * event) {
         /*
          * the event gap within four units and the rounding of places, in w.d for edges; |w| is that
          * of the root, and changes by half a radian a slice at most
          */
-        CHECK(real_abs(gap - event) <= 7 * DUO_UNIT / f.sine + (a.t - t) * event / 2 + 1e-8);
+        CHECK_AT_MOST(real_abs(gap - event), 7 * DUO_UNIT / f.sine + (a.t - t) * event / 2 + 1e-8);
     } else {
-        CHECK(gap <= event + 3 * DUO_UNIT / f.sine);
+        CHECK_AT_MOST(gap, event + 3 * DUO_UNIT / f.sine);
     }
     /* and stays below it until they meet */
     for (int k = 1; k < 8; k++) {
-        CHECK(a.sign * duo_gap_at(c, t + (a.t - t) * k / 8) < gap + DUO_UNIT);
+        CHECK_LESS(a.sign * duo_gap_at(c, t + (a.t - t) * k / 8), gap + DUO_UNIT);
     }
     check_touch(&hit.touch, c, &a);
     return true;
@@ -299,7 +299,7 @@ static void check_kind(int kind)
         random_case(&r, &c, kind);
         hits += check_case(&c);
     }
-    CHECK(20 * hits >= CASES);
+    CHECK_AT_LEAST(20 * hits, CASES);
 }
 
 static void test_vertex_face(void)
@@ -347,12 +347,12 @@ static void test_polynomial(void)
 
             duo_features_at(&f, &c, t);
             for (int i = degree; i >= 0; i--) {
-                CHECK(carom_abs(a_q40[i]) < (int64_t)1 << 49);
+                CHECK_LESS(carom_abs(a_q40[i]), (int64_t)1 << 49);
                 value = value * t + real(a_q40[i], 40);
             }
             /* places are rounded to a unit, directions to 2^-30 on lengths of up to 30 units */
-            CHECK(real_abs(value - f.gap * f.sine * (1 + s2[0] * t * t) * (1 + s2[1] * t * t)) <
-                  4 * DUO_UNIT);
+            CHECK_LESS(real_abs(value - f.gap * f.sine * (1 + s2[0] * t * t) * (1 + s2[1] * t * t)),
+                       4 * DUO_UNIT);
         }
     }
 }
@@ -371,7 +371,7 @@ static void test_quotient(void)
         uint32_t found = curve_quotient_q30(top, below);
 
         if (found == UINT32_MAX) {
-            CHECK(exact >= (uint64_t)1 << 31);
+            CHECK_AT_LEAST(exact, (uint64_t)1 << 31);
         } else {
             CHECK(found <= exact && exact - found <= (exact >> 14) + 1);
         }
@@ -406,7 +406,7 @@ static void test_curve_at(void)
             for (int i = 0; i < (curve.shift < 0 ? -curve.shift : curve.shift); i++) {
                 unit *= curve.shift < 0 ? 0.5 : 2;
             }
-            CHECK(real_abs(curve_at(&curve, k << 27) - value / unit) <= CURVE_NOISE);
+            CHECK_AT_MOST(real_abs(curve_at(&curve, k << 27) - value / unit), CURVE_NOISE);
         }
     }
 }

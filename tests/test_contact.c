@@ -29,7 +29,7 @@ static void begin(void)
     shape_body(&shape_a, true, &bodies[0], &states[0]);
     shape_body(&shape_b, false, &bodies[1], &states[1]);
     candidate_count = shape_candidates(&shape_a, &shape_b, 0, candidates, CANDIDATES);
-    CHECK(candidate_count <= CANDIDATES);
+    CHECK_AT_MOST(candidate_count, CANDIDATES);
 }
 
 static void place(void)
@@ -94,7 +94,7 @@ static void check_four_corners(int32_t gap_q22)
         CHECK_EQ(c->gap_q22, gap_q22);
         CHECK_EQ(c->skin_q22, bodies[0].skin_q22);
         CHECK(c->side[0].body == &bodies[0] && c->side[1].body == NULL);
-        CHECK(v < 4); /* the lower ones, and each once */
+        CHECK_LESS(v, 4); /* the lower ones, and each once */
         CHECK(!(seen >> v & 1));
         seen |= (uint8_t)(1 << v);
         for (int k = 0; k < 2; k++) {
@@ -285,7 +285,7 @@ static void test_order(void)
     CHECK(find(700, 0));
     CHECK(in_order());
     count = pool.used;
-    CHECK(count > 4);
+    CHECK_MORE(count, 4);
     memcpy(first, contacts, sizeof first);
     for (uint32_t start = 1; start < candidate_count; start += candidate_count / 13) {
         memset(contacts, 0xa5, sizeof contacts);
@@ -407,7 +407,7 @@ static void test_merge(void)
     states[0].position.c[2] = carom_shl((600 << 10) + 300, 10);
     place();
     CHECK(find(700, 0));
-    CHECK(pool.used >= 8);
+    CHECK_AT_LEAST(pool.used, 8);
     for (uint32_t i = 0; i < pool.used; i++) {
         contacts[i].gap_q22 += (int32_t)(i * 7 % 5); /* as rounding may leave them */
         least = contacts[i].gap_q22 < least ? contacts[i].gap_q22 : least;
@@ -484,7 +484,7 @@ static void test_thin(void)
                 at++;
             } else {
                 dropped++;
-                CHECK(first[i].key.kind == CANDIDATE_EDGE_EDGE);
+                CHECK_EQ(first[i].key.kind, CANDIDATE_EDGE_EDGE);
                 CHECK(hardly_stands_out(&first[i], left,
                                         2)); /* one that it stood between may be gone, too */
             }
@@ -603,7 +603,7 @@ static void test_force(void)
     CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 4);
     CHECK(in_order());
-    CHECK(candidate_compare(&contacts[2].key, &hit.candidate) == 0);
+    CHECK_EQ(candidate_compare(&contacts[2].key, &hit.candidate), 0);
     CHECK_EQ(contacts[2].normal.c[0], CAROM_ONE_Q30 / 100);
     CHECK_EQ(contacts[2].gap_q22, contacts[3].gap_q22 < skin / 2 ? contacts[3].gap_q22 : skin / 2);
     hit.touch.normal.c[0] = 0;
@@ -675,7 +675,7 @@ static double least_rise(const struct shape *s, const struct body *b, uint32_t v
 /* Every normal found is one along which neither body leans into the other; all at the tip. */
 static void check_normals(uint32_t vertex_a, int32_t reach)
 {
-    CHECK(pool.used >= 1);
+    CHECK_AT_LEAST(pool.used, 1);
     for (uint32_t i = 0; i < pool.used; i++) {
         double n[3];
 
@@ -683,8 +683,8 @@ static void check_normals(uint32_t vertex_a, int32_t reach)
             n[k] = real(contacts[i].normal.c[k], 30);
             CHECK_NEAR(contact_point(&contacts[i]).c[k], 0, (int64_t)reach << 10);
         }
-        CHECK(n[2] > 0);
-        CHECK(least_rise(&shape_a, &bodies[0], vertex_a, n) >= -0.03);
+        CHECK_MORE(n[2], 0);
+        CHECK_AT_LEAST(least_rise(&shape_a, &bodies[0], vertex_a, n), -0.03);
         CHECK_NEAR(contacts[i].gap_q22, 0, 8);
     }
 }
@@ -716,7 +716,7 @@ static void test_vertex_on_vertex(void)
     place();
     CHECK(find(300, 0));
     check_normals(0, 300);
-    CHECK(pool.used >= 3); /* a cone of normals: at least its three corners */
+    CHECK_AT_LEAST(pool.used, 3); /* a cone of normals: at least its three corners */
     contact_merge(&list);
     check_normals(0, 300);
     for (uint32_t i = 0; i < pool.used; i++) {
@@ -725,7 +725,7 @@ static void test_vertex_on_vertex(void)
         for (int k = 0; k < 3; k++) {
             back[k] = -real(contacts[i].normal.c[k], 30);
         }
-        CHECK(least_rise(&shape_b, &bodies[1], 4, back) >= -0.03);
+        CHECK_AT_LEAST(least_rise(&shape_b, &bodies[1], 4, back), -0.03);
     }
 }
 

@@ -97,7 +97,7 @@ static void check_through(struct carom_filter plate, struct carom_filter box)
         boxes_step_alike(w, 1, alone, 0);
         CHECK_EQ(boxes_pairs(w), 0);
     }
-    CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-1024));
+    CHECK_LESS(boxes_state(w, 1).position.c[2], BOXES_Q32(-1024));
 }
 
 static void check_held(struct carom_filter plate, struct carom_filter box)
@@ -105,7 +105,7 @@ static void check_held(struct carom_filter plate, struct carom_filter box)
     struct carom_world *w = make(0, plate, box);
 
     boxes_step(w, 60);
-    CHECK(boxes_state(w, 1).position.c[2] > BOXES_Q32(256));
+    CHECK_MORE(boxes_state(w, 1).position.c[2], BOXES_Q32(256));
 }
 
 static void test_touch(void)
@@ -153,7 +153,7 @@ static void test_change(void)
         if (frame == 13) {
             CHECK(boxes_overlap(w, 1, 0));
             CHECK_EQ(carom_body_set_filter(w, 1, &on), CAROM_OK);
-            CHECK(carom_snapshot_save(w, saved, sizeof saved) > 0);
+            CHECK_MORE(carom_snapshot_save(w, saved, sizeof saved), 0);
         }
         if (frame == 16) { /* the pair that passes is in a snapshot */
             int size = carom_snapshot_size(w);
@@ -166,7 +166,7 @@ static void test_change(void)
         boxes_step_alike(w, 1, alone, 0);
         below += frame > 13 && !boxes_overlap(w, 1, 0);
     }
-    CHECK(below > 5);
+    CHECK_MORE(below, 5);
     /* it is out: from below it hits */
     boxes_held_down(w, 200);
 }

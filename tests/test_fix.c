@@ -120,15 +120,15 @@ static void check_quotient(uint64_t n, uint64_t d)
     signed_r = signed_n % signed_d;
     CHECK_EQ((uint64_t)(signed_n / signed_d) * d + (uint64_t)signed_r, n);
     CHECK(signed_r == 0 || (signed_r < 0) == (signed_n < 0));
-    CHECK((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r) <
-          (signed_d < 0 ? 0 - d : d));
+    CHECK_LESS((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r),
+               (signed_d < 0 ? 0 - d : d));
 }
 
 static void check_small_quotient(uint32_t n, uint32_t d)
 {
     int32_t signed_n = (int32_t)n, signed_d = (int32_t)d;
 
-    CHECK(n % d < d);
+    CHECK_LESS(n % d, d);
     CHECK_EQ((uint32_t)(n / d * d + n % d), n);
     if (signed_n != INT32_MIN || signed_d != -1) {
         CHECK_EQ(signed_n / signed_d, (int64_t)signed_n / signed_d);
@@ -211,9 +211,9 @@ static void test_vectors(void)
     carom_rotate(v, &quarter, v); /* x to y, y to -x; in place */
     CHECK(v[0] == 3 * one && v[1] == 2 * one && v[2] == 5 * one);
     carom_rotate_back(v, &quarter, v);
-    CHECK(memcmp(v, a, sizeof v) == 0);
+    CHECK_EQ(memcmp(v, a, sizeof v), 0);
     carom_cross(v, a, a, 1);
-    CHECK((v[0] | v[1] | v[2]) == 0);
+    CHECK_EQ((v[0] | v[1] | v[2]), 0);
 }
 
 /* ------------------------------------------------------------------- whole */
@@ -382,7 +382,7 @@ static void test_ratio(void)
 
         q = wide_ratio(a, b);
         CHECK(scaled_whole(q));
-        CHECK(real_abs(real(q.m, q.e) / quotient - 1) <= real_power2(-29));
+        CHECK_AT_MOST(real_abs(real(q.m, q.e) / quotient - 1), real_power2(-29));
     }
 }
 
@@ -410,7 +410,7 @@ static void test_scale(void)
         if (shift <= 0) {
             CHECK_EQ(carom_shl(v, -shift), s.m);
         } else {
-            CHECK(carom_abs(v - carom_shl(s.m, shift)) <= (int64_t)1 << (shift - 1));
+            CHECK_AT_MOST(carom_abs(v - carom_shl(s.m, shift)), (int64_t)1 << (shift - 1));
         }
     }
 }
@@ -455,8 +455,8 @@ static void test_mul_scaled(void)
             /* v m - result 2^e, half of 2^e at most; beyond 62 it is rounded twice */
             error = fix_wide_mul(carom_shl(result, more), (int64_t)1 << (s.e - more));
             error = wide_sum(p, wide_opposite(error));
-            CHECK(real_abs(wide_real(error)) <=
-                  real_power2(s.e - 1) + (more ? real_power2(61) : 0));
+            CHECK_AT_MOST(real_abs(wide_real(error)),
+                          real_power2(s.e - 1) + (more ? real_power2(61) : 0));
         }
     }
 }
@@ -499,9 +499,9 @@ static void test_length(void)
         random_vector(&r, 61, v);
         length = fix_length(v);
         sum = square_sum(v);
-        CHECK(compare_square(length, sum) >= 0);
+        CHECK_AT_LEAST(compare_square(length, sum), 0);
         if (length > 0) {
-            CHECK(compare_square(length - 1 - (length >> 26), sum) < 0);
+            CHECK_LESS(compare_square(length - 1 - (length >> 26), sum), 0);
         }
     }
 }
@@ -534,7 +534,7 @@ static void test_normalise(void)
         }
         length = real_length(d);
         for (int k = 0; k < 3; k++) {
-            CHECK(real_abs(n.c[k] - d[k] / length * CAROM_ONE_Q30) <= 2 + 1e-6);
+            CHECK_AT_MOST(real_abs(n.c[k] - d[k] / length * CAROM_ONE_Q30), 2 + 1e-6);
         }
     }
 }
@@ -574,11 +574,11 @@ static void test_rotate(void)
         fix_rotate(out, &m, v);
         for (int k = 0; k < 3; k++) {
             /* half a unit for each product, and half a unit of each entry of the matrix */
-            CHECK(real_abs((double)out[k] - turned[k]) <= 1.5 + length * real_power2(-30));
+            CHECK_AT_MOST(real_abs((double)out[k] - turned[k]), 1.5 + length * real_power2(-30));
         }
         fix_rotate_back(out, &m, out); /* in place */
         for (int k = 0; k < 3; k++) {
-            CHECK(real_abs((double)(out[k] - v[k])) <= 5 + length * real_power2(-28));
+            CHECK_AT_MOST(real_abs((double)(out[k] - v[k])), 5 + length * real_power2(-28));
         }
         carom_rotate(there, &m, near);
         for (int k = 0; k < 3; k++) {
@@ -586,7 +586,7 @@ static void test_rotate(void)
         }
         real_rotate(turned, exact, d);
         for (int k = 0; k < 3; k++) {
-            CHECK(real_abs(there[k] - turned[k]) <= 1.0);
+            CHECK_AT_MOST(real_abs(there[k] - turned[k]), 1.0);
         }
         carom_rotate_back(there, &m, there);
         for (int k = 0; k < 3; k++) {

@@ -104,11 +104,11 @@ static void test_torque_turns(void)
     for (int n = 1; n <= 30; n++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         s = state_of(BOX);
-        CHECK(real_abs(real(s.spin.c[2], 40) - n * torque / inertia) < 1e-8);
+        CHECK_LESS(real_abs(real(s.spin.c[2], 40) - n * torque / inertia), 1e-8);
         real_sine_cosine(n * (n + 1) / 4.0 * torque / inertia, &sine, &cosine);
         /* a Cayley turn lags by the cube of the angle of a frame, up to 0.035, over 12 */
-        CHECK(real_abs(real(s.rotation.c[3], 30) - sine) < 1e-4);
-        CHECK(real_abs(real(s.rotation.c[0], 30) - cosine) < 1e-4);
+        CHECK_LESS(real_abs(real(s.rotation.c[3], 30) - sine), 1e-4);
+        CHECK_LESS(real_abs(real(s.rotation.c[0], 30) - cosine), 1e-4);
     }
 }
 
@@ -127,7 +127,7 @@ static void test_torque_on_floor(void)
         struct carom_contact contact;
 
         CHECK_EQ(carom_world_step(world), CAROM_OK);
-        CHECK(carom_contacts(world, &contact, 1) > 0);
+        CHECK_MORE(carom_contacts(world, &contact, 1), 0);
         CHECK_NEAR(state(BOX)->angular.c[2], n * (ONE / 512), ONE >> 22);
     }
 }
@@ -142,13 +142,13 @@ static void test_torque_out(void)
     torque.c[0] = world_most_angular_q40(&world->bodies[BOX]);
     CHECK_EQ(carom_body_set_torque(world, BOX, &torque), CAROM_OK);
     while (!state_of(BOX).out && frames++ < 2000) {
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     CHECK(state_of(BOX).out);
     /* and whoever sleeps or is out takes none */
     torque = state(BOX)->angular;
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(memcmp(&torque, &state(BOX)->angular, sizeof torque) == 0);
+    CHECK_EQ(memcmp(&torque, &state(BOX)->angular, sizeof torque), 0);
 }
 
 /* ------------------------------------------------------------------ damping */
@@ -203,8 +203,8 @@ static void test_damping_falls(void)
         p = p - (p + 4) / 8 - 4 * ONE / 256; /* p < 0: the half is up */
         CHECK_NEAR(state(BOX)->momentum.c[2], p, 8);
     }
-    CHECK(state_of(BOX).velocity.c[2] > -8 * (ONE / 256));
-    CHECK(state_of(BOX).velocity.c[2] < -7 * (ONE / 256));
+    CHECK_MORE(state_of(BOX).velocity.c[2], -8 * (ONE / 256));
+    CHECK_LESS(state_of(BOX).velocity.c[2], -7 * (ONE / 256));
 }
 
 /* Whatever the momenta, of a few units of their last place as well, energy never rises. */
@@ -235,7 +235,7 @@ static void test_damping_loses(void)
         /* in the pose before: a turn keeps energy but for rounding */
         body_add_kinetic2(&after, &world->bodies[BOX], state(BOX), &turn);
         fix_wide_subtract(&after, &before);
-        CHECK(fix_wide_sign(&after) <= 0);
+        CHECK_AT_MOST(fix_wide_sign(&after), 0);
     }
 }
 
@@ -293,7 +293,7 @@ static void test_pushes(void)
         CHECK_EQ(carom_body_push(world, BOX, &p, &point), CAROM_OK);
         CHECK_EQ(carom_body_push_centre(world, SECOND, &p), CAROM_OK);
         CHECK_EQ(carom_body_twist(world, SECOND, &moment), CAROM_OK);
-        CHECK(memcmp(state(BOX), state(SECOND), sizeof *state(BOX)) == 0);
+        CHECK_EQ(memcmp(state(BOX), state(SECOND), sizeof *state(BOX)), 0);
         for (int k = 0; k < 3; k++) {
             force.c[k] = p.c[k] / 2;
         }
@@ -384,7 +384,7 @@ static void test_snapshot(void)
     CHECK_EQ(carom_body_add(world, &def), SECOND);
     plain = carom_world_hash(world);
     plain_size = carom_snapshot_save(world, changed, sizeof changed);
-    CHECK(plain_size > 0);
+    CHECK_MORE(plain_size, 0);
     give_all(BOX);
     CHECK(carom_world_hash(world) != plain);
     size = carom_snapshot_save(world, saved, sizeof saved);
@@ -395,12 +395,12 @@ static void test_snapshot(void)
     hash = carom_world_hash(world);
     /* one without: what acts on the body acts no more, and the bytes are those of before */
     CHECK_EQ(carom_snapshot_load(world, changed, (size_t)plain_size), CAROM_OK);
-    CHECK(carom_world_hash(world) == plain);
+    CHECK_EQ(carom_world_hash(world), plain);
     CHECK_EQ(carom_snapshot_load(world, saved, (size_t)size), CAROM_OK);
     for (int n = 0; n < 5; n++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     /* into a world whose bodies have no extra yet */
     setup();
     def.position.c[0] += (int64_t)10 << 32;
@@ -409,7 +409,7 @@ static void test_snapshot(void)
     for (int n = 0; n < 5; n++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     /* and into one that has none left */
     config.caps.extras = 0;
     begin();
@@ -451,7 +451,7 @@ static void test_snapshot_bad(void)
     CHECK_EQ(carom_body_add(world, &def), SECOND);
     give_all(BOX);
     size = carom_snapshot_save(world, saved, sizeof saved);
-    CHECK(size > 0);
+    CHECK_MORE(size, 0);
     for (unsigned i = 0; i < sizeof changes / sizeof changes[0]; i++) {
         uint64_t sum = FNV_START, hash = carom_world_hash(world);
         uint8_t *section = changed + size - 8 - 46;
@@ -471,9 +471,9 @@ static void test_snapshot_bad(void)
         }
         CHECK_EQ(carom_snapshot_load(world, changed, (size_t)size), changes[i].result);
         if (changes[i].result < 0) {
-            CHECK(carom_world_hash(world) == hash);
+            CHECK_EQ(carom_world_hash(world), hash);
         } else {
-            CHECK(carom_world_hash(world) == sum);
+            CHECK_EQ(carom_world_hash(world), sum);
         }
     }
     /* cut off anywhere */

@@ -118,9 +118,9 @@ static void test_floor(void)
         for (int k = 0; k < 2; k++) {
             double wanted = real(before.position.c[k], 32) + corner[k];
 
-            CHECK(real_abs(real(hit.point.c[k], 32) - wanted) < 0.001);
+            CHECK_LESS(real_abs(real(hit.point.c[k], 32) - wanted), 0.001);
         }
-        CHECK(real_abs(real(hit.point.c[2], 32)) < 0.001);
+        CHECK_LESS(real_abs(real(hit.point.c[2], 32)), 0.001);
         CHECK_NEAR(hit.normal.c[2], CAROM_ONE_Q30, 1 << 10);
         /* squares of 8 units from -16 on; the half that has the point is either */
         CHECK_EQ(hit.face_b / 2,
@@ -132,10 +132,11 @@ static void test_floor(void)
             const carom_v3_q30 *a = &box.mesh.faces[f].normal,
                                *b = &box.mesh.faces[hit.face_a].normal;
 
-            CHECK(carom_dot(m.r.c[2], b->c) <= carom_dot(m.r.c[2], a->c) + ((int64_t)1 << 50));
+            CHECK_AT_MOST(carom_dot(m.r.c[2], b->c),
+                          carom_dot(m.r.c[2], a->c) + ((int64_t)1 << 50));
         }
     }
-    CHECK(seen > 10);
+    CHECK_MORE(seen, 10);
 }
 
 /* As many as there is room for; the others have none, and the room is free again in the next frame. */

@@ -51,7 +51,7 @@ static void test_come_and_go(void)
 
             CHECK(number >= 0 && alive[number] < 0);
             ids[made] = carom_body_id(world, number);
-            CHECK(ids[made] > 4095);
+            CHECK_MORE(ids[made], 4095);
             CHECK_EQ(carom_body_number(ids[made]), number);
             alive[number] = made++;
         }

@@ -89,7 +89,7 @@ static void collect(struct candidate_visitor *self, const struct candidate *c, u
         uint32_t place = place_in_set(c[k].kind, c[k].i, c[k].j);
 
         CHECK_EQ(c[k].pair, 0);
-        CHECK(place / 8 < SET_BYTES);
+        CHECK_LESS(place / 8, SET_BYTES);
         to->set->bits[place / 8] |= (uint8_t)(1 << place % 8);
     }
 }
@@ -277,7 +277,7 @@ static uint32_t try_edges(const struct solid *on_a, double tolerance)
 static void check_faces(void)
 {
     for (uint32_t i = 0; i < face_pool.used; i++) {
-        CHECK(faces[i].body <= 1);
+        CHECK_AT_MOST(faces[i].body, 1);
         CHECK(i == 0 || faces[i].body > faces[i - 1].body ||
               (faces[i].body == faces[i - 1].body && faces[i].face > faces[i - 1].face));
     }
@@ -374,7 +374,7 @@ static void check_recall(uint64_t seed)
     }
     CHECK(vertices >= POSES / 4 && 20 * edges + 20 >= POSES); /* the oracle is not idle */
     /* and not everything is a candidate */
-    CHECK(handed < 10 * (vertices + edges) + 40 * POSES);
+    CHECK_LESS(handed, 10 * (vertices + edges) + 40 * POSES);
 }
 
 /* ------------------------------------------------------------------- motion */
@@ -507,7 +507,7 @@ static void check_motion(uint64_t seed, bool small_b)
         }
     }
     CHECK(8 * vertices >= POSES && 8 * edges + 8 >= POSES); /* the oracle is not idle */
-    CHECK(handed < 10 * (vertices + edges) + 60 * POSES);
+    CHECK_LESS(handed, 10 * (vertices + edges) + 60 * POSES);
     CHECK(small_b ? swapped >= POSES / 8 : swapped < POSES);
 }
 
@@ -577,11 +577,11 @@ static void test_chunks(void)
         memcpy(listed, faces, sizeof listed);
         for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
             CHECK_EQ(gather(&again, sizes[i][0], sizes[i][1], FACES, &to), CAROM_OK);
-            CHECK(memcmp(&found, &again, sizeof found) == 0);
-            CHECK(to.largest <= sizes[i][1]);
+            CHECK_EQ(memcmp(&found, &again, sizeof found), 0);
+            CHECK_AT_MOST(to.largest, sizes[i][1]);
             CHECK_EQ(work.whole, to.count <= sizes[i][1]);
             CHECK_EQ(face_pool.used, face_count);
-            CHECK(memcmp(listed, faces, face_count * sizeof faces[0]) == 0);
+            CHECK_EQ(memcmp(listed, faces, face_count * sizeof faces[0]), 0);
         }
     }
 }
@@ -614,10 +614,10 @@ static void test_faces_full(void)
         interfere_finish(&work);
         CHECK_EQ(face_pool.used, needed);
         CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, needed - 1, &to), CAROM_ERR_FACES_FULL);
-        CHECK(face_pool.refused > 0);
+        CHECK_MORE(face_pool.refused, 0);
         CHECK_EQ(gather(&found, 2, 1, needed - 1, &to), CAROM_ERR_FACES_FULL);
     }
-    CHECK(several > 0);
+    CHECK_MORE(several, 0);
 }
 
 static void test_order(void)

@@ -45,7 +45,7 @@ static int add(int64_t x, int64_t y, int64_t z)
 
     def.position = (carom_v3_q32){{x, y, z}};
     body = carom_body_add(world, &def);
-    CHECK(body >= 0);
+    CHECK_AT_LEAST(body, 0);
     return body;
 }
 
@@ -118,9 +118,9 @@ static void test_hangs(void)
     CHECK_EQ(number, 0);
     CHECK_EQ(carom_joint_count(world), 1);
     step(50);
-    CHECK(apart(number) < SKIN / 16);
-    CHECK(carom_abs(state_of(body).position.c[2] + UNIT) < SKIN / 16);
-    CHECK(carom_abs(state_of(body).velocity.c[2]) < FALL / 1024);
+    CHECK_LESS(apart(number), SKIN / 16);
+    CHECK_LESS(carom_abs(state_of(body).position.c[2] + UNIT), SKIN / 16);
+    CHECK_LESS(carom_abs(state_of(body).velocity.c[2]), FALL / 1024);
     /* half of a frame's weight before the frame and half after it, mass 1 */
     CHECK_NEAR((double)joint_of(number).impulse.c[2], (double)FALL, (double)FALL / 256);
 }
@@ -169,7 +169,7 @@ static void test_pendulum(void)
     for (int i = 0; i < frames; i++) {
         step(1);
         CHECK_NEAR(energy(body, 1 / 367.0) * 0x1p60, first * 0x1p60, swing * 1e-4 * 0x1p60);
-        CHECK(apart(number) < 4 * SKIN);
+        CHECK_LESS(apart(number), 4 * SKIN);
     }
 }
 
@@ -187,7 +187,7 @@ static void test_momentum(void)
     j = joint(CAROM_JOINT_HINGE, a, b, UNIT / 5, UNIT / 7, 0);
     j.axis = (carom_v3_q30){{644245094, 0, 858993459}}; /* 3/5, 0, 4/5 */
     number = carom_joint_add(world, &j);
-    CHECK(number >= 0);
+    CHECK_AT_LEAST(number, 0);
     /* masses of 1: momenta are velocities */
     for (int k = 0; k < 3; k++) {
         before[k] = state_of(a).velocity.c[k] + state_of(b).velocity.c[k];
@@ -197,7 +197,7 @@ static void test_momentum(void)
         for (int k = 0; k < 3; k++) {
             skew |= before[k] ^ (state_of(a).velocity.c[k] + state_of(b).velocity.c[k]);
         }
-        CHECK(apart(number) < 4 * SKIN);
+        CHECK_LESS(apart(number), 4 * SKIN);
     }
     CHECK_EQ(skew, 0);
 }
@@ -244,10 +244,10 @@ static void test_limits(void)
     set_motion(body, 0, ONE / 60, 0, 0, 0, ONE / 30);
     for (int i = 0; i < 60; i++) {
         step(1);
-        CHECK(joint_of(number).coordinate_q32 < limit + UNIT / 1024);
+        CHECK_LESS(joint_of(number).coordinate_q32, limit + UNIT / 1024);
     }
     CHECK_NEAR((double)joint_of(number).coordinate_q32, (double)limit, (double)UNIT / 512);
-    CHECK(carom_abs(joint_of(number).speed_q40) < ONE / 4096);
+    CHECK_LESS(carom_abs(joint_of(number).speed_q40), ONE / 4096);
 }
 
 /* A slider falls along its axis as a free body does; a stiff one holds what is across. */
@@ -264,8 +264,8 @@ static void test_slider(void)
     /* g t^2 / 2 */
     CHECK_NEAR((double)joint_of(number).coordinate_q32, -900 / 2 / 367.0 * (double)UNIT,
                (double)UNIT / 1000);
-    CHECK(carom_abs(state_of(body).position.c[0]) < SKIN / 16);
-    CHECK(carom_abs(state_of(body).rotation.c[1]) < CAROM_ONE_Q30 / 4096);
+    CHECK_LESS(carom_abs(state_of(body).position.c[0]), SKIN / 16);
+    CHECK_LESS(carom_abs(state_of(body).rotation.c[1]), CAROM_ONE_Q30 / 4096);
 }
 
 /* A rope lets its body fall up to its length; a rod keeps it. */
@@ -283,7 +283,7 @@ static void test_distance(void)
         j.drive.lower_q32 = rod ? UNIT : 0;
         j.drive.upper_q32 = rod ? UNIT : UNIT * 5 / 4;
         number = carom_joint_add(world, &j);
-        CHECK(number >= 0);
+        CHECK_AT_LEAST(number, 0);
         for (int i = 0; i < 150; i++) {
             int64_t long_q32;
 
@@ -356,8 +356,8 @@ static void test_ignore(void)
         j.touch = touch;
         CHECK_EQ(carom_joint_add(world, &j), 0);
         set_motion(a, -ONE / 60, 0, 0, 0, 0, 0);
-        CHECK((hits_in(40) > 0) == (touch != 0));
-        CHECK((joint_of(0).coordinate_q32 < -UNIT / 2) == (touch == 0));
+        CHECK_EQ((hits_in(40) > 0), (touch != 0));
+        CHECK_EQ((joint_of(0).coordinate_q32 < -UNIT / 2), (touch == 0));
     }
 }
 
@@ -379,7 +379,7 @@ static void test_parts(void)
         j.most_impulse_q40 = breaks ? ONE / 1000 : 0;
         CHECK_EQ(carom_joint_add(world, &j), 0);
         CHECK_EQ(hits_in(14), 0);
-        CHECK(carom_abs(state_of(a).position.c[2]) < UNIT / 4);
+        CHECK_LESS(carom_abs(state_of(a).position.c[2]), UNIT / 4);
         if (breaks) {
             const carom_v3_q40 push = {{ONE / 500, 0, 0}};
             const carom_v3_q32 centre = state_of(a).position;
@@ -393,9 +393,9 @@ static void test_parts(void)
         size = carom_snapshot_save(world, snapshot, sizeof snapshot);
         CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)size), CAROM_OK);
         CHECK_EQ(hits_in(15), 0);
-        CHECK(state_of(a).position.c[2] < -UNIT / 4);
-        CHECK(hits_in(40) > 0);
-        CHECK(state_of(a).position.c[2] > -UNIT * 2);
+        CHECK_LESS(state_of(a).position.c[2], -UNIT / 4);
+        CHECK_MORE(hits_in(40), 0);
+        CHECK_MORE(state_of(a).position.c[2], -UNIT * 2);
     }
 }
 
@@ -450,7 +450,7 @@ static void test_breaks(void)
     }
     CHECK_EQ(broken, 1);
     CHECK(joint_of(0).broken);
-    CHECK(apart(0) > UNIT / 4);
+    CHECK_MORE(apart(0), UNIT / 4);
 }
 
 /* A snapshot holds what a joint has; the same frames follow. */
@@ -468,17 +468,17 @@ static void test_snapshot(void)
     CHECK_EQ(carom_joint_add(world, &j), 0);
     step(7);
     size = carom_snapshot_save(world, snapshot, sizeof snapshot);
-    CHECK(size > 0);
+    CHECK_MORE(size, 0);
     step(20);
     hash = carom_world_hash(world);
     CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)size), CAROM_OK);
     step(20);
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     /* cut anywhere it is refused, and the world stays */
     for (int cut = 1; cut < 120; cut += 7) {
         CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)(size - cut)), CAROM_ERR_FORMAT);
     }
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     /* a number that no step could have left, with a check sum that fits: limits the wrong way round */
     {
         uint64_t fnv = 0xcbf29ce484222325u;
@@ -494,7 +494,7 @@ static void test_snapshot(void)
             snapshot[size - 8 + i] = (uint8_t)(fnv >> (8 * i));
         }
         CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)size), CAROM_ERR_FORMAT);
-        CHECK(carom_world_hash(world) == hash);
+        CHECK_EQ(carom_world_hash(world), hash);
     }
 }
 
@@ -535,7 +535,7 @@ static void test_refuses(void)
     REFUSE_DEF(j.kind = CAROM_JOINT_BALL; j.drive.limited = true, CAROM_ERR_ARGUMENT);
     REFUSE_DEF(j.kind = CAROM_JOINT_DISTANCE; j.drive.motor = true, CAROM_ERR_ARGUMENT);
     REFUSE_DEF(j.drive.spring = true; j.drive.stiffness_q40 = -1, CAROM_ERR_RANGE);
-    CHECK(memcmp(copy, block, sizeof block) == 0);
+    CHECK_EQ(memcmp(copy, block, sizeof block), 0);
     for (int i = 0; i < 3; i++) {
         CHECK_EQ(carom_joint_add(world, &good), i);
     }

@@ -35,7 +35,7 @@ static int add(int64_t x, int64_t y, int64_t z)
 
     def.position = (carom_v3_q32){{x, y, z}};
     body = carom_body_add(world, &def);
-    CHECK(body >= 0);
+    CHECK_AT_LEAST(body, 0);
     return body;
 }
 
@@ -83,9 +83,9 @@ static void test_rope(void)
     for (int i = 0; i < 100; i++) {
         steps(1);
         CHECK_EQ(carom_joint_get(world, 0, &s), CAROM_OK);
-        CHECK(s.coordinate_q32 < UNIT + (UNIT >> 10));
+        CHECK_LESS(s.coordinate_q32, UNIT + (UNIT >> 10));
     }
-    CHECK(s.coordinate_q32 > UNIT - (UNIT >> 6)); /* and it is at its end */
+    CHECK_MORE(s.coordinate_q32, UNIT - (UNIT >> 6)); /* and it is at its end */
 }
 
 /*
@@ -111,7 +111,7 @@ static void test_break_owes_nothing(void)
     steps(1);
     CHECK_EQ(carom_joint_get(world, 1, &(struct carom_joint_state){.broken = false}), CAROM_OK);
     speed = state_of(rider).velocity.c[0];
-    CHECK(speed > ONE / 128);
+    CHECK_MORE(speed, ONE / 128);
     steps(20);
     CHECK_NEAR((double)state_of(rider).velocity.c[0], (double)speed, (double)speed / 256);
 }
@@ -135,10 +135,10 @@ static void test_light_between(void)
     CHECK_EQ(carom_joint_add(world, &j), 1);
     for (int i = 0; i < 100; i++) {
         steps(1);
-        CHECK(apart(0) < UNIT >> 14);
-        CHECK(apart(1) < UNIT >> 14);
+        CHECK_LESS(apart(0), UNIT >> 14);
+        CHECK_LESS(apart(1), UNIT >> 14);
     }
-    CHECK(carom_abs(state_of(heavy).position.c[2] + UNIT) < UNIT >> 12);
+    CHECK_LESS(carom_abs(state_of(heavy).position.c[2] + UNIT), UNIT >> 12);
 }
 
 const struct test tests_joint_hold[] = {

@@ -115,7 +115,7 @@ static void test_slices(void)
         body_route_to(&b, &s, &to.position, &to.rotation, &extra.route);
         for (int slice = 0; slice < 1 << extra.route.slice_bits; slice++) {
             body_follow(&b, &s);
-            CHECK(b.path.u2_q30 <= CAROM_ONE_Q30 / 64 + 64);
+            CHECK_AT_MOST(b.path.u2_q30, CAROM_ONE_Q30 / 64 + 64);
             body_advance(&b, &s, CAROM_ONE_Q30, CAROM_ONE_Q30, NULL);
         }
         for (int k = 0; k < 4; k++) { /* q and -q are one rotation */
@@ -130,7 +130,7 @@ static void test_slices(void)
             CHECK_NEAR(s.position.c[k], to.position.c[k], 1 << extra.route.slice_bits);
             axis += real(extra.route.spin.c[k], 40) * real(extra.route.spin.c[k], 40);
         }
-        CHECK(axis < pi * pi * 1.0001);
+        CHECK_LESS(axis, pi * pi * 1.0001);
     }
 }
 
@@ -156,7 +156,7 @@ static void test_spin(void)
         body_normalise(&q);
         body_route_to(&b, &s, &s.position, &q, &route);
         for (int k = 0; k < 3; k++) {
-            CHECK(real_abs(real(route.spin.c[k], 40) - axis[k] * pi / (half ? 1 : 2)) < 1e-5);
+            CHECK_LESS(real_abs(real(route.spin.c[k], 40) - axis[k] * pi / (half ? 1 : 2)), 1e-5);
         }
     }
 }
@@ -182,11 +182,11 @@ static void test_arrives(void)
         CHECK_EQ(carom_body_move_to(world, led, &pose), CAROM_OK);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         s = state_of(led);
-        CHECK(memcmp(&s.position, &pose.position, sizeof pose.position) == 0);
-        CHECK(memcmp(&s.rotation, &pose.rotation, sizeof pose.rotation) == 0);
+        CHECK_EQ(memcmp(&s.position, &pose.position, sizeof pose.position), 0);
+        CHECK_EQ(memcmp(&s.rotation, &pose.rotation, sizeof pose.rotation), 0);
         hash = carom_world_hash(world);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
-        CHECK(carom_world_hash(world) == hash);
+        CHECK_EQ(carom_world_hash(world), hash);
     }
 }
 
@@ -215,8 +215,8 @@ static void test_goes_on(void)
     CHECK_EQ(carom_body_velocity_at(world, led, &point, &at), CAROM_OK);
     CHECK_EQ(at.c[0], 0);
     CHECK_EQ(at.c[1], ONE / 16 + s.spin.c[2]);
-    CHECK(real_abs(real(state_of(led).rotation.c[0], 30) - real_sqrt(0.5)) < 1e-6);
-    CHECK(real_abs(real(state_of(led).rotation.c[3], 30) - real_sqrt(0.5)) < 1e-6);
+    CHECK_LESS(real_abs(real(state_of(led).rotation.c[0], 30) - real_sqrt(0.5)), 1e-6);
+    CHECK_LESS(real_abs(real(state_of(led).rotation.c[3], 30) - real_sqrt(0.5)), 1e-6);
     /* one that is led somewhere stands there, and so does one without a velocity */
     CHECK_EQ(lead(led, 1, 0), CAROM_OK);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
@@ -252,7 +252,7 @@ static void test_refused(void)
     s.spin.c[0] = real_round(3.2 * (double)ONE);
     REFUSE(carom_body_set(world, led, &s), CAROM_ERR_RANGE);
     /* there are two extras, and neither kind is both */
-    CHECK(add(&box, LED, 200, 0) > 0);
+    CHECK_MORE(add(&box, LED, 200, 0), 0);
     REFUSE(add(&box, LED, 300, 0), CAROM_ERR_EXTRAS_FULL);
     def.stationary = def.kinematic = true;
     REFUSE(carom_body_add(world, &def), CAROM_ERR_ARGUMENT);
@@ -275,8 +275,8 @@ static void test_hits(void)
         CHECK_EQ(lead(led, 0, 0.125), CAROM_OK);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
-    CHECK(real_abs(real(state_of(hit).velocity.c[2], 40) - 0.25) < 1e-6);
-    CHECK(real_abs(at(led, 2) - 0.5) < 1e-9);
+    CHECK_LESS(real_abs(real(state_of(hit).velocity.c[2], 40) - 0.25), 1e-6);
+    CHECK_LESS(real_abs(at(led, 2) - 0.5), 1e-9);
 }
 
 /* A box on a plate that goes sideways and up goes with it, and is awake; on one that stands it sleeps. */
@@ -303,8 +303,8 @@ static void test_carries(void)
         CHECK_EQ(lead(led, speed, speed / 2), CAROM_OK);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK(!state_of(box_on).asleep);
-        CHECK(real_abs(at(box_on, 0) - at(led, 0) - x) < 1e-4);
-        CHECK(real_abs(at(box_on, 2) - at(led, 2) - z) < 3e-4);
+        CHECK_LESS(real_abs(at(box_on, 0) - at(led, 0) - x), 1e-4);
+        CHECK_LESS(real_abs(at(box_on, 2) - at(led, 2) - z), 3e-4);
     }
     for (int n = 0; n < 60; n++) { /* slower than what may sleep */
         CHECK_EQ(lead(led, 0.00004, 0), CAROM_OK);
@@ -332,10 +332,10 @@ static void test_crushes(void)
     ground = add(&plate, STANDS, 0, 0);
     led = add(&plate, LED, 0, 1);
     crushed = add(&box, MOVES, 0.25, 0.2502);
-    CHECK(ground == 0);
+    CHECK_EQ(ground, 0);
     for (int n = 0; n < 60; n++) {
         CHECK_EQ(lead(led, 0, -0.02), CAROM_OK);
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
         blocked += events_of(CAROM_EVENT_BLOCKED, led, crushed);
         /* half of both plates and the box */
         CHECK(at(led, 2) > 0.5 && at(crushed, 2) > 0.25 && at(led, 2) - at(crushed, 2) > 0.25);
@@ -343,9 +343,9 @@ static void test_crushes(void)
     CHECK(blocked >= 30 && at(led, 2) < 0.502);
     lowest = at(led, 2);
     CHECK_EQ(lead(led, 0, 0.02), CAROM_OK);
-    CHECK(carom_world_step(world) >= 0);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
     CHECK_EQ(events_of(CAROM_EVENT_BLOCKED, led, crushed), 0);
-    CHECK(real_abs(at(led, 2) - lowest - 0.02) < 1e-9);
+    CHECK_LESS(real_abs(at(led, 2) - lowest - 0.02), 1e-9);
 }
 
 /* -------------------------------------------------------------------------- state */
@@ -353,7 +353,7 @@ static void test_crushes(void)
 static void push_on(int led, int frame)
 {
     CHECK_EQ(lead(led, frame % 8 < 4 ? 0.03 : -0.03, 0), CAROM_OK);
-    CHECK(carom_world_step(world) >= 0);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
 }
 
 /* A plate on end pushes a box to and fro over another one: the same bits with room for one candidate. */
@@ -378,8 +378,8 @@ static void test_pools(void)
     int led;
     uint64_t hash = play(64, 40, &led);
 
-    CHECK(at(2, 0) > 0.01); /* it was pushed */
-    CHECK(play(1, 40, &led) == hash);
+    CHECK_MORE(at(2, 0), 0.01); /* it was pushed */
+    CHECK_EQ(play(1, 40, &led), hash);
 }
 
 /* What a snapshot holds of a drive decides the frames that follow; one that no call could leave is refused. */
@@ -394,14 +394,14 @@ static void test_snapshot(void)
     CHECK_EQ(lead(led, 0.03, 0), CAROM_OK);
     size = carom_snapshot_save(world, saved, sizeof saved);
     CHECK_EQ(size, plain + 40);
-    CHECK(carom_world_step(world) >= 0);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
     after = carom_world_hash(world);
     for (int n = 0; n < 5; n++) {
         push_on(led, 40);
     }
     CHECK_EQ(carom_snapshot_load(world, saved, (size_t)size), CAROM_OK);
-    CHECK(carom_world_step(world) >= 0);
-    CHECK(carom_world_hash(world) == after);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
+    CHECK_EQ(carom_world_hash(world), after);
     s = state_of(led);
     s.spin.c[0] = ONE;
     CHECK_EQ(carom_body_set(world, led, &s), CAROM_OK);

@@ -122,7 +122,7 @@ static void test_box(void)
         add_box(&s, low, high, bits);
         CHECK_EQ(mass_of_mesh(&s.raw, &m), CAROM_OK);
         volume = side[0] * side[1] * side[2] * 4294967296.0;
-        CHECK(magnitude((double)m.volume_q32 - volume) <= 0.5 + volume * 1e-15);
+        CHECK_AT_MOST(magnitude((double)m.volume_q32 - volume), 0.5 + volume * 1e-15);
         for (int k = 0; k < 3; k++) {
             double i =
                 (side[(k + 1) % 3] * side[(k + 1) % 3] + side[(k + 2) % 3] * side[(k + 2) % 3]) /
@@ -137,8 +137,8 @@ static void test_box(void)
 
             /* a centre has one more bit than a quantum: it is exact in q22 */
             CHECK_EQ(m.centre.c[k], carom_shl(low[k] + high[k], 21 - bits));
-            CHECK(magnitude(entry(&m.inertia, k) - i) <= 1e-8 * largest);
-            CHECK(magnitude(entry(&m.inertia, 3 + k)) <= 1e-8 * largest);
+            CHECK_AT_MOST(magnitude(entry(&m.inertia, k) - i), 1e-8 * largest);
+            CHECK_AT_MOST(magnitude(entry(&m.inertia, 3 + k)), 1e-8 * largest);
         }
     }
 }
@@ -180,7 +180,7 @@ static void test_tetrahedron(void)
             largest = expected[k] > largest ? expected[k] : largest;
         }
         for (int k = 0; k < 6; k++) {
-            CHECK(magnitude(entry(&m.inertia, k) - expected[k]) <= 1e-8 * largest);
+            CHECK_AT_MOST(magnitude(entry(&m.inertia, k) - expected[k]), 1e-8 * largest);
         }
     }
 }
@@ -224,11 +224,11 @@ static void check_two_boxes(const int16_t a0[3], const int16_t a1[3], const int1
             expected[3 + k] -= mass[i] / total * dk * dj;
         }
     }
-    CHECK(magnitude((double)m.volume_q32 - total * 4294967296.0) <= 1 + total * 1e-5);
+    CHECK_AT_MOST(magnitude((double)m.volume_q32 - total * 4294967296.0), 1 + total * 1e-5);
     for (int k = 0; k < 3; k++) {
-        CHECK(magnitude(m.centre.c[k] - mean[k] * 4194304) <= 0.5 + 1e-6);
-        CHECK(magnitude(entry(&m.inertia, k) - expected[k]) <= 1e-8 * expected[1]);
-        CHECK(magnitude(entry(&m.inertia, 3 + k) - expected[3 + k]) <= 1e-8 * expected[1]);
+        CHECK_AT_MOST(magnitude(m.centre.c[k] - mean[k] * 4194304), 0.5 + 1e-6);
+        CHECK_AT_MOST(magnitude(entry(&m.inertia, k) - expected[k]), 1e-8 * expected[1]);
+        CHECK_AT_MOST(magnitude(entry(&m.inertia, 3 + k) - expected[3 + k]), 1e-8 * expected[1]);
     }
 }
 
@@ -261,7 +261,7 @@ static void test_moved(void)
     }
     CHECK_EQ(mass_of_mesh(&s.raw, &moved), CAROM_OK);
     CHECK_EQ(moved.volume_q32, m.volume_q32);
-    CHECK(memcmp(&moved.inertia, &m.inertia, sizeof m.inertia) == 0);
+    CHECK_EQ(memcmp(&moved.inertia, &m.inertia, sizeof m.inertia), 0);
     for (int k = 0; k < 3; k++) {
         CHECK_EQ(moved.centre.c[k], m.centre.c[k] + by[k] * 1024);
     }
@@ -311,7 +311,7 @@ static void test_refused(void)
     add_box(&twice, whole0, whole1, 8);
     add_box(&twice, whole0, whole1, 8);
     CHECK_EQ(mass_of_mesh(&twice.raw, &m), CAROM_ERR_RANGE);
-    CHECK(memcmp(&m, &before, sizeof m) == 0);
+    CHECK_EQ(memcmp(&m, &before, sizeof m), 0);
 }
 
 /* ---------------------------------------------------------------------- invert */
@@ -402,7 +402,7 @@ static void test_invert(void)
 
         some_inertia(&r, n, &a);
         CHECK_EQ(mass_invert(&a, &b, &rest), 0);
-        CHECK(inverse_error(&a, &b, &rest) < 1e-10);
+        CHECK_LESS(inverse_error(&a, &b, &rest), 1e-10);
     }
 }
 
@@ -436,7 +436,7 @@ static void test_spread(void)
         mass_spread(&a, &s);
         for (int i = 0; i < 3; i++) {
             for (int j = 0; j <= i; j++) {
-                CHECK(magnitude(in_inertia(&a, &s, i, j) - (i == j)) < 1e-5);
+                CHECK_LESS(magnitude(in_inertia(&a, &s, i, j) - (i == j)), 1e-5);
             }
         }
     }

@@ -312,8 +312,8 @@ static void check_edges(void)
             int side = e->face[0] == f ? 0 : 1;
 
             CHECK(number < mesh.edge_count && e->face[side] == f);
-            CHECK(e->vertex[side] == raw.faces[f][k]);
-            CHECK(e->vertex[1 - side] == raw.faces[f][(k + 1) % 3]);
+            CHECK_EQ(e->vertex[side], raw.faces[f][k]);
+            CHECK_EQ(e->vertex[1 - side], raw.faces[f][(k + 1) % 3]);
         }
     }
     for (uint32_t i = 0; i < mesh.edge_count; i++) {
@@ -333,7 +333,7 @@ static void check_edges(void)
     CHECK(mesh.ring_start[0] == 0 && mesh.ring_start[raw.vertex_count] == 2 * mesh.edge_count);
     for (uint32_t v = 0; v < raw.vertex_count; v++) {
         for (uint32_t i = mesh.ring_start[v]; i < mesh.ring_start[v + 1]; i++) {
-            CHECK(mesh.edges[mesh.ring[i] / 2].vertex[mesh.ring[i] % 2] == v);
+            CHECK_EQ(mesh.edges[mesh.ring[i] / 2].vertex[mesh.ring[i] % 2], v);
             CHECK(i == mesh.ring_start[v] || mesh.ring[i - 1] < mesh.ring[i]);
         }
     }
@@ -355,7 +355,7 @@ static void check_owned(void)
             owner[raw.faces[f][k]] = (uint16_t)f;
             if (mesh.faces[f].own & 8 << k) {
                 owners[edge]++;
-                CHECK(mesh.edges[edge].face[0] == f);
+                CHECK_EQ(mesh.edges[edge].face[0], f);
             }
         }
     }

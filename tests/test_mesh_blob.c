@@ -58,9 +58,9 @@ static void test_read(void)
     bytes = write_blob();
     CHECK_EQ(carom_mesh_read(&read, blob, bytes, mem, sizeof mem), CAROM_OK);
     CHECK(read.vertex_count == 8 && read.face_count == 12 && read.quantum_bits == 10);
-    CHECK(read.kind == CAROM_SOLID);
-    CHECK(memcmp(read.vertices, vertices, 8 * sizeof vertices[0]) == 0);
-    CHECK(memcmp(read.faces, faces, 12 * sizeof faces[0]) == 0);
+    CHECK_EQ(read.kind, CAROM_SOLID);
+    CHECK_EQ(memcmp(read.vertices, vertices, 8 * sizeof vertices[0]), 0);
+    CHECK_EQ(memcmp(read.faces, faces, 12 * sizeof faces[0]), 0);
 
     memset(&read, 0x5a, sizeof read);
     before = read;
@@ -69,7 +69,7 @@ static void test_read(void)
     CHECK_EQ(carom_mesh_read(&read, blob, bytes, NULL, sizeof mem), CAROM_ERR_NULL);
     CHECK_EQ(carom_mesh_read(&read, blob, bytes, mem, sizeof mem - 1), CAROM_ERR_MEMORY);
     CHECK_EQ(carom_mesh_read(&read, blob, bytes, mem + 2, sizeof mem - 2), CAROM_ERR_MEMORY);
-    CHECK(memcmp(&read, &before, sizeof read) == 0);
+    CHECK_EQ(memcmp(&read, &before, sizeof read), 0);
 }
 
 /* Every truncation, every altered byte, and headers that lie under a right seal. */

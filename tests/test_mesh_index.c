@@ -29,9 +29,9 @@ static void check_leaves(void)
         for (int i = 0; i < leaf->face_count; i++, face++) {
             seen[mesh.leaf_faces[face]]++;
             for (int k = 0; k < 3; k++) {
-                CHECK(leaf_vertices[mesh.leaf_corners[face][k]] ==
-                      raw.faces[mesh.leaf_faces[face]][k]);
-                CHECK(mesh.leaf_corners[face][k] < leaf->vertex_count);
+                CHECK_EQ(leaf_vertices[mesh.leaf_corners[face][k]],
+                         raw.faces[mesh.leaf_faces[face]][k]);
+                CHECK_LESS(mesh.leaf_corners[face][k], leaf->vertex_count);
             }
         }
         for (int i = 0; i < leaf->vertex_count; i++, vertex++) {
@@ -75,7 +75,7 @@ static void test_leaves(void)
     check_leaves();
     CHECK_EQ(mesh.leaf_count, (16 * 16 * 2 + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
     for (uint32_t l = 0; l < mesh.leaf_count; l++) {
-        CHECK(mesh.leaves[l].radius_q22 < 4 * 128 << 12);
+        CHECK_LESS(mesh.leaves[l].radius_q22, 4 * 128 << 12);
     }
 
     /* faces that share no vertices: at most 10 a leaf */
@@ -134,7 +134,7 @@ static void check_zlists(void)
     CHECK(g.y0 <= mesh.box[0][1] && g.y0 + (g.ny << g.shift) >= mesh.box[1][1]);
     CHECK(mesh.cell_start[0] == 0 && mesh.cell_start[cells] == mesh.zref_count);
     for (uint32_t c = 0; c < cells; c++) {
-        CHECK(mesh.cell_start[c] <= mesh.cell_start[c + 1]);
+        CHECK_AT_MOST(mesh.cell_start[c], mesh.cell_start[c + 1]);
         for (uint32_t i = mesh.cell_start[c] + 1; i < mesh.cell_start[c + 1]; i++) {
             const struct carom_zref *a = &mesh.zrefs[i - 1], *b = &mesh.zrefs[i];
 
@@ -179,7 +179,7 @@ static void test_zlists(void)
         add_face(v, v + 1, v + 2);
     }
     CHECK_EQ(build(), CAROM_OK);
-    CHECK(mesh.grid_nx > 1);
+    CHECK_MORE(mesh.grid_nx, 1);
     check_zlists();
 }
 
@@ -199,13 +199,13 @@ static void test_memory(void)
         memset(block, pass ? 0xa5 : 0, sizeof block);
         memcpy(block + bytes, guard, sizeof guard);
         CHECK_EQ(build(), CAROM_OK);
-        CHECK(memcmp(block + bytes, guard, sizeof guard) == 0);
+        CHECK_EQ(memcmp(block + bytes, guard, sizeof guard), 0);
         CHECK((const uint8_t *)(mesh.zrefs + mesh.zref_count) <= block + bytes);
         for (const uint8_t *p = block; p < (const uint8_t *)(mesh.zrefs + mesh.zref_count); p++) {
             hash[pass] = hash[pass] * 31 + *p;
         }
     }
-    CHECK(hash[0] == hash[1]);
+    CHECK_EQ(hash[0], hash[1]);
 }
 
 /*
@@ -234,7 +234,7 @@ static void test_small(void)
     CHECK_EQ(build(), CAROM_OK);
     CHECK_EQ(mesh.leaf_count, (mesh.raw.face_count + CAROM_LEAF_FACES - 1) / CAROM_LEAF_FACES);
     check_zlists();
-    CHECK(CAROM_MESH_BYTES(8, 12) <= 1800); /* a box */
+    CHECK_AT_MOST(CAROM_MESH_BYTES(8, 12), 1800); /* a box */
 }
 
 const struct test tests_mesh_index[] = {

@@ -30,7 +30,7 @@ static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
     CHECK_EQ(carom_mesh_build(&mesh, raw, block, sizeof block), CAROM_OK);
     /* one closed piece without a hole, but the link, which has one: V - E + F = 2 - 2 holes */
     CHECK_EQ(vertices - (int)mesh.edge_count + faces, raw == &link_mesh ? 0 : 2);
-    CHECK(mesh.mass.volume_q32 > 0);
+    CHECK_MORE(mesh.mass.volume_q32, 0);
 }
 
 static void closed(void)

@@ -203,7 +203,7 @@ static void test_random(void)
             CHECK_EQ(result, CAROM_ERR_OVERLAP);
         }
     }
-    CHECK(asked > POSES / 3);
+    CHECK_MORE(asked, POSES / 3);
 }
 
 const struct test tests_nearest[] = {

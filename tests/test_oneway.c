@@ -81,7 +81,7 @@ static void test_above(void)
 
             boxes_step(w, 1);
             state = boxes_state(w, 1);
-            CHECK(lowest_q32(&state) > BOXES_Q32(64));
+            CHECK_MORE(lowest_q32(&state), BOXES_Q32(64));
         }
         CHECK(boxes_state(w, 1).asleep);
     }
@@ -121,16 +121,16 @@ static void test_below(void)
             if (in && frame % 3 == 0) { /* that it passes is in a snapshot */
                 int size = carom_snapshot_save(w, saved, sizeof saved);
 
-                CHECK(size > 0);
+                CHECK_MORE(size, 0);
                 boxes_step(w, 3);
                 CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
             }
         }
         CHECK(out);
-        CHECK(boxes_state(w, 1).position.c[2] > BOXES_Q32(64));
+        CHECK_MORE(boxes_state(w, 1).position.c[2], BOXES_Q32(64));
         rode += boxes_state(w, 1).asleep;
     }
-    CHECK(rode > 14);
+    CHECK_MORE(rode, 14);
 }
 
 /* One that does not get through falls back, and one from the side goes by. */
@@ -147,7 +147,7 @@ static void test_back(void)
         was_in = was_in || boxes_overlap(w, 1, 0);
     }
     CHECK(was_in);
-    CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-400));
+    CHECK_LESS(boxes_state(w, 1).position.c[2], BOXES_Q32(-400));
 
     w = make(CAROM_ONE_WAY_Z);
     def = boxes_def(BOX, -2400, 0, 30);
@@ -155,7 +155,7 @@ static void test_back(void)
     boxes_add(w, &def);
     boxes_step(w, 30);
     CHECK_NEAR(boxes_state(w, 1).velocity.c[0], BOXES_Q40(100), 1000);
-    CHECK(boxes_state(w, 1).position.c[2] < BOXES_Q32(-500));
+    CHECK_LESS(boxes_state(w, 1).position.c[2], BOXES_Q32(-500));
 }
 
 /* A box that stands on the floor under the platform, in reach of its contacts, is not held by it. */
@@ -178,7 +178,7 @@ static void test_under(void)
         CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, box, 0), 0);
         CHECK_EQ(boxes_events(w, CAROM_EVENT_BEGIN, box, 0), 0);
     }
-    CHECK(boxes_state(w, box).position.c[2] > BOXES_Q32(500));
+    CHECK_MORE(boxes_state(w, box).position.c[2], BOXES_Q32(500));
 }
 
 static void test_refused(void)

@@ -47,7 +47,7 @@ static void test_depth(void)
         def.position.c[2] = BOXES_Q32(278) - (int64_t)depth * BOXES_Q32(1) / 16;
         box = carom_body_add(w, &def);
         if (depth <= 2) { /* 2/16 of a unit: within a skin */
-            CHECK(box > 0);
+            CHECK_MORE(box, 0);
         } else if (depth >= 8) { /* half a unit: three of them */
             CHECK_EQ(box, CAROM_ERR_OVERLAP);
         }

@@ -67,13 +67,13 @@ static int query(void)
     int count = interfere_query(&work, placed(1), placed(0), found, ROOM);
     struct crossing_tally back = {0};
 
-    CHECK(count >= 0);
+    CHECK_AT_LEAST(count, 0);
     crossing_place(&exact_a, &states[0].position, &states[0].rotation, &states[1].position);
     crossing_place(&exact_b, &states[1].position, &states[1].rotation, &states[1].position);
     crossing_compare(&exact_b, &exact_a, found, (uint32_t)count, bits, &back);
     CHECK(back.missed == 0 && back.repeated == 0);
     count = interfere_query(&work, placed(0), placed(1), found, ROOM);
-    CHECK(count >= 0);
+    CHECK_AT_LEAST(count, 0);
     crossing_compare(&exact_a, &exact_b, found, (uint32_t)count, bits, &tally);
     CHECK(tally.missed == 0 && tally.repeated == 0);
     return count;
@@ -121,7 +121,7 @@ static void visit_none(struct candidate_visitor *self, const struct candidate *c
 {
     (void)self;
     (void)c;
-    CHECK(n < CANDIDATES); /* all of them fit */
+    CHECK_LESS(n, CANDIDATES); /* all of them fit */
 }
 
 /* The candidates where nothing moves: all features that are near and face each other. */
@@ -212,7 +212,7 @@ static void test_room(void)
     for (int i = 0; i < 2; i++) {
         int count = query();
 
-        CHECK(count > 4);
+        CHECK_MORE(count, 4);
         CHECK_EQ(interfere_query(&work, placed(i), placed(1 - i), found, (uint32_t)count), count);
         CHECK_EQ(interfere_query(&work, placed(i), placed(1 - i), found, (uint32_t)count - 1),
                  CAROM_ERR_FACES_FULL);
@@ -264,7 +264,7 @@ static void test_large(void)
         CHECK_EQ(memcmp(small, found, (size_t)count[0] * sizeof small[0]), 0);
         touching += count[0] > 0;
     }
-    CHECK(2 * touching > POSES);
+    CHECK_MORE(2 * touching, POSES);
 }
 
 /* ----------------------------------------------------------------- containment */
@@ -315,7 +315,7 @@ static void test_inside_l(void)
         }
     }
     CHECK_EQ(inside, 15); /* five places in the outline, on three levels */
-    CHECK(outside > 100);
+    CHECK_MORE(outside, 100);
 }
 
 /* Both bodies turned together, any way: what is inside stays there, and no faces cross. */
@@ -411,14 +411,14 @@ static void test_touching(void)
             at[j] = (n / 3) * (size_a[j] + size_b[j]) / 4;
             put(0, at[0], at[1], at[2]);
             CHECK(query() > 0 && tally.crossing > before);
-            CHECK(step() > 0);
+            CHECK_MORE(step(), 0);
             /* a little apart: nothing */
             at[axis] += sign;
             put(0, at[0], at[1], at[2]);
             CHECK_EQ(query(), 0);
         }
     }
-    CHECK(features > 6 * 9);
+    CHECK_MORE(features, 6 * 9);
 }
 
 /* Boxes in a plane of triangles: the lower sides are in its plane, and so are all of its faces. */
@@ -431,10 +431,10 @@ static void test_coplanar(void)
     for (int n = 0; n < 16; n++) {
         put(0, (n % 4) * 256, (n / 4) * 128, 300);
         states[0].rotation = quarters(2, n % 4);
-        CHECK(query() > 10);
-        CHECK(step() > 0);
+        CHECK_MORE(query(), 10);
+        CHECK_MORE(step(), 0);
     }
-    CHECK(features > 16);
+    CHECK_MORE(features, 16);
 }
 
 /*
@@ -466,7 +466,7 @@ static void test_nearly_coplanar(void)
         states[0].rotation = q;
         query();
     }
-    CHECK(tally.touching > POSES);
+    CHECK_MORE(tally.touching, POSES);
 }
 
 /* --------------------------------------------------------- on edge, on the grid */
@@ -574,7 +574,7 @@ static void test_slivers(void)
     shape_box(&shape_a, 14, 4, 6, 20);
     shape_plane(&shape_b, 8, 1, 30000);
     touching += check_slivers(24);
-    CHECK(touching >= POSES);
+    CHECK_AT_LEAST(touching, POSES);
 }
 
 const struct test tests_query[] = {

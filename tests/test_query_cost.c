@@ -37,7 +37,7 @@ static int query_at(int64_t z_q32, uint32_t *cost)
     start = port_ticks();
     count = carom_query_faces(world, SCENE_BODY, SCENE_GROUND, pairs, ROOM);
     *cost = port_instructions(port_ticks() - start);
-    CHECK(count >= 0);
+    CHECK_AT_LEAST(count, 0);
     return count;
 }
 
@@ -85,7 +85,7 @@ static void test_cost(void)
             uint32_t cost;
             int count = query_at(height_q32 - phases[k].sink * ((int64_t)1 << 20), &cost);
 
-            CHECK((count == 0) == (k < TOUCHING));
+            CHECK_EQ((count == 0), (k < TOUCHING));
             sum[k] += cost;
             most[k] = cost > most[k] ? cost : most[k];
             found[k] += (uint32_t)count;

@@ -181,13 +181,13 @@ static void test_watertight(void)
                     CHECK_EQ(front, back);
                 } else {
                     CHECK_EQ(back, 0);
-                    CHECK(front <= 1);
+                    CHECK_AT_MOST(front, 1);
                     if (mesh->edges[i].face[1] != CAROM_NO_FACE && way >= 6) {
                         CHECK_EQ(front, 1);
                     }
                 }
                 for (int j = 1; j < count; j++) {
-                    CHECK(hits[j].t_q30 >= hits[j - 1].t_q30);
+                    CHECK_AT_LEAST(hits[j].t_q30, hits[j - 1].t_q30);
                 }
             }
         }
@@ -233,7 +233,7 @@ static void note(struct query_struck *self, struct query_ray *ray, const struct 
             return;
         }
     }
-    CHECK(a->count < ROOM);
+    CHECK_LESS(a->count, ROOM);
     a->strike[a->count++] = *s;
 }
 
@@ -253,7 +253,7 @@ static uint32_t compare_march(struct query_ray *ray)
             while (i < found.count && found.strike[i].face != f) {
                 i++;
             }
-            CHECK(i < found.count);
+            CHECK_LESS(i, found.count);
             count++;
         }
     }
@@ -315,7 +315,7 @@ static void test_march(void)
             struck += compare_march(&carried) > 0;
         }
     }
-    CHECK(struck > RAYS / 4);
+    CHECK_MORE(struck, RAYS / 4);
 }
 
 /* ------------------------------------------------------------------- no change */
@@ -341,13 +341,13 @@ static void test_no_change(void)
             uint64_t hash = carom_world_hash(world[0]);
 
             met += carom_cast_ray(world[0], &ray, NULL, hits) > 0;
-            CHECK(carom_cast_ray_all(world[0], &ray, NULL, hits, ROOM) >= 0);
-            CHECK(carom_world_hash(world[0]) == hash);
+            CHECK_AT_LEAST(carom_cast_ray_all(world[0], &ray, NULL, hits, ROOM), 0);
+            CHECK_EQ(carom_world_hash(world[0]), hash);
         }
         CHECK(carom_world_step(world[0]) >= 0 && carom_world_step(world[1]) >= 0);
-        CHECK(carom_world_hash(world[0]) == carom_world_hash(world[1]));
+        CHECK_EQ(carom_world_hash(world[0]), carom_world_hash(world[1]));
     }
-    CHECK(met > 15);
+    CHECK_MORE(met, 15);
 }
 
 const struct test tests_rays[] = {{"rays/by_hand", test_by_hand},

@@ -66,7 +66,7 @@ static void test_cost(void)
                        kinds[kind].name, (unsigned long)(sum / RAYS), (unsigned long)most,
                        (unsigned long)met, RAYS);
         }
-        CHECK(met > 0);
+        CHECK_MORE(met, 0);
         CHECK_BAR(sum / RAYS, kinds[kind].bar);
     }
 }
@@ -118,7 +118,7 @@ static void test_swept(void)
                        ways[kind].name, (unsigned long)(sum / SWEEPS), (unsigned long)most,
                        (unsigned long)met, SWEEPS);
         }
-        CHECK(met > 0);
+        CHECK_MORE(met, 0);
         CHECK_BAR(sum / SWEEPS, 60000);
     }
 }

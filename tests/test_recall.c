@@ -104,13 +104,13 @@ static void check_recall(uint64_t seed, int poses, bool turn_b)
 
         random_pose(&r, turn_b, n % 2 == 0);
         count = interfere_query(&work, a, b, found, ROOM);
-        CHECK(count >= 0);
+        CHECK_AT_LEAST(count, 0);
         crossing_compare(&exact_a, &exact_b, found, count < 0 ? 0 : (uint32_t)count, bits, &tally);
         CHECK(tally.missed == 0 && tally.repeated == 0);
     }
     /* the oracle is not idle, and hardly anything else is found */
     CHECK(2 * tally.touching > tally.poses && tally.crossing > tally.poses);
-    CHECK(tally.found - tally.crossing <= 2 + tally.crossing / 50);
+    CHECK_AT_MOST(tally.found - tally.crossing, 2 + tally.crossing / 50);
 }
 
 static void make_a(int which)

@@ -35,7 +35,7 @@ static struct carom_replay player;
 static void write_file(void *user, const void *bytes, size_t count)
 {
     (void)user;
-    CHECK(file_bytes + count <= sizeof file);
+    CHECK_AT_MOST(file_bytes + count, sizeof file);
     if (file_bytes + count <= sizeof file) {
         memcpy(file + file_bytes, bytes, count);
         file_bytes += count;
@@ -107,7 +107,7 @@ static void set_all(struct carom_world *w)
     CHECK_EQ(carom_record_joint_add(r, w, &joint), 1);
     joint.drive.upper_q32 *= 2;
     CHECK_EQ(carom_record_joint_set(r, w, 1, &joint.drive), CAROM_OK);
-    CHECK(carom_record_body_set_mass(r, w, 0, 1 << 20) < 0); /* an error is recorded, too */
+    CHECK_LESS(carom_record_body_set_mass(r, w, 0, 1 << 20), 0); /* an error is recorded, too */
 }
 
 /* What is done before a frame, by its number. */
@@ -142,7 +142,7 @@ static void act(struct carom_world *w, int frame, struct test_random *random)
         break;
     case 50:
         bytes = carom_snapshot_save(w, snapshot, sizeof snapshot);
-        CHECK(bytes > 0);
+        CHECK_MORE(bytes, 0);
         CHECK_EQ(carom_record_snapshot_load(r, w, snapshot, (size_t)bytes), CAROM_OK);
         break;
     default:
@@ -162,7 +162,7 @@ static uint64_t record_all(bool stages, uint64_t seed)
     set_all(world);
     for (int frame = 1; frame <= FRAMES; frame++) {
         act(world, frame, &random);
-        CHECK(carom_record_world_step(&record, world) >= 0);
+        CHECK_AT_LEAST(carom_record_world_step(&record, world), 0);
     }
     CHECK_EQ(carom_record_end(&record), CAROM_OK);
     return carom_world_hash(world);
@@ -189,7 +189,7 @@ static void test_same(void)
 
         CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
         CHECK_EQ(player.frames, FRAMES);
-        CHECK(carom_world_hash(player.world) == hash);
+        CHECK_EQ(carom_world_hash(player.world), hash);
         CHECK(player.note_bytes == 4 && memcmp(player.note, "test", 4) == 0);
     }
 }
@@ -234,10 +234,10 @@ static void test_named(void)
         CHECK_EQ(carom_record_begin(&record, write_file, NULL, true, NULL), CAROM_OK);
         world = make_world();
         for (int frame = 1; frame <= 5; frame++) {
-            CHECK(carom_record_world_step(&record, world) >= 0);
+            CHECK_AT_LEAST(carom_record_world_step(&record, world), 0);
         }
         end = file_bytes; /* the last bytes are the check of frame 5 */
-        CHECK(carom_record_world_step(&record, world) >= 0);
+        CHECK_AT_LEAST(carom_record_world_step(&record, world), 0);
         file[end - check_bytes + 2 * (size_t)part] ^= 1;
         CHECK_EQ(play(file_bytes), CAROM_REPLAY_DIFFERS);
         CHECK_EQ(player.frames, 5);
@@ -275,16 +275,16 @@ static void test_middle(void)
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_OK);
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
                 id = carom_body_id(world, 1); /* of the second body of that number */
-                CHECK(id > 4096 + 1);
+                CHECK_MORE(id, 4096 + 1);
                 CHECK_EQ(carom_record_body_set_torque(&record, world, id, &weak), CAROM_OK);
             }
             act(world, frame, &random);
-            CHECK(carom_record_world_step(&record, world) >= 0);
+            CHECK_AT_LEAST(carom_record_world_step(&record, world), 0);
         }
         CHECK_EQ(carom_record_end(&record), CAROM_OK);
         CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
         CHECK_EQ(player.frames, FRAMES - from + 1);
-        CHECK(carom_world_hash(player.world) == carom_world_hash(world));
+        CHECK_EQ(carom_world_hash(player.world), carom_world_hash(world));
     }
 }
 
@@ -297,8 +297,8 @@ static void test_others(void)
     record_all(false, 1);
     bytes = file_bytes;
     world = (struct carom_world *)block;
-    CHECK(carom_record_world_step(&record, world) >= 0);
-    CHECK(carom_record_world_step(NULL, world) >= 0);
+    CHECK_AT_LEAST(carom_record_world_step(&record, world), 0);
+    CHECK_AT_LEAST(carom_record_world_step(NULL, world), 0);
     CHECK_EQ(carom_record_body_set(NULL, world, 1, NULL), CAROM_ERR_NULL);
     CHECK_EQ(file_bytes, bytes);
     CHECK_EQ(carom_record_begin(&record, NULL, NULL, false, NULL), CAROM_ERR_NULL);

@@ -20,11 +20,11 @@ static void test_particle(void)
         hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
-        CHECK(real_abs(v[2] - 0.25 * e) < 1e-9);
+        CHECK_LESS(real_abs(v[2] - 0.25 * e), 1e-9);
         CHECK(real_abs(v[0] - 0.0625) < 1e-9 && real_abs(v[1] + 0.03125) < 1e-9);
-        CHECK(real_length(w) < 1e-9);
-        CHECK(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.25 * (1 + e)) < 1e-9);
-        CHECK(across < 1e-9);
+        CHECK_LESS(real_length(w), 1e-9);
+        CHECK_LESS(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.25 * (1 + e)), 1e-9);
+        CHECK_LESS(across, 1e-9);
         CHECK(hand.rest.impacts == 1 && hand.rest.sweeps == 0);
     }
 }
@@ -47,7 +47,7 @@ static void test_too_near(void)
         hand_velocity_of(1, v, w);
         gap = real(hand.contacts[0].gap_q22, 22);
         lacks = real(skin / 4, 22) - gap;
-        CHECK(real_abs(v[2] - (lacks < speed ? lacks : speed)) < 1e-9);
+        CHECK_LESS(real_abs(v[2] - (lacks < speed ? lacks : speed)), 1e-9);
     }
 }
 
@@ -69,11 +69,11 @@ static void test_particle_friction(void)
         hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
-        CHECK(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.375) < 1e-8);
-        CHECK(real_abs(across - (limit < needed ? limit : needed)) < 1e-8);
-        CHECK(real_abs(v[0] - (0.25 - across)) < 1e-8);
+        CHECK_LESS(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.375), 1e-8);
+        CHECK_LESS(real_abs(across - (limit < needed ? limit : needed)), 1e-8);
+        CHECK_LESS(real_abs(v[0] - (0.25 - across)), 1e-8);
         /* r x P = (0, 0, -1/2) x (-across, 0, 0), I = 1/6 */
-        CHECK(real_abs(w[1] - 3 * across) < 1e-7);
+        CHECK_LESS(real_abs(w[1] - 3 * across), 1e-7);
     }
 }
 
@@ -91,19 +91,19 @@ static void test_weight(void)
     CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
     CHECK(hand.bodies[1].in_contact);
     hand_velocity_of(1, v, w);
-    CHECK(real_abs(v[2] + 1 / 367.0) < 1e-9);
+    CHECK_LESS(real_abs(v[2] + 1 / 367.0), 1e-9);
     CHECK(!rest_enter_contact(&hand.rest, CAROM_ONE_Q30)); /* once a frame */
     hand_velocity_of(1, v, w);
-    CHECK(real_abs(v[2] + 1 / 367.0) < 1e-9);
+    CHECK_LESS(real_abs(v[2] + 1 / 367.0), 1e-9);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
     CHECK_EQ(hand.rest.impacts, 0);
     for (uint32_t i = 0; i < 4; i++) {
         double p = hand_pressure(&hand.contacts[i], &across);
 
-        CHECK(p >= 0);
+        CHECK_AT_LEAST(p, 0);
         sum += p;
     }
-    CHECK(real_abs(sum / (real(hand.solid.mesh.mass.volume_q32, 32) / 367.0) - 1) < 1e-3);
+    CHECK_LESS(real_abs(sum / (real(hand.solid.mesh.mass.volume_q32, 32) / 367.0) - 1), 1e-3);
     hand_velocity_of(1, v, w);
     CHECK(real_length(v) < 1e-3 / 367 && real_length(w) < 4e-3 / 367);
     CHECK_EQ(hand.rest.warm_count, 4);
@@ -126,12 +126,12 @@ static void test_warm(void)
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         if (frame == 0) {
             cold = hand.rest.sweeps;
-            CHECK(cold > 2);
+            CHECK_MORE(cold, 2);
         } else {
-            CHECK(hand.rest.sweeps < cold);
+            CHECK_LESS(hand.rest.sweeps, cold);
         }
         hand_velocity_of(1, v, w);
-        CHECK(real_length(v) < 1e-3 / 367);
+        CHECK_LESS(real_length(v), 1e-3 / 367);
     }
     /* the impulses of other bodies, places or normals are not these */
     for (int change = 0; change < 3; change++) {
@@ -174,12 +174,12 @@ static void test_ramp(void)
             CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
             hand_velocity_of(1, v, w);
             if (slides) {
-                CHECK(real_abs(v[0] / (frame * g * (sine - mu * cosine)) - 1) < 1e-2);
+                CHECK_LESS(real_abs(v[0] / (frame * g * (sine - mu * cosine)) - 1), 1e-2);
             } else {
-                CHECK(real_abs(v[0]) < 2e-3 * g);
+                CHECK_LESS(real_abs(v[0]), 2e-3 * g);
             }
             CHECK(real_abs(v[1]) < 2e-3 * g && real_abs(v[2]) < 2e-3 * g);
-            CHECK(real_length(w) < 1e-2 * g);
+            CHECK_LESS(real_length(w), 1e-2 * g);
         }
     }
 }
@@ -204,14 +204,15 @@ static void test_gaps(void)
         hand_touch(0, 0, below, hand_up, gap);
         CHECK_EQ(rest_solve(&hand.rest, tau_q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
-        CHECK(real_length(w) < 1e-8);
+        CHECK_LESS(real_length(w), 1e-8);
         if (n == 0) { /* it does not get there */
             CHECK(v[2] == speed && hand_pressure(&hand.contacts[0], &across) == 0);
         } else {
             /* stops at the skin; leaves (the deeper half at a fifth a frame); has a quarter of a frame to close two skins */
-            CHECK(real_abs(v[2] - (n == 1   ? -2 * skin
-                                   : n == 2 ? skin / 64 + skin / 10
-                                            : -8 * skin)) < 3e-8);
+            CHECK_LESS(real_abs(v[2] - (n == 1   ? -2 * skin
+                                        : n == 2 ? skin / 64 + skin / 10
+                                                 : -8 * skin)),
+                       3e-8);
         }
     }
 }
@@ -241,7 +242,7 @@ static void test_enter(void)
         CHECK_EQ(rest_enter_contact(&hand.rest, CAROM_ONE_Q30 / 2), cases[n].enters);
         hand_velocity_of(1, v, w);
         /* gravity of the time that is left */
-        CHECK(real_abs(v[2] - (cases[n].speed - (cases[n].enters ? 0.5 : 0)) * g) < 1e-9);
+        CHECK_LESS(real_abs(v[2] - (cases[n].speed - (cases[n].enters ? 0.5 : 0)) * g), 1e-9);
     }
     hand.bodies[0].restitution_q30 = 5;
     hand.bodies[1].restitution_q30 = 3;
@@ -293,10 +294,11 @@ static void test_lasting(void)
         hand_velocity_of(1, v, w);
         before = aside * aside + cases[i].speed * cases[i].speed * skin * skin;
         after = v[0] * v[0] + v[2] * v[2];
-        CHECK(after <= before * (1 + 1 / 255.0));
-        CHECK(v[2] >= 0);
+        CHECK_AT_MOST(after, before * (1 + 1 / 255.0));
+        CHECK_AT_LEAST(v[2], 0);
         if (n % 2 == 0) {
-            CHECK(real_abs(v[2] - cases[i].wanted * skin) < 3e-8 + 1e-3 * cases[i].wanted * skin);
+            CHECK_LESS(real_abs(v[2] - cases[i].wanted * skin),
+                       3e-8 + 1e-3 * cases[i].wanted * skin);
         }
     }
 }

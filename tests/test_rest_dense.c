@@ -338,9 +338,9 @@ static void agree(uint64_t seed, const struct agreement *want)
         coarse += out.error > 4e-6;
         worst = out.error > worst ? out.error : worst;
     }
-    CHECK(compared > CASES / 16);
-    CHECK(coarse <= compared / want->coarse);
-    CHECK(worst <= want->worst);
+    CHECK_MORE(compared, CASES / 16);
+    CHECK_AT_MOST(coarse, compared / want->coarse);
+    CHECK_AT_MOST(worst, want->worst);
 }
 
 static void frictionless(void)
@@ -469,10 +469,10 @@ static void two(void)
         compared++;
         one += p[0] == 0 || p[1] == 0;
         coarse += error > 4e-6 * length + real_power2(-39);
-        CHECK(error <= 1e-5 * length + real_power2(-39));
+        CHECK_AT_MOST(error, 1e-5 * length + real_power2(-39));
     }
     CHECK(compared > CASES / 16 && one > compared / 100 && one < compared);
-    CHECK(coarse <= compared / 1000);
+    CHECK_AT_MOST(coarse, compared / 1000);
 }
 
 const struct test tests_rest_dense[] = {{"rest_dense/frictionless", frictionless},

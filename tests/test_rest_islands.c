@@ -21,8 +21,8 @@ static void test_sleep(void)
         frames++;
     }
     CHECK_EQ(frames, 20);
-    CHECK(memcmp(&hand.states[1].momentum, &zero, sizeof zero) == 0);
-    CHECK(memcmp(&hand.states[1].angular, &zero, sizeof zero) == 0);
+    CHECK_EQ(memcmp(&hand.states[1].momentum, &zero, sizeof zero), 0);
+    CHECK_EQ(memcmp(&hand.states[1].angular, &zero, sizeof zero), 0);
     CHECK(!hand.states[0].asleep); /* what does not move need not sleep */
 
     /* one frame that is too fast, or without a contact, starts the count again */

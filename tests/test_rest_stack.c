@@ -83,12 +83,12 @@ static void test_unsettled(void)
         hand_touch_corners_of(1, hand.bodies[1].skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         bound = real(hand.bodies[1].skin_q22, 22) / 32 + 1e-8;
-        CHECK(hand.bodies[1].unsettled == hand.bodies[2].unsettled);
+        CHECK_EQ(hand.bodies[1].unsettled, hand.bodies[2].unsettled);
         CHECK(hand.bodies[1].unsettled || slowest() > -bound);
         CHECK(mass > 1 || !hand.bodies[1].unsettled);
         *(hand.bodies[1].unsettled ? &unsettled : &settled) += 1;
         CHECK(rest_unite(&hand.rest, 1, true));
-        CHECK(slowest() == 0);
+        CHECK_EQ(slowest(), 0);
     }
     CHECK(settled > CASES / 4 && unsettled > 0);
 }
@@ -129,7 +129,7 @@ static void test_share(void)
         touch_leaning();
         CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
-        CHECK((hand.contacts[4].normal.c[0] == 0) == !slides);
+        CHECK_EQ((hand.contacts[4].normal.c[0] == 0), !slides);
         hand_velocity_of(1, v, w);
         CHECK(slides || real_abs(v[0]) < 1e-5 * g);
     }
@@ -176,7 +176,7 @@ static void test_flatten(void)
                 carom_v3_q30 normal = given;
 
                 contact_flatten(&hand.pair, &key, &normal);
-                CHECK(memcmp(&normal, flat ? &hand_up : &given, sizeof normal) == 0);
+                CHECK_EQ(memcmp(&normal, flat ? &hand_up : &given, sizeof normal), 0);
             }
         }
     }

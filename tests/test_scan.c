@@ -195,7 +195,7 @@ static void test_cells(void)
             touched += cell[i / 64][i % 64];
         }
     }
-    CHECK(touched > 2 * CASES);
+    CHECK_MORE(touched, 2 * CASES);
 }
 
 /* The largest grid under polygons of its own size, and under the largest ones, cut by its sides. */
@@ -229,7 +229,7 @@ static void test_cells_large(void)
         CHECK_EQ(wrong_cells(&p, &g, (int32_t)test_random_range(&r, 0, 1 << 20)), 0);
         crossed += cell[0][0] != cell[g.ny - 1][g.nx - 1] || cell[0][g.nx - 1] != cell[g.ny - 1][0];
     }
-    CHECK(crossed > CASES / 16);
+    CHECK_MORE(crossed, CASES / 16);
 }
 
 /* Drawn on squared paper: cells of 4 quanta, a triangle from (1, 1) to (11, 1) and (1, 7). */

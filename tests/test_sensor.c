@@ -142,7 +142,7 @@ static void test_unnoticed(void)
         }
         CHECK(boxes_state(w[1], 1).asleep);
     }
-    CHECK(seen > 5);
+    CHECK_MORE(seen, 5);
 }
 
 /* What sleeps is found by a sensor that comes and left by one that goes, and sleeps on. */
@@ -168,7 +168,7 @@ static void test_asleep(void)
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, 0), 0);
     boxes_step(w, 5);
     size = carom_snapshot_save(w, saved, sizeof saved);
-    CHECK(size > 0);
+    CHECK_MORE(size, 0);
     CHECK_EQ(boxes_set(w, sensor, 5000, 0, 0, 0), CAROM_OK);
     CHECK(boxes_state(w, box).asleep);
     boxes_step(w, 1);

@@ -123,7 +123,7 @@ static void check_volume(double expected6, double radius, double half_height)
 {
     const double area = 8 * radius * radius + 16 * radius * half_height;
 
-    CHECK(real_abs((double)volume6() - expected6) < 6 * 0.88 * area);
+    CHECK_LESS(real_abs((double)volume6() - expected6), 6 * 0.88 * area);
 }
 
 /* ------------------------------------------------------------------------- tests */
@@ -165,7 +165,7 @@ static void sphere_is_round(void)
         const double x = vertices[v][0], y = vertices[v][1], z = vertices[v][2];
         uint32_t mirrored = 0;
 
-        CHECK(real_abs(real_sqrt(x * x + y * y + z * z) - 2048) < 0.88);
+        CHECK_LESS(real_abs(real_sqrt(x * x + y * y + z * z) - 2048), 0.88);
         for (uint32_t w = 0; w < raw.vertex_count; w++) {
             mirrored += vertices[w][0] == -vertices[v][0] && vertices[w][1] == vertices[v][1] &&
                         vertices[w][2] == -vertices[v][2];
@@ -219,7 +219,7 @@ static void any_size(void)
             check_shape(result, CAROM_CAPSULE_VERTICES(n), CAROM_CAPSULE_FACES(n));
         }
     }
-    CHECK(made >= 20);
+    CHECK_AT_LEAST(made, 20);
 }
 
 /* The most sides at the largest radius: only the first vertices, by their circle. */
@@ -229,7 +229,7 @@ static void largest_circle(void)
     for (uint32_t v = 0; v < 127; v++) {
         const double x = vertices[v][0], y = vertices[v][1];
 
-        CHECK(real_abs(real_sqrt(x * x + y * y) - 32767) < 0.71);
+        CHECK_LESS(real_abs(real_sqrt(x * x + y * y) - 32767), 0.71);
     }
 }
 
@@ -264,7 +264,7 @@ static void refusals(void)
     CHECK_EQ(carom_shape_cylinder(&raw, &room, 1000, 0, 8), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_cone(&raw, &room, 1000, 1000, 129), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_cone(&raw, &room, 1000, 40000, 8), CAROM_ERR_ARGUMENT);
-    CHECK(memcmp(&raw, &before, sizeof raw) == 0);
+    CHECK_EQ(memcmp(&raw, &before, sizeof raw), 0);
     CHECK_EQ(carom_shape_sphere(&raw, &room, 1, 4), CAROM_OK); /* the octahedron of one quantum */
     CHECK_EQ(volume6(), 8);
 }

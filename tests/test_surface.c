@@ -73,10 +73,10 @@ static void check_same_as_built(void)
 
     raw.vertices = mesh.raw.vertices;
     CHECK_EQ(carom_mesh_build(&other, &raw, block[1], BYTES), CAROM_OK);
-    CHECK(memcmp(mesh.faces, other.faces, FACES * sizeof mesh.faces[0]) == 0);
+    CHECK_EQ(memcmp(mesh.faces, other.faces, FACES * sizeof mesh.faces[0]), 0);
     CHECK_EQ(mesh.edge_count, other.edge_count);
-    CHECK(memcmp(mesh.edges, other.edges, mesh.edge_count * sizeof mesh.edges[0]) == 0);
-    CHECK(memcmp(mesh.box, other.box, sizeof mesh.box) == 0);
+    CHECK_EQ(memcmp(mesh.edges, other.edges, mesh.edge_count * sizeof mesh.edges[0]), 0);
+    CHECK_EQ(memcmp(mesh.box, other.box, sizeof mesh.box), 0);
     CHECK_EQ(mesh.radius_q22, other.radius_q22);
     CHECK_EQ(mesh.grid_x0, other.grid_x0);
     CHECK_EQ(mesh.grid_y0, other.grid_y0);
@@ -117,12 +117,12 @@ static void test_refresh(void)
         }
         mesh.surface->own_lists = round % 4 == 2;
         CHECK_EQ(move(&rise_q22), CAROM_OK);
-        CHECK(rise_q22 > 0);
-        CHECK(memcmp(mesh.raw.vertices, moved, sizeof moved) == 0);
+        CHECK_MORE(rise_q22, 0);
+        CHECK_EQ(memcmp(mesh.raw.vertices, moved, sizeof moved), 0);
         check_same_as_built();
         if (mesh.surface->own_lists) {
             CHECK_EQ(mesh.zref_count, other.zref_count);
-            CHECK(memcmp(mesh.zrefs, other.zrefs, mesh.zref_count * sizeof mesh.zrefs[0]) == 0);
+            CHECK_EQ(memcmp(mesh.zrefs, other.zrefs, mesh.zref_count * sizeof mesh.zrefs[0]), 0);
         }
     }
 }
@@ -159,10 +159,11 @@ static void check_refused(int error)
 
     memcpy(before, block[0], BYTES);
     CHECK_EQ(move(&rise_q22), error);
-    CHECK(memcmp(&as_it_was, &mesh, sizeof mesh) == 0);
-    CHECK(memcmp(before, block[0], (size_t)((const uint8_t *)mesh.cell_start - block[0])) == 0);
-    CHECK(memcmp(mesh.surface, before + ((uint8_t *)mesh.surface - block[0]),
-                 BYTES - (size_t)((uint8_t *)mesh.surface - block[0])) == 0);
+    CHECK_EQ(memcmp(&as_it_was, &mesh, sizeof mesh), 0);
+    CHECK_EQ(memcmp(before, block[0], (size_t)((const uint8_t *)mesh.cell_start - block[0])), 0);
+    CHECK_EQ(memcmp(mesh.surface, before + ((uint8_t *)mesh.surface - block[0]),
+                    BYTES - (size_t)((uint8_t *)mesh.surface - block[0])),
+             0);
     memcpy(moved, mesh.raw.vertices, sizeof moved);
 }
 

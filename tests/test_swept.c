@@ -88,18 +88,18 @@ static void test_by_hand(void)
     CHECK_NEAR(hit.position.c[2], UNIT / 16 + gap, gap / 2);
     CHECK_NEAR(hit.t_q30, CAROM_ONE_Q30 / 128 * 95, CAROM_ONE_Q30 >> 12);
     CHECK_NEAR(hit.point.c[2], 0, gap);
-    CHECK(shape[1].mesh.faces[hit.own_face].normal.c[2] < -CAROM_ONE_Q30 + 1000);
+    CHECK_LESS(shape[1].mesh.faces[hit.own_face].normal.c[2], -CAROM_ONE_Q30 + 1000);
     /* sideways */
     mesh.position.c[2] = UNIT;
     way.way = (carom_v3_q32){{-4 * UNIT, 0, 0}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
     CHECK(hit.body == 1 && hit.normal.c[0] > CAROM_ONE_Q30 - 1000);
-    CHECK(shape[0].mesh.faces[hit.face].normal.c[0] > CAROM_ONE_Q30 - 1000);
+    CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[0], 3 * UNIT / 4, UNIT >> 10);
     CHECK_NEAR(hit.point.c[0], UNIT / 2, UNIT >> 10);
     mesh.position = hit.position; /* there it may leave and slide, not go on */
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
-    CHECK(hit.t_q30 < CAROM_ONE_Q30 >> 12);
+    CHECK_LESS(hit.t_q30, CAROM_ONE_Q30 >> 12);
     way.way = (carom_v3_q32){{UNIT, 0, 0}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
     way.way = (carom_v3_q32){{0, 2 * UNIT, 0}};
@@ -134,8 +134,9 @@ static void random_scene(struct carom_world *world, struct test_random *r,
         for (int k = 0; k < 3; k++) {
             at[k] = test_random_range(r, -UNIT, UNIT);
         }
-        CHECK(asked_add(world, &shape[i].mesh, i != 3, at[0], at[1], i == 3 ? at[2] - UNIT : at[2],
-                        shape_random_turn(r)) >= 0);
+        CHECK_AT_LEAST(asked_add(world, &shape[i].mesh, i != 3, at[0], at[1],
+                                 i == 3 ? at[2] - UNIT : at[2], shape_random_turn(r)),
+                       0);
     }
     m->mesh = &shape[test_random_range(r, 0, 2)].mesh;
     m->rotation = shape_random_turn(r);
@@ -191,13 +192,13 @@ static void test_random_ways(void)
         random_scene(world, &r, &mesh, &way);
         hash = carom_world_hash(world);
         found = carom_cast_mesh(world, &mesh, &way, NULL, &hit);
-        CHECK(carom_world_hash(world) == hash);
+        CHECK_EQ(carom_world_hash(world), hash);
         if (found == CAROM_ERR_OVERLAP) {
-            CHECK(carom_overlap_mesh(world, &mesh, NULL, bodies, 6) > 0);
+            CHECK_MORE(carom_overlap_mesh(world, &mesh, NULL, bodies, 6), 0);
             began++;
             continue;
         }
-        CHECK(found >= 0);
+        CHECK_AT_LEAST(found, 0);
         hit.t_q30 = found > 0 ? hit.t_q30 : CAROM_ONE_Q30;
         for (int i = 0; i <= STEPS; i++) {
             at = pose_at(&mesh, &way, (int32_t)((int64_t)hit.t_q30 * i / STEPS));
@@ -216,7 +217,7 @@ static void test_random_ways(void)
         }
     }
     CHECK(met > WAYS / 8 && began <= WAYS * 3 / 4);
-    CHECK(late * 10 <= met + 10); /* those that graze */
+    CHECK_AT_MOST(late * 10, met + 10); /* those that graze */
 }
 
 /* --------------------------------------------------------------- every feature */
@@ -247,7 +248,7 @@ static bool first_of_body(struct body *a, struct body *b, const struct shape *of
     uint32_t roots = 0, n = shape_candidates(of[0], of[1], 0, every, EVERY);
     bool better = false;
 
-    CHECK(n <= EVERY);
+    CHECK_AT_MOST(n, EVERY);
     boyse_pair_init(&pair, a, b);
     for (uint32_t i = 0; i < n; i++) {
         struct boyse_hit hit;
@@ -340,7 +341,7 @@ static void test_every_feature(void)
             met++;
         }
     }
-    CHECK(met > EVERY_WAYS / 6);
+    CHECK_MORE(met, EVERY_WAYS / 6);
 }
 
 /* Of two worlds that do the same one is asked everything between its steps. */
@@ -375,14 +376,14 @@ static void test_no_change(void)
         way.way.c[2] -= 2 * UNIT;
         met += carom_cast_mesh(world[0], &mesh, &way, NULL, &hit) > 0;
         met += carom_overlap_mesh(world[0], &mesh, NULL, bodies, 4) > 0;
-        CHECK(carom_world_hash(world[0]) == hash);
+        CHECK_EQ(carom_world_hash(world[0]), hash);
         CHECK_EQ(carom_usage(world[0], usage[0]), CAROM_OK);
         CHECK_EQ(carom_usage(world[1], usage[1]), CAROM_OK);
         CHECK_EQ(memcmp(usage[0], usage[1], sizeof usage[0]), 0);
         CHECK(carom_world_step(world[0]) >= 0 && carom_world_step(world[1]) >= 0);
-        CHECK(carom_world_hash(world[0]) == carom_world_hash(world[1]));
+        CHECK_EQ(carom_world_hash(world[0]), carom_world_hash(world[1]));
     }
-    CHECK(met > 5);
+    CHECK_MORE(met, 5);
 }
 
 const struct test tests_swept[] = {

@@ -88,7 +88,7 @@ static void check_unchanged(const struct record *before)
     struct record now;
 
     take(&now);
-    CHECK(now.hash == before->hash);
+    CHECK_EQ(now.hash, before->hash);
     for (int i = 0; i < CAROM_POOL_COUNT; i++) {
         CHECK_EQ(now.usage[i].size, before->usage[i].size);
         CHECK_EQ(now.usage[i].used, before->usage[i].used);
@@ -112,7 +112,7 @@ static void accept(void)
 {
     int body = carom_body_add(world, &def);
 
-    CHECK(body >= 0);
+    CHECK_AT_LEAST(body, 0);
     if (body >= 0) {
         CHECK_EQ(carom_body_remove(world, body), CAROM_OK);
     }
@@ -141,7 +141,7 @@ static void settle(void)
     for (frame = 0; frame < 300 && !state_of(1).asleep; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
-    CHECK(frame < 300);
+    CHECK_LESS(frame, 300);
 }
 
 /* ---------------------------------------------------------------------- init */
@@ -155,7 +155,7 @@ static void refuse_init(void *mem, size_t bytes, int error)
 
     memset(block, 0xa5, sizeof block);
     CHECK_EQ(carom_world_init(mem, bytes, &config, &w), error);
-    CHECK(w == nobody);
+    CHECK_EQ(w, nobody);
     for (size_t i = 0; i < sizeof block; i++) {
         clean = clean && block[i] == 0xa5;
     }
@@ -179,13 +179,13 @@ static void test_init_memory(void)
     /* exactly enough; what stands behind the block stays, whatever the world does */
     memset(block, 0xa5, sizeof block);
     CHECK_EQ(carom_world_init(block, need, &config, &world), CAROM_OK);
-    CHECK((void *)world == (void *)block);
+    CHECK_EQ((void *)world, (void *)block);
     CHECK_EQ(carom_body_add(world, &floor_def), 0);
     CHECK_EQ(carom_body_add(world, &box_def), 1);
     def.stationary = true;
     CHECK_EQ(carom_body_add(world, &def), 2);
     for (int frame = 0; frame < 5; frame++) {
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     for (size_t i = need; i < sizeof block; i++) {
         CHECK_EQ(block[i], 0xa5);
@@ -486,7 +486,7 @@ static void check_no_body(int body)
     same = state;
     take(&before);
     CHECK_EQ(carom_body_get(world, body, &state), CAROM_ERR_BODY);
-    CHECK(memcmp(&state, &same, sizeof state) == 0);
+    CHECK_EQ(memcmp(&state, &same, sizeof state), 0);
     state = state_of(0);
     CHECK_EQ(carom_body_set(world, body, &state), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_remove(world, body), CAROM_ERR_BODY);
@@ -635,7 +635,7 @@ static void test_wake(void)
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
     CHECK(!state_of(1).asleep);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(state_of(1).position.c[2] < s.position.c[2]);
+    CHECK_LESS(state_of(1).position.c[2], s.position.c[2]);
 }
 
 /* -------------------------------------------------------------------- reports */
@@ -653,7 +653,7 @@ static void test_usage(void)
     CHECK_EQ(CAROM_POOL_COUNT, 9);
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
     for (int i = 0; i < CAROM_POOL_COUNT; i++) {
-        CHECK(strcmp(usage[i].name, names[i]) == 0);
+        CHECK_EQ(strcmp(usage[i].name, names[i]), 0);
         CHECK_EQ(usage[i].size, sizes[i]);
         CHECK(usage[i].used == 0 && usage[i].peak == 0 && usage[i].refused == 0);
     }
@@ -670,7 +670,7 @@ static void test_usage(void)
         CHECK_EQ(usage[CAROM_POOL_faces].used, carom_interfering_faces(world, &faces));
         for (int i = 0; i < CAROM_POOL_COUNT; i++) {
             CHECK(usage[i].used <= usage[i].peak && usage[i].peak <= usage[i].size);
-            CHECK(usage[i].peak >= last[i].peak);
+            CHECK_AT_LEAST(usage[i].peak, last[i].peak);
         }
         most_contacts = usage[CAROM_POOL_contacts].used > most_contacts
                             ? usage[CAROM_POOL_contacts].used
@@ -717,7 +717,7 @@ static void test_version(void)
     for (const char *at = CAROM_VERSION_TEXT; *at; at++) {
         if (*at == '.') {
             k++;
-            CHECK(k < 3);
+            CHECK_LESS(k, 3);
             continue;
         }
         part[k] = part[k] * 10 + (*at - '0');
@@ -734,12 +734,12 @@ static void test_stage_names(void)
 
     CHECK_EQ(CAROM_STAGE_COUNT, 9);
     for (int i = 0; i < CAROM_STAGE_COUNT; i++) {
-        CHECK(strcmp(carom_stage_name(i), names[i]) == 0);
+        CHECK_EQ(strcmp(carom_stage_name(i), names[i]), 0);
     }
-    CHECK(strcmp(carom_stage_name(-1), "unknown") == 0);
-    CHECK(strcmp(carom_stage_name(CAROM_STAGE_COUNT), "unknown") == 0);
-    CHECK(strcmp(carom_stage_name(INT32_MIN), "unknown") == 0);
-    CHECK(strcmp(carom_stage_name(INT32_MAX), "unknown") == 0);
+    CHECK_EQ(strcmp(carom_stage_name(-1), "unknown"), 0);
+    CHECK_EQ(strcmp(carom_stage_name(CAROM_STAGE_COUNT), "unknown"), 0);
+    CHECK_EQ(strcmp(carom_stage_name(INT32_MIN), "unknown"), 0);
+    CHECK_EQ(strcmp(carom_stage_name(INT32_MAX), "unknown"), 0);
 }
 
 static void test_report_null(void)
@@ -762,7 +762,7 @@ static void test_report_null(void)
     CHECK_EQ(carom_stats(world, NULL), CAROM_ERR_NULL);
     CHECK_EQ(carom_usage(NULL, usage), CAROM_ERR_NULL);
     CHECK_EQ(carom_usage(world, NULL), CAROM_ERR_NULL);
-    CHECK(carom_world_hash(NULL) == 0);
+    CHECK_EQ(carom_world_hash(NULL), 0);
     /* nothing is found before the first step */
     CHECK_EQ(carom_events(world, &events), 0);
     CHECK_EQ(carom_interfering_faces(world, &faces), 0);
@@ -782,19 +782,19 @@ static void check_frozen(const struct carom_body_state *last)
         /* a unit of 2^-22: the mass and the velocity are rounded */
         CHECK_NEAR(s.position.c[k], last->position.c[k], 1 << 10);
     }
-    CHECK(memcmp(&s.rotation, &last->rotation, sizeof s.rotation) == 0);
+    CHECK_EQ(memcmp(&s.rotation, &last->rotation, sizeof s.rotation), 0);
     for (int frame = 0; frame < 3; frame++) {
         uint64_t hash = carom_world_hash(world);
 
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK_EQ(count_events(CAROM_EVENT_OUT, 0), 0);
-        CHECK(carom_world_hash(world) == hash);
+        CHECK_EQ(carom_world_hash(world), hash);
     }
     CHECK_EQ(carom_body_set(world, 0, &(struct carom_body_state){.rotation = s.rotation}),
              CAROM_OK);
     CHECK(!state_of(0).out);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(state_of(0).position.c[2] < 0);
+    CHECK_LESS(state_of(0).position.c[2], 0);
 }
 
 /*

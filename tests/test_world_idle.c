@@ -34,10 +34,10 @@ static void check_same(void)
 {
     struct carom_body_state one = box_of(0), other = box_of(1);
 
-    CHECK(memcmp(&one.position, &other.position, sizeof one.position) == 0);
-    CHECK(memcmp(&one.rotation, &other.rotation, sizeof one.rotation) == 0);
-    CHECK(memcmp(&one.velocity, &other.velocity, sizeof one.velocity) == 0);
-    CHECK(memcmp(&one.spin, &other.spin, sizeof one.spin) == 0);
+    CHECK_EQ(memcmp(&one.position, &other.position, sizeof one.position), 0);
+    CHECK_EQ(memcmp(&one.rotation, &other.rotation, sizeof one.rotation), 0);
+    CHECK_EQ(memcmp(&one.velocity, &other.velocity, sizeof one.velocity), 0);
+    CHECK_EQ(memcmp(&one.spin, &other.spin, sizeof one.spin), 0);
     CHECK_EQ(one.asleep, other.asleep);
 }
 
@@ -117,7 +117,7 @@ static void test_nothing(void)
     steps(5, &woke);
     CHECK(!woke);
     CHECK_EQ(carom_stats(worlds[0], &stats), CAROM_OK);
-    CHECK(memcmp(&first, &stats, sizeof first) == 0);
+    CHECK_EQ(memcmp(&first, &stats, sizeof first), 0);
     CHECK_EQ(carom_interfering_faces(worlds[0], &faces), 0);
     CHECK_EQ(carom_contacts(worlds[0], &contact, 1), 0);
     CHECK_EQ((int64_t)carom_world_hash(worlds[0]), (int64_t)hash);
@@ -191,7 +191,7 @@ static void test_snapshot(void)
     steps(3, &woke);
     for (int i = 0; i < 2; i++) {
         size[i] = carom_snapshot_save(worlds[i], saved[i], sizeof saved[i]);
-        CHECK(size[i] > 0);
+        CHECK_MORE(size[i], 0);
     }
     steps(100, &woke);
     CHECK(box_of(0).asleep);

@@ -193,7 +193,7 @@ static void check_changes(struct carom_world *w, int *taken, int *refused)
 {
     int size = carom_snapshot_save(w, saved, sizeof saved);
 
-    CHECK(size > 0);
+    CHECK_MORE(size, 0);
     for (int i = 0; i < CHANGES; i++) {
         uint64_t hash = carom_world_hash(w);
         int result;
@@ -204,12 +204,12 @@ static void check_changes(struct carom_world *w, int *taken, int *refused)
             (*taken)++;
             go_on(w);
             /* what steps leave is always taken back */
-            CHECK(carom_snapshot_save(w, changed, sizeof changed) > 0);
+            CHECK_MORE(carom_snapshot_save(w, changed, sizeof changed), 0);
             CHECK_EQ(carom_snapshot_load(w, changed, (size_t)carom_snapshot_size(w)), CAROM_OK);
         } else {
             (*refused)++;
             CHECK_EQ(result, CAROM_ERR_FORMAT);
-            CHECK(carom_world_hash(w) == hash);
+            CHECK_EQ(carom_world_hash(w), hash);
         }
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
     }
@@ -224,7 +224,7 @@ static void check_world(bool stack)
     for (int state = 0; state < STATES; state++) {
         /* just in contact or in flight; lying or among hits; asleep or scattered */
         for (int frame = 0; frame < (state < 2 ? 12 : stack ? 150 : 20); frame++) {
-            CHECK(carom_world_step(w) >= 0);
+            CHECK_AT_LEAST(carom_world_step(w), 0);
         }
         check_changes(w, &taken, &refused);
     }

@@ -96,7 +96,7 @@ static void test_merged_contacts(void)
     for (int frame = 0; frame < 30; frame++) {
         CHECK_EQ(carom_world_step(w[0]), CAROM_OK);
         CHECK_EQ(carom_world_step(w[1]), CAROM_OK);
-        CHECK(carom_world_hash(w[0]) == carom_world_hash(w[1]));
+        CHECK_EQ(carom_world_hash(w[0]), carom_world_hash(w[1]));
     }
     CHECK_EQ(carom_stats(w[1], &stats), CAROM_OK);
     CHECK_EQ(stats.contacts, 4);

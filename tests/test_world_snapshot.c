@@ -144,7 +144,7 @@ static int save(const struct carom_world *w, uint8_t *bytes)
 {
     int n = carom_snapshot_save(w, bytes, sizeof saved);
 
-    CHECK(n > AT_WARM);
+    CHECK_MORE(n, AT_WARM);
     CHECK_EQ(n, carom_snapshot_size(w));
     return n > 0 ? n : 0;
 }
@@ -212,9 +212,9 @@ static void check_future(enum phase phase)
     b = make_elsewhere(1);
     CHECK(carom_world_hash(a) != carom_world_hash(b));
     CHECK_EQ(carom_snapshot_load(b, saved, (size_t)size), CAROM_OK);
-    CHECK(carom_world_hash(a) == carom_world_hash(b));
+    CHECK_EQ(carom_world_hash(a), carom_world_hash(b));
     CHECK_EQ(save(b, other), size);
-    CHECK(memcmp(saved, other, (size_t)size) == 0);
+    CHECK_EQ(memcmp(saved, other, (size_t)size), 0);
     last = carom_world_hash(a);
     for (int frame = 0; frame < FRAMES; frame++) {
         if (frame == FRAMES / 2) {
@@ -223,14 +223,14 @@ static void check_future(enum phase phase)
         }
         CHECK_EQ(carom_world_step(a), CAROM_OK);
         CHECK_EQ(carom_world_step(b), CAROM_OK);
-        CHECK(carom_world_hash(a) == carom_world_hash(b));
+        CHECK_EQ(carom_world_hash(a), carom_world_hash(b));
         CHECK_EQ(carom_contacts(a, NULL, 0), carom_contacts(b, NULL, 0));
         check_same_events(a, b);
         changes += carom_world_hash(a) != last;
         last = carom_world_hash(a);
     }
     /* something went on in those frames */
-    CHECK(changes >= FRAMES / 2);
+    CHECK_AT_LEAST(changes, FRAMES / 2);
 }
 
 static void test_flight(void)
@@ -261,13 +261,13 @@ static void test_rewind(void)
     size = save(w, saved);
     for (int run = 0; run < 2; run++) {
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
-        CHECK(carom_world_hash(w) == fnv(saved, size));
+        CHECK_EQ(carom_world_hash(w), fnv(saved, size));
         for (int frame = 0; frame < 20; frame++) {
             CHECK_EQ(carom_world_step(w), CAROM_OK);
         }
         end[run] = carom_world_hash(w);
     }
-    CHECK(end[0] == end[1]);
+    CHECK_EQ(end[0], end[1]);
     CHECK(end[0] != fnv(saved, size));
 }
 
@@ -278,7 +278,7 @@ static void refuse(struct carom_world *w, const uint8_t *bytes, int n)
     const uint64_t hash = carom_world_hash(w);
 
     CHECK_EQ(carom_snapshot_load(w, bytes, (size_t)n), CAROM_ERR_FORMAT);
-    CHECK(carom_world_hash(w) == hash);
+    CHECK_EQ(carom_world_hash(w), hash);
 }
 
 /* Every part of the snapshot, every byte altered, and some bytes too many. */
@@ -321,10 +321,10 @@ static void test_altered(void)
     for (int frame = 0; frame < 3; frame++) {
         CHECK_EQ(carom_world_step(w), CAROM_OK);
         CHECK_EQ(carom_world_step(twin), CAROM_OK);
-        CHECK(carom_world_hash(w) == carom_world_hash(twin));
+        CHECK_EQ(carom_world_hash(w), carom_world_hash(twin));
     }
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
-    CHECK(carom_world_hash(w) == fnv(saved, size));
+    CHECK_EQ(carom_world_hash(w), fnv(saved, size));
 }
 
 /* One body in flight: every length and every byte, on every machine. */
@@ -354,7 +354,7 @@ static void test_other_bodies(void)
     w = make(0);
     run_to(w, CONTACT);
     size = save(w, saved);
-    CHECK(number_at(saved + AT_WARM, 4) > 1);
+    CHECK_MORE(number_at(saved + AT_WARM, 4), 1);
 
     refuse(empty_world(1), saved, size);
     w = empty_world(1);
@@ -480,7 +480,7 @@ static void test_memory(void)
     CHECK(clean);
     /* any address will do */
     CHECK_EQ(carom_snapshot_save(w, other + 3, (size_t)size), size);
-    CHECK(memcmp(saved, other + 3, (size_t)size) == 0);
+    CHECK_EQ(memcmp(saved, other + 3, (size_t)size), 0);
     CHECK_EQ(carom_snapshot_load(w, other + 3, (size_t)size), CAROM_OK);
 
     CHECK_EQ(carom_snapshot_size(NULL), CAROM_ERR_NULL);
@@ -552,7 +552,7 @@ static void test_layout(void)
     check_bytes(AT_BOX + AT_ASLEEP, none, 4);
     CHECK_EQ(saved[AT_FREE], 0);
     check_bytes(AT_WARM, none, 8);
-    CHECK(number_at(saved + size - 8, 8) == fnv(saved, size - 8));
+    CHECK_EQ(number_at(saved + size - 8, 8), fnv(saved, size - 8));
 }
 
 /* Kept impulses and the touching pair of a box that lies on the plane. */
@@ -570,22 +570,22 @@ static void test_layout_contact(void)
     CHECK(count >= 3 && count <= 16); /* it lies on a face */
     CHECK_EQ(size, touching + 4 + 4 + 8);
     CHECK_EQ(number_at(saved + touching, 4), 1);
-    CHECK(saved[touching + 4] + saved[touching + 6] == 1);
+    CHECK_EQ(saved[touching + 4] + saved[touching + 6], 1);
     for (int i = 0; i < count; i++) {
         const uint8_t *warm = saved + AT_WARM + 4 + WARM_BYTES * i;
         int64_t square_q60 = 0;
 
         /* the same two bodies, a unit normal, a push and no pull */
-        CHECK(memcmp(warm, saved + touching + 4, 4) == 0);
+        CHECK_EQ(memcmp(warm, saved + touching + 4, 4), 0);
         for (int k = 0; k < 3; k++) {
             int64_t n_q30 = (int32_t)(uint32_t)number_at(warm + 16 + 4 * k, 4);
 
             square_q60 += n_q30 * n_q30;
         }
         CHECK_NEAR(square_q60, (int64_t)1 << 60, (int64_t)1 << 34);
-        CHECK((int64_t)number_at(warm + 28, 8) >= 0);
+        CHECK_AT_LEAST((int64_t)number_at(warm + 28, 8), 0);
     }
-    CHECK(carom_world_hash(w) == fnv(saved, size));
+    CHECK_EQ(carom_world_hash(w), fnv(saved, size));
 }
 
 /* The hash is the FNV-1a of the saved bytes, in every phase. */
@@ -598,10 +598,10 @@ static void test_hash(void)
 
         run_to(w, (enum phase)phase);
         size = save(w, saved);
-        CHECK(carom_world_hash(w) == fnv(saved, size));
-        CHECK(number_at(saved + size - 8, 8) == fnv(saved, size - 8));
+        CHECK_EQ(carom_world_hash(w), fnv(saved, size));
+        CHECK_EQ(number_at(saved + size - 8, 8), fnv(saved, size - 8));
     }
-    CHECK(carom_world_hash(NULL) == 0);
+    CHECK_EQ(carom_world_hash(NULL), 0);
 }
 
 const struct test tests_world_snapshot[] = {

@@ -138,7 +138,7 @@ static void test_nothing(void)
     CHECK_EQ(carom_body_add(world, &scene.ground), 1);
     hash = carom_world_hash(world);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     CHECK_EQ(find_event(world, CAROM_EVENT_BEGIN), -1);
 }
 
@@ -186,10 +186,10 @@ static void test_energy(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         change = energy(world) / before - 1;
         CHECK(change < 300e-9 && change > -300e-9);
-        CHECK(lowest(world) > 0);
+        CHECK_MORE(lowest(world), 0);
         hits += find_event(world, CAROM_EVENT_HIT) >= 0;
     }
-    CHECK(hits >= 3);
+    CHECK_AT_LEAST(hits, 3);
 }
 
 /* What a hit changes the momentum by is its impulse; the speeds before and after are as 1 to e. */
@@ -210,11 +210,11 @@ static void test_hit(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         hit = find_event(world, CAROM_EVENT_HIT);
     }
-    CHECK(hit >= 0);
+    CHECK_AT_LEAST(hit, 0);
     if (hit < 0) {
         return;
     }
-    CHECK(find_event(world, CAROM_EVENT_BEGIN) > hit);
+    CHECK_MORE(find_event(world, CAROM_EVENT_BEGIN), hit);
     after = state_of(world);
     carom_events(world, &events);
     CHECK_EQ(events[hit].a, SCENE_BODY);
@@ -226,8 +226,8 @@ static void test_hit(void)
                (int64_t)(-2 * real(config.gravity.c[2], 40) * fall * 1e9), 100);
     rise = real(after.velocity.c[2] - before.velocity.c[2] - config.gravity.c[2], 40);
     /* four corners share the impulse; the event has that of the hardest */
-    CHECK(real(events[hit].impulse_q40, 40) / mass < rise);
-    CHECK(real(events[hit].impulse_q40, 40) / mass > rise / 8);
+    CHECK_LESS(real(events[hit].impulse_q40, 40) / mass, rise);
+    CHECK_MORE(real(events[hit].impulse_q40, 40) / mass, rise / 8);
     CHECK_NEAR((int64_t)(rise * 1e9), (int64_t)(1.75 * real(events[hit].speed_q40, 40) * 1e9), 100);
 }
 
@@ -245,15 +245,15 @@ static void test_sleep(void)
     for (frame = 0; frame < 400 && rest < 0; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         rest = find_event(world, CAROM_EVENT_REST);
-        CHECK((rest >= 0) == state_of(world).asleep);
-        CHECK(lowest(world) > 0);
+        CHECK_EQ((rest >= 0), state_of(world).asleep);
+        CHECK_MORE(lowest(world), 0);
     }
-    CHECK(rest >= 0);
-    CHECK(lowest(world) < 1.1 * SKIN);
+    CHECK_AT_LEAST(rest, 0);
+    CHECK_LESS(lowest(world), 1.1 * SKIN);
     hash = carom_world_hash(world);
     for (frame = 0; frame < 10; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
-        CHECK(carom_world_hash(world) == hash);
+        CHECK_EQ(carom_world_hash(world), hash);
         CHECK_EQ(find_event(world, CAROM_EVENT_END), -1);
     }
     s = state_of(world);
@@ -261,8 +261,8 @@ static void test_sleep(void)
     CHECK_EQ(carom_body_set(world, SCENE_BODY, &s), CAROM_OK);
     CHECK(!state_of(world).asleep);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(find_event(world, CAROM_EVENT_END) >= 0);
-    CHECK(state_of(world).velocity.c[2] < 0);
+    CHECK_AT_LEAST(find_event(world, CAROM_EVENT_END), 0);
+    CHECK_LESS(state_of(world).velocity.c[2], 0);
 }
 
 /* Working pools of one place each: the same hash on every frame, and places were refused. */
@@ -278,10 +278,10 @@ static void test_working_pools(void)
     for (int frame = 0; frame < 120; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK_EQ(carom_world_step(other), CAROM_OK);
-        CHECK(carom_world_hash(world) == carom_world_hash(other));
+        CHECK_EQ(carom_world_hash(world), carom_world_hash(other));
     }
     carom_usage(other, usage);
-    CHECK(usage[CAROM_POOL_candidates].refused > 0);
+    CHECK_MORE(usage[CAROM_POOL_candidates].refused, 0);
     CHECK_EQ(usage[CAROM_POOL_candidates].peak, 1);
 }
 
@@ -306,20 +306,20 @@ static void test_all_or_nothing(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         result = carom_world_step(other);
         if (result == CAROM_OK) {
-            CHECK(carom_world_hash(world) == carom_world_hash(other));
+            CHECK_EQ(carom_world_hash(world), carom_world_hash(other));
             continue;
         }
         failures++;
         CHECK_EQ(result, CAROM_ERR_CONTACTS_FULL);
-        CHECK(carom_world_hash(other) == hash);
+        CHECK_EQ(carom_world_hash(other), hash);
         CHECK_EQ(carom_contacts(other, &contact, 1), 0);
         config.caps.contacts = 64;
         bytes = carom_snapshot_save(other, snapshot, sizeof snapshot);
-        CHECK(bytes > 0);
+        CHECK_MORE(bytes, 0);
         other = start(other_block);
         CHECK_EQ(carom_snapshot_load(other, snapshot, (size_t)bytes), CAROM_OK);
         CHECK_EQ(carom_world_step(other), CAROM_OK);
-        CHECK(carom_world_hash(world) == carom_world_hash(other));
+        CHECK_EQ(carom_world_hash(world), carom_world_hash(other));
     }
     CHECK_EQ(failures, 1);
 }
@@ -348,8 +348,8 @@ static void test_cap(void)
         CHECK_EQ(stats.hits, status == CAROM_SUBSTEP_CAP);
         CHECK_EQ(stats.cut_islands, status == CAROM_SUBSTEP_CAP);
         CHECK_EQ(find_event(world, CAROM_EVENT_CUT) >= 0, status == CAROM_SUBSTEP_CAP);
-        CHECK(lowest(world) > 0);
-        CHECK(now <= before * (1 + 1e-6) + 0.2 * -real(config.gravity.c[2], 40) * SKIN);
+        CHECK_MORE(lowest(world), 0);
+        CHECK_AT_MOST(now, before * (1 + 1e-6) + 0.2 * -real(config.gravity.c[2], 40) * SKIN);
         before = now;
         cut += status == CAROM_SUBSTEP_CAP;
     }
@@ -380,16 +380,16 @@ static void test_sweep_cap(void)
 
             CHECK_EQ(carom_world_step(world), CAROM_OK);
             CHECK_EQ(carom_stats(world, &stats), CAROM_OK);
-            CHECK(stats.sweeps <= (uint32_t)cap * (stats.substeps + 1));
+            CHECK_AT_MOST(stats.sweeps, (uint32_t)cap * (stats.substeps + 1));
             now = energy(world);
-            CHECK(now <= before * (1 + 1e-8) + lift);
+            CHECK_AT_MOST(now, before * (1 + 1e-8) + lift);
             before = now;
             most = stats.sweeps > most ? stats.sweeps : most;
         }
         rested += state_of(world).asleep;
         CHECK(lowest(world) > 0 && lowest(world) < 2 * SKIN);
     }
-    CHECK(most >= 8); /* the cap was reached */
+    CHECK_AT_LEAST(most, 8); /* the cap was reached */
     CHECK_EQ(rested, 3);
 }
 
@@ -408,7 +408,7 @@ static void test_out(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         out = find_event(world, CAROM_EVENT_OUT);
     }
-    CHECK(out >= 0);
+    CHECK_AT_LEAST(out, 0);
     s = state_of(world);
     CHECK(s.out);
     /* momentum, which is the state, keeps a velocity of 4 to 30 bits of the mass */
@@ -442,11 +442,11 @@ static void test_budget(void)
 
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK_EQ(carom_world_step(other), CAROM_OVER_BUDGET);
-        CHECK(carom_world_hash(world) == carom_world_hash(other));
+        CHECK_EQ(carom_world_hash(world), carom_world_hash(other));
         CHECK_EQ(carom_stats(other, &stats), CAROM_OK);
         for (int stage = 0; stage < CAROM_STAGE_COUNT; stage++) {
             sum += stats.ticks[stage];
-            CHECK(stats.ticks[stage] <= stats.ticks[stats.over_stage]);
+            CHECK_AT_MOST(stats.ticks[stage], stats.ticks[stats.over_stage]);
         }
         CHECK(sum > 0 && sum <= stats.total_ticks);
     }

@@ -108,7 +108,7 @@ static void run_waves(uint32_t entries, bool own_lists, uint64_t hashes[FRAMES])
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         hashes[frame] = carom_world_hash(world);
     }
-    CHECK(state_of(BOX).position.c[2] > 0);
+    CHECK_MORE(state_of(BOX).position.c[2], 0);
 }
 
 /* Lists in the surface's block, from a pool with room, and in chunks down to a single entry. */
@@ -122,15 +122,15 @@ static void test_sources(void)
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
     CHECK_EQ(usage[CAROM_POOL_entries].peak, 0);
     run_waves(MOST, false, found);
-    CHECK(memcmp(wanted, found, sizeof wanted) == 0);
+    CHECK_EQ(memcmp(wanted, found, sizeof wanted), 0);
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
-    CHECK(usage[CAROM_POOL_entries].peak > 12);
+    CHECK_MORE(usage[CAROM_POOL_entries].peak, 12);
     CHECK_EQ(usage[CAROM_POOL_entries].refused, 0);
     for (int i = 0; i < 3; i++) {
         run_waves(short_of[i], false, found);
-        CHECK(memcmp(wanted, found, sizeof wanted) == 0);
+        CHECK_EQ(memcmp(wanted, found, sizeof wanted), 0);
         CHECK_EQ(carom_usage(world, usage), CAROM_OK);
-        CHECK(usage[CAROM_POOL_entries].refused > 0);
+        CHECK_MORE(usage[CAROM_POOL_entries].refused, 0);
     }
 }
 
@@ -161,7 +161,7 @@ static void test_rigid(void)
             CHECK_EQ(carom_world_step(world), CAROM_OK);
         }
         CHECK_EQ(carom_snapshot_save(world, found, sizeof found), size - 8);
-        CHECK(memcmp(wanted, found, (size_t)size - 16) == 0);
+        CHECK_EQ(memcmp(wanted, found, (size_t)size - 16), 0);
     }
 }
 
@@ -191,11 +191,11 @@ static void test_lift(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         s = state_of(BOX);
         above_q32 = s.position.c[2] - HALF - height * QUANTUM_Q32;
-        CHECK(above_q32 > 0);
-        CHECK(above_q32 < 3 * skin + (height > before ? height - before : 0) * QUANTUM_Q32);
+        CHECK_MORE(above_q32, 0);
+        CHECK_LESS(above_q32, 3 * skin + (height > before ? height - before : 0) * QUANTUM_Q32);
         /* 2 quanta: how much its speed changes in a frame; and what opens skins */
         CHECK_NEAR(s.velocity.c[2], (height - before) * QUANTUM_Q40, 5 * QUANTUM_Q40);
-        CHECK(carom_abs(s.position.c[0]) + carom_abs(s.position.c[1]) < 24 * QUANTUM_Q32);
+        CHECK_LESS(carom_abs(s.position.c[0]) + carom_abs(s.position.c[1]), 24 * QUANTUM_Q32);
         before = height;
     }
     settle();
@@ -246,13 +246,13 @@ static void test_jump(void)
     }
     CHECK_EQ(move(), CAROM_OK);
     upper_q32 = state_of(BOX).position.c[2];
-    CHECK(upper_q32 - lower_q32 > 3000 * QUANTUM_Q32 - skin);
-    CHECK(upper_q32 - lower_q32 < 3000 * QUANTUM_Q32 + skin);
+    CHECK_MORE(upper_q32 - lower_q32, 3000 * QUANTUM_Q32 - skin);
+    CHECK_LESS(upper_q32 - lower_q32, 3000 * QUANTUM_Q32 + skin);
     CHECK_EQ(state_of(other).position.c[2] - upper_q32, apart_q32);
     CHECK_EQ(state_of(BOX).velocity.c[2], 0);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(state_of(BOX).velocity.c[2] > 2900 * QUANTUM_Q40);
-    CHECK(state_of(BOX).velocity.c[2] < 3002 * QUANTUM_Q40);
+    CHECK_MORE(state_of(BOX).velocity.c[2], 2900 * QUANTUM_Q40);
+    CHECK_LESS(state_of(BOX).velocity.c[2], 3002 * QUANTUM_Q40);
 }
 
 /* What flies past at the height where the surface comes up is lifted with what it meets. */
@@ -270,10 +270,10 @@ static void test_spread(void)
     }
     CHECK_EQ(move(), CAROM_OK);
     s = state_of(BOX);
-    CHECK(s.position.c[2] > 1000 * QUANTUM_Q32 + HALF);
-    CHECK(state_of(other).position.c[2] > s.position.c[2] + 2 * HALF);
-    CHECK(state_of(other).position.c[2] > box_def.position.c[2]);
-    CHECK(state_of(other).position.c[2] < box_def.position.c[2] + 1000 * QUANTUM_Q32);
+    CHECK_MORE(s.position.c[2], 1000 * QUANTUM_Q32 + HALF);
+    CHECK_MORE(state_of(other).position.c[2], s.position.c[2] + 2 * HALF);
+    CHECK_MORE(state_of(other).position.c[2], box_def.position.c[2]);
+    CHECK_LESS(state_of(other).position.c[2], box_def.position.c[2] + 1000 * QUANTUM_Q32);
 }
 
 /* ------------------------------------------------------------------- refusals */
@@ -302,7 +302,7 @@ static void test_refused(void)
     CHECK_EQ(move(), CAROM_ERR_MESH_SURFACE);
     CHECK_EQ(put(), CAROM_ERR_MESH_SURFACE);
     CHECK_EQ(carom_world_hash(world), hash);
-    CHECK(memcmp(surface.raw.vertices, good, sizeof good) == 0);
+    CHECK_EQ(memcmp(surface.raw.vertices, good, sizeof good), 0);
     memcpy(at, good, sizeof at);
     for (int v = 0; v < COUNT; v++) {
         at[v][2] = 1000; /* the lid is 0.29 units above the box */
@@ -357,11 +357,11 @@ static void test_wild(void)
                 at[v][2] = (int16_t)test_random_range(&r, -range, range);
             }
             CHECK_EQ(move(), CAROM_OK);
-            CHECK(carom_world_step(world) >= 0);
+            CHECK_AT_LEAST(carom_world_step(world), 0);
             if (carom_abs(state_of(BOX).position.c[0]) < CAROM_RATIO(3, 1, 32) &&
                 carom_abs(state_of(BOX).position.c[1]) < CAROM_RATIO(3, 1, 32)) {
                 /* of what is under it nothing is lower than -range */
-                CHECK(state_of(BOX).position.c[2] > -range * QUANTUM_Q32);
+                CHECK_MORE(state_of(BOX).position.c[2], -range * QUANTUM_Q32);
             }
         }
     }
@@ -395,7 +395,7 @@ static void test_refused_asleep(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         s = state_of(BOX);
         CHECK(s.asleep);
-        CHECK(memcmp(&s.position, &lies.position, sizeof s.position) == 0);
+        CHECK_EQ(memcmp(&s.position, &lies.position, sizeof s.position), 0);
     }
 }
 
@@ -476,7 +476,7 @@ static void ask(int rigid)
     int expected = carom_query_faces(world, BOX, rigid, wanted, ROOM);
     int count = carom_query_faces(world, BOX, FLOOR, found, ROOM);
 
-    CHECK(expected >= 0);
+    CHECK_AT_LEAST(expected, 0);
     CHECK_EQ(count, expected);
     for (int i = 0; i < expected && i < count; i++) {
         CHECK(listed(found, count, wanted[i]));
@@ -499,7 +499,7 @@ static void test_queries(void)
         begin(entries[i], 0, 1 << 15);
         CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
         shape_ball(&box, 12, 3000); /* of several leaves */
-        CHECK(box.mesh.leaf_count > 1);
+        CHECK_MORE(box.mesh.leaf_count, 1);
         box_def.overlap = CAROM_OVERLAP_PASS;
         CHECK_EQ(carom_body_add(world, &box_def), BOX);
         wave(20);

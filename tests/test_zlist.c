@@ -66,7 +66,7 @@ static void test_full(void)
     memcpy(before, entry, sizeof before);
     CHECK(!zlist_enter(&z, 1023, 0, 6, 3));
     CHECK(!zlist_enter(&z, 0, 0, 6, 3));
-    CHECK(memcmp(before, entry, sizeof before) == 0);
+    CHECK_EQ(memcmp(before, entry, sizeof before), 0);
     CHECK(head[1023] == 1 && head[5] == 2 && head[0] == ZLIST_NONE);
     CHECK(pool.used == 3 && pool.refused == 2 && pool.peak == 3);
     zlist_clear(&z);
