@@ -306,16 +306,17 @@ clean: ## remove build/ and out/
 .SECONDARY:
 .DELETE_ON_ERROR:
 
-# Objects are made again when the compiler or its options change.
+# Objects are made again when the compiler or its options change. What only some of them have is private: $(B)/flags is
+# made for the first of them, and would hold it.
 $(B)/flags: force
 	@mkdir -p $(@D)
 	@echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' | cmp -s - $@ || \
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
-$(B)/src/%.o: CFLAGS += -ffreestanding
+$(B)/src/%.o: private CFLAGS += -ffreestanding
 # what prints is not to have its variables on the stack while a step runs
-$(B)/examples/%.o: CFLAGS += -fno-inline
-$(B)/tests/%.o: CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)
+$(B)/examples/%.o: private CFLAGS += -fno-inline
+$(B)/tests/%.o: private CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)
 
 $(B)/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
@@ -378,12 +379,12 @@ $(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) \
 
 # A board that is short of memory has the recording in its image, and plays it in the RAM that is left. All of the engine
 # that changes a world is in that image: at -Os.
-$(B)/small/%.o: CFLAGS += -ffreestanding -Os
+$(B)/small/%.o: private CFLAGS += -ffreestanding -Os
 $(B)/small/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	@echo '  cc    $< small'
 	$(TARGET_CC) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(B)/tests/replay.o: CFLAGS += $(if $(ROM_SCENES),-DREPLAY_BUILT_IN)
+$(B)/tests/replay.o: private CFLAGS += $(if $(ROM_SCENES),-DREPLAY_BUILT_IN)
 replay_file = .section .rodata\n.global replay_file, replay_file_end\nreplay_file: .incbin "$(FILE)"\nreplay_file_end:\n
 $(B)/replay_file.S: force
 	@mkdir -p $(@D)
@@ -392,7 +393,7 @@ $(B)/replay_file.o: $(B)/replay_file.S $(FILE)
 	$(TARGET_CC) $(ARCH) -c -o $@ $<
 
 # The scenes as they are, each call on the world recorded.
-$(B)/recorded/%.o: CFLAGS += -include tests/recorded.h
+$(B)/recorded/%.o: private CFLAGS += -include tests/recorded.h
 $(B)/recorded/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	@echo '  cc    $< recorded'
