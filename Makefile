@@ -38,6 +38,7 @@ TARGET_CC := $(or $(COMPILER),$(if $(CROSS),$(CROSS)gcc,$(CC)))
 TARGET_AR := $(CROSS)ar
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Werror
 comma := ,
+space := $(subst ,, )
 SANITIZE := $(if $(DEBUG),$(if $(CROSS),,-fsanitize=address$(comma)undefined -fno-sanitize-recover))
 CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections -fdata-sections \
           -Iinclude -Isrc -Iport -Iport/bare $(if $(FAMILY),-Iport/$(FAMILY)) $(FAMILY_CFLAGS) -Iexamples \
@@ -55,7 +56,7 @@ ENGINE_SOURCES := $(if $(JOINED),$(JOINED_SOURCES),$(wildcard src/*/*.c))
 ifneq ($(PAPER),)
 # The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
 ENGINE_SOURCES += $(wildcard tests/paper/*.c)
-CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000
+CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000 -DBENCH_DRAW_BYTES=131072
 LDFLAGS += $(PAPER_LINK)
 endif
 LDFLAGS += $(FAMILY_LDFLAGS)
@@ -244,10 +245,13 @@ replay: need ## play a recording here and on BOARD=; FILE=, or AGAINST= another 
 	    { echo 'replay.elf for $(BOARD) cannot be made$(if $(ROM_SCENES), with $(FILE) in it: perhaps it is too large)'; false; })
 	@tools/replay.py '$(FILE)' $(if $(AGAINST),--against '$(AGAINST)') $(addprefix --board=,$(filter-out host,$(ASKED)))
 
-figures: ## the paper's figures 7 and 8 from out/bench.csv, to out/figures
-	@tools/need python3 gnuplot
-	@test -e out/bench.csv || $(MAKE) bench
-	@tools/figures.py out/figures
+# the scenes of which figures 7 and 8 speak
+PAPER_SCENES := head head450 head836 $(patsubst %,growth-%,512 3034 12012 49928)
+figures: ## the paper's figures 6, 7 and 8, measured and drawn, to out/figures and docs/figures.md
+	@tools/need gnuplot pil
+	@$(MAKE) bench SCENES=$(subst $(space),$(comma),$(PAPER_SCENES))
+	@$(SUBMAKE) BOARD=host build/host/figures.elf
+	@tools/figures.py build/host/figures.elf
 
 compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)

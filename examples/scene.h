@@ -87,7 +87,8 @@ struct scene {
     (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
      SCENE_MESH(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES))
 #define SCENE_LARGE_MESH_BYTES                                                                     \
-    (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) + SCENE_MESH(25281, 49928))
+    (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
+     SCENE_MESH(SCENE_LARGE_VERTICES, SCENE_LARGE_FACES))
 /* A mesh and what it refers to. */
 #define SCENE_MESH(vertices, faces)                                                                \
     ((sizeof(struct carom_mesh) + 7) / 8 * 8 + CAROM_MESH_BYTES(vertices, faces))
@@ -95,6 +96,8 @@ struct scene {
 #define SCENE_HEAD_FACES     1876
 #define SCENE_FIELD_VERTICES 1596
 #define SCENE_FIELD_FACES    3034
+#define SCENE_LARGE_VERTICES 25281 /* of the finest field */
+#define SCENE_LARGE_FACES    49928
 
 /*
  * bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet. A

@@ -274,7 +274,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("host", help="tests/bench.c for the host")
     parser.add_argument("board", help="and for a board that counts instructions")
-    parser.add_argument("--scenes", help="labels of %s, with commas; else all" % SCENES)
+    parser.add_argument("--scenes", help="labels of %s, with commas, and no bars of size; else all" % SCENES)
     parser.add_argument("--label", default="", help="what is measured: scenes become NAME-LABEL")
     parser.add_argument("--baseline", action="store_true", help="write " + BASELINE)
     parser.add_argument("--gate", action="store_true",
@@ -312,8 +312,9 @@ def main():
                     "no frames or code have grown by more than 1 %, and no block")
     print_paper(figures)
     if not paper:
-        print_bars([*cost_bars(figures), *code_bars(),
-                    *memory_bars(entries, arguments.host, arguments.board)])
+        sizes = [] if arguments.scenes else \
+            [*code_bars(), *memory_bars(entries, arguments.host, arguments.board)]
+        print_bars([*cost_bars(figures), *sizes])
 
 
 if __name__ == "__main__":
