@@ -27,10 +27,12 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
 
 #define CHECK(condition) test_check((condition), __FILE__, __LINE__, #condition)
 /* Comparisons print both values, so they are not written as a CHECK. Numbers of tests' own oracles may be double. */
+#define CHECK_REAL_ORDER_(a, order, b, text)                                                       \
+    test_check_real_order((double)(a), order, (double)(b), __FILE__, __LINE__, text)
 #define CHECK_ORDER_(a, order, b, text)                                                            \
     _Generic((a) + (b), double                                                                     \
-             : test_check_real_order((double)(a), order, (double)(b), __FILE__, __LINE__, text),   \
-               default                                                                             \
+             : CHECK_REAL_ORDER_(a, order, b, text), long double                                   \
+             : CHECK_REAL_ORDER_(a, order, b, text), default                                       \
              : test_check_order((int64_t)(a), order, (int64_t)(b), __FILE__, __LINE__, text))
 #define CHECK_LESS(a, b)     CHECK_ORDER_(a, TEST_LESS, b, #a " < " #b)
 #define CHECK_AT_MOST(a, b)  CHECK_ORDER_(a, TEST_AT_MOST, b, #a " <= " #b)

@@ -120,8 +120,8 @@ static void check_quotient(uint64_t n, uint64_t d)
     signed_r = signed_n % signed_d;
     CHECK_EQ((uint64_t)(signed_n / signed_d) * d + (uint64_t)signed_r, n);
     CHECK(signed_r == 0 || (signed_r < 0) == (signed_n < 0));
-    CHECK_LESS((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r),
-               (signed_d < 0 ? 0 - d : d));
+    CHECK((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r) <
+          (signed_d < 0 ? 0 - d : d));
 }
 
 static void check_small_quotient(uint32_t n, uint32_t d)

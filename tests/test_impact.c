@@ -402,7 +402,7 @@ static void elastic(void)
                  0x1p-40L / magnitude(s.contact.speed);
         worst = change > worst ? change : worst;
     }
-    CHECK_LESS((double)worst, 3e-10);
+    CHECK_LESS(worst, 3e-10L);
     CHECK_LESS(magnitude(mean), 1e-11L);
 }
 
