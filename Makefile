@@ -75,7 +75,7 @@ SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LI
 # the null port proves that port.h can be met; nothing links it
 ALSO := $(call objects,port/null/null.c)
 # examples are for the host, head is for every board
-EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene% examples/show%,$(wildcard examples/*.c)))
+EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene% examples/show% examples/view%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 # what the generators make, by the number of faces; without one, that of the paper
 HEADS := head head48 head80 head100 head450 head836
@@ -356,8 +356,11 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 
 $(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
 
-# The page: one file with the module in it.
+# What the page and the window show.
 VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)
+$(B)/host_view.elf $(B)/host_view_link.elf: $(VIEWER)
+
+# The page: one file with the module in it.
 $(B)/page.wasm: $(B)/port/wasm/page.o $(VIEWER) $(SCENES_BUILT) $(call objects,port/nolibc/string.c) $(B)/libcarom.a
 	@echo '  link  $@'
 	$(TARGET_CC) -nostdlib -Wl,--no-entry,--gc-sections,--strip-all,-z,stack-size=262144 \
