@@ -30,8 +30,11 @@ extern const struct carom_mesh_raw
 extern const struct carom_mesh_raw gear24_mesh;
 extern const struct carom_mesh_raw gear16_mesh;
 extern const struct carom_mesh_raw gear12_mesh;
-extern const struct carom_mesh_raw board_mesh; /* 6 long along x, 4.2 high, 0.15 thick */
-extern const struct carom_mesh_raw yard_mesh;  /* a surface of 48 x 48 with hills and a rim */
+extern const struct carom_mesh_raw board_mesh;   /* 6 long along x, 4.2 high, 0.15 thick */
+extern const struct carom_mesh_raw bolt_mesh;    /* a thread of pitch 0.4 about z, up from 0 */
+extern const struct carom_mesh_raw nut_mesh;     /* its nut, six-sided, 0.63 high */
+extern const struct carom_mesh_raw hexagon_mesh; /* its head, 0.35 high */
+extern const struct carom_mesh_raw yard_mesh;    /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
 #define CHARACTER_FACES    96

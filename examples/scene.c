@@ -205,6 +205,8 @@ static const struct scene_recipe {
      WALKER_CRATE - 1, 0, 0, &scene_walker},
     {"gears", "four toothed wheels, of which a motor turns the first", &still, NULL, GEARS - 1 + 1,
      0, 0, &scene_gears},
+    {"screw", "a nut turns down a bolt by its weight, and is wound up again", &still, NULL, 2, 0, 0,
+     &scene_screw},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

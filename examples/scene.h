@@ -31,6 +31,7 @@
  *   car         a car of hinges, motors and springs, ramps, things to pick up, a camera that follows
  *   walker      someone who goes up steps, on a platform that moves, down a ramp and through a door
  *   gears       four toothed wheels of different size, of which a motor turns the first
+ *   screw       a nut turns down a bolt by its weight, and is wound up again
  *   lockstep    two worlds fed the same keys over a bad link, and what flies over it
  *
  * A frame is 1/60 s and a unit 1 m.

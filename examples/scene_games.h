@@ -74,7 +74,7 @@ const struct carom_paint *scene_paint(const struct scene_game *game);
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
-    scene_walker, scene_lockstep, scene_gears;
+    scene_walker, scene_lockstep, scene_gears, scene_screw;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -128,6 +128,12 @@ enum { GEARS_FIRST = SCENE_BODY, GEARS_BOARD = GEARS_FIRST + GEARS };
         10, 24, 16, 12                                                                             \
     }
 #define GEARS_TURNS_A_MINUTE 48 /* of the first */
+
+/* Lengths as in tools/machines.py. */
+enum { SCREW_NUT = SCENE_BODY, SCREW_BOLT, SCREW_HEAD };
+#define SCREW_PITCH_MM 400
+#define SCREW_PLAY_MM  12   /* of the nut on the bolt, to either side */
+#define SCREW_WAY_MM   1750 /* down to the head */
 
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

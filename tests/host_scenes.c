@@ -183,7 +183,37 @@ static bool judge_gears(struct play *play)
            most < GEARS_MOST;
 }
 
+/* -------------------------------------------------------------------- screw */
+
+/* mark: the turn, the most that way and turn differ by, the lowest that the nut came, the highest after that. */
+static void watch_screw(struct play *play)
+{
+    double way = play_at(&play->now[SCREW_NUT], 2) - play_at(&play->first[SCREW_NUT], 2);
+    double turns = play_turned(&play->mark[0], play_turn(play, SCREW_NUT, 2)) / (2 * REAL_PI);
+
+    play->mark[1] = fmax(play->mark[1], fabs(way - turns * SCREW_PITCH_MM / 1000));
+    if (way < play->mark[2]) {
+        play->mark[2] = play->mark[3] = way;
+    }
+    play->mark[3] = fmax(play->mark[3], way);
+}
+
+/*
+ * A pitch a turn, within the play to either side and as much for what the nut leans; down to the head, which is 1.75
+ * below, and up again by most of that.
+ */
+static bool judge_screw(struct play *play)
+{
+    const double down = -play->mark[2], up = play->mark[3] - play->mark[2];
+
+    snprintf(play->said, sizeof play->said, "down by %.3f, up by %.3f, off a pitch a turn by %.4f",
+             down, up, play->mark[1]);
+    return fabs(down - SCREW_WAY_MM / 1000.0) < 2 * SCREW_PLAY_MM / 1000.0 && up > 0.7 * down &&
+           play->mark[1] < 4 * SCREW_PLAY_MM / 1000.0;
+}
+
 static const struct play_scene scenes[] = {
+    {"screw", 15 * FPS, 10, watch_screw, judge_screw},
     {"gears", 14 * FPS, 4, watch_gears, judge_gears},
 };
 

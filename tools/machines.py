@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Parts of machines: toothed wheels, threads."""
+"""Parts of machines: toothed wheels, a bolt and its nut."""
 from functools import partial
 from math import acos, atan2, cos, pi, sin, tan
 
-from solids import pierced
+from solids import pierced, rings
 
 MODULE = 0.1  # a wheel's radius, where it rolls on the next one, is half of that a tooth
 PRESSURE = 25 * pi / 180  # between the line on which teeth press and the way that they go
@@ -64,3 +64,72 @@ def train():
         half = 0.15 if i % 2 else 0.12  # edges that lie on each other would have more to test
         wheels["gear%d" % teeth] = partial(gear, teeth, turn, {16: 4, 24: 5}.get(teeth, 0), half)
     return wheels
+
+
+# A thread winds up by a pitch a turn. A pitch is four rows, at these heights and radii.
+PITCH, SEGMENTS, LOOSE = 0.4, 18, 0.012
+ROWS = ((0, 0.30), (0.06, 0.42), (0.15, 0.42), (0.21, 0.30))
+
+
+class Thread:
+    """Column i of row m is at angle i of SEGMENTS and i / SEGMENTS of a pitch above row m of column 0, which has four rows
+    more than the others: column SEGMENTS is column 0, four rows up, and each end has a step there."""
+
+    def __init__(self, rows, count):
+        self.count, self.points = count, []
+        for i in range(SEGMENTS):
+            for m in range(count + (4 if i == 0 else 0)):
+                z, radius = rows[m % 4]
+                self.place(i, radius, z + PITCH * (m // 4 + i / SEGMENTS))
+
+    def place(self, i, radius, z):
+        angle = 2 * pi * i / SEGMENTS
+        self.points.append((radius * cos(angle), radius * sin(angle), z))
+        return len(self.points) - 1
+
+    def at(self, i, m):
+        return m + 4 if i == SEGMENTS else m if i == 0 else self.count + 4 + (i - 1) * self.count + m
+
+    def faces(self):
+        """Seen from outside. The diagonals run the same way in bolt and nut, as these lie on each other."""
+        for i in range(SEGMENTS):
+            for m in range(self.count - 1):
+                a, b, c, d = self.at(i, m), self.at(i + 1, m), self.at(i + 1, m + 1), self.at(i, m + 1)
+                yield from ((a, b, c), (a, c, d))
+
+
+def bolt():
+    thread = Thread(ROWS, 4 * 7)
+    last = thread.count - 1
+    low, high = thread.place(0, 0, PITCH / 2), thread.place(0, 0, ROWS[3][0] + PITCH * (last // 4) + PITCH / 2)
+    faces = list(thread.faces())
+    for i in range(SEGMENTS):
+        faces += [(low, thread.at(i + 1, 0), thread.at(i, 0)), (high, thread.at(i, last), thread.at(i + 1, last))]
+    for m in range(4):
+        faces += [(low, m, m + 1), (high, last + m + 1, last + m)]
+    return thread.points, faces
+
+
+def nut():
+    """Six-sided outside, with flat ends."""
+    rows = [(z + (LOOSE if m > 1 else -LOOSE), (radius + LOOSE) / cos(pi / SEGMENTS)) for m, (z, radius) in enumerate(ROWS)]
+    thread = Thread(rows, 4)
+    last = thread.count - 1
+    heights = rows[0][0], rows[3][0] + PITCH * (last // 4 + 1)
+    faces = [(a, c, b) for a, b, c in thread.faces()]
+    rim = []
+    for i in range(SEGMENTS):
+        side = 2 * pi * i / SEGMENTS % (pi / 3) - pi / 6
+        rim.append([thread.place(i, 0.85 * cos(pi / 6) / cos(side), z) for z in heights])
+    for i in range(SEGMENTS):
+        (a, d), (b, c) = rim[i], rim[(i + 1) % SEGMENTS]
+        faces += [(a, b, c), (a, c, d), (b, a, thread.at(i, 0)), (b, thread.at(i, 0), thread.at(i + 1, 0)),
+                  (d, c, thread.at(i + 1, last)), (d, thread.at(i + 1, last), thread.at(i, last))]
+    for m in range(4):
+        faces += [(rim[0][0], m + 1, m), (rim[0][1], last + m, last + m + 1)]
+    return thread.points, faces
+
+
+def hexagon():
+    """The head of the bolt."""
+    return rings([[(0.85 * cos(pi * k / 3), 0.85 * sin(pi * k / 3), z) for k in range(6)] for z in (0, 0.35)])
