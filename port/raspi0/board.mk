@@ -10,5 +10,6 @@ ICOUNT_SHIFT := 10
 CPU := ARM1176JZF-S
 CLOCK_MHZ := 1000
 DISPLAY := HDMI 512 x 512
-SCENES := head:30 head450:30 sheet:20 pile:2 box:30 car:1 walker:15 door:15 chain:1 crusher:3 conveyor:15
+SCENES := head:60 head450:60 sheet:60 pile:40 box:60 car:5 walker:60 door:60 chain:1 crusher:17 conveyor:60
 PICTURES := 1
+SUITE_IMAGES := 1
