@@ -28,7 +28,8 @@ endif
 SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
 # scenes with joints and moving parts, and those of them that a board has in ROM
-GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw
+GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw \
+    newton dominoes
 ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
@@ -81,11 +82,13 @@ PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
 HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
 # parts of games' scenes; a program that names none of them has none
-SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard gear10 gear24 gear16 gear12 board bolt nut hexagon
+SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard gear10 gear24 gear16 gear12 board bolt nut hexagon \
+    domino pendulum beam post card cover stone plinth bowl cup
 # and the programs of these scenes
 GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
     examples/scene_walker.c examples/scene_lockstep.c examples/scene_net.c \
-    examples/scene_gears.c examples/scene_screw.c
+    examples/scene_gears.c examples/scene_screw.c \
+    examples/scene_newton.c examples/scene_dominoes.c
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))

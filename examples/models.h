@@ -30,11 +30,21 @@ extern const struct carom_mesh_raw
 extern const struct carom_mesh_raw gear24_mesh;
 extern const struct carom_mesh_raw gear16_mesh;
 extern const struct carom_mesh_raw gear12_mesh;
-extern const struct carom_mesh_raw board_mesh;   /* 6 long along x, 4.2 high, 0.15 thick */
-extern const struct carom_mesh_raw bolt_mesh;    /* a thread of pitch 0.4 about z, up from 0 */
-extern const struct carom_mesh_raw nut_mesh;     /* its nut, six-sided, 0.63 high */
-extern const struct carom_mesh_raw hexagon_mesh; /* its head, 0.35 high */
-extern const struct carom_mesh_raw yard_mesh;    /* a surface of 48 x 48 with hills and a rim */
+extern const struct carom_mesh_raw board_mesh;    /* 6 long along x, 4.2 high, 0.15 thick */
+extern const struct carom_mesh_raw bolt_mesh;     /* a thread of pitch 0.4 about z, up from 0 */
+extern const struct carom_mesh_raw nut_mesh;      /* its nut, six-sided, 0.63 high */
+extern const struct carom_mesh_raw hexagon_mesh;  /* its head, 0.35 high */
+extern const struct carom_mesh_raw domino_mesh;   /* 0.125 thick along x, 0.75 high, from 0 */
+extern const struct carom_mesh_raw pendulum_mesh; /* a ball on two rods, 1.6 below 0 */
+extern const struct carom_mesh_raw beam_mesh;     /* 2.9 long along x, 0.06 thick */
+extern const struct carom_mesh_raw post_mesh;     /* as thick, 2.4 high, from 0 */
+extern const struct carom_mesh_raw card_mesh;     /* 0.02 thick along x, 1 high, about its middle */
+extern const struct carom_mesh_raw cover_mesh;    /* a card that lies, 0.81 long along x */
+extern const struct carom_mesh_raw stone_mesh;    /* a keystone, 2 above the axis of its arch */
+extern const struct carom_mesh_raw plinth_mesh;   /* 0.9 x 0.9, 0.8 high, from 0 */
+extern const struct carom_mesh_raw bowl_mesh;     /* 3 across, 1.1 high, from 0, hollow */
+extern const struct carom_mesh_raw cup_mesh;      /* 1 across, 0.5 high, from 0, hollow */
+extern const struct carom_mesh_raw yard_mesh;     /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
 #define CHARACTER_FACES    96
@@ -60,6 +70,26 @@ extern const struct carom_mesh_raw yard_mesh;    /* a surface of 48 x 48 with hi
 #define RINK_FACES         28
 #define PUCK_VERTICES      16
 #define PUCK_FACES         28
+#define DOMINO_VERTICES    8
+#define DOMINO_FACES       12
+#define PENDULUM_VERTICES  61
+#define PENDULUM_FACES     110
+#define BEAM_VERTICES      8
+#define BEAM_FACES         12
+#define POST_VERTICES      8
+#define POST_FACES         12
+#define CARD_VERTICES      8
+#define CARD_FACES         12
+#define COVER_VERTICES     8
+#define COVER_FACES        12
+#define STONE_VERTICES     8
+#define STONE_FACES        12
+#define PLINTH_VERTICES    8
+#define PLINTH_FACES       12
+#define BOWL_VERTICES      96
+#define BOWL_FACES         188
+#define CUP_VERTICES       60
+#define CUP_FACES          116
 #define YARD_VERTICES      289
 #define YARD_FACES         512
 

@@ -207,6 +207,10 @@ static const struct scene_recipe {
      0, 0, &scene_gears},
     {"screw", "a nut turns down a bolt by its weight, and is wound up again", &still, NULL, 2, 0, 0,
      &scene_screw},
+    {"newton", "Newton's cradle: what swings in on one side swings out on the other", &still, NULL,
+     NEWTON_BALLS + 5, 0, 0, &scene_newton},
+    {"dominoes", "a ball brings down a row of dominoes", &still, NULL, DOMINOES, 0, 10,
+     &scene_dominoes},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

@@ -115,7 +115,7 @@ struct scene {
 #define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
 #define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
 #endif
-/* Whether there are games, and the capacities of the largest one. */
+/* Whether there are games, and the capacities of the one with the most bodies, the dominoes. */
 #if defined SCENE_ROM && !defined SCENE_ROM_GAMES
 #define SCENE_GAMES     0
 #define SCENE_GAME_CAPS SCENE_LARGE_CAPS
@@ -124,7 +124,7 @@ struct scene {
 #ifdef BOARD_GAME_CAPS
 #define SCENE_GAME_CAPS BOARD_GAME_CAPS
 #else
-#define SCENE_GAME_CAPS SCENE_LARGE_CAPS
+#define SCENE_GAME_CAPS 42, 128, 224, 512, 0, 1024
 #endif
 #endif
 #define SCENE_MORE_(a, b) ((a) > (b) ? (a) : (b))

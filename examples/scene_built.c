@@ -205,6 +205,8 @@ static const struct materials {
     {"conveyor", &flat_mesh, {&box_mesh, &belt_mesh}, 0},
     {"gears", &flat_mesh, {&gear10_mesh, &gear24_mesh, &gear16_mesh, &gear12_mesh, &board_mesh}, 0},
     {"screw", &flat_mesh, {&nut_mesh, &bolt_mesh, &hexagon_mesh}, 0},
+    {"newton", &flat_mesh, {&pendulum_mesh, &beam_mesh, &post_mesh}, 0},
+    {"dominoes", &flat_mesh, {&domino_mesh, &ball_mesh}, 0},
     {"lockstep", &flat_mesh, {&rink_mesh, &puck_mesh, &ball_mesh, &box_mesh}, 0},
 };
 

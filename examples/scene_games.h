@@ -74,7 +74,7 @@ const struct carom_paint *scene_paint(const struct scene_game *game);
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
-    scene_walker, scene_lockstep, scene_gears, scene_screw;
+    scene_walker, scene_lockstep, scene_gears, scene_screw, scene_newton, scene_dominoes;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -135,6 +135,15 @@ enum { SCREW_NUT = SCENE_BODY, SCREW_BOLT, SCREW_HEAD };
 #define SCREW_PLAY_MM  12   /* of the nut on the bolt, to either side */
 #define SCREW_WAY_MM   1750 /* down to the head */
 
+/* The cradle: its frame is after the balls. The script lifts others after so many frames. */
+#define NEWTON_BALLS  5
+#define NEWTON_FRAMES 320
+enum { NEWTON_BALL = SCENE_BODY };
+/* The row of dominoes, and what runs into it. */
+#define DOMINOES       40
+#define DOMINOES_START 20 /* the frame in which the script throws */
+enum { DOMINOES_FIRST = SCENE_BODY, DOMINOES_BALL = DOMINOES_FIRST + DOMINOES };
+
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {
     const struct scene *scene;
@@ -145,5 +154,14 @@ struct scene_parts {
 int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def *def);
 /* A joint. Returns its number. */
 int scene_joint(struct scene_parts *parts, const struct carom_joint_def *def);
+
+/*
+ * Throw a body that is slow from a place, upright; one that is faster than 0.5 m/s goes on. So a key may be held. Returns
+ * >= 0 or an error; that something is in the way is none.
+ */
+int scene_throw(struct carom_world *world, int body, const carom_v3_q32 *from,
+                const carom_v3_q40 *velocity);
+/* How far a body's z axis points up: the cosine of its lean, q30. */
+int64_t scene_upright(const struct carom_world *world, int body);
 
 #endif

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "carom_body.h"
+
 int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def *def)
 {
     struct carom_body_def own = *def;
@@ -41,6 +43,33 @@ int scene_game_before(const struct scene_game *game, struct carom_world *world, 
         keys = game->script ? game->script(world, frame) : 0;
     }
     return game->before ? game->before(world, frame, keys) : CAROM_OK;
+}
+
+int scene_throw(struct carom_world *world, int body, const carom_v3_q32 *from,
+                const carom_v3_q40 *velocity)
+{
+    const int64_t slow_q40 = CAROM_VELOCITY_MM_S(500, FPS);
+    struct carom_body_state state;
+    int result = carom_body_get(world, body, &state);
+
+    for (int k = 0; k < 3; k++) {
+        if (result < 0 || state.velocity.c[k] > slow_q40 || state.velocity.c[k] < -slow_q40) {
+            return result;
+        }
+    }
+    state = (struct carom_body_state){.position = *from, .velocity = *velocity};
+    state.rotation.c[0] = CAROM_ONE_Q30;
+    result = carom_body_set(world, body, &state);
+    return result == CAROM_ERR_OVERLAP ? CAROM_OK : result;
+}
+
+int64_t scene_upright(const struct carom_world *world, int body)
+{
+    static const int64_t up_q30[3] = {0, 0, CAROM_ONE_Q30};
+    int64_t out_q30[3] = {0};
+
+    carom_body_world_vector(world, body, up_q30, out_q30);
+    return out_q30[2];
 }
 
 /* --------------------------------------------------------------------- pictures */

@@ -224,5 +224,10 @@ int main(int count, char **arguments)
             run(&scenes[i]);
         }
     }
+    for (const struct play_scene *show = play_shows; show->name; show++) {
+        if (count < 2 || strcmp(arguments[1], show->name) == 0) {
+            run(show);
+        }
+    }
     return lab_finish();
 }

@@ -27,6 +27,9 @@ struct play_scene {
     bool (*judge)(struct play *play); /* at the end */
 };
 
+/* Those of scenes_show.c, and after the last one without a name. */
+extern const struct play_scene play_shows[];
+
 /* Where a body is along an axis. */
 double play_at(const struct carom_body_state *state, int axis);
 /* How far a body that turns about one axis of the world is turned, within a full turn. */

@@ -3,7 +3,7 @@
 #include "models.h"
 #include "test.h"
 
-static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(CHARACTER_VERTICES, CHARACTER_FACES)];
+static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(BOWL_VERTICES, BOWL_FACES)];
 
 /* Volumes and sides in thousandths, by hand; what rounding to quanta may change is below a hundredth of them. */
 static const struct {
@@ -18,6 +18,16 @@ static const struct {
     {&jump_mesh, JUMP_VERTICES, JUMP_FACES, 1890, {3000, 3600, 350}},   /* half of a box */
     {&tower_mesh, TOWER_VERTICES, TOWER_FACES, 7200, {1200, 1200, 5000}},
     {&mat_mesh, MAT_VERTICES, MAT_FACES, 72, {2400, 1000, 30}},
+    {&domino_mesh, DOMINO_VERTICES, DOMINO_FACES, 35, {125, 375, 750}},
+    {&beam_mesh, BEAM_VERTICES, BEAM_FACES, 10, {2900, 60, 60}},
+    {&post_mesh, POST_VERTICES, POST_FACES, 9, {60, 60, 2400}},
+    {&card_mesh, CARD_VERTICES, CARD_FACES, 14, {20, 700, 1000}},
+    {&cover_mesh, COVER_VERTICES, COVER_FACES, 11, {809, 700, 20}},
+    {&stone_mesh, STONE_VERTICES, STONE_FACES, 202, {555, 700, 600}}, /* 2 1.985 tan (pi / 26) */
+    {&plinth_mesh, PLINTH_VERTICES, PLINTH_FACES, 648, {900, 900, 800}},
+    /* n sin (2 pi / n) / 6 times the sum of h (r^2 + r s + s^2), less that of the inside */
+    {&bowl_mesh, BOWL_VERTICES, BOWL_FACES, 1183, {3000, 3000, 1100}},
+    {&cup_mesh, CUP_VERTICES, CUP_FACES, 91, {1000, 951, 500}},
 };
 
 static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
@@ -28,8 +38,10 @@ static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
     CHECK_EQ(raw->face_count, faces);
     CHECK_EQ(raw->kind, CAROM_SOLID);
     CHECK_EQ(carom_mesh_build(&mesh, raw, block, sizeof block), CAROM_OK);
-    /* one closed piece without a hole, but the link, which has one: V - E + F = 2 - 2 holes */
-    CHECK_EQ(vertices - (int)mesh.edge_count + faces, raw == &link_mesh ? 0 : 2);
+    /* one closed piece without a hole, but the link, which has one, and three: V - E + F = 2 pieces - 2 holes */
+    CHECK_EQ(vertices - (int)mesh.edge_count + faces, raw == &link_mesh       ? 0
+                                                      : raw == &pendulum_mesh ? 6
+                                                                              : 2);
     CHECK_MORE(mesh.mass.volume_q32, 0);
 }
 
@@ -45,6 +57,16 @@ static void closed(void)
     check(&jump_mesh, JUMP_VERTICES, JUMP_FACES);
     check(&tower_mesh, TOWER_VERTICES, TOWER_FACES);
     check(&mat_mesh, MAT_VERTICES, MAT_FACES);
+    check(&domino_mesh, DOMINO_VERTICES, DOMINO_FACES);
+    check(&pendulum_mesh, PENDULUM_VERTICES, PENDULUM_FACES);
+    check(&beam_mesh, BEAM_VERTICES, BEAM_FACES);
+    check(&post_mesh, POST_VERTICES, POST_FACES);
+    check(&card_mesh, CARD_VERTICES, CARD_FACES);
+    check(&cover_mesh, COVER_VERTICES, COVER_FACES);
+    check(&stone_mesh, STONE_VERTICES, STONE_FACES);
+    check(&plinth_mesh, PLINTH_VERTICES, PLINTH_FACES);
+    check(&bowl_mesh, BOWL_VERTICES, BOWL_FACES);
+    check(&cup_mesh, CUP_VERTICES, CUP_FACES);
 }
 
 static void sizes(void)
