@@ -7,6 +7,7 @@ rows of frames.csv, "usage" a pool, "hash" the final state, "unit" what the stag
 "picture" asks for a photograph of the LCD and waits. Everything else is passed through.
 """
 import argparse
+import concurrent.futures
 import csv
 import glob
 import json
@@ -25,6 +26,7 @@ import terminal
 GIF_EVERY = 3  # frames
 GIF_WIDTH = 256  # pixels
 GIF_SECONDS = 0.05  # a picture
+WAITING_MOST = 32  # pictures that are not compressed yet
 
 
 class Camera:
@@ -56,7 +58,7 @@ class Camera:
         sys.exit("monitor: the emulator has gone")
 
     def photograph(self, path):
-        self.ask("screendump", filename=path, format="png")
+        self.ask("screendump", filename=path, format="ppm")
 
 
 class Run:
@@ -72,15 +74,55 @@ def png_name(out, frame):
     return os.path.join(out, "frame-%04d.png" % frame)
 
 
-def take_ppm(out, frame):
-    """A picture that the board wrote by semihosting becomes a PNG."""
-    ppm = os.path.join(out, "frame-%04d.ppm" % frame)
-    if os.path.exists(ppm):
-        Image.open(ppm).save(png_name(out, frame), compress_level=1)
-        os.remove(ppm)
+def ppm_name(out, frame):
+    return os.path.join(out, "frame-%04d.ppm" % frame)
 
 
-def follow(process, camera, out, frames):
+class Album:
+    """Pictures that a board or the emulator wrote become PNG files, and some of them an animation, while it goes on."""
+
+    def __init__(self, out):
+        self.out = out
+        self.pool = concurrent.futures.ThreadPoolExecutor()
+        self.waiting, self.small = [], {}
+
+    def take(self, frame):
+        """Take the picture of a frame, if there is one."""
+        if os.path.exists(ppm_name(self.out, frame)):
+            self.waiting.append(self.pool.submit(self.keep, frame))
+        if len(self.waiting) > WAITING_MOST:
+            self.waiting.pop(0).result()
+
+    def keep(self, frame):
+        image = Image.open(ppm_name(self.out, frame))
+        image.save(png_name(self.out, frame), compress_level=1)
+        os.remove(ppm_name(self.out, frame))
+        self.shrink(frame, image)
+
+    def shrink(self, frame, image):
+        if frame % GIF_EVERY == 1:
+            size = GIF_WIDTH, GIF_WIDTH * image.height // image.width
+            self.small[frame] = image.convert("RGB").resize(size, Image.LANCZOS, reducing_gap=1)
+
+    def finish(self, name):
+        """Write the animation, when all are there; a board may have written PNG files itself."""
+        for task in self.waiting:
+            task.result()
+        paths = pictures(self.out)
+        for frame in range(1, len(paths) + 1, GIF_EVERY):
+            if frame not in self.small:
+                self.shrink(frame, Image.open(paths[frame - 1]))
+        if not self.small:
+            return
+        shown = [self.small[frame] for frame in sorted(self.small)]
+        palette = shown[len(shown) // 2].quantize(64)
+        shown = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in shown]
+        path = os.path.join(self.out, name + ".gif")
+        shown[0].save(path, save_all=True, append_images=shown[1:], loop=0, duration=int(1000 * GIF_SECONDS))
+        print("%s: %.1f MB" % (path, os.path.getsize(path) / 1e6))
+
+
+def follow(process, camera, album, frames):
     """Read what the program prints until it ends."""
     run = Run()
     progress = terminal.Progress(frames)
@@ -89,14 +131,16 @@ def follow(process, camera, out, frames):
         word, _, rest = line.rstrip("\n").partition(" ")
         if word == "picture":
             pictures += 1
-            camera.photograph(png_name(os.path.abspath(out), pictures))
+            camera.photograph(ppm_name(os.path.abspath(album.out), pictures))
             process.stdin.write("\n")
             process.stdin.flush()
+            album.take(pictures)
         elif word == "columns":
             run.columns = rest.split(",")
         elif word == "frame":
             run.rows.append(rest.split(","))
-            take_ppm(out, len(run.rows))
+            if not camera:
+                album.take(len(run.rows))
             progress.show(len(run.rows))
         elif word == "usage":
             run.usage.append(rest.split(","))
@@ -111,21 +155,21 @@ def follow(process, camera, out, frames):
     return run
 
 
-def execute(arguments, budget, out):
+def execute(arguments, budget, album):
     with tempfile.TemporaryDirectory() as folder:
         monitor = os.path.join(folder, "qmp")
         options = ["scene=" + arguments.scene, "frames=%d" % arguments.frames] + arguments.options
         if budget:
             options.append("budget=%d" % budget)
         if arguments.pictures:
-            options.append("pictures=" + out)
+            options.append("pictures=" + album.out)
         process = subprocess.Popen(
             run_board.command(arguments.image, options, monitor),
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         try:
             emulated = "QEMU" in run_board.settings(arguments.board)
             camera = Camera(monitor) if emulated and arguments.pictures else None
-            run = follow(process, camera, out, arguments.frames)
+            run = follow(process, camera, album, arguments.frames)
             process.stdin.close()
             return run, process.wait()
         finally:
@@ -152,24 +196,6 @@ def write_csv(run, out, budget):
 
 def pictures(out):
     return sorted(glob.glob(os.path.join(out, "frame-*.png")))
-
-
-def write_gif(out, name):
-    paths = pictures(out)[::GIF_EVERY]
-    if not paths:
-        return
-    middle = Image.open(paths[len(paths) // 2]).convert("RGB")
-    size = GIF_WIDTH, GIF_WIDTH * middle.height // middle.width
-    palette = middle.quantize(64)
-    shrunk = [
-        Image.open(path).convert("RGB").resize(size, Image.LANCZOS)
-        .quantize(palette=palette, dither=Image.Dither.NONE)
-        for path in paths
-    ]
-    path = os.path.join(out, name + ".gif")
-    shrunk[0].save(path, save_all=True, append_images=shrunk[1:], loop=0,
-                     duration=int(1000 * GIF_SECONDS))
-    print("%s: %.1f MB" % (path, os.path.getsize(path) / 1e6))
 
 
 def show_result(out):
@@ -237,12 +263,13 @@ def main():
     os.makedirs(out, exist_ok=True)
     for old in glob.glob(os.path.join(out, "frame-*.p[np][gm]")):
         os.remove(old)
-    run, status = execute(arguments, budget, out)
+    album = Album(out)
+    run, status = execute(arguments, budget, album)
     if not run.rows:
         return status or 1
     write_csv(run, out, budget)
     if arguments.pictures:
-        write_gif(out, os.path.basename(out))
+        album.finish(os.path.basename(out))
     if status == 0:
         print_table(run, budget)
         show_result(out)
