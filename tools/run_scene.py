@@ -139,7 +139,7 @@ def follow(process, camera, album, frames):
             run.columns = rest.split(",")
         elif word == "frame":
             run.rows.append(rest.split(","))
-            if not camera:
+            if pictures == 0:  # a board that writes its own
                 album.take(len(run.rows))
             progress.show(len(run.rows))
         elif word == "usage":
