@@ -29,7 +29,7 @@ SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
 # scenes with joints and moving parts, and those of them that a board has in ROM
 GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw \
-    newton dominoes
+    newton dominoes cards arch bowl
 ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
@@ -88,7 +88,8 @@ SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard
 GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
     examples/scene_walker.c examples/scene_lockstep.c examples/scene_net.c \
     examples/scene_gears.c examples/scene_screw.c \
-    examples/scene_newton.c examples/scene_dominoes.c
+    examples/scene_newton.c examples/scene_dominoes.c \
+    examples/scene_cards.c examples/scene_arch.c examples/scene_bowl.c
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))

@@ -211,6 +211,11 @@ static const struct scene_recipe {
      NEWTON_BALLS + 5, 0, 0, &scene_newton},
     {"dominoes", "a ball brings down a row of dominoes", &still, NULL, DOMINOES, 0, 10,
      &scene_dominoes},
+    {"cards", "a house of cards stands, until a ball comes", &still, NULL, CARDS, 0, 0,
+     &scene_cards},
+    {"arch", "an arch of stones stands without mortar, until a ball comes", &still, NULL,
+     ARCH_STONES + 2, 0, 0, &scene_arch},
+    {"bowl", "cups and balls fall into a bowl", &still, NULL, BOWL_PIECES, 0, 0, &scene_bowl},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

@@ -207,6 +207,9 @@ static const struct materials {
     {"screw", &flat_mesh, {&nut_mesh, &bolt_mesh, &hexagon_mesh}, 0},
     {"newton", &flat_mesh, {&pendulum_mesh, &beam_mesh, &post_mesh}, 0},
     {"dominoes", &flat_mesh, {&domino_mesh, &ball_mesh}, 0},
+    {"cards", &flat_mesh, {&card_mesh, &cover_mesh, &ball_mesh}, 0},
+    {"arch", &flat_mesh, {&stone_mesh, &plinth_mesh, &ball_mesh}, 0},
+    {"bowl", &flat_mesh, {&bowl_mesh, &cup_mesh, &ball_mesh}, 0},
     {"lockstep", &flat_mesh, {&rink_mesh, &puck_mesh, &ball_mesh, &box_mesh}, 0},
 };
 

@@ -74,7 +74,8 @@ const struct carom_paint *scene_paint(const struct scene_game *game);
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
-    scene_walker, scene_lockstep, scene_gears, scene_screw, scene_newton, scene_dominoes;
+    scene_walker, scene_lockstep, scene_gears, scene_screw, scene_newton, scene_dominoes,
+    scene_cards, scene_arch, scene_bowl;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -143,6 +144,19 @@ enum { NEWTON_BALL = SCENE_BODY };
 #define DOMINOES       40
 #define DOMINOES_START 20 /* the frame in which the script throws */
 enum { DOMINOES_FIRST = SCENE_BODY, DOMINOES_BALL = DOMINOES_FIRST + DOMINOES };
+/* The house of cards: 12 that lean, 3 that lie. */
+#define CARDS_STOREYS 3
+#define CARDS         15
+#define CARDS_START   240
+enum { CARDS_FIRST = SCENE_BODY, CARDS_BALL = CARDS_FIRST + CARDS, CARDS_TOP = CARDS_BALL - 2 };
+/* The arch: the keystone and pairs beside it, plinths, the ball. */
+#define ARCH_STONES 13
+#define ARCH_START  240
+enum { ARCH_KEYSTONE = SCENE_BODY, ARCH_BALL = ARCH_KEYSTONE + ARCH_STONES + 2 };
+/* The bowl and what falls into it. */
+#define BOWL_PIECES 6
+#define BOWL_TOSS   540
+enum { BOWL = SCENE_BODY, BOWL_PIECE };
 
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

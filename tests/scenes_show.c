@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scenes of which everybody knows what must come: a cradle, a row of dominoes. */
+/* The scenes of which everybody knows what must come: a cradle, dominoes, a house of cards, an arch, a bowl. */
 #include <math.h>
 #include <stdio.h>
 
@@ -98,8 +98,92 @@ static bool judge_dominoes(struct play *play)
     return play->mark[0] == DOMINOES && play->mark[1] == 0 && moving == 0;
 }
 
+/* ---------------------------------------------------------- what stands, and is hit */
+
+/* mark: the most that any of some bodies is off its place, and leans, before the ball is thrown. */
+static void watch_standing(struct play *play, int first, int count, int start)
+{
+    for (int i = first; i < first + count && play->frame < start; i++) {
+        double off[3];
+
+        for (int k = 0; k < 3; k++) {
+            off[k] = play_at(&play->now[i], k) - play_at(&play->first[i], k);
+        }
+        play->mark[0] = fmax(play->mark[0], real_length(off));
+        play->mark[1] = fmax(play->mark[1], tilt(play, i));
+    }
+}
+
+static void watch_cards(struct play *play)
+{
+    watch_standing(play, CARDS_FIRST, CARDS, CARDS_START);
+}
+
+static void watch_arch(struct play *play)
+{
+    watch_standing(play, ARCH_KEYSTONE, ARCH_STONES, ARCH_START);
+}
+
+static void say_standing(struct play *play, double height, int moving)
+{
+    snprintf(play->said, sizeof play->said,
+             "stood within %.4f and %.2f degrees, then the top fell to %.2f, %d awake",
+             play->mark[0], play->mark[1], height, moving);
+}
+
+/* Until then no card goes by a tenth of its thickness of 0.02; after that those of the top lie below their storey. */
+static bool judge_cards(struct play *play)
+{
+    const double height =
+        fmax(play_at(&play->now[CARDS_TOP], 2), play_at(&play->now[CARDS_TOP + 1], 2));
+    const int moving = awake(play, CARDS_FIRST, CARDS + 1);
+
+    say_standing(play, height, moving);
+    return play->mark[0] < 0.002 && play->mark[1] < 0.5 && height < 1.9 && moving == 0;
+}
+
+/* Stones are 0.6 thick; the keystone was 2.8 high. */
+static bool judge_arch(struct play *play)
+{
+    const double height = play_at(&play->now[ARCH_KEYSTONE], 2);
+    const int moving = awake(play, ARCH_KEYSTONE, ARCH_STONES);
+
+    say_standing(play, height, moving);
+    return play->mark[0] < 0.006 && play->mark[1] < 0.5 && height < 1.4 && moving == 0;
+}
+
+/* --------------------------------------------------------------------------- bowl */
+
+/* mark: how many lie still in the bowl before the toss. */
+static void watch_bowl(struct play *play)
+{
+    for (int i = BOWL_PIECE; i < BOWL_PIECE + BOWL_PIECES && play->frame == BOWL_TOSS - 1; i++) {
+        const struct carom_body_state *now = &play->now[i];
+
+        play->mark[0] +=
+            now->asleep && hypot(play_at(now, 0), play_at(now, 1)) < 1.4 && play_at(now, 2) > 0.1;
+    }
+}
+
+/* All lie in the bowl, and after the toss all come to rest again above the ground, there or beside it. */
+static bool judge_bowl(struct play *play)
+{
+    const int moving = awake(play, BOWL_PIECE, BOWL_PIECES);
+    double least = HUGE_VAL;
+
+    for (int i = BOWL_PIECE; i < BOWL_PIECE + BOWL_PIECES; i++) {
+        least = fmin(least, play_at(&play->now[i], 2));
+    }
+    snprintf(play->said, sizeof play->said, "%.0f of %d lay in the bowl, then %d awake",
+             play->mark[0], BOWL_PIECES, moving);
+    return play->mark[0] == BOWL_PIECES && moving == 0 && least > 0.1;
+}
+
 const struct play_scene play_shows[] = {
     {"newton", NEWTON_ROUNDS *NEWTON_FRAMES - 1, 2, watch_newton, judge_newton},
     {"dominoes", 10 * FPS, 2, watch_dominoes, judge_dominoes},
+    {"cards", 12 * FPS, 2, watch_cards, judge_cards},
+    {"arch", 12 * FPS, 2, watch_arch, judge_arch},
+    {"bowl", 15 * FPS, 2, watch_bowl, judge_bowl},
     {0},
 };

@@ -42,7 +42,8 @@ PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scen
            "examples/scene_walker.c", "examples/scene_lockstep.c", "examples/scene_net.c",
            "examples/scene_gears.c", "examples/scene_screw.c",
 
-           "examples/scene_newton.c", "examples/scene_dominoes.c", "port/option.c"]
+           "examples/scene_newton.c", "examples/scene_dominoes.c",
+           "examples/scene_cards.c", "examples/scene_arch.c", "examples/scene_bowl.c", "port/option.c"]
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
