@@ -29,7 +29,7 @@ SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
 # scenes with joints and moving parts, and those of them that a board has in ROM
 GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw \
-    newton dominoes cards arch bowl
+    newton dominoes cards arch bowl pour
 ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
@@ -83,13 +83,15 @@ HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
 # parts of games' scenes; a program that names none of them has none
 SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard gear10 gear24 gear16 gear12 board bolt nut hexagon \
-    domino pendulum beam post card cover stone plinth bowl cup
+    domino pendulum beam post card cover stone plinth bowl cup \
+    ring star hook beaker bucket tray
 # and the programs of these scenes
 GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
     examples/scene_walker.c examples/scene_lockstep.c examples/scene_net.c \
     examples/scene_gears.c examples/scene_screw.c \
     examples/scene_newton.c examples/scene_dominoes.c \
-    examples/scene_cards.c examples/scene_arch.c examples/scene_bowl.c
+    examples/scene_cards.c examples/scene_arch.c examples/scene_bowl.c \
+    examples/scene_pour.c
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))
@@ -434,7 +436,7 @@ $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))
 build/gen/head%: GENERATOR := tools/gen_head
 build/gen/field%: GENERATOR := tools/gen_field
 $(SHAPES:%=build/gen/%.obj): GENERATOR := tools/gen_shapes
-build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes tools/machines.py tools/solids.py
+build/gen/%.obj: tools/gen_head tools/gen_field tools/gen_shapes tools/machines.py tools/small.py tools/solids.py
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
 	$(GENERATOR) $(patsubst field%,%,$(*:head%=%)) > $@

@@ -44,7 +44,14 @@ extern const struct carom_mesh_raw stone_mesh;    /* a keystone, 2 above the axi
 extern const struct carom_mesh_raw plinth_mesh;   /* 0.9 x 0.9, 0.8 high, from 0 */
 extern const struct carom_mesh_raw bowl_mesh;     /* 3 across, 1.1 high, from 0, hollow */
 extern const struct carom_mesh_raw cup_mesh;      /* 1 across, 0.5 high, from 0, hollow */
-extern const struct carom_mesh_raw yard_mesh;     /* a surface of 48 x 48 with hills and a rim */
+extern const struct carom_mesh_raw ring_mesh;     /* small things that are not convex, 0.4 across */
+extern const struct carom_mesh_raw star_mesh;
+extern const struct carom_mesh_raw hook_mesh;
+extern const struct carom_mesh_raw beaker_mesh;
+extern const struct carom_mesh_raw
+    bucket_mesh; /* open above, 1.36 x 1.36 and 0.9 deep inside, from its floor */
+extern const struct carom_mesh_raw tray_mesh; /* the same, 2.4 x 1.9 and 0.45 deep */
+extern const struct carom_mesh_raw yard_mesh; /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50
 #define CHARACTER_FACES    96

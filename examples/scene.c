@@ -216,6 +216,8 @@ static const struct scene_recipe {
     {"arch", "an arch of stones stands without mortar, until a ball comes", &still, NULL,
      ARCH_STONES + 2, 0, 0, &scene_arch},
     {"bowl", "cups and balls fall into a bowl", &still, NULL, BOWL_PIECES, 0, 0, &scene_bowl},
+    {"pour", "a bucket of 32 rings, stars, hooks and beakers is poured into a tray", &still, NULL,
+     POUR_THINGS + 1, 0, 12, &scene_pour},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

@@ -32,6 +32,7 @@
  *   walker      someone who goes up steps, on a platform that moves, down a ramp and through a door
  *   gears       four toothed wheels of different size, of which a motor turns the first
  *   screw       a nut turns down a bolt by its weight, and is wound up again
+ *   pour        a bucket of 32 rings, stars, hooks and beakers is poured into a tray
  *   lockstep    two worlds fed the same keys over a bad link, and what flies over it
  *
  * A frame is 1/60 s and a unit 1 m.

@@ -75,7 +75,7 @@ char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
     scene_walker, scene_lockstep, scene_gears, scene_screw, scene_newton, scene_dominoes,
-    scene_cards, scene_arch, scene_bowl;
+    scene_cards, scene_arch, scene_bowl, scene_pour;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };
@@ -157,6 +157,10 @@ enum { ARCH_KEYSTONE = SCENE_BODY, ARCH_BALL = ARCH_KEYSTONE + ARCH_STONES + 2 }
 #define BOWL_PIECES 6
 #define BOWL_TOSS   540
 enum { BOWL = SCENE_BODY, BOWL_PIECE };
+/* Things of four shapes in turn, then what they are poured out of and into. */
+#define POUR_THINGS 32
+enum { POUR_THING = SCENE_BODY, POUR_BUCKET = POUR_THING + POUR_THINGS, POUR_TRAY };
+#define POUR_FRAMES 720 /* until all that was poured lies still and the bucket is up again */
 
 /* A builder puts parts into a world: after the first error it adds nothing more. */
 struct scene_parts {

@@ -212,7 +212,46 @@ static bool judge_screw(struct play *play)
            play->mark[1] < 4 * SCREW_PLAY_MM / 1000.0;
 }
 
+/* --------------------------------------------------------------------- pour */
+
+#define POUR_FULL 60 /* frames until the bucket tips */
+
+/* How many things are in a box, inside, from (x, 0) +- (half_x, half_y), up to z. */
+static int count_in(const struct play *play, double x, double half_x, double half_y, double z)
+{
+    int count = 0;
+
+    for (int i = POUR_THING; i < POUR_THING + POUR_THINGS; i++) {
+        count += fabs(play_at(&play->now[i], 0) - x) < half_x &&
+                 fabs(play_at(&play->now[i], 1)) < half_y && play_at(&play->now[i], 2) > 0.08 &&
+                 play_at(&play->now[i], 2) < z;
+    }
+    return count;
+}
+
+/* mark: how many are in the bucket before it tips. */
+static void watch_pour(struct play *play)
+{
+    if (play->frame == POUR_FULL) {
+        play->mark[0] = count_in(play, -0.74, 0.68, 0.68, 2.1);
+    }
+}
+
+/* All are in the bucket, then all in the tray, where they come to rest, none higher than five lie on each other. */
+static bool judge_pour(struct play *play)
+{
+    int in = count_in(play, 1.23, 1.2, 0.95, 0.08 + 5 * 0.2), asleep = 0;
+
+    for (int i = POUR_THING; i < POUR_THING + POUR_THINGS; i++) {
+        asleep += play->now[i].asleep;
+    }
+    snprintf(play->said, sizeof play->said, "%.0f in the bucket, %d in the tray, %d asleep",
+             play->mark[0], in, asleep);
+    return play->mark[0] == POUR_THINGS && in == POUR_THINGS && asleep == POUR_THINGS;
+}
+
 static const struct play_scene scenes[] = {
+    {"pour", POUR_FRAMES, 10, watch_pour, judge_pour},
     {"screw", 15 * FPS, 10, watch_screw, judge_screw},
     {"gears", 14 * FPS, 4, watch_gears, judge_gears},
 };

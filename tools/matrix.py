@@ -40,8 +40,7 @@ INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples test
 PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
            "examples/scene_built.c", "examples/scene_games.c", "examples/scene_parts.c", "examples/scene_car.c",
            "examples/scene_walker.c", "examples/scene_lockstep.c", "examples/scene_net.c",
-           "examples/scene_gears.c", "examples/scene_screw.c",
-
+           "examples/scene_gears.c", "examples/scene_screw.c", "examples/scene_pour.c",
            "examples/scene_newton.c", "examples/scene_dominoes.c",
            "examples/scene_cards.c", "examples/scene_arch.c", "examples/scene_bowl.c", "port/option.c"]
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
