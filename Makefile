@@ -113,6 +113,8 @@ TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/mat
                 tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
 # the page, once the viewer's core is there
 PAGE := $(if $(wildcard examples/view.c),out/web/index.html)
+# the window of `make view`, the one program that needs SDL2
+WINDOW := build/host/window.elf
 SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py $(if $(PAGE),tests/test_*.mjs))
 
 # ------------------------------------------------------------------- commands
@@ -151,7 +153,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head1876,field3034) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
+.PHONY: help run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -165,6 +167,12 @@ run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|cha
 	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
 	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
+
+view: ## a window on a scene, by SDL2: turn, pause, step, take hold of bodies, H for help; SCENE=head|car|... MESH=file LINK=text
+	@tools/need $(NEED_MESHES) $(NEED_HOST) sdl2
+	@$(SUBMAKE) BOARD=host $(WINDOW) $(if $(MESH),build/tools/carom-mesh)
+	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
+	@$(WINDOW) scene='$(SCENE)' $(if $(MESH),mesh=build/gen/user.crm) $(if $(LINK),link='$(LINK)')
 
 web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh of yours does, links
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang lld llvm
@@ -184,9 +192,10 @@ test: need
 	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
 else
 test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
-	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium \
+	    sdl2 xvfb xdotool
 	@tools/need npm:tools/web
-	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) build/tools/carom-mesh
+	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
@@ -365,6 +374,12 @@ $(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
 # What the page and the window show.
 VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)
 $(B)/host_view.elf $(B)/host_view_link.elf: $(VIEWER)
+
+# The page: one file with the module in it.
+$(B)/window.elf: $(call objects,port/sdl2/window.c port/sdl2/input.c) $(VIEWER) $(PROGRAM)
+	@echo '  link  $@'
+	$(link) -lSDL2
+$(B)/port/sdl2/%.o: private CFLAGS += -isystem /usr/include/SDL2
 
 # The page: one file with the module in it.
 $(B)/page.wasm: $(B)/port/wasm/page.o $(VIEWER) $(SCENES_BUILT) $(call objects,port/nolibc/string.c) $(B)/libcarom.a

@@ -79,6 +79,9 @@ void view_slow(int32_t n); /* a step every n calls of view_frame, 1 .. 60 */
  */
 int view_frame(void);
 
+/* Lines to show over the middle of the pictures; NULL: none. They stay the caller's. */
+void view_note(const char *text);
+
 /* Draw what view_size said, with all that the toggles ask for. Returns CAROM_OK or an error of carom_draw. */
 int view_draw(void);
 

@@ -15,10 +15,12 @@
 
 static uint64_t took[ROWS]; /* ticks, with TICK_BITS more */
 static bool stepped, drew;
+static const char *note;
 
 /* Stages in the order of a step. */
-static const uint32_t bar_rgb[ROWS] = {0x6fa8dc, 0x76c7c0, 0xf06ea9, 0xf6b26b, 0xffd966, 0xe06666,
-                                       0x93c47d, 0xb4a7d6, 0xa2a9b4, 0xffffff, 0x8e9cb0};
+static const uint32_t bar_rgb[CAROM_STAGE_COUNT + 1] = {0x6fa8dc, 0x76c7c0, 0xf06ea9, 0xf6b26b,
+                                                        0xffd966, 0xe06666, 0x93c47d, 0xb4a7d6,
+                                                        0xa2a9b4, 0xffffff};
 
 void view_panel_reset(void)
 {
@@ -136,6 +138,7 @@ static void say_head(char text[LINE_TEXT], uint64_t full, int part_bits)
     text = scene_say_number(text + 5, 1 << part_bits, " of a frame");
 }
 
+/* The picture, which is no part of a step, has no bar. */
 static void draw_bar(const struct pen *pen, int row, int32_t y, uint64_t full)
 {
     const int32_t width = cells(pen, BAR_CELLS), x = MARGIN * 2 + cells(pen, NAME_LINE);
@@ -146,8 +149,10 @@ static void draw_bar(const struct pen *pen, int row, int32_t y, uint64_t full)
     char text[LINE_TEXT];
 
     write(pen, MARGIN * 2, y, name);
-    fill(pen, x, y + pen->scale, part > (uint64_t)width ? width : (int32_t)part + 1, 5 * pen->scale,
-         bar_rgb[row]);
+    if (row <= CAROM_STAGE_COUNT) {
+        fill(pen, x, y + pen->scale, part > (uint64_t)width ? width : (int32_t)part + 1,
+             5 * pen->scale, bar_rgb[row]);
+    }
     say_ms(text, took[row]);
     write(pen, x + width + MARGIN, y, text);
 }
@@ -157,13 +162,10 @@ static void draw_bars(const struct pen *pen)
 {
     const int32_t top = pen->picture->height - lines(pen, ROWS + 1) - 3 * MARGIN;
     const int32_t width = cells(pen, NAME_LINE + BAR_CELLS + 10) + 2 * MARGIN;
-    uint64_t most = took[CAROM_STAGE_COUNT];
     char text[LINE_TEXT];
-    uint64_t full;
     int part_bits;
+    const uint64_t full = scale_of(took[CAROM_STAGE_COUNT], &part_bits);
 
-    most = took[CAROM_STAGE_COUNT + 1] > most ? took[CAROM_STAGE_COUNT + 1] : most;
-    full = scale_of(most, &part_bits);
     if (top < 0) {
         return;
     }
@@ -222,6 +224,29 @@ static void draw_says(const struct pen *pen)
     }
 }
 
+void view_note(const char *text)
+{
+    note = text;
+}
+
+static void draw_note(const struct pen *pen)
+{
+    int32_t longest = 0, length = 0, rows = 1, x, y;
+
+    for (const char *c = note; *c; c++) {
+        rows += *c == '\n';
+        length = *c == '\n' ? 0 : length + 1;
+        longest = length > longest ? length : longest;
+    }
+    x = (pen->picture->width - cells(pen, longest)) / 2;
+    y = (pen->picture->height - lines(pen, rows)) / 2;
+    x = x < MARGIN * 2 ? MARGIN * 2 : x;
+    y = y < MARGIN * 2 ? MARGIN * 2 : y;
+    fill(pen, x - 2 * MARGIN, y - 2 * MARGIN, cells(pen, longest) + 4 * MARGIN,
+         lines(pen, rows) + 4 * MARGIN, 0);
+    write(pen, x, y, note);
+}
+
 void view_panel(const struct carom_picture *picture, uint32_t toggles, struct carom_rect *touched)
 {
     const struct pen pen = {picture, touched, 1 + picture->width / 700};
@@ -232,6 +257,11 @@ void view_panel(const struct carom_picture *picture, uint32_t toggles, struct ca
         draw_says(&pen);
     }
     if (toggles & VIEW_BARS) {
-        draw_bars(&pen);
+        const struct pen small = {picture, touched, 1 + picture->width / 1400};
+
+        draw_bars(&small);
+    }
+    if (note) {
+        draw_note(&pen);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page does: lists, buttons, pointers and the clock. A link is the viewer's text, the frame and the hash.
-const TOGGLES = [["Interfering faces", 1, true], ["Contacts", 2], ["Cells", 4], ["Leaves", 8], ["Wireframe", 16], ["Shadows", 32, true],
+const TOGGLES = [["Interfering faces", 1], ["Contacts", 2], ["Z-list cells", 4], ["Leaves", 8], ["Wireframe", 16], ["Shadows", 32],
     ["Bars", 64], ["Text", 128]];
 const KEYS = { ArrowRight: 16, ArrowLeft: 32, ArrowUp: 64, ArrowDown: 128, KeyX: 1, KeyZ: 2, KeyY: 2, Enter: 8, ShiftLeft: 4 };
 const FRAME_MS = 1000 / 60, LATE_MAX = 3, PAGE_PIXELS = 700000, NO_STATE = {};
@@ -23,7 +23,7 @@ function judge(words, good) {
 
 function startPage(engine) {
     const { its } = engine, canvas = at("canvas"), context = canvas.getContext("2d");
-    const view = { paused: false, keys: 0, dead: false, aim: NO_STATE, user: null, took: [] };
+    const view = { paused: false, keys: 0, dead: false, aim: NO_STATE, user: null, took: [], toggles: 0, scene: "" };
 
     const scene = () => engine.text(its.view_scene());
     const frame = () => its.view_step_count();
@@ -53,6 +53,10 @@ function startPage(engine) {
         at("known").textContent = known ? `Boards end frame ${known.frame} of this scene in ${known.hash}.`
             : "The boards' tests have no state of this scene.";
         at("check").hidden = !known;
+        if (view.scene !== scene()) { // what the last scene showed goes on, but for what this one looks best with
+            toggle(its, view, (view.toggles & ~33) | its.view_usual());
+            view.scene = scene();
+        }
         at("name").textContent = scene();
         at("link").value = "";
         at("copy").disabled = scene() === "user";
@@ -200,14 +204,13 @@ function startPage(engine) {
         requestAnimationFrame(tick);
     }
 
-    fillLists(engine, open, its);
+    fillLists(engine, open, its, view);
     pointers(canvas, its);
     keys(its, view, pause);
     at("play").onclick = () => pause(!view.paused);
     at("single").onclick = () => {
         pause(true);
-        its.view_single();
-        compare();
+        step(its.view_single);
         writeLink();
     };
     at("restart").onclick = restart;
@@ -237,7 +240,13 @@ function startPage(engine) {
     document.body.dataset.ready = "1";
 }
 
-function fillLists(engine, open, its) {
+function toggle(its, view, toggles) {
+    view.toggles = toggles;
+    its.view_toggles(toggles);
+    document.querySelectorAll("#toggles button").forEach((each) => each.setAttribute("aria-pressed", (toggles & each.dataset.bit) !== 0));
+}
+
+function fillLists(engine, open, its, view) {
     for (const { name, text } of engine.scenes) {
         if (name !== "user") {
             const row = document.createElement("li"), button = row.appendChild(document.createElement("button"));
@@ -248,18 +257,12 @@ function fillLists(engine, open, its) {
             at("list").append(row);
         }
     }
-    let sum = TOGGLES.reduce((all, [, bit, on]) => all + (on ? bit : 0), 0);
     for (const [name, bit] of TOGGLES) {
         const button = at("toggles").appendChild(document.createElement("button"));
         button.textContent = name;
-        button.setAttribute("aria-pressed", (sum & bit) !== 0);
-        button.onclick = () => {
-            sum ^= bit;
-            its.view_toggles(sum);
-            button.setAttribute("aria-pressed", (sum & bit) !== 0);
-        };
+        button.dataset.bit = bit;
+        button.onclick = () => toggle(its, view, view.toggles ^ bit);
     }
-    its.view_toggles(sum);
     const names = Array.from({ length: engine.stageCount }, (_, i) => engine.text(its.carom_stage_name(i)));
     for (const name of [...names, "all"]) {
         const row = at("bars").appendChild(document.createElement("div"));

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* window.h - what the two files of the window share: window.c has scenes, time and the picture, input.c keys and pointer. */
+#ifndef CAROM_PORT_SDL2_WINDOW_H
+#define CAROM_PORT_SDL2_WINDOW_H
+
+#include <SDL.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+struct window {
+    SDL_Window *window;
+    SDL_Surface *picture; /* of pixels */
+    bool changed;         /* the picture is to be drawn again */
+    bool over;
+    int scene; /* of scene_name */
+    uint32_t toggles, held;
+    bool paused, help, user;
+    int slow;
+    bool grabs, turns, pans;
+    int stands; /* the error that the world stands still for */
+    bool aims;  /* at the state of a link */
+    int aim_frame;
+    char aim_hash[17];
+};
+extern struct window the;
+
+void window_restart(void);
+void window_next_scene(int way);
+void window_say_link(void);
+void window_pause(bool paused);
+/* A step was tried: its result. */
+void window_stepped(int result);
+void window_slow_down(int way);
+void window_size(void);
+
+/* input.c */
+void input_handle(const SDL_Event *event);
+
+#endif
