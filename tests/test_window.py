@@ -70,10 +70,16 @@ class Window:
                                         env=dict(os.environ, DISPLAY=screen.name, SDL_VIDEODRIVER="x11"))
         self.lines = queue.Queue()
         threading.Thread(target=lambda: [self.lines.put(line) for line in self.program.stdout], daemon=True).start()
-        until(lambda: screen.ask("search", "--name", "^Carom:"))
-        self.id = screen.ask("search", "--name", "^Carom:")
-        screen.ask("windowmove", "--sync", self.id, 0, 0)
-        screen.ask("mousemove", 5, HEIGHT - 5, "windowfocus", "--sync", self.id)
+        until(self.settles, 60)
+
+    def settles(self):
+        """Find the window, put it to the left top and let it have the keys; whether all that is done."""
+        self.id = self.screen.ask("search", "--onlyvisible", "--name", "^Carom:").split("\n")[-1]
+        if not self.id:
+            return False
+        self.screen.ask("windowmove", self.id, 0, 0, "mousemove", 5, HEIGHT - 5, "windowfocus", self.id)
+        return ("Position: 0,0 " in self.screen.ask("getwindowgeometry", self.id) and
+                self.screen.ask("getwindowfocus") == self.id)
 
     def state(self):
         """Link, frame and hash. When they are said, all keys and moves before are done."""
