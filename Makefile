@@ -86,12 +86,7 @@ SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard
     domino pendulum beam post card cover stone plinth bowl cup \
     ring star hook beaker bucket tray
 # and the programs of these scenes
-GAMES := examples/scene_games.c examples/scene_parts.c examples/scene_car.c \
-    examples/scene_walker.c examples/scene_lockstep.c examples/scene_net.c \
-    examples/scene_gears.c examples/scene_screw.c \
-    examples/scene_newton.c examples/scene_dominoes.c \
-    examples/scene_cards.c examples/scene_arch.c examples/scene_bowl.c \
-    examples/scene_pour.c
+GAMES := $(filter-out $(patsubst %,examples/scene_%.c,sheet built rom play),$(wildcard examples/scene_*.c))
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))
@@ -179,11 +174,10 @@ web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh 
 	@$(if $(PAGE),,echo 'examples/view.c is not there: the page needs it'; false)
 	@$(SUBMAKE) BOARD=wasm $(PAGE)
 
-scenes: ## the scenes, a line each
-	@tools/need $(NEED_MESHES) $(NEED_HOST)
+scenes: ## the scenes, a line and a thumbnail each, to out/scenes/index.html and out/scenes/scenes.png
+	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
 	@$(SUBMAKE) BOARD=host build/host/head.elf >/dev/null
-	@build/host/head.elf scenes=1 | sed 's/^scene \([^:]*\): /\1|/' | while IFS='|' read -r name text; do \
-	    printf '  %-14s %s\n' "$$name" "$$text"; done
+	@tools/scene_sheet.py build/host/head.elf out/scenes
 
 ifneq ($(ASKED),)
 test: need

@@ -5,6 +5,7 @@
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
  *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
  *          stage of one that takes more)
+ *          only=N: only frame N is drawn and shown
  *          scenes=1: names and lines of the scenes that scene.h knows, and no more
  *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
  *
@@ -279,22 +280,26 @@ static void report(int frames)
     struct show show;
     struct carom_world *world = start(&show);
     struct port_fb fb = port_fb();
+    const int only = (int)port_number("only", 0);
     uint32_t first;
 
     /* all of the picture, so that a frame has but what it changes to draw */
-    first = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
+    first = only ? 0 : draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
     port_print("first picture %lu\n", cost(first));
     print_columns();
     for (int frame = 1; frame <= frames; frame++) {
+        const bool shown = !only || frame == only;
+        uint32_t draw_ticks = 0;
         int status;
 
         if (BOARD_MOVES) {
             expect(show_before(&show, world, frame, keys_held()), "scene");
         }
         status = expect(carom_world_step(world), "step");
-        uint32_t draw_ticks = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
-
-        port_present();
+        if (shown) {
+            draw_ticks = draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
+            port_present();
+        }
         print_frame(world, frame, status, draw_ticks);
     }
     print_usage(world);

@@ -37,12 +37,9 @@ CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that are gone on with el
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
-PROGRAM = ["tests/matrix.c", "tests/plays.c", "examples/scene.c", "examples/scene_sheet.c",
-           "examples/scene_built.c", "examples/scene_games.c", "examples/scene_parts.c", "examples/scene_car.c",
-           "examples/scene_walker.c", "examples/scene_lockstep.c", "examples/scene_net.c",
-           "examples/scene_gears.c", "examples/scene_screw.c", "examples/scene_pour.c",
-           "examples/scene_newton.c", "examples/scene_dominoes.c",
-           "examples/scene_cards.c", "examples/scene_arch.c", "examples/scene_bowl.c", "port/option.c"]
+PROGRAM = ["tests/matrix.c", "tests/plays.c", "port/option.c"] + sorted(
+    name for name in glob.glob("examples/scene*.c", root_dir=ROOT)
+    if not name.endswith(("_rom.c", "_play.c")))
 SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.

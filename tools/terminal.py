@@ -63,12 +63,20 @@ def picture(image, columns, count):
         yield "".join(cells) + "\033[0m"
 
 
-def show_picture(image, stream=sys.stdout, environment=os.environ):
-    """Show an image where the stream is a terminal with colours that takes the character; whether it was."""
+def shows(stream=sys.stdout, environment=os.environ):
+    """How many columns and colours there are for pictures; none where the stream is no terminal that takes the character."""
     count = colours(environment)
     if not stream.isatty() or count == 0 or "utf" not in (stream.encoding or "").lower():
+        return 0, 0
+    return os.get_terminal_size(stream.fileno()).columns or COLUMNS_MOST, count
+
+
+def show_picture(image, stream=sys.stdout, environment=os.environ):
+    """Show an image where the stream is a terminal with colours that takes the character; whether it was."""
+    columns, count = shows(stream, environment)
+    if not count:
         return False
-    columns = min(COLUMNS_MOST, os.get_terminal_size(stream.fileno()).columns or COLUMNS_MOST)
+    columns = min(COLUMNS_MOST, columns)
     for line in picture(image, columns, count):
         print(line, file=stream)
     return True

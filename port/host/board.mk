@@ -4,6 +4,6 @@ PORT := port/host/host.c port/linux/console.c
 LIBS := -lpng -lm
 CPU := of the machine that compiles
 DISPLAY := memory 512 x 512
-SCENES := head pile sheet box car walker door chain crusher conveyor gears screw newton dominoes cards arch bowl pour
+SCENES := head pile sheet box car walker lockstep door chain crusher conveyor gears screw newton dominoes cards arch bowl pour
 PICTURES := 1
 SHADOWS := 1
