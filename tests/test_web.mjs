@@ -9,6 +9,7 @@ const ROOT = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const { chromium } = createRequire(path.join(ROOT, "build/npm/web/"))("playwright-core");
 const PAGE = pathToFileURL(path.join(ROOT, "out/web/index.html")).href;
 const GOLDEN = { scene: "head", frame: 600, hash: "dce4053378d538dc" }; // tests/bench_scenes.csv, by a Cortex-M3
+const FRAMES = 12;
 const CUBE = `v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n`;
 const pictures = process.argv[2];
@@ -83,6 +84,60 @@ async function runs() {
     check("the page says so", /the boards' hash/.test(await text(page, "verdict")), await text(page, "verdict"));
     const listed = await page.$$eval("#list button", (all) => all.map((each) => each.dataset.name));
     check("scenes are listed", ["head", "car", "walker"].every((name) => listed.includes(name)), listed);
+    await page.context().close();
+}
+
+// Each scene of the page for some frames: no message, and the host's state.
+async function scenes() {
+    const page = await open(), wrong = [], all = await page.$$eval("#list button", (each) => each.map(({ dataset }) => dataset.name));
+    for (const name of all.filter((each) => !each.startsWith("growth"))) {
+        const seen = await page.evaluate(async ([name, frames]) => {
+            const at = (id) => document.getElementById(id);
+            document.querySelector(`#list [data-name="${name}"]`).click();
+            for (let i = 0; i < frames; i++) {
+                at("single").click();
+            }
+            await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+            return [at("count").textContent, at("hash").textContent, at("message").textContent].join(" ").trim();
+        }, [name, FRAMES]);
+        const said = execFileSync(path.join(ROOT, "build/host/head.elf"), ["scene=" + name, "frames=" + FRAMES]).toString();
+        if (seen !== `${FRAMES} ${/^hash (\w+)$/m.exec(said)[1]}`) {
+            wrong.push([name, seen]);
+        }
+    }
+    check(`${all.length} scenes have the host's states`, all.length > 20 && wrong.length === 0, wrong);
+    await page.context().close();
+}
+
+// Fingers: one turns the view, two come nearer.
+async function touches() {
+    const page = await open("#box", { viewport: { width: 360, height: 740 }, hasTouch: true });
+    const client = await page.context().newCDPSession(page), box = await page.locator("#canvas").boundingBox();
+    const fingers = async (type, ...places) => {
+        await client.send("Input.dispatchTouchEvent", { type, touchPoints: places.map(([x, y], id) =>
+            ({ id, x: box.x + x * box.width, y: box.y + y * box.height })) });
+        await page.waitForTimeout(100);
+    };
+    const look = () => page.evaluate(() => {
+        const canvas = document.getElementById("canvas"), { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const pixels = new Uint32Array(data.buffer), brown = (i) => data[i] > data[i + 1] + 16 && data[i + 1] >= data[i + 2];
+        return { body: pixels.filter((_, i) => brown(4 * i)).length, sum: pixels.reduce((sum, rgb, i) => (sum + rgb * (i % 997)) % 1e9, 0) };
+    });
+    await stepTo(page, 60);
+    const still = await look();
+    await fingers("touchStart", [0.2, 0.1]);
+    await fingers("touchMove", [0.4, 0.12]);
+    await fingers("touchEnd");
+    const turned = await look();
+    check("a finger turns the view", turned.sum !== still.sum && (await frame(page)) === 60, [still, turned]);
+    await page.click("#home");
+    await page.waitForTimeout(200);
+    check("the view is reset", (await look()).sum === still.sum, await look());
+    await fingers("touchStart", [0.3, 0.1], [0.5, 0.1]);
+    await fingers("touchMove", [0.2, 0.1], [0.7, 0.1]);
+    await fingers("touchEnd");
+    const near = await look();
+    check("two fingers come nearer", near.body > 1.3 * still.body, [still.body, near.body]);
     await page.context().close();
 }
 
@@ -208,7 +263,7 @@ async function looks() {
     check("light and dark differ", new Set(backs).size === 2, backs);
 }
 
-for (const part of [runs, meshFalls, badMeshes, links, throws, looks]) {
+for (const part of [runs, scenes, touches, meshFalls, badMeshes, links, throws, looks]) {
     await part().catch((error) => check(part.name, false, error.message.slice(0, 300)));
 }
 check("no error, no request", errors.length === 0, errors);

@@ -73,6 +73,11 @@ int strcmp(const char *a, const char *b)
     return strncmp(a, b, SIZE_MAX);
 }
 
+char *strcpy(char *restrict to, const char *restrict from)
+{
+    return memcpy(to, from, strlen(from) + 1);
+}
+
 char *strstr(const char *text, const char *part)
 {
     size_t length = strlen(part);

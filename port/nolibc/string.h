@@ -12,6 +12,7 @@ int memcmp(const void *a, const void *b, size_t bytes);
 size_t strlen(const char *text);
 int strcmp(const char *a, const char *b);
 int strncmp(const char *a, const char *b, size_t most);
+char *strcpy(char *restrict to, const char *restrict from);
 char *strstr(const char *text, const char *part);
 
 #endif

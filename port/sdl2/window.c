@@ -273,9 +273,28 @@ static void run(void)
     }
 }
 
+/* SDL has drivers that show nothing, and takes one where there is no other: only who asks for it is to have it. */
+static bool has_display(void)
+{
+    static const char *const blind[] = {"dummy", "offscreen", "evdev"};
+    const char *driver;
+
+    if (SDL_Init(SDL_INIT_VIDEO) < 0) {
+        return false;
+    }
+    driver = SDL_GetCurrentVideoDriver();
+    for (size_t i = 0; i < SDL_arraysize(blind) && !getenv("SDL_VIDEODRIVER"); i++) {
+        if (strcmp(driver, blind[i]) == 0) {
+            SDL_SetError("only %s", driver);
+            return false;
+        }
+    }
+    return true;
+}
+
 static void open_window(void)
 {
-    if (SDL_Init(SDL_INIT_VIDEO) < 0) {
+    if (!has_display()) {
         fprintf(stderr,
                 "There is no display to open a window on (SDL: %s).\n"
                 "`make run BOARD=host SCENE=head` makes pictures in out/head, `make web` a page.\n",
