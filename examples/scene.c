@@ -12,7 +12,7 @@
 static const struct carom_body_def head_start = {
     .position = POSITION(-1600, 600, 2800),
     .velocity = VELOCITY(900, -400, 0),
-    .spin = SPIN(1500, -1800, 900),
+    .spin = SPIN(1500, -1800, 1200),
     .restitution_q30 = RESTITUTION_Q30,
     .friction_q16 = FRICTION_Q16,
 };
@@ -32,7 +32,7 @@ static const struct carom_body_def spin_starts[] = {
         .position = POSITION(-600, 200, z), .velocity = VELOCITY(300, -100, 0),                    \
         .friction_q16 = FRICTION_Q16,                                                              \
     }
-static const struct carom_body_def growth_starts[] = {PUT(1006), PUT(1015), PUT(1019), PUT(1019)};
+static const struct carom_body_def growth_starts[] = {PUT(973), PUT(965), PUT(964), PUT(964)};
 static const struct carom_body_def far_start = {.position = POSITION(0, 0, 1000000)};
 static const struct carom_body_def box_start = {
     .position = POSITION(-900, -300, 2200),

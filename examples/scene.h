@@ -2,7 +2,7 @@
 /*
  * scene.h - the scenes of the examples and tests: bodies that move over one that does not.
  *
- *   head        the paper's: a bumpy head of 1876 faces, dropped with spin on a field of 3034
+ *   head        the paper's: a human head of 1876 faces, dropped with spin on a field of 3034
  *   head450     the same with 450 faces on a field of 386
  *   head836     with 836 on 512
  *   head48      a head of 48 faces and half the size on 128, one hit a frame

@@ -261,7 +261,7 @@ int main(void)
     test_exact();
     test_bodies();
     test_little("pile", (struct carom_caps)CAROM_CAPS(17, 88, 48, 136, 0, 128));
-    test_little("pile32", (struct carom_caps)CAROM_CAPS(33, 128, 64, 208, 0, 256));
+    test_little("pile32", (struct carom_caps)CAROM_CAPS(33, 136, 72, 208, 0, 256));
     test_little("head-spin2", (struct carom_caps)CAROM_CAPS(2, 1, 64, 1024, 0, 1));
     return lab_finish();
 }

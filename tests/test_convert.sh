@@ -273,7 +273,7 @@ assert rows[1] == [tuple(int(c) - 1 for c in w[1:]) for w in lines if w[0] == "f
 END
 }
 
-"$root/tools/gen_head" >head.obj
+"$root/tools/gen_head" .
 accepts head '-o head.c head.obj' 'SOLID' '2^-10 ' '1876 faces, 2814 edges, 940 vertices' \
     'mended    nothing'
 same head.obj head.c

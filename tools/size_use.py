@@ -79,7 +79,7 @@ USES = [
      "carom_replay_part_name carom_replay_digests"),
 ]
 
-HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 128, 64, 208, 0, 256"}  # tests/host_pools.c
+HEAPS = {"16": "17, 88, 48, 136, 0, 128", "32": "33, 136, 72, 208, 0, 256"}  # tests/host_pools.c
 MEMORY = [
     ("a world of the head scene", "CAROM_WORLD_BYTES(2, 1, 64, 1024, 256, 1024)"),
     ("a world of 16 boxes in a heap", "CAROM_WORLD_BYTES(%s)" % HEAPS["16"]),
