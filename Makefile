@@ -64,7 +64,7 @@ LDFLAGS += $(FAMILY_LDFLAGS)
 # a board that has no operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
 LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
-LINKER_FILES := linker/$(BOARD).ld linker/sections.ld \
+LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard linker/hot*.ld) \
     $(firstword $(wildcard port/$(BOARD)/fast.ld) linker/fast.ld)
 endif
 
@@ -525,11 +525,10 @@ build/tools/count.so: tools/count.c port/linux/count.h
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
 # What runs a board's programs where QEMU does not.
-build/tools/gba_run: tools/gba_run.c
+build/tools/retro_run: $(wildcard tools/retro_*.[ch]) port/nds/channel.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
-	$(CC) -std=c11 -O2 $(WARNINGS) \
-	    -DMGBA_CORE='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro/mgba_libretro.so"' -o $@ $<
+	$(CC) -std=c11 -O2 $(WARNINGS) -DCORES='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro"' -o $@ $(filter %.c,$^)
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \

@@ -8,7 +8,7 @@ ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork -fno-schedule-insns -fno-schedule
 PORT := port/gba/gba.c port/gba/memory.c port/gba/start.S port/bare/arguments.c port/newlib/syscalls.c port/bare/start.c
 FAMILY_LDFLAGS := --specs=nano.specs -Wl,--wrap=carom_draw_changes
 IMAGE_SUFFIX := .gba
-RUNNER := build/tools/gba_run
+RUNNER := build/tools/retro_run
 CPU := ARM7TDMI
 CLOCK_MHZ := 16.78
 CYCLES := 1
