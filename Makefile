@@ -395,7 +395,7 @@ $(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
 	$(link)
 
 $(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) \
-    $(if $(ROM_SCENES),$(B)/replay_file.o $(filter-out $(B)/small/src/draw/%,$(ENGINE:$(B)/%=$(B)/small/%)),$(B)/libcarom.a)
+    $(if $(ROM_SCENES),$(B)/replay_file.o $(filter-out $(B)/small/src/draw/%,$(ENGINE:$(B)/%=$(B)/small/%))) $(B)/libcarom.a
 	@echo '  link  $@'
 	$(link)
 

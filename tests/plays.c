@@ -172,7 +172,7 @@ static int ask_pairs(struct carom_world *world, const struct scene *scene, int f
     return result;
 }
 
-#ifndef SCENE_ROM /* such a board has not the scenes, nor the memory */
+#if SCENE_GAMES /* a board without has not the scenes, nor the memory */
 static bool is_not(void *context, int body)
 {
     return body != *(const int *)context;

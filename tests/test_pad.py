@@ -1,102 +1,111 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-The game of the Game Boy Advance, its keys pressed by a script: what they do to the body is read off
-the states and the pictures. TAP.
+The games of the Game Boy Advance and the Nintendo DS, their keys pressed by a script: what they do to the body is
+read off the states and the pictures. TAP.
 """
 import os
 import shutil
 import sys
+from functools import partial
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 import run_board  # noqa: E402
 from tap import board_cases  # noqa: E402
 
-BOARD = "gba"
-IMAGE = os.path.join(ROOT, "build", BOARD, "head.elf")
-OUT = os.path.join(ROOT, "build", "tests", "pad")
+SCENES = {"gba": "head48", "nds": "head450"}
 STEPS = 200
 A, B, SELECT, START, RIGHT, LEFT = 1, 2, 4, 8, 16, 32
 HELD_FROM, TILTED = 12, 32  # pictures
-HEAD, FIGURES = range(0, 150), range(153, 160)  # rows of the screen
+FIGURES = 10  # rows at the bottom of a screen that the game's figures take, and an edge
 
 
 class Picture:
-    """A picture of 240 x 160 pixels, as the runner writes it."""
+    """A picture as the runner writes it."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
-            size = list(map(int, file.readline().split()[1:3]))
+            self.width, self.height = map(int, file.readline().split()[1:3])
             bytes_ = file.read()
-        self.width = size[0]
-        self.pixels = list(zip(bytes_[0::3], bytes_[1::3], bytes_[2::3]))
-
-    def rows(self, numbers):
-        return [self.pixels[y * self.width:(y + 1) * self.width] for y in numbers]
+        pixels = list(zip(bytes_[0::3], bytes_[1::3], bytes_[2::3]))
+        rows = [pixels[y * self.width:(y + 1) * self.width] for y in range(self.height)]
+        self.scene, self.figures = rows[:-FIGURES], rows[3 - FIGURES:]
 
     def centre(self):
         """Of the body, which alone is brown: column and row, in pixels."""
-        at = [(x, y) for y, row in zip(HEAD, self.rows(HEAD)) for x, (r, g, b) in enumerate(row)
+        at = [(x, y) for y, row in enumerate(self.scene) for x, (r, g, b) in enumerate(row)
               if r > g + 16 and g >= b]
         return [sum(axis) / len(at) for axis in zip(*at)] if at else None
 
     def sky(self):
         """Pixels that are bluish: sky, which is seen through a wire frame."""
-        return sum(b > g + 8 for row in self.rows(HEAD) for _, g, b in row)
+        return sum(b > g + 8 for row in self.scene for _, g, b in row)
+
+    def white(self):
+        """Whether there are figures."""
+        return any(min(pixel) > 240 for row in self.figures for pixel in row)
 
 
-def play(name, press=None, *options):
-    """Play with some keys; returns the last state and the pictures in turn."""
-    folder = os.path.join(OUT, name)
-    shutil.rmtree(folder, ignore_errors=True)
-    os.makedirs(folder)
-    every = ["play=1", "frames=%d" % STEPS, "pictures=" + folder, *options]
-    result = run_board.run(IMAGE, every + (["press=" + press] if press else []), 100)
-    return result.said.get("hash"), [Picture(os.path.join(folder, each))
-                                     for each in sorted(os.listdir(folder))]
+class Game:
+    def __init__(self, board):
+        self.image = os.path.join(ROOT, "build", board, "head.elf")
+        self.scene = "scene=" + SCENES[board]
+        self.out = os.path.join(ROOT, "build", "tests", "pad", board)
+
+    def play(self, name, press=None):
+        """Play with some keys; returns the last state and the pictures in turn."""
+        folder = os.path.join(self.out, name)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        options = [self.scene, "play=1", "frames=%d" % STEPS, "pictures=" + folder]
+        result = run_board.run(self.image, options + (["press=" + press] if press else []), 100)
+        return result.said.get("hash"), [Picture(os.path.join(folder, each))
+                                         for each in sorted(os.listdir(folder))]
+
+    def hashes(self, most):
+        """The states of the scene when nobody plays, a frame each."""
+        result = run_board.run(self.image, [self.scene, "frames=%d" % most], 100)
+        return [row["hash"] for row in result.rows]
 
 
 def tap(from_, keys):
     return "%d:%d,%d:0" % (from_, keys, from_ + 2)
 
 
-def hash_after(frames, *options):
-    """The state of the scene when nobody plays."""
-    return run_board.run(IMAGE, ["frames=%d" % frames, *options], 100).said.get("hash")
-
-
-def cases():
+def cases(board):
     """(name, whether it holds)"""
-    untouched, plain = play("untouched")
+    game = Game(board)
+    alone = game.hashes(STEPS)
+    untouched, plain = game.play("untouched")
     last = len(plain) - 1
-    yield "untouched_it_is_the_scene", untouched is not None and untouched == hash_after(STEPS)
+    yield "untouched_it_is_the_scene", untouched is not None and untouched == alone[-1]
 
     # thrown up at 3.5 m/s: it is at the top a third of a second later, some 5 pictures
-    state, pictures = play("a", tap(last - 6, A))
+    state, pictures = game.play("a", tap(last - 6, A))
     yield "a_throws_it_up", state != untouched and \
         pictures[last].centre()[1] < plain[last].centre()[1] - 5
 
     for name, key, sign in [("left", LEFT, -1), ("right", RIGHT, 1)]:
-        state, pictures = play(name, "%d:%d" % (HELD_FROM, key))
+        state, pictures = game.play(name, "%d:%d" % (HELD_FROM, key))
         yield name + "_tilts_gravity", state != untouched and \
             sign * (pictures[TILTED].centre()[0] - plain[TILTED].centre()[0]) > 5
 
     # begins again: it ends as a scene that has had only the steps since, four a picture at most
-    state, pictures = play("start", tap(last - 8, START))
-    yield "start_begins_again", state in map(hash_after, range(20, 45))
+    state, pictures = game.play("start", tap(last - 8, START))
+    yield "start_begins_again", state in alone[19:44]
 
-    state, pictures = play("b", tap(HELD_FROM, B))
-    white = [any(min(pixel) > 240 for row in shown[last].rows(FIGURES) for pixel in row)
-             for shown in (plain, pictures)]
-    yield "b_hides_the_figures", state == untouched and white == [True, False]
+    state, pictures = game.play("b", tap(HELD_FROM, B))
+    yield "b_hides_the_figures", state == untouched and \
+        [plain[last].white(), pictures[last].white()] == [True, False]
 
-    state, pictures = play("select", tap(HELD_FROM, SELECT))
-    yield "select_draws_lines", state == untouched and pictures[last].sky() > 1.2 * plain[last].sky()
+    state, pictures = game.play("select", tap(HELD_FROM, SELECT))
+    yield "select_draws_lines", state == untouched and pictures[-1].sky() > 1.2 * plain[last].sky()
 
 
 def main():
-    return board_cases("pad", BOARD, IMAGE, cases)
+    failed = [board_cases("pad_" + board, board, Game(board).image, partial(cases, board)) for board in SCENES]
+    return any(failed)
 
 
 if __name__ == "__main__":

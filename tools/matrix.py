@@ -394,7 +394,7 @@ def do_all(builds, play, jobs):
 def cross_all(kept, jobs):
     """Go on with snapshots elsewhere; returns what is wrong, and how many did by kind."""
     tasks = [(source, to, kind, scene) for source, to, kind in other_kinds(kept)
-             for scene in CROSSED if scene in source.snapshots and scene in to.scenes]
+             for scene in CROSSED if scene in source.snapshots and scene in to.snapshots]
     found = {}
     for build in kept:
         for scene in filter(build.snapshots.get, CROSSED):

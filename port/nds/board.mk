@@ -12,9 +12,9 @@ CPU := ARM946E-S
 CLOCK_MHZ := 67.03
 CYCLES := 1
 DISPLAY := LCD 256 x 192
-SCENES := head:9 head836:9 head450:9 pile:1 box:9 car:1 walker:4 door:4 chain:1 crusher:2 conveyor:4
-ROM_SCENES := head head836 head450 pile box car walker door chain crusher conveyor
-GAME_CAPS := 24,64,128,512,0,1024,8,0
+SCENES := head:9 head836:18 head450:22 pile:1 box:40 walker:11 door:9 conveyor:5
+ROM_SCENES := head head836 head450 pile box walker door conveyor
+GAME_CAPS := 11,32,128,512,0,1024,1,4
 PICTURES := 1
 # models are of meshes that its scenes have indexed; recall has larger worlds
 SUITES := $(filter-out models recall,$(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c)))
