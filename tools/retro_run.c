@@ -21,7 +21,7 @@
 #include <unistd.h>
 
 enum { ROM_BYTES_MAX = 32 << 20, ARGUMENTS_BYTES = 256 };
-enum { SILENT_FRAMES_MAX = 60 * 60, NEVER_ENDED = 124 };
+enum { SILENT_FRAMES_MAX = 10 * 60 * 60, NEVER_ENDED = 124 };
 
 /* libretro, as its API version 1 has it */
 enum { PIXELS_RGB565 = 2, DEVICE_PAD = 1, PAD_KEYS = 12 };
@@ -353,7 +353,7 @@ static void play(void (*step)(void))
 {
     while (!run.ended) {
         if (run.silent_frames++ > SILENT_FRAMES_MAX) {
-            retro_die(run.name, "has said nothing for a minute");
+            retro_die(run.name, "has said nothing for ten minutes");
         }
         step();
         if (run.machine->look) {
