@@ -33,6 +33,11 @@
  *   gears       four toothed wheels of different size, of which a motor turns the first
  *   screw       a nut turns down a bolt by its weight, and is wound up again
  *   pour        a bucket of 32 rings, stars, hooks and beakers is poured into a tray
+ *   newton      Newton's cradle: five balls on hinges
+ *   dominoes    a row of 40, which a ball brings down
+ *   cards       a house of three storeys that stands by friction, until a ball comes
+ *   arch        13 stones without mortar, until a ball comes
+ *   bowl        cups and balls that fall into a bowl
  *   lockstep    two worlds fed the same keys over a bad link, and what flies over it
  *
  * A frame is 1/60 s and a unit 1 m.
