@@ -12,6 +12,8 @@ JOINED ?=
 
 # of `make bench` and `make fixtures`, before the board says which scenes it shows
 BENCH_SCENES := $(SCENES)
+# of `make view`: the X server, before the board says what its display is
+X_DISPLAY := $(if $(filter environment,$(origin DISPLAY)),$(DISPLAY))
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
 # those that have scenes to show
 SHOWN := $(patsubst port/%/board.mk,%,$(sort $(shell grep -l '^SCENES' port/*/board.mk)))
@@ -167,7 +169,7 @@ view: ## a window on a scene, by SDL2: turn, pause, step, take hold of bodies, H
 	@tools/need $(NEED_MESHES) $(NEED_HOST) sdl2
 	@$(SUBMAKE) BOARD=host $(WINDOW) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
-	@$(WINDOW) scene='$(SCENE)' $(if $(MESH),mesh=build/gen/user.crm) $(if $(LINK),link='$(LINK)')
+	@DISPLAY='$(X_DISPLAY)' $(WINDOW) scene='$(SCENE)' $(if $(MESH),mesh=build/gen/user.crm) $(if $(LINK),link='$(LINK)')
 
 web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh of yours does, links
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang lld llvm

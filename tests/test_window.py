@@ -64,10 +64,11 @@ class Screen:
 class Window:
     """The program, its window at the left top, and the lines that it says."""
 
-    def __init__(self, screen, *options):
+    def __init__(self, screen, *options, command=(WINDOW,)):
         self.screen = screen
-        self.program = subprocess.Popen([WINDOW] + list(options), stdout=subprocess.PIPE, text=True,
-                                        env=dict(os.environ, DISPLAY=screen.name, SDL_VIDEODRIVER="x11"))
+        alone = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+        self.program = subprocess.Popen([*command, *options], stdout=subprocess.PIPE, text=True,
+                                        env=dict(alone, DISPLAY=screen.name))
         self.lines = queue.Queue()
         threading.Thread(target=lambda: [self.lines.put(line) for line in self.program.stdout], daemon=True).start()
         until(self.settles, 60)
@@ -303,7 +304,7 @@ def toggles(screen):
 
 
 def game(screen):
-    window = Window(screen, "scene=car")
+    window = Window(screen, "SCENE=car", command=("make", "-C", ROOT, "view"))
     screen.ask("keydown", "Up")
     window.shown()
     screen.ask("keyup", "Up")
@@ -311,7 +312,7 @@ def game(screen):
     window.press("space")
     link, frame, state = window.state()
     check("the_pad_drives", "~" in link and state != state_on_host("car", frame), link)
-    window.close()
+    check("make_view_ends_well", window.close() == 0)
 
 
 def main():
