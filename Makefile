@@ -49,7 +49,7 @@ CFLAGS := -std=c11 $(OPT) -g $(WARNINGS) $(ARCH) $(SANITIZE) -ffunction-sections
           $(if $(ROM_SCENES),-DSCENE_ROM -DBOARD_SCENE=$(or $(START),$(firstword $(ROM_SCENES))) -I$(B)/gen) \
           $(if $(ROM_GAMES),-DSCENE_ROM_GAMES -DBOARD_GAME_CAPS=$(GAME_CAPS)) \
           $(if $(CAPS),-DBOARD_CAPS=$(CAPS)) $(if $(DRAW_BYTES),-DBOARD_DRAW_BYTES=$(DRAW_BYTES)) \
-          $(if $(SHADOWS),-DBOARD_SHADOWS) \
+          $(if $(SHADOWS),-DBOARD_SHADOWS) $(if $(SMOOTH),-DBOARD_SMOOTH) \
           $(if $(CYCLES),-DBOARD_UNIT=cycles) $(if $(LINE_BYTES),-DBOARD_LINE_BYTES=$(LINE_BYTES)) \
           $(if $(CLOCK_MHZ),-DPORT_CLOCK_MHZ=$(CLOCK_MHZ))
 LDFLAGS := $(ARCH) $(SANITIZE) -Wl,--gc-sections

@@ -236,6 +236,18 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
     return port_ticks() - start;
 }
 
+/* The display, with the colours of a scene if it can have them. */
+static struct port_fb display(const struct show *show)
+{
+    struct port_fb fb = port_fb();
+    const struct carom_paint *paint = show_paint(show);
+
+    if (fb.palette && paint) {
+        fb.palette(paint->palette);
+    }
+    return fb;
+}
+
 static struct carom_world *make(const struct scene *scene)
 {
     struct carom_config config = scene_config();
@@ -279,7 +291,7 @@ static void report(int frames)
 {
     struct show show;
     struct carom_world *world = start(&show);
-    struct port_fb fb = port_fb();
+    struct port_fb fb = display(&show);
     const int only = (int)port_number("only", 0);
     uint32_t first;
 
@@ -320,7 +332,7 @@ static void play(int frames)
 #endif
     struct show show;
     struct carom_world *world;
-    struct port_fb fb = port_fb();
+    struct port_fb fb;
     struct scene_play play = {.due = port_ticks()};
     uint32_t draw_ticks = 0;
     struct carom_stats stats;
@@ -329,6 +341,7 @@ static void play(int frames)
     load(&scene);
     world = make(&scene);
     show = show_of(&scene);
+    fb = display(&show);
     for (int frame = 1; frames == 0 || frame <= frames; frame++) {
         uint32_t keys = keys_held();
 

@@ -68,7 +68,10 @@ enum scene_ramp {
 };
 /* The squares of the yard, in two greens. */
 extern const uint8_t scene_yard_faces[YARD_FACES];
-/* How a game looks; it is there once, and good until the next call. */
+/*
+ * How a scene looks: that of a game by its paints; else (NULL, or without any) its bodies have colours in turn, and faces that
+ * interfere are pink. It is there once, and good until the next call. scene_look.c
+ */
 const struct carom_paint *scene_paint(const struct scene_game *game);
 /* Write a number and some words; returns where the text goes on. */
 char *scene_say_number(char *text, int number, const char *words);

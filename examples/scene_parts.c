@@ -82,41 +82,6 @@ int64_t scene_upright(const struct carom_world *world, int body)
 /* Squares of two faces. */
 const uint8_t scene_yard_faces[YARD_FACES] = {ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS, ROWS};
 
-/* Shadows cost as much again as the rest of a picture: a board says whether it has the time. */
-#if defined BOARD_SHADOWS
-#define SHADOWS &carom_shadows
-#else
-#define SHADOWS NULL
-#endif
-
-const struct carom_paint *scene_paint(const struct scene_game *game)
-{
-    static const uint32_t rgb[] = {
-        [SCENE_GREEN] = 0x6f9f50,  [SCENE_WOOD] = 0xa87848,   [SCENE_RED] = 0xc82828,
-        [SCENE_YELLOW] = 0xf0c020, [SCENE_MEADOW] = 0x548448, [SCENE_DARK] = 0x30343c};
-    static uint32_t palette[256];
-    static struct carom_paint paint = {.palette = palette,
-                                       .ramps = 8,
-                                       .hide_interfering = true,
-                                       .horizon = true,
-                                       .shadows = SHADOWS,
-                                       .ambient_q30 = CAROM_ONE_Q30 / 8};
-
-    if (palette[255] == 0) {
-        memcpy(palette, carom_draw_palette, sizeof palette);
-        for (uint32_t i = 1; i < sizeof rgb / sizeof rgb[0]; i++) {
-            carom_draw_ramp(&palette[i * CAROM_RAMP_SHADES], rgb[i]);
-        }
-        for (uint32_t i = 0; i < CAROM_RAMP_SHADES / 2; i++) { /* both pale at the horizon */
-            palette[i] = 0x5890d0 + i * 0x090602;
-            palette[CAROM_RAMP_SHADES / 2 + i] = 0xc0d0b8 - i * 0x050305;
-        }
-    }
-    paint.bodies = game->paints;
-    paint.body_count = game->paint_count;
-    return &paint;
-}
-
 char *scene_say_number(char *text, int number, const char *words)
 {
     char digits[12];

@@ -28,7 +28,7 @@ const struct carom_camera *show_camera(const struct show *show, const struct car
 
 const struct carom_paint *show_paint(const struct show *show)
 {
-    return SCENE_GAMES && show->game && show->game->paints ? scene_paint(show->game) : NULL;
+    return SCENE_GAMES ? scene_paint(show->game) : NULL;
 }
 
 void show_say(const struct show *show, const struct carom_world *world, char text[SCENE_TEXT])

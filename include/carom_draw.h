@@ -92,6 +92,10 @@ struct carom_paint_line {
 struct carom_shadows;
 extern const struct carom_shadows carom_shadows;
 
+/* What shades from corner to corner, likewise. */
+struct carom_smooth;
+extern const struct carom_smooth carom_smooth;
+
 /*
  * The things that a picture shows otherwise than usual; all zero changes nothing. It and all that it points to are the
  * caller's, and only read.
@@ -117,6 +121,15 @@ struct carom_paint {
      * landscape; a solid of which the outline does not fit into a third of what is left has none.
      */
     const struct carom_shadows *shadows;
+
+    /*
+     * &carom_smooth, or NULL for faces of one shade each. FLAT: shades go evenly from corner to corner, and the sky from row
+     * to row. At a vertex faces share one shade, the mean of theirs, up to an edge at which the normals of two differ by
+     * more than an angle: there the edge stays sharp. XRGB8888 has all colours between two shades; the other formats
+     * mix pixels of both in a pattern. CAROM_SMOOTH_BYTES more of the workspace are used.
+     */
+    const struct carom_smooth *smooth;
+    int32_t crease_q30; /* the cosine of that angle, -1 .. 1; 0: the usual one, of 50 degrees */
 
     const struct carom_paint_line *lines;
     uint32_t line_count; /* up to 4096; each takes 52 bytes of the workspace */
@@ -152,6 +165,9 @@ struct carom_picture {
     ((size_t)12288 + (size_t)10 * (size_t)(vertices) + (size_t)11 * (size_t)(faces))
 #define CAROM_DRAW_BYTES_LEAST(vertices, faces)                                                    \
     ((size_t)12288 + (size_t)2 * (size_t)(vertices) + (size_t)(faces) / 8)
+/* With carom_paint.smooth, besides; at least for the vertices of the largest mesh and no faces. */
+#define CAROM_SMOOTH_BYTES(vertices, faces)                                                        \
+    ((size_t)2 * (size_t)(vertices) + (size_t)10 * (size_t)(faces))
 
 /*
  * Draw the bodies of a world over a background, with the interfering faces of its last step
@@ -159,7 +175,7 @@ struct carom_picture {
  *
  * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for a width, height, stride, format, style or focal length
  *          out of range, a style or format that cannot be sent by rows, an eye at its target, or a
- *          number of ramps or lines, a colour or an ambient light out of range; CAROM_ERR_RANGE for a
+ *          number of ramps or lines, a colour, an ambient light or a crease out of range; CAROM_ERR_RANGE for a
  *          camera or a line too far away; CAROM_ERR_NULL; CAROM_ERR_MEMORY for a
  *          workspace that is too small, or memory that is not aligned.
  *          Unless CAROM_OK, nothing is drawn.

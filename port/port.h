@@ -22,6 +22,8 @@ struct port_fb {
      * The row function of struct carom_picture, for a display that is sent rows and keeps them; else NULL.
      */
     void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
+    void (*palette)(
+        const uint32_t rgb[256]); /* sets what PORT_PALETTE8 shows; NULL: it cannot be set */
 };
 
 /* Bring up clock, timer and display. Called once, first. */

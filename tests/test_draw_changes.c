@@ -46,6 +46,9 @@ static struct carom_picture picture_of(void *to, uint8_t format, size_t bytes)
 /* ------------------------------------------------------------- whole scenes */
 
 static const struct carom_paint shaded = {.shadows = &carom_shadows};
+static const struct carom_paint smooth = {.smooth = &carom_smooth};
+static const struct carom_paint both = {
+    .shadows = &carom_shadows, .smooth = &carom_smooth, .horizon = true};
 
 /* Frames of a scene in two buffers in turn; each is to be a full picture. */
 static void compare_scene(const char *name, uint8_t format, enum carom_draw_style style,
@@ -100,6 +103,11 @@ static void scenes(void)
     compare_scene("pile", CAROM_XRGB8888, CAROM_DRAW_FLAT, sizeof scene_workspace, &shaded);
     compare_scene("pile", CAROM_GREY4, CAROM_DRAW_FLAT, 60000, &shaded);
     compare_scene("car", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace, &shaded);
+    compare_scene("head", CAROM_PALETTE8, CAROM_DRAW_FLAT, sizeof scene_workspace, &smooth);
+    compare_scene("head", CAROM_GREY4, CAROM_DRAW_FLAT, 24000, &smooth);
+    compare_scene("pile", CAROM_BGR555, CAROM_DRAW_FLAT, 60000, &both);
+    compare_scene("sheet", CAROM_RGB565, CAROM_DRAW_FLAT, sizeof scene_workspace, &smooth);
+    compare_scene("car", CAROM_XRGB8888, CAROM_DRAW_FLAT, sizeof scene_workspace, &both);
 }
 
 /* -------------------------------------------------------------- what changes */

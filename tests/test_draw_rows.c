@@ -95,7 +95,10 @@ static void compare(const struct carom_picture *picture)
     CHECK(memcmp(panel.pixels, full, (size_t)(WIDTH * HEIGHT * bytes_each[picture->format])) == 0);
 }
 
-static void compare_scene(const char *name, uint8_t format, size_t bytes)
+static const struct carom_paint smooth = {.smooth = &carom_smooth};
+
+static void compare_scene(const char *name, uint8_t format, size_t bytes,
+                          const struct carom_paint *paint)
 {
     static struct carom_drawn_body bodies[BODIES];
     struct carom_drawn drawn = {.bodies = bodies, .room = BODIES};
@@ -110,6 +113,7 @@ static void compare_scene(const char *name, uint8_t format, size_t bytes)
     for (int frame = 1; frame <= FRAMES; frame++) {
         struct carom_picture whole = in_memory(format), rows = by_rows(format, bytes);
 
+        whole.paint = rows.paint = paint;
         CHECK(carom_world_step(world) >= 0);
         CHECK_EQ(carom_draw(world, scene.camera, &whole, CAROM_DRAW_FLAT), CAROM_OK);
         if (frame % 2) {
@@ -117,6 +121,7 @@ static void compare_scene(const char *name, uint8_t format, size_t bytes)
             CHECK(panel.area >= WIDTH * HEIGHT);
             compare(&whole);
             rows = by_rows(format, bytes);
+            rows.paint = paint;
         }
         CHECK_EQ(carom_draw_changes(world, scene.camera, &rows, CAROM_DRAW_FLAT, &drawn), CAROM_OK);
         if (drawn.changed_count > 0) {
@@ -132,10 +137,12 @@ static void scenes(void)
 {
     const size_t least = CAROM_DRAW_BYTES_LEAST(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES);
 
-    compare_scene("head", CAROM_RGB565, sizeof scene_workspace);
-    compare_scene("head", CAROM_PALETTE8, 24000);
-    compare_scene("head", CAROM_XRGB8888, least);
-    compare_scene("head-spin2", CAROM_BGR555, 24000);
+    compare_scene("head", CAROM_RGB565, sizeof scene_workspace, NULL);
+    compare_scene("head", CAROM_PALETTE8, 24000, NULL);
+    compare_scene("head", CAROM_XRGB8888, least, NULL);
+    compare_scene("head-spin2", CAROM_BGR555, 24000, NULL);
+    compare_scene("head", CAROM_RGB565, sizeof scene_workspace, &smooth);
+    compare_scene("head", CAROM_PALETTE8, 24000, &smooth);
 }
 
 static void asked_for(void)

@@ -7,3 +7,4 @@ DISPLAY := memory 512 x 512
 SCENES := head pile sheet box car walker lockstep door chain crusher conveyor gears screw newton dominoes cards arch bowl pour
 PICTURES := 1
 SHADOWS := 1
+SMOOTH := 1

@@ -32,16 +32,20 @@ static uint32_t colour(uint32_t rgb)
     return (rgb >> 19 & 0x1f) | (rgb >> 6 & 0x3e0) | (rgb << 7 & 0x7c00);
 }
 
+static void set_palette(const uint32_t rgb[256])
+{
+    for (int i = 0; i < 128; i++) {
+        LCD->palette[i] = colour(rgb[2 * i]) | colour(rgb[2 * i + 1]) << 16;
+    }
+}
+
 void port_init(void)
 {
     LCD->timing[0] = (WIDTH / 16 - 1) << 2;
     LCD->timing[1] = HEIGHT - 1;
     LCD->timing[2] = 1u << 26 | (WIDTH - 1) << 16;
     LCD->upper_base = (uint32_t)(uintptr_t)pixels;
-    for (int i = 0; i < 128; i++) {
-        LCD->palette[i] = colour(carom_draw_palette[2 * i]) | colour(carom_draw_palette[2 * i + 1])
-                                                                  << 16;
-    }
+    set_palette(carom_draw_palette);
     LCD->control = LCD_ENABLE | LCD_8_BITS | LCD_TFT | LCD_POWER;
 }
 
@@ -51,7 +55,8 @@ struct port_fb port_fb(void)
                          .width = WIDTH,
                          .height = HEIGHT,
                          .stride = sizeof pixels[0],
-                         .format = PORT_PALETTE8};
+                         .format = PORT_PALETTE8,
+                         .palette = set_palette};
 
     return fb;
 }

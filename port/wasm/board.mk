@@ -5,6 +5,8 @@ HOSTED := 1
 CROSS := llvm-
 COMPILER := clang --target=wasm32
 PORT := port/wasm/wasm.c port/nolibc/string.c
+SHADOWS := 1
+SMOOTH := 1
 FAMILY_CFLAGS := -ffreestanding -Iport/nolibc
 FAMILY_LDFLAGS := -nostdlib -Wl,--no-entry,--export=main,-z,stack-size=262144
 RUNNER := port/wasm/run.mjs

@@ -210,7 +210,8 @@ static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
            a->hide_interfering == b->hide_interfering &&
            a->interfering_ramp == b->interfering_ramp &&
            memcmp(&a->light, &b->light, sizeof a->light) == 0 && a->ambient_q30 == b->ambient_q30 &&
-           a->shadows == b->shadows && a->horizon == b->horizon;
+           a->shadows == b->shadows && a->horizon == b->horizon && a->smooth == b->smooth &&
+           a->crease_q30 == b->crease_q30;
 }
 
 /* Whether the pixels are those that were drawn before, in the same way. */

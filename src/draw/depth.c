@@ -177,7 +177,11 @@ void draw_advance(struct draw_sweep *s, int32_t to)
             return;
         }
         end = find_crossing(s, s->end < to ? s->end : to, &which);
-        draw_run(s->row, s->pixel_shift, s->x, end, s->top->pixel);
+        if (s->top->face->colour & DRAW_TINT) {
+            s->smooth->run(s, s->top, s->x, end);
+        } else {
+            draw_run(s->row, s->pixel_shift, s->x, end, s->top->pixel);
+        }
         s->x = end;
         if (which >= 0) {
             struct draw_span *next = s->under[which];

@@ -295,7 +295,49 @@ static inline bool draw_covers(const struct draw_cover *cover, const struct draw
 int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect);
 
+/* ---- smooth.c: shades from corner to corner */
+
+struct draw_face;
+struct draw_span;
+struct draw_sweep;
 struct draw_list;
+
+/* Where a pass over the bodies is. */
+struct draw_shades {
+    const struct draw_body *body;
+    uint16_t *at; /* at its vertices, q8 and 1 more; 0: not known yet. NULL: faces have one shade */
+    int32_t crease_q30; /* faces share a shade if their normals' product is no less */
+    uint32_t shade_q24; /* the view's */
+};
+#define DRAW_SHADES_MANY 0xffffu /* a vertex has more than one */
+
+struct carom_smooth {
+    /* List a face of which the corners are in these places of the list. There must be room for two faces. */
+    void (*list)(const struct draw_shades *shades, uint32_t face, const struct draw_rect *rect,
+                 struct draw_list *list, const uint32_t place[3], uint32_t colour, bool inside);
+    /* List what the guard band leaves of a face. */
+    void (*list_clipped)(const struct draw_shades *shades, uint32_t face,
+                         const struct draw_rect *rect, struct draw_list *list, uint32_t colour);
+    /* The shades of a face's corners; and those of places on the face, in view coordinates. */
+    void (*corners)(const struct draw_shades *shades, uint32_t face, int32_t shade_q8[3]);
+    void (*between)(const struct draw_shades *shades, uint32_t face, int32_t (*at)[3], int n,
+                    int32_t *shade_q8);
+    /*
+     * Give the face that was listed last, or the one before with its plane, the shades of the plane's corners; a tint is
+     * listed where there is more than one.
+     */
+    void (*tint)(struct draw_list *list, struct draw_face *face, const int32_t shade_q8[3]);
+    /* The pixels of a row up to x1, and those of a run of a span with a tint. */
+    void (*row)(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1);
+    void (*run)(const struct draw_sweep *s, const struct draw_span *span, int32_t from, int32_t to);
+    /* A shade of the background as the pixels of a row. */
+    uint32_t (*ground)(const struct carom_picture *picture, int32_t y, int32_t shade_q8);
+};
+
+static inline const struct carom_smooth *draw_smooth(const struct carom_paint *paint)
+{
+    return paint ? paint->smooth : NULL;
+}
 
 /* ---- outline.c: what the light sees of a solid */
 
@@ -351,8 +393,8 @@ struct carom_shadows {
      * none. False when there is no room in the list.
      */
     bool (*list)(const struct draw_source *source, const struct draw_view *view,
-                 const struct draw_body *body, uint32_t number, struct draw_list *list,
-                 void *scratch, size_t bytes);
+                 const struct draw_shades *shades, const struct draw_body *body, uint32_t number,
+                 struct draw_list *list, void *scratch, size_t bytes);
 };
 
 /* NULL without shadows. */
@@ -375,12 +417,28 @@ struct draw_face {
  * their depth to the last bit, whatever their corners are rounded to.
  */
 #define DRAW_DECAL  0x8000u
+#define DRAW_TINT   0x4000u /* it has a shade of its own at each pixel: draw_tint */
 #define DRAW_COLOUR 0x1fffu /* palettes have at most 256 ramps of 32 */
 
 /* The face that gives a face its depth. Faces are listed downward. */
 static inline const struct draw_face *draw_plane(const struct draw_face *face)
 {
     return face->colour & DRAW_DECAL ? face - 1 : face;
+}
+
+/*
+ * The shades of a face over the picture, listed after the face and its plane in the place of another one: at the plane's
+ * top corner, and what a pixel to the right and one below add. A shade is 256, from 0 to one less than all are.
+ */
+struct draw_tint {
+    uint16_t at_q8, right_q16[2], below_q16[2]; /* upper and lower half */
+};
+_Static_assert(sizeof(struct draw_tint) == sizeof(struct draw_face),
+               "it takes the place of a face");
+
+static inline const struct draw_tint *draw_tint(const struct draw_face *face)
+{
+    return (const struct draw_tint *)(const void *)(draw_plane(face) - 1);
 }
 
 /*
@@ -421,6 +479,9 @@ struct draw_sweep {
     uint8_t *row; /* its pixel 0 */
     int32_t safe; /* a run that ends here may write 3 pixels more */
     int pixel_shift;
+    const struct carom_smooth *smooth; /* or NULL */
+    const uint32_t *palette;
+    uint8_t format;
     int32_t y, x;
     uint32_t ground;       /* the background */
     struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
@@ -552,6 +613,8 @@ void draw_paint_light(struct draw_view *view, const struct carom_paint *paint);
 uint8_t draw_paint_ramp(const struct carom_paint *paint, uint32_t number);
 /* Put paint, which may be NULL, over the usual ramps of a body. */
 void draw_paint_body(struct draw_coat *coat, const struct carom_paint *paint, uint32_t number);
+/* Faces whose normals have at least this product share shades: q30. */
+int32_t draw_crease(const struct carom_paint *paint);
 /* The ramp of a face. */
 uint32_t draw_face_ramp(const struct draw_coat *coat, const struct carom_paint *paint,
                         uint32_t face);

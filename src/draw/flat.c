@@ -17,6 +17,8 @@ struct flat {
     struct draw_view *view;
     struct draw_list list;
     struct draw_body body;
+    struct draw_shades shades;
+    uint16_t *shade_room;
     uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
     uint32_t *hot_bits;
     uint16_t *rows;
@@ -29,11 +31,11 @@ struct flat {
 
 /* ------------------------------------------------------------ into the list */
 
-static void list_clipped(struct flat *f, const uint16_t numbers[3], uint32_t colour)
+static void list_clipped(struct flat *f, uint32_t number, uint32_t colour)
 {
     struct draw_vertex corner[DRAW_CLIP_MAX];
     uint32_t place[DRAW_CLIP_MAX];
-    int n = draw_clip(&f->body, numbers, 3, corner);
+    int n = draw_clip(&f->body, f->body.mesh->raw.faces[number], 3, corner);
 
     for (int i = 0; i < n; i++) {
         place[i] = list_vertex(&f->list, corner[i]);
@@ -65,6 +67,19 @@ static bool hidden(const struct flat *f, const struct draw_cover *cover, uint32_
            draw_covers(cover, &vertices[k]);
 }
 
+/* A face with shades from corner to corner. */
+static void see_shaded(struct flat *f, uint32_t number, const uint32_t place[3], uint32_t colour,
+                       bool inside, const struct draw_cover *cover)
+{
+    const struct carom_smooth *smooth = f->source->paint->smooth;
+
+    if ((place[0] | place[1] | place[2]) & OUTSIDE) {
+        smooth->list_clipped(&f->shades, number, &f->view->rect, &f->list, colour);
+    } else if (!(cover && hidden(f, cover, place[0], place[1], place[2]))) {
+        smooth->list(&f->shades, number, &f->view->rect, &f->list, place, colour, inside);
+    }
+}
+
 /* A face that looks at the eye. */
 static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside,
                             const struct draw_cover *cover)
@@ -81,8 +96,10 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
     if (k == 0) {
         k = see_vertex(f, numbers[2]);
     }
-    if ((i | j | k) & OUTSIDE) {
-        list_clipped(f, numbers, colour);
+    if (f->shades.at) {
+        see_shaded(f, number, (const uint32_t[3]){i, j, k}, colour, inside, cover);
+    } else if ((i | j | k) & OUTSIDE) {
+        list_clipped(f, number, colour);
     } else if (!(cover && hidden(f, cover, i, j, k))) {
         list_face(&f->view->rect, &f->list, i, j, k, colour, inside);
     }
@@ -137,6 +154,17 @@ static void mark_hot(struct flat *f, uint32_t number)
     }
 }
 
+/* Prepare for the shades of a body, none of which is known yet. */
+static void begin_shades(struct flat *f)
+{
+    f->shades.at = NULL;
+    if (f->shade_room) {
+        f->shades = (struct draw_shades){&f->body, f->shade_room, draw_crease(f->source->paint),
+                                         f->view->shade_q24};
+        memset(f->shade_room, 0, f->body.mesh->raw.vertex_count * sizeof f->shade_room[0]);
+    }
+}
+
 /* List the lines of the paint; false when there is no room for all of them. */
 static bool see_lines(struct flat *f)
 {
@@ -164,6 +192,16 @@ static bool see_lines(struct flat *f)
     return true;
 }
 
+/* Whether there is room for the most that a leaf may list; a face may have a tint, which takes the room of another. */
+static bool has_room(const struct flat *f)
+{
+    size_t tints = f->shade_room ? LEAF_FACES : 0;
+
+    return list_room(&f->list) >= LEAF_ROOM + tints * sizeof(struct draw_face) &&
+           f->list.vertex_count + LEAF_VERTICES <= LIST_VERTICES_MAX &&
+           f->list.face_count + LEAF_FACES + tints <= LIST_FACES_MAX;
+}
+
 /* List what shows in the part; false when there is no room for all of it. */
 static bool see_part(struct flat *f)
 {
@@ -186,6 +224,7 @@ static bool see_part(struct flat *f)
         mesh = look.mesh;
         draw_paint_body(&f->body.coat, f->source->paint, i);
         mark_hot(f, i);
+        begin_shades(f);
         memset(f->seen, 0, mesh->raw.vertex_count * sizeof f->seen[0]);
         for (uint32_t l = 0; l < mesh->leaf_count; l++) {
             const struct carom_leaf *leaf = &mesh->leaves[l];
@@ -196,17 +235,15 @@ static bool see_part(struct flat *f)
                 sees = draw_sees_sphere(&f->body, &leaf->centre, leaf->radius_q22);
             }
             if (sees) {
-                if (list_room(&f->list) < LEAF_ROOM ||
-                    f->list.vertex_count + LEAF_VERTICES > LIST_VERTICES_MAX ||
-                    f->list.face_count + LEAF_FACES > LIST_FACES_MAX) {
+                if (!has_room(f)) {
                     return false;
                 }
                 may = covered && draw_may_cover(f->view, &f->body, leaf);
                 see_leaf(f, leaf, sees == 2, may ? &f->view->cover : NULL);
             }
         }
-        if (shadows && !shadows->list(f->source, f->view, &f->body, i, &f->list, f->scratch,
-                                      f->scratch_bytes)) {
+        if (shadows && !shadows->list(f->source, f->view, &f->shades, &f->body, i, &f->list,
+                                      f->scratch, f->scratch_bytes)) {
             return false;
         }
     }
@@ -222,7 +259,7 @@ static bool see_part(struct flat *f)
 static bool make_flat(struct flat *f, const struct carom_picture *picture)
 {
     uint8_t *at = (uint8_t *)picture->workspace;
-    size_t vertices = 0, faces = 0, bytes;
+    size_t vertices = 0, faces = 0, shades, bytes;
     int32_t radius_q22 = 0;
 
     f->largest = f->source->count;
@@ -240,13 +277,15 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
     }
     bytes = (faces + 31) / 32 * sizeof f->hot_bits[0] + vertices * sizeof f->seen[0] +
             (size_t)picture->height * sizeof f->rows[0];
-    bytes = (bytes + 7) / 8 * 8;
+    shades = draw_smooth(f->source->paint) ? vertices : 0;
+    bytes = (bytes + shades * sizeof f->shade_room[0] + 7) / 8 * 8;
     if ((uintptr_t)at % 8 != 0 || picture->workspace_bytes / 8 * 8 < bytes + ROOM_LEAST) {
         return false;
     }
     f->hot_bits = (uint32_t *)(void *)at;
     f->seen = (uint16_t *)(void *)(f->hot_bits + (faces + 31) / 32);
-    f->rows = f->seen + vertices;
+    f->shade_room = shades ? f->seen + vertices : NULL;
+    f->rows = f->seen + vertices + shades;
     f->vertices = (struct draw_vertex *)(void *)(at + bytes);
     f->end = at + picture->workspace_bytes / 8 * 8;
     f->scratch_bytes = 0;

@@ -4,6 +4,8 @@
 #define RAMPS_MAX 256
 #define LINES_MAX 4096
 
+#define USUAL_CREASE_Q30 690190709 /* the cosine of 50 degrees */
+
 /* Light and shadow together differ by so much less than DRAW_SHADES shades, 2^24 each. */
 #define SLACK_Q24 512
 
@@ -41,7 +43,8 @@ int draw_check_paint(const struct carom_picture *picture)
     }
     if (ramps < DRAW_RAMPS || ramps > RAMPS_MAX ||
         (picture->format == CAROM_PALETTE8 && ramps > DRAW_RAMPS) || paint->ambient_q30 < 0 ||
-        paint->ambient_q30 > CAROM_ONE_Q30) {
+        paint->ambient_q30 > CAROM_ONE_Q30 || paint->crease_q30 < -CAROM_ONE_Q30 ||
+        paint->crease_q30 > CAROM_ONE_Q30) {
         return CAROM_ERR_ARGUMENT;
     }
     return check_lines(paint);
@@ -90,6 +93,11 @@ static uint8_t known(const struct carom_paint *paint, uint8_t ramp)
 uint8_t draw_paint_ramp(const struct carom_paint *paint, uint32_t number)
 {
     return paint && number < paint->body_count ? known(paint, paint->bodies[number].ramp) : 0;
+}
+
+int32_t draw_crease(const struct carom_paint *paint)
+{
+    return paint->crease_q30 != 0 ? paint->crease_q30 : USUAL_CREASE_Q30;
 }
 
 void draw_paint_body(struct draw_coat *coat, const struct carom_paint *paint, uint32_t number)

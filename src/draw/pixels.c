@@ -22,23 +22,34 @@ uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *p
     return draw_pixel(row, draw_pixel_shift(picture->format), middle[0]);
 }
 
-/* Half of the shades are for each side of the horizon; they meet there, and are used up a picture's height away. */
-static uint32_t shade_by_horizon(int32_t below, int32_t height)
+/*
+ * Half of the shades are for each side of the horizon; they meet there, and are used up a picture's height away. In
+ * steps of 2^bits a shade.
+ */
+static int32_t shade_by_horizon(int32_t below, int32_t height, int bits)
 {
-    const int32_t half = DRAW_SHADES / 2;
+    const int32_t half = DRAW_SHADES / 2 << bits;
     int32_t away = (below < 0 ? -below - 1 : below) * half / height;
 
     away = away < half ? away : half - 1;
-    return (uint32_t)(below < 0 ? half - 1 - away : half + away);
+    return below < 0 ? half - 1 - away : half + away;
+}
+
+static int32_t shade_of_row(const struct draw_view *view, const struct carom_picture *picture,
+                            int32_t y, int bits)
+{
+    return picture->paint && picture->paint->horizon
+               ? shade_by_horizon(y - view->horizon, picture->height, bits)
+               : (y + view->middle[1]) * (DRAW_SHADES << bits) / picture->height;
 }
 
 uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y)
 {
-    uint32_t shade = picture->paint && picture->paint->horizon
-                         ? shade_by_horizon(y - view->horizon, picture->height)
-                         : (uint32_t)((y + view->middle[1]) * DRAW_SHADES / picture->height);
+    const struct carom_smooth *smooth = draw_smooth(picture->paint);
 
-    return draw_colour(picture, DRAW_BACKGROUND * DRAW_SHADES + shade);
+    return smooth ? smooth->ground(picture, y, shade_of_row(view, picture, y, 8))
+                  : draw_colour(picture, DRAW_BACKGROUND * DRAW_SHADES +
+                                             (uint32_t)shade_of_row(view, picture, y, 0));
 }
 
 /* The bytes from p to end of a word that repeats. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "draw.h"
+#include "row.h"
 
 /* The state of a walk over the rows of a part. */
 struct rows {
@@ -173,128 +173,15 @@ static void step_row(struct rows *r, int32_t row)
     r->count = (uint32_t)(to - end) - 1;
 }
 
-/*
- * Pixels from <= x < to, and perhaps 3 pixels more. Here most runs are of a few pixels, and it costs
- * less to write four at a time than to see where they end.
- */
-static inline void fill_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
-{
-    uint8_t *p, *end;
-
-    if (pixel_shift == 2) {
-        draw_pixel4 *to4 = (draw_pixel4 *)(void *)row + to;
-
-        for (draw_pixel4 *p4 = to4 + (from - to); p4 < to4; p4 += 4) {
-            p4[0] = p4[1] = p4[2] = p4[3] = pixel;
-        }
-        return;
-    }
-    if (pixel_shift < 0) {
-        draw_run(row, pixel_shift, from, to, pixel);
-        return;
-    }
-    p = row + from * (1 << pixel_shift);
-    end = row + to * (1 << pixel_shift);
-    if (!DRAW_ANYWHERE && (uintptr_t)p & 1) {
-        *p++ = (uint8_t)pixel;
-    }
-    if (!DRAW_ANYWHERE && (uintptr_t)p & 2) {
-        *(draw_half *)(void *)p = (uint16_t)pixel;
-        p += 2;
-    }
-    for (; p < end; p += 4) {
-        *(draw_word *)(void *)p = pixel;
-    }
-}
-
-/* Take in a span that begins where it is not free. */
-static void overlap(struct draw_sweep *s, struct draw_span *span)
-{
-    if (s->end <= s->x) {
-        s->top = NULL;
-    }
-    draw_overlap(s, span);
-    s->gate = INT32_MAX;
-    if (s->top == NULL) {
-        s->end = s->x;
-    }
-    if (s->under_count == 0) {
-        s->gate = s->end;
-    }
-}
-
-DRAW_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
-                          int pixel_shift)
-{
-    int32_t x = s->x, end = x, gate = x, safe = s->safe;
-    uint32_t pixel = s->ground, ground = s->ground;
-    struct draw_span *top = NULL;
-    uint8_t *row = s->row;
-
-    for (;;) {
-        struct draw_span *span = *spans++;
-        int32_t a = span->x_q15[0] >> 15, b = span->x_q15[1] >> 15;
-
-        if (a >= b) {
-            continue;
-        }
-        if (a >= safe) {
-            if (a >= x1) {
-                break;
-            }
-            gate = INT32_MAX;
-        }
-        if (a < gate) {
-            if (top && span->w_high == 0) {
-                draw_depths(s, span);
-            }
-            if (top && a < end && draw_hides(s, top, span)) {
-                gate = INT32_MAX;
-                continue;
-            }
-            if (top && a == end && a < safe && draw_shows(s, span)) {
-                fill_run(row, pixel_shift, x, end, pixel);
-                top = span;
-                pixel = span->pixel;
-                x = a;
-                end = b;
-                continue;
-            }
-            s->x = x;
-            s->top = top;
-            s->end = end;
-            overlap(s, span);
-            top = s->top;
-            x = s->x;
-            end = s->end;
-            gate = s->gate;
-            pixel = top ? top->pixel : ground;
-            continue;
-        }
-        fill_run(row, pixel_shift, x, end, pixel);
-        if (a > end) {
-            draw_run(row, pixel_shift, end, a, ground);
-        }
-        top = span;
-        pixel = span->pixel;
-        x = a;
-        end = gate = b;
-    }
-    s->x = x;
-    s->top = end > x ? top : NULL;
-    s->end = end;
-    draw_advance(s, x1);
-}
-
 /* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
 DRAW_OUT_OF_LINE void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
-    fill_row(s, spans, x1, 2);
+    fill_row(s, spans, x1, 2, false);
 }
 
 static void fill_row_any(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
-    fill_row(s, spans, x1, s->pixel_shift);
+    fill_row(s, spans, x1, s->pixel_shift, false);
 }
 
 /* Lay out the room: spans, and two lists of as many with a sentinel at both ends. */
@@ -318,13 +205,16 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
 {
     struct rows r = {
         .view = view, .list = list, .palette = draw_palette(picture), .format = picture->format};
-    struct draw_sweep s = {.view = view, .vertices = list->vertices};
+    const struct carom_smooth *smooth = draw_smooth(picture->paint);
+    struct draw_sweep s = {.view = view, .vertices = list->vertices, .smooth = smooth};
     struct draw_span lowest = {.x_q15 = {INT32_MIN, INT32_MIN}};
     const struct draw_rect *rect = &view->rect;
 
     make_room(&r, (struct draw_span *)(void *)(list->vertices + list->vertex_count));
     r.spans[0] = r.last[0] = &lowest;
     s.pixel_shift = draw_pixel_shift(picture->format);
+    s.palette = r.palette;
+    s.format = r.format;
     for (int32_t y = rect->y0; y < rect->y1; y++) {
         if (!begin_faces(&r, y) && !must) {
             return false;
@@ -338,7 +228,9 @@ bool draw_rows(const struct draw_view *view, const struct draw_list *list,
         s.under_count = 0;
         s.under_high = 0;
         s.ground = draw_ground(view, picture, y);
-        if (s.pixel_shift == 2) {
+        if (smooth) {
+            smooth->row(&s, r.spans + 1, rect->x1);
+        } else if (s.pixel_shift == 2) {
             fill_row_4(&s, r.spans + 1, rect->x1);
         } else {
             fill_row_any(&s, r.spans + 1, rect->x1);

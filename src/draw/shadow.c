@@ -36,6 +36,7 @@ struct receiver {
     const struct draw_source *source;
     const struct draw_view *view;
     const struct draw_body *body;
+    const struct draw_shades *shades;
     struct draw_list *list;
     carom_m3_q30 turn; /* its axes to the world's */
     int32_t sun[3];    /* view coordinates */
@@ -208,17 +209,27 @@ static uint32_t shadowed(uint32_t colour)
     return colour - shade + shade * 3 / 8;
 }
 
+/* A shade from corner to corner is continued where faces look away from the light. */
+static int32_t shadowed_q8(const struct receiver *r, int32_t shade_q8)
+{
+    int32_t middle = (int32_t)(r->view->shade_q24 >> 16), dark = shade_q8 * 3 / 8;
+
+    return shade_q8 <= middle ? shade_q8 : fix_larger(dark, 3 * middle - 2 * shade_q8);
+}
+
 /* A triangle that takes the light, all in the guard band. */
 struct lit {
     int32_t corner[3][3];     /* view coordinates */
     struct draw_vertex on[3]; /* the picture, to the same bit as those of the face */
     uint32_t colour;          /* in shadow */
-    uint32_t plane[3];        /* where these are in the list; all 0: not there yet */
+    int32_t
+        shade_q8[3];   /* of its corners in shadow, if the body has shades from corner to corner */
+    uint32_t plane[3]; /* where these are in the list; all 0: not there yet */
 };
 
 /* The room that the decals of one prism on one triangle may take. */
 #define DECAL_VERTICES (3 + DRAW_CLIP_MAX)
-#define DECAL_FACES    (2 * (DRAW_CLIP_MAX - 2))
+#define DECAL_FACES    (3 * (DRAW_CLIP_MAX - 2)) /* each with its plane and its tint */
 #define DECAL_ROOM                                                                                 \
     (DECAL_VERTICES * sizeof(struct draw_vertex) + DECAL_FACES * sizeof(struct draw_face))
 
@@ -229,14 +240,27 @@ static bool has_room(const struct draw_list *list)
            list->face_count + DECAL_FACES <= LIST_FACES_MAX;
 }
 
-/* List the corners that give the decals of a triangle their depth, the top one first as in a face. */
+/* List the corners that give the decals of a triangle their depth. */
 static void list_plane(const struct receiver *r, struct lit *lit)
 {
+    for (int k = 0; k < 3 && lit->plane[2] == 0; k++) {
+        lit->plane[k] = list_vertex(r->list, lit->on[k]);
+    }
+}
+
+/* Turn a triangle so that its top corner is the first one, as in a face. */
+static void top_first(struct lit *lit)
+{
+    const struct lit was = *lit;
     int32_t a = lit->on[0].yx_q4, b = lit->on[1].yx_q4, c = lit->on[2].yx_q4;
     int top = b < a && b <= c ? 1 : c < a ? 2 : 0;
 
-    for (int k = 0; k < 3 && lit->plane[2] == 0; k++) {
-        lit->plane[k] = list_vertex(r->list, lit->on[(top + k) % 3]);
+    for (int k = 0; k < 3; k++) {
+        int from = (top + k) % 3;
+
+        memcpy(lit->corner[k], was.corner[from], sizeof lit->corner[k]);
+        lit->on[k] = was.on[from];
+        lit->shade_q8[k] = was.shade_q8[from];
     }
 }
 
@@ -252,6 +276,9 @@ static void list_decal(const struct receiver *r, const struct lit *lit, uint32_t
 
         for (int k = 0; k < 3; k++) {
             plane->corner[k] = (uint16_t)lit->plane[k];
+        }
+        if (r->shades->at) {
+            r->source->paint->smooth->tint(r->list, plane + 1, lit->shade_q8);
         }
     }
 }
@@ -308,6 +335,7 @@ static bool shade_face(const struct receiver *r, const struct caster *c, uint32_
     int32_t polygon[DRAW_CLIP_MAX][3];
     struct draw_vertex on[DRAW_CLIP_MAX];
     struct extent extent = nothing;
+    int32_t shade_q8[DRAW_CLIP_MAX] = {0};
     bool fits = true;
     int n;
 
@@ -319,6 +347,9 @@ static bool shade_face(const struct receiver *r, const struct caster *c, uint32_
         return true;
     }
     n = draw_clip_placed(r->body, polygon, 3, on);
+    if (r->shades->at) {
+        r->source->paint->smooth->between(r->shades, face, polygon, n, shade_q8);
+    }
     for (int i = 2; i < n && fits; i++) {
         const int corner[3] = {0, i - 1, i};
         struct lit lit = {.colour =
@@ -328,7 +359,9 @@ static bool shade_face(const struct receiver *r, const struct caster *c, uint32_
         for (int k = 0; k < 3; k++) {
             memcpy(lit.corner[k], polygon[corner[k]], sizeof lit.corner[k]);
             lit.on[k] = on[corner[k]];
+            lit.shade_q8[k] = shadowed_q8(r, shade_q8[corner[k]]);
         }
+        top_first(&lit);
         fits = shade_triangle(r, c, &lit);
     }
     return fits;
@@ -393,14 +426,26 @@ static int64_t find_reach(const struct draw_source *source, const struct draw_vi
     return reach;
 }
 
-/* Whether a face shows and takes the light, as far as its own body goes. */
-static bool may_be_shaded(const struct draw_body *body, uint32_t number)
+/* Whether a face takes the light, as far as its own body goes: one of its corners does, if these have shades. */
+static bool takes_light(const struct receiver *r, uint32_t number)
 {
+    int32_t shade_q8[3], middle = (int32_t)(r->view->shade_q24 >> 16);
+
+    if (r->shades->at == NULL) {
+        return carom_dot(r->body->mesh->faces[number].normal.c, r->body->light.c) > 0;
+    }
+    r->source->paint->smooth->corners(r->shades, number, shade_q8);
+    return fix_largest(shade_q8) > middle;
+}
+
+/* Whether a face shows and takes the light. */
+static bool may_be_shaded(const struct receiver *r, uint32_t number)
+{
+    const struct draw_body *body = r->body;
     const struct carom_face *face = &body->mesh->faces[number];
 
-    return carom_dot(face->normal.c, body->light.c) > 0 &&
-           (int32_t)(carom_dot(face->normal.c, body->eye) >> 32) > face->offset_q22 >>
-               (2 + body->shift);
+    return takes_light(r, number) && (int32_t)(carom_dot(face->normal.c, body->eye) >> 32) >
+                                         face->offset_q22 >> (2 + body->shift);
 }
 
 /* List the shadows of a solid on the body. */
@@ -422,7 +467,7 @@ static bool shade_by_caster(const struct receiver *r, const struct caster *c)
             continue;
         }
         for (uint32_t i = 0; i < leaf->face_count; i++) {
-            if (may_be_shaded(r->body, numbers[i]) && !shade_face(r, c, numbers[i])) {
+            if (may_be_shaded(r, numbers[i]) && !shade_face(r, c, numbers[i])) {
                 return false;
             }
         }
@@ -448,12 +493,13 @@ static bool shade_by(const struct receiver *r, const struct carom_body_look *own
 }
 
 static bool list_shadows(const struct draw_source *source, const struct draw_view *view,
-                         const struct draw_body *body, uint32_t number, struct draw_list *list,
-                         void *scratch, size_t bytes)
+                         const struct draw_shades *shades, const struct draw_body *body,
+                         uint32_t number, struct draw_list *list, void *scratch, size_t bytes)
 {
     struct receiver r = {.source = source,
                          .view = view,
                          .body = body,
+                         .shades = shades,
                          .list = list,
                          .scratch = scratch,
                          .bytes = bytes};

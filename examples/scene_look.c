@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* How scenes look: a light sky, calm ground, bodies in warm colours, each beside another one. */
+#include <string.h>
+
+#include "scene_games.h"
+
+/* Shades from corner to corner and shadows cost as much again as the rest: a board says for which it has the time. */
+#if defined BOARD_SHADOWS
+#define SHADOWS &carom_shadows
+#else
+#define SHADOWS NULL
+#endif
+#if defined BOARD_SMOOTH
+#define SMOOTH &carom_smooth
+#else
+#define SMOOTH NULL
+#endif
+
+/* From the left and in front, not high: shadows lie beside what throws them. */
+#define LIGHT                                                                                      \
+    {                                                                                              \
+        {                                                                                          \
+            -7, -4, 6                                                                              \
+        }                                                                                          \
+    }
+
+/* Of scenes without paints of their own: the ground, what moves, in four colours, and what interferes. */
+enum { GROUND = CAROM_RAMP_STATIONARY, HOT = CAROM_RAMP_STATIONARY_HOT };
+static const uint32_t plain_rgb[] = {[GROUND] = 0x71845a,
+                                     [CAROM_RAMP_MOVING] = 0xb8683f,
+                                     [HOT] = 0xff0070,
+                                     [CAROM_RAMP_MOVING_HOT] = 0xd49a22,
+                                     [CAROM_RAMP_BLUE] = 0x3f74ac,
+                                     [CAROM_RAMP_VIOLET] = 0xe8dcc0};
+static const uint32_t game_rgb[] = {
+    [SCENE_GREEN] = 0x6f9f50,  [SCENE_WOOD] = 0xa87848,   [SCENE_RED] = 0xc82828,
+    [SCENE_YELLOW] = 0xf0c020, [SCENE_MEADOW] = 0x548448, [SCENE_DARK] = 0x30343c};
+
+#define FOUR                                                                                       \
+    {NULL, CAROM_RAMP_MOVING}, {NULL, CAROM_RAMP_MOVING_HOT}, {NULL, CAROM_RAMP_BLUE},             \
+    {                                                                                              \
+        NULL, CAROM_RAMP_VIOLET                                                                    \
+    }
+static const struct carom_body_paint plain_paints[] = {{NULL, GROUND}, FOUR, FOUR, FOUR, FOUR,
+                                                       FOUR,           FOUR, FOUR, FOUR};
+
+/* The sky pales towards the horizon, and so does the ground far away. */
+static void fill_palette(uint32_t palette[256], const uint32_t rgb[])
+{
+    memcpy(palette, carom_draw_palette, 256 * sizeof palette[0]);
+    for (uint32_t i = 1; i < sizeof plain_rgb / sizeof plain_rgb[0]; i++) {
+        carom_draw_ramp(&palette[i * CAROM_RAMP_SHADES], rgb[i]);
+    }
+    for (uint32_t i = 0; i < CAROM_RAMP_SHADES / 2; i++) {
+        palette[i] = 0x78a8e0 + i * 0x060401;
+        palette[CAROM_RAMP_SHADES / 2 + i] = 0xd2e2e2 - i * 0x050406;
+    }
+}
+
+const struct carom_paint *scene_paint(const struct scene_game *game)
+{
+    static uint32_t palette[256];
+    static struct carom_paint paint = {.palette = palette,
+                                       .ramps = 8,
+                                       .light = LIGHT,
+                                       .horizon = true,
+                                       .shadows = SHADOWS,
+                                       .smooth = SMOOTH,
+                                       .ambient_q30 = CAROM_ONE_Q30 / 8};
+    static const uint32_t *filled;
+    bool own = game && game->paints;
+    const uint32_t *rgb = own ? game_rgb : plain_rgb;
+
+    if (filled != rgb) {
+        fill_palette(palette, rgb);
+        filled = rgb;
+    }
+    paint.hide_interfering = own;
+    paint.interfering_ramp = HOT;
+    paint.bodies = own ? game->paints : plain_paints;
+    paint.body_count =
+        own ? game->paint_count : (uint32_t)(sizeof plain_paints / sizeof plain_paints[0]);
+    return &paint;
+}
