@@ -950,6 +950,14 @@ extern "C" {
 }
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct carom_smooth {
+    _unused: [u8; 0],
+}
+extern "C" {
+    pub static carom_smooth: carom_smooth;
+}
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct carom_paint {
     pub palette: *const u32,
     pub ramps: u32,
@@ -961,6 +969,8 @@ pub struct carom_paint {
     pub ambient_q30: i32,
     pub horizon: bool,
     pub shadows: *const carom_shadows,
+    pub smooth: *const carom_smooth,
+    pub crease_q30: i32,
     pub lines: *const carom_paint_line,
     pub line_count: u32,
 }
