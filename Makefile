@@ -150,7 +150,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation commands build need clean force
+.PHONY: help run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -162,7 +162,7 @@ run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|cha
 	@$(SUBMAKE) $(B)/head.elf $(RUNNER) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
 	@tools/run_scene.py --board $(BOARD) --scene $(SCENE) --frames $(FRAMES) --out out/$(SCENE) \
-	    --pictures $(or $(FRAMES_PNG),$(PICTURES)) $(B)/head.elf \
+	    --pictures $(or $(FRAMES_PNG),$(PICTURES),0) $(B)/head.elf \
 	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
 
 view: ## a window on a scene, by SDL2: turn, pause, step, take hold of bodies, H for help; SCENE=head|car|... MESH=file LINK=text
@@ -303,6 +303,10 @@ packages: ## a stranger's project by every way to install Carom, packages/README
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/hello.elf >/dev/null
 	@tools/packages $(SYSTEMS)
+
+five: ## README's commands as a new user would give them, in a clean clone, timed, to docs/five-minutes.md
+	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) pil
+	@tools/five_minutes --docs
 
 commands: ## compile_commands.json for editors, as BOARD compiles
 	@tools/need python3
