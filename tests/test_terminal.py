@@ -82,6 +82,13 @@ def terminals(tap):
     tap.check("how_many_colours", said == [count for _, count in cases], said)
 
 
+def all_of_it_is_seen(tap):
+    """A square picture is twice as wide in characters as it is high; five lines are to stay below it."""
+    cases = (((200, 100), 72), ((50, 100), 50), ((200, 40), 70), ((80, 24), 38), ((80, 6), 20), ((72, 0), 72))
+    said = [terminal.columns_for(halves(), *size) for size, _ in cases]
+    tap.check("fits_the_terminal", said == [columns for _, columns in cases], said)
+
+
 def on_a_terminal(environment):
     """Whether a picture was shown on a terminal that is read while it is written, and what was read."""
     ours, theirs = pty.openpty()
@@ -116,7 +123,7 @@ def picture_needs_a_terminal(tap):
 
 def main():
     tap = Tap()
-    for test in (progress_says, progress_is_quiet, picture_is_right, terminals, picture_needs_a_terminal):
+    for test in (progress_says, progress_is_quiet, picture_is_right, terminals, all_of_it_is_seen, picture_needs_a_terminal):
         test(tap)
     print("1..%d" % tap.count)
     return tap.failed > 0

@@ -5,6 +5,8 @@ import sys
 import time
 
 COLUMNS_MOST = 72  # characters of a picture
+LINES_BELOW = 5  # that are to be seen together with it
+LINES_LEAST = 10  # of a picture, however low the terminal
 UPPER_HALF = "\u2580"  # its upper half has the colour of the text, its lower half that of the paper
 SURE_AFTER = 0.5  # seconds until a guess of the time left is worth reading
 
@@ -71,12 +73,18 @@ def shows(stream=sys.stdout, environment=os.environ):
     return os.get_terminal_size(stream.fileno()).columns or COLUMNS_MOST, count
 
 
+def columns_for(image, columns, lines):
+    """How wide a picture may be in a terminal of that size, all of it being seen; 0 lines: it does not say how many."""
+    fit = max(LINES_LEAST, lines - LINES_BELOW) if lines else COLUMNS_MOST
+    return max(1, min(COLUMNS_MOST, columns, 2 * fit * image.width // image.height))
+
+
 def show_picture(image, stream=sys.stdout, environment=os.environ):
     """Show an image where the stream is a terminal with colours that takes the character; whether it was."""
     columns, count = shows(stream, environment)
     if not count:
         return False
-    columns = min(COLUMNS_MOST, columns)
-    for line in picture(image, columns, count):
+    lines = os.get_terminal_size(stream.fileno()).lines
+    for line in picture(image, columns_for(image, columns, lines), count):
         print(line, file=stream)
     return True
