@@ -31,7 +31,7 @@ SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
 # scenes with joints and moving parts, and those of them that a board has in ROM
 GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw \
-    newton dominoes cards arch bowl pour
+    newton dominoes cards arch bowl pour espresso espresso-fine
 ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
 
 # ---------------------------------------------------------------- tools, flags
@@ -87,14 +87,17 @@ FIELDS := field field128 field386 field512 field12012 field49928
 SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard gear10 gear24 gear16 gear12 board bolt nut hexagon \
     domino pendulum beam post card cover stone plinth bowl cup \
     ring star hook beaker bucket tray
+# figure 8: meshes, and colours of their faces
+FIGURE8 := espresso mandelbrot512 mandelbrot3200
 # and the programs of these scenes
 GAMES := $(filter-out $(patsubst %,examples/scene_%.c,sheet built rom play),$(wildcard examples/scene_*.c))
 # the scenes, with meshes that are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
-    $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES)))
+    $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES) $(FIGURE8)) \
+    $(FIGURE8:%=build/gen/%_ramps.c))
 # or, on a board that says which, with indexed ones in ROM
 SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
-    $(if $(ROM_GAMES),$(GAMES)) $(ROM_SCENES:%=build/gen/rom/%.c))
+    $(if $(ROM_GAMES),$(GAMES) $(FIGURE8:%=build/gen/%_ramps.c)) $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
 TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 # A board runs those suites for which it has room, in one image or in one each
@@ -460,7 +463,16 @@ $(HEADS:%=build/gen/%.obj) &: tools/gen_head tools/head_shape.py tools/mesh_coll
 	@echo '  mesh  $(@D)/head*.obj'
 	tools/gen_head $(@D)
 
-build/gen/field% build/gen/yard%: CONVERT := --surface
+build/gen/%_ramps.c: tools/gen_figure8 tools/solids.py
+	@mkdir -p $(@D)
+	@echo '  paint $@'
+	tools/gen_figure8 $(*:mandelbrot%=mandelbrot %) paint $*_ramps > $@
+$(FIGURE8:%=build/gen/%.obj): build/gen/%.obj: tools/gen_figure8 tools/solids.py
+	@mkdir -p $(@D)
+	@echo '  mesh  $@'
+	tools/gen_figure8 $(*:mandelbrot%=mandelbrot %) > $@
+
+build/gen/field% build/gen/yard% build/gen/mandelbrot%: CONVERT := --surface
 build/gen/%_mesh.c: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) --name $*_mesh -o $@ $<

@@ -50,7 +50,11 @@ extern const struct carom_mesh_raw hook_mesh;
 extern const struct carom_mesh_raw beaker_mesh;
 extern const struct carom_mesh_raw
     bucket_mesh; /* open above, 1.36 x 1.36 and 0.9 deep inside, from its floor */
-extern const struct carom_mesh_raw tray_mesh; /* the same, 2.4 x 1.9 and 0.45 deep */
+extern const struct carom_mesh_raw tray_mesh;     /* the same, 2.4 x 1.9 and 0.45 deep */
+extern const struct carom_mesh_raw espresso_mesh; /* 1.9 high, about its middle */
+extern const struct carom_mesh_raw mandelbrot512_mesh, mandelbrot3200_mesh; /* surfaces of 8 x 8 */
+/* The ramps of their faces. */
+extern const uint8_t espresso_ramps[], mandelbrot512_ramps[], mandelbrot3200_ramps[];
 extern const struct carom_mesh_raw yard_mesh; /* a surface of 48 x 48 with hills and a rim */
 
 #define CHARACTER_VERTICES 50

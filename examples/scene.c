@@ -218,6 +218,10 @@ static const struct scene_recipe {
     {"bowl", "cups and balls fall into a bowl", &still, NULL, BOWL_PIECES, 0, 0, &scene_bowl},
     {"pour", "a bucket of 32 rings, stars, hooks and beakers is poured into a tray", &still, NULL,
      POUR_THINGS + 1, 0, 12, &scene_pour},
+    {"espresso", "an espresso machine of 836 faces falls on a Mandelbrot field of 512", &still,
+     NULL, 0, 0, 0, &scene_espresso},
+    {"espresso-fine", "the espresso machine on a Mandelbrot field of 3200 faces", &still, NULL, 0,
+     0, 0, &scene_espresso_fine},
 #ifndef SCENE_ROM /* which has no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},

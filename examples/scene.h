@@ -28,6 +28,8 @@
  *   chain       20 links on ball joints, which swings
  *   crusher     a kinematic block that comes down on a box
  *   conveyor    boxes on a belt whose surface moves
+ *   espresso    figure 8's: an espresso machine of 836 faces, dropped on a Mandelbrot field of 512
+ *   espresso-fine  the same on a field of 3200
  *   car         a car of hinges, motors and springs, ramps, things to pick up, a camera that follows
  *   walker      someone who goes up steps, on a platform that moves, down a ramp and through a door
  *   gears       four toothed wheels of different size, of which a motor turns the first

@@ -210,6 +210,8 @@ static const struct materials {
     {"cards", &flat_mesh, {&card_mesh, &cover_mesh, &ball_mesh}, 0},
     {"arch", &flat_mesh, {&stone_mesh, &plinth_mesh, &ball_mesh}, 0},
     {"bowl", &flat_mesh, {&bowl_mesh, &cup_mesh, &ball_mesh}, 0},
+    {"espresso", &mandelbrot512_mesh, {&espresso_mesh}, 0},
+    {"espresso-fine", &mandelbrot3200_mesh, {&espresso_mesh}, 0},
     {"pour",
      &flat_mesh,
      {&ring_mesh, &star_mesh, &hook_mesh, &beaker_mesh, &bucket_mesh, &tray_mesh},

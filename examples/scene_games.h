@@ -48,6 +48,8 @@ struct scene_game {
     /* How bodies look, by their numbers: ramps of scene_paint's palette. NULL: as usual. */
     const struct carom_body_paint *paints;
     uint32_t paint_count;
+    const uint32_t
+        *rgb; /* SCENE_RAMPS colours, 0x00RRGGBB, the first not used; NULL: the usual ones */
 };
 
 /* Prepare a frame of a game. Returns >= 0 or an error. */
@@ -64,7 +66,8 @@ enum scene_ramp {
     SCENE_RED = CAROM_RAMP_STATIONARY_HOT,
     SCENE_YELLOW = CAROM_RAMP_MOVING_HOT,
     SCENE_MEADOW = CAROM_RAMP_BLUE,
-    SCENE_DARK = CAROM_RAMP_VIOLET
+    SCENE_DARK = CAROM_RAMP_VIOLET,
+    SCENE_RAMPS
 };
 /* The squares of the yard, in two greens. */
 extern const uint8_t scene_yard_faces[YARD_FACES];
@@ -78,7 +81,7 @@ char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
     scene_walker, scene_lockstep, scene_gears, scene_screw, scene_newton, scene_dominoes,
-    scene_cards, scene_arch, scene_bowl, scene_pour;
+    scene_cards, scene_arch, scene_bowl, scene_pour, scene_espresso, scene_espresso_fine;
 
 /* Numbers of bodies and joints, in the order in which `fill` adds them. */
 enum { DOOR_LEAF = SCENE_BODY, DOOR_BALL };

@@ -69,7 +69,7 @@ const struct carom_paint *scene_paint(const struct scene_game *game)
                                        .ambient_q30 = CAROM_ONE_Q30 / 8};
     static const uint32_t *filled;
     bool own = game && game->paints;
-    const uint32_t *rgb = own ? game_rgb : plain_rgb;
+    const uint32_t *rgb = !own ? plain_rgb : game->rgb ? game->rgb : game_rgb;
 
     if (filled != rgb) {
         fill_palette(palette, rgb);

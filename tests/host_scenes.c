@@ -250,7 +250,34 @@ static bool judge_pour(struct play *play)
     return play->mark[0] == POUR_THINGS && in == POUR_THINGS && asleep == POUR_THINGS;
 }
 
+/* ----------------------------------------------------------------- espresso */
+
+/* How far its sphere reaches from the middle of the field. */
+static void watch_espresso(struct play *play)
+{
+    double radius = lab_double(carom_body_mesh(play->world, SCENE_BODY)->radius_q22, 22);
+
+    for (int axis = 0; axis < 2; axis++) {
+        double reach = fabs(play_at(&play->now[SCENE_BODY], axis)) + radius;
+
+        play->mark[0] = fmax(play->mark[0], reach);
+    }
+}
+
+/* All impacts take place within the field, whose half side is 4, and it comes to rest on the floor, not on the rim, 1.1 higher. */
+static bool judge_espresso(struct play *play)
+{
+    const struct carom_body_state *machine = &play->now[SCENE_BODY];
+    double height = play_at(machine, 2);
+
+    snprintf(play->said, sizeof play->said, "reaches %.2f from the middle, rests at %.2f%s",
+             play->mark[0], height, machine->asleep ? ", asleep" : "");
+    return play->mark[0] < 4 && machine->asleep && height > 0 && height < 1.1;
+}
+
 static const struct play_scene scenes[] = {
+    {"espresso", 8 * FPS, 1, watch_espresso, judge_espresso},
+    {"espresso-fine", 8 * FPS, 1, watch_espresso, judge_espresso},
     {"pour", POUR_FRAMES, 10, watch_pour, judge_pour},
     {"screw", 15 * FPS, 10, watch_screw, judge_screw},
     {"gears", 14 * FPS, 4, watch_gears, judge_gears},

@@ -22,7 +22,7 @@ import terminal
 
 FRAME = 90  # of a scene that is not named here
 FRAMES = {"head": 16, "pile": 120, "sheet": 150, "box": 40, "car": 170, "walker": 150, "door": 60, "chain": 60,
-          "crusher": 108, "conveyor": 60, "gears": 100, "screw": 240, "pour": 310, "newton": 60, "dominoes": 120,
+          "crusher": 108, "conveyor": 60, "gears": 100, "screw": 240, "pour": 310, "espresso": 60, "espresso-fine": 100, "newton": 60, "dominoes": 120,
           "cards": 285, "arch": 290, "bowl": 60, "lockstep": 120}
 THUMBNAIL, LABEL, GAP, ACROSS = 160, 46, 8, 5  # pixels, and thumbnails in a row of scenes.png
 COLOURS = 128  # of scenes.png
