@@ -17,11 +17,11 @@ static void test_carve(void)
 
     fill(0xa5);
     arena_init(&a, block, sizeof block);
-    CHECK_EQ(arena_carve(&a, 1), block);
-    CHECK_EQ(arena_carve(&a, 8), block + 8);
-    CHECK_EQ(arena_carve(&a, 0), block + 16);
+    CHECK(arena_carve(&a, 1) == block);
+    CHECK(arena_carve(&a, 8) == block + 8);
+    CHECK(arena_carve(&a, 0) == block + 16);
     p = arena_carve(&a, 9);
-    CHECK_EQ(p, block + 16);
+    CHECK(p == block + 16);
     CHECK_EQ(a.used, 32);
     for (int i = 0; i < 64; i++) {
         CHECK_EQ(block[i], i < 32 ? 0 : 0xa5);
@@ -34,15 +34,15 @@ static void test_exact_fit(void)
 
     fill(0xa5);
     arena_init(&a, block, 24);
-    CHECK_EQ(arena_carve(&a, 16), block);
-    CHECK_EQ(arena_carve(&a, 8), block + 16);
+    CHECK(arena_carve(&a, 16) == block);
+    CHECK(arena_carve(&a, 8) == block + 16);
     CHECK_EQ(a.used, 24);
     CHECK(arena_carve(&a, 1) == NULL);
 
     /* one byte short */
     fill(0xa5);
     arena_init(&a, block, 23);
-    CHECK_EQ(arena_carve(&a, 16), block);
+    CHECK(arena_carve(&a, 16) == block);
     CHECK(arena_carve(&a, 8) == NULL);
     CHECK_EQ(block[16], 0xa5);
     CHECK_EQ(a.used, 24); /* what would have been needed */
@@ -61,7 +61,7 @@ static void test_sticky(void)
     /* sizes whose sum or rounding overflows */
     for (size_t less = 0; less < 40; less += 13) {
         arena_init(&a, block, sizeof block);
-        CHECK_EQ(arena_carve(&a, 8), block);
+        CHECK(arena_carve(&a, 8) == block);
         CHECK(arena_carve(&a, SIZE_MAX - less) == NULL);
         CHECK(arena_carve(&a, 8) == NULL);
         CHECK(arena_carve(&a, 1) == NULL);
