@@ -547,6 +547,19 @@ build/tools/retro_run: $(wildcard tools/retro_*.[ch]) port/nds/channel.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -DCORES='"/usr/lib/$(shell $(CC) -print-multiarch)/libretro"' -o $@ $(filter %.c,$^)
+PSX_PLUGINS := /usr/lib/$(shell $(CC) -print-multiarch)/psemu
+build/tools/psx_plugin.so: tools/psx_plugin.c
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -o $@ $< \
+	    -Wl,--no-as-needed,-rpath,$(PSX_PLUGINS) $(PSX_PLUGINS)/libDFXVideo.so
+build/tools/psx_preload.so: tools/psx_preload.c
+	@mkdir -p $(@D)
+	@echo '  cc    $@'
+	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -o $@ $<
+build/tools/psx_run: tools/psx_run.py build/tools/psx_plugin.so build/tools/psx_preload.so
+	@echo '  copy  $@'
+	install $< $@
 
 # What only a world needs is left out at the link.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 import run_board  # noqa: E402
 from tap import board_cases  # noqa: E402
 
-SCENES = {"gba": "head48", "nds": "head450"}
+SCENES = {"gba": "head48", "nds": "head450", "psx": "head450"}
 STEPS = 200
 A, B, SELECT, START, RIGHT, LEFT = 1, 2, 4, 8, 16, 32
 HELD_FROM, TILTED = 12, 32  # pictures

@@ -6,7 +6,7 @@ CLOCK_MHZ := 16
 SCENES := boxes3:6
 FAMILY := arm
 ARCH := -mcpu=cortex-m0 -mthumb
-PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S port/arm/divide_v6m.c
+PORT := port/arm/headless.c port/arm/systick.c port/arm/cortex_m.c port/arm/multiply_v6m.S port/bare/divide.c
 QEMU := qemu-system-arm -M microbit
 # SysTick's 24 bits are 4 million instructions.
 ICOUNT_SHIFT := 8

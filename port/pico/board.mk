@@ -10,7 +10,7 @@ NEED := arm newlib python3 node npm npm:tools/pico
 ARCH := -mcpu=cortex-m0plus -mthumb
 PORT := port/pico/pico.c port/pico/lcd.c port/pico/start.c port/pico/boot.S port/arm/cortex_m.c \
     port/bare/arguments.c port/bare/start.c port/arm/systick.c port/arm/multiply_v6m.S \
-    port/arm/divide_v6m.c port/arm/copy_v6m.S port/pico/quotient.S port/newlib/syscalls.c
+    port/bare/divide.c port/arm/copy_v6m.S port/pico/quotient.S port/newlib/syscalls.c
 FAMILY_LDFLAGS := --specs=nano.specs
 IMAGE_SUFFIX := .bin
 IMAGE_TOOL := tools/uf2.py

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The 64-bit quotients of a processor that divides 32 bits by 32 at best (ARMv6-M), in place of libgcc's,
- * which finds one bit at a time.
+ * The 64-bit quotients of a processor that divides 32 bits by 32 at best (ARMv6-M, MIPS I), in place of libgcc's,
+ * which finds one bit at a time, or is for a later processor.
  */
 #include <stdint.h>
 

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# PlayStation in pcsxr: R3000A, 320 x 240. The .exe files are what an emulator plays.
+CROSS := mipsel-linux-gnu-
+NEED := mipsel-linux-gnu cc libc python3 pcsxr
+# what Linux needs of code is not needed; nothing here is a floating-point number
+ARCH := -march=r3000 -mfp32 -mno-abicalls -fno-pic -G0
+FAMILY_CFLAGS := -ffreestanding -Iport/nolibc
+FAMILY_LDFLAGS := -nostdlib -static -Wl,--build-id=none
+PORT := port/psx/psx.c port/psx/gpu.c port/psx/pad.c port/psx/divide.c port/psx/start.S port/bare/arguments.c \
+    port/bare/start.c port/bare/divide.c port/nolibc/string.c
+IMAGE_SUFFIX := .bin
+IMAGE_TOOL := tools/psx_exe.py
+RUNNER := build/tools/psx_run
+CPU := R3000A
+CLOCK_MHZ := 33.87
+CYCLES := 1
+DISPLAY := television 320 x 240
+SCENES := head:4 head450:10 box:17 walker:3 door:3 conveyor:2
+ROM_SCENES := head head450 box walker door conveyor
+CAPS := 2,1,64,1024,256,1024
+GAME_CAPS := 16,32,128,512,0,1024,1,4
+PICTURES := 1
+# those that need no floating point, which the processor has not
+SUITES := port ask debug draw draw_paint draw_picture draw_text filter identity mesh_blob overlap pick scan scene \
+    sensor surface world_idle world_query world_range world_snapshot zlist
+SUITE_IMAGES := 1

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * From the loader to start(). The loader leaves the BIOS's interrupts on; nothing here waits for one, and a count
+ * of cycles is not to have theirs in it.
+ */
+    .section .vectors, "ax"
+    .set noreorder
+    .global reset
+reset:
+    mtc0 $0, $12
+    lui $sp, %hi(stack_top)
+    j start
+    addiu $sp, $sp, %lo(stack_top)
+
+    .section .note.GNU-stack, "", %progbits
