@@ -1,8 +1,8 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-The games of the Game Boy Advance and the Nintendo DS, their keys pressed by a script: what they do to the body is
-read off the states and the pictures. TAP.
+The games of the Game Boy Advance, the Nintendo DS and the PlayStation, their keys pressed by a script: what
+they do to the body is read off the states and the pictures. TAP.
 """
 import os
 import shutil
