@@ -247,7 +247,7 @@ static void test_texts(void)
     for (int i = 4; i < 100; i++) {
         CHECK(carom_result_text(i) == count);
     }
-    CHECK_EQ(carom_result_text(INT32_MAX), count);
+    CHECK(carom_result_text(INT32_MAX) == count);
     for (int i = 0; i < 4; i++) {
         CHECK(strcmp(carom_result_text(i), count) != 0);
     }
