@@ -10,6 +10,6 @@ OPT := -O2 -funroll-loops
 CPU := Cortex-M3
 CLOCK_MHZ := 25
 DISPLAY := none; frames by semihosting
-SCENES := head:14 head450:21 sheet:8 box:20 walker:60 door:9 conveyor:4
+SCENES := head:13 head450:20 sheet:8 box:20 walker:60 door:8 conveyor:4
 PICTURES := 0
 SUITE_IMAGES := 1
