@@ -40,7 +40,7 @@ INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples test
 PROGRAM = ["tests/matrix.c", "tests/plays.c", "port/option.c"] + sorted(
     name for name in glob.glob("examples/scene*.c", root_dir=ROOT)
     if not name.endswith(("_rom.c", "_play.c")))
-SCENE_MESHES = "build/gen/*_mesh.c"  # constants: compiled once a target
+SCENE_MESHES = ["build/gen/*_mesh.c", "build/gen/*_ramps.c"]  # constants: compiled once a target
 
 # Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
 GCC_TRAP = "-O1 -fsanitize=undefined -fsanitize-undefined-trap-on-error"
@@ -347,7 +347,7 @@ def make_meshes(build):
     folder = os.path.join(WORK, build.target, "meshes")
     os.makedirs(folder, exist_ok=True)
     call([*build.command, "-c", "-O0", *INCLUDES,
-          *[os.path.join(ROOT, path) for path in glob.glob(SCENE_MESHES)]], "meshes", folder)
+          *[os.path.join(ROOT, path) for each in SCENE_MESHES for path in glob.glob(each)]], "meshes", folder)
     MESHES[build.target] = glob.glob(folder + "/*.o")
 
 
