@@ -17,7 +17,7 @@
  * them, pictures are 1 % dearer.
  */
 enum { WIDTH = 320, HEIGHT = 240, SIDE = 512, FRAMES = 120, EACH = 15 };
-enum { WORST_SMALL = 2190000, WORST_LARGE = 3010000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
+enum { WORST_SMALL = 2460000, WORST_LARGE = 3310000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
 
 static _Alignas(8) uint8_t world_block[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
 static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES,

@@ -97,7 +97,9 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
         k = see_vertex(f, numbers[2]);
     }
     if (f->shades.at) {
-        see_shaded(f, number, (const uint32_t[3]){i, j, k}, colour, inside, cover);
+        const uint32_t place[3] = {i, j, k};
+
+        see_shaded(f, number, place, colour, inside, cover);
     } else if ((i | j | k) & OUTSIDE) {
         list_clipped(f, number, colour);
     } else if (!(cover && hidden(f, cover, i, j, k))) {
