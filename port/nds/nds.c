@@ -208,7 +208,11 @@ long port_read_file(const char *name, void *buffer, size_t max)
 _Noreturn void port_exit(int status)
 {
     if (has_runner()) {
+        if (LOWER_CONTROL != SHOW_BITMAP) { /* a program may end, or fault, before port_init */
+            port_init();
+        }
         LOWER[CHANNEL_STATUS_AT] = (uint16_t)(OPAQUE | CHANNEL_ENDED | (status & 0xff));
+        LOWER[CHANNEL_MARK_AT] = OPAQUE | CHANNEL_MARK;
     }
     for (;;) {
     }
