@@ -26,7 +26,7 @@
 
 /* Of scenes without paints of their own: the ground, what moves, in four colours, and what interferes. */
 enum { GROUND = CAROM_RAMP_STATIONARY, HOT = CAROM_RAMP_STATIONARY_HOT };
-static const uint32_t plain_rgb[] = {[GROUND] = 0x71845a,
+static const uint32_t plain_rgb[] = {[GROUND] = 0x5f9858,
                                      [CAROM_RAMP_MOVING] = 0xb8683f,
                                      [HOT] = 0xff0070,
                                      [CAROM_RAMP_MOVING_HOT] = 0xd49a22,
@@ -44,7 +44,10 @@ static const uint32_t game_rgb[] = {
 static const struct carom_body_paint plain_paints[] = {{NULL, GROUND}, FOUR, FOUR, FOUR, FOUR,
                                                        FOUR,           FOUR, FOUR, FOUR};
 
-/* The sky pales towards the horizon, and so does the ground far away. */
+/*
+ * The sky pales towards the horizon, and so does the ground far away. Steps are by 4 and 8, so that a display of 5 bits a
+ * colour has no stripes of other hues.
+ */
 static void fill_palette(uint32_t palette[256], const uint32_t rgb[])
 {
     memcpy(palette, carom_draw_palette, 256 * sizeof palette[0]);
@@ -52,8 +55,8 @@ static void fill_palette(uint32_t palette[256], const uint32_t rgb[])
         carom_draw_ramp(&palette[i * CAROM_RAMP_SHADES], rgb[i]);
     }
     for (uint32_t i = 0; i < CAROM_RAMP_SHADES / 2; i++) {
-        palette[i] = 0x78a8e0 + i * 0x060401;
-        palette[CAROM_RAMP_SHADES / 2 + i] = 0xd2e2e2 - i * 0x050406;
+        palette[i] = 0x58a4e0 + i * 0x080400;
+        palette[CAROM_RAMP_SHADES / 2 + i] = 0xd0e0d8 - i * 0x040404;
     }
 }
 
