@@ -373,6 +373,7 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 	$(link)
 
 $(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
+$(B)/figures.elf: $(call objects,examples/show.c)
 
 # What the page and the window show.
 VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)

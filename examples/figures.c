@@ -5,9 +5,12 @@
  *
  * Options: scene=NAME (of scene.h)  pictures=DIRECTORY
  */
+#include <string.h>
+
 #include "carom_draw.h"
 #include "port.h"
 #include "scene.h"
+#include "show.h"
 
 enum { FRAMES_MOST = 600, SHADOWS = 1 << 17, WHOLE_Q16 = 1 << 16 };
 
@@ -98,11 +101,32 @@ static void stop_before_hit(struct carom_world *world, const struct carom_body_s
     hits_within(world, before, part_q16);
 }
 
-static void picture(const struct carom_world *world, const struct carom_camera *camera)
+/*
+ * As the scene looks, with two ramps of its palette for the faces that interfere. A game has a use for each ramp: its faces
+ * keep their own.
+ */
+static const struct carom_paint *paint_of(const struct show *show)
 {
-    const struct carom_body_paint bodies[2] = {{.faces = ramps[0]}, {.faces = ramps[1]}};
-    const struct carom_paint paint = {
-        .bodies = bodies, .body_count = 2, .hide_interfering = true, .shadows = &carom_shadows};
+    static uint32_t palette[256];
+    static struct carom_body_paint bodies[] = {{.faces = ramps[0]}, {.faces = ramps[1]}};
+    static struct carom_paint paint;
+
+    paint = *show_paint(show);
+    paint.hide_interfering = true;
+    if (!show->game) {
+        memcpy(palette, paint.palette, sizeof palette);
+        carom_draw_ramp(&palette[CAROM_RAMP_STATIONARY_HOT * CAROM_RAMP_SHADES], 0xff0070);
+        carom_draw_ramp(&palette[CAROM_RAMP_MOVING_HOT * CAROM_RAMP_SHADES], 0xff6000);
+        paint.palette = palette;
+        paint.bodies = bodies;
+        paint.body_count = 2;
+    }
+    return &paint;
+}
+
+static void picture(const struct carom_world *world, const struct carom_camera *camera,
+                    const struct carom_paint *paint)
+{
     const struct port_fb fb = port_fb();
     const struct carom_picture picture = {.pixels = fb.pixels,
                                           .width = fb.width,
@@ -111,7 +135,7 @@ static void picture(const struct carom_world *world, const struct carom_camera *
                                           .format = fb.format,
                                           .workspace = draw_block,
                                           .workspace_bytes = sizeof draw_block,
-                                          .paint = &paint};
+                                          .paint = paint};
 
     expect(carom_draw(world, camera, &picture, CAROM_DRAW_FLAT), "draw");
     port_present();
@@ -144,20 +168,22 @@ int main(void)
     struct carom_body_state before;
     struct carom_camera close;
     struct carom_world *world;
+    struct show show;
 
     port_init();
     expect(scene_load(&scene, name, NULL, mesh_block, sizeof mesh_block), name);
     expect(scene_make(&scene, &config, world_block, sizeof world_block, &world), "world");
     port_print("faces %lu %lu\n", (unsigned long)scene.body.mesh->raw.face_count,
                (unsigned long)scene.ground.mesh->raw.face_count);
+    show = show_of(&scene);
     find_hit(world, &before);
     note_faces(world);
     expect(carom_contacts(world, &contact, 1) > 0 ? CAROM_OK : CAROM_ERR_ARGUMENT, "contacts");
     stop_before_hit(world, &before);
-    picture(world, scene.camera);
+    picture(world, scene.camera, paint_of(&show));
     for (int under = 0; under < 2; under++) {
         close = close_by(scene.camera, &before.position, &contact.point, under);
-        picture(world, &close);
+        picture(world, &close, paint_of(&show));
     }
     port_exit(0);
 }

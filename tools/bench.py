@@ -63,7 +63,7 @@ BLOCKS = {"a world of 16 boxes in a heap": 40 * 1024,
 GROWN = 1.01  # the gate's: a frame may cost so much of the committed one
 
 # The paper's table: seconds a frame on a machine of so many instructions a second
-PAPER = {"head": 0.24, "head450": 0.35, "head836": 0.53}
+PAPER = {"head": 0.24, "head450": 0.35, "espresso": 0.53}
 PAPER_RATE = 16e6
 PAPER_LABEL = "paper"  # its way of interference in place of Carom's
 PAPER_SCENES = [*PAPER, "growth-512", "growth-3034", "growth-12012"]  # a larger mesh does not fit

@@ -19,8 +19,8 @@ OUT, DOCS = "out/figures", "docs"
 FIELDS = [512, 3034, 12012, 49928]  # faces, of the growth of figure 7
 HEAD = 1876
 # The paper: seconds a frame are bench.PAPER
-POLYGONS = {"head": (1875, 3032), "head450": (450, 386), "head836": (836, 512)}
-TITLES = {"head": "a head on a height field", "head450": "450 + 386", "head836": "836 + 512"}
+POLYGONS = {"head": (1875, 3032), "head450": (450, 386), "espresso": (836, 512)}
+TITLES = {"head": "a head on a height field", "head450": "450 + 386", "espresso": "836 + 512"}
 PAPER_TOTAL = {scene: seconds * bench.PAPER_RATE for scene, seconds in bench.PAPER.items()}
 
 # part of a frame: stages, colour
