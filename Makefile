@@ -99,7 +99,6 @@ SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/
 SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
     $(if $(ROM_GAMES),$(GAMES) $(FIGURE8:%=build/gen/%_ramps.c)) $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
-TEST_RUNNER := $(wildcard tests/main.c tests/test_*.c)
 # A board runs those suites for which it has room, in one image or in one each
 SUITES ?= $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
@@ -108,9 +107,7 @@ CORTEX_TESTS := $(patsubst tests/test_%.c,build/mps2-an385/suite_%.elf,$(wildcar
 # programs of their own, and what tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
-TEST_TOOLS := $(call objects,$(filter-out $(TEST_RUNNER) tests/bench.c tests/matrix.c tests/plays.c \
-                tests/replay.c tests/record.c \
-                tests/bare_% tests/host_% tests/accuracy_%,$(wildcard tests/*.c)))
+TEST_TOOLS := $(call objects,$(wildcard tests/lib/*.c))
 # the page, once the viewer's core is there
 PAGE := $(if $(wildcard examples/view.c),out/web/index.html)
 # the window of `make view`, the one program that needs SDL2
@@ -400,7 +397,7 @@ $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	$(link)
 
 # on every board, however small: nothing else of the tests
-$(B)/matrix.elf: $(call objects,tests/matrix.c tests/plays.c) $(PROGRAM)
+$(B)/matrix.elf: $(call objects,tests/matrix.c tests/lib/plays.c) $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
@@ -425,7 +422,7 @@ $(B)/replay_file.o: $(B)/replay_file.S $(FILE)
 	$(TARGET_CC) $(ARCH) -c -o $@ $<
 
 # The scenes as they are, each call on the world recorded.
-$(B)/recorded/%.o: private CFLAGS += -include tests/recorded.h
+$(B)/recorded/%.o: private CFLAGS += -include tests/lib/recorded.h
 $(B)/recorded/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	@echo '  cc    $< recorded'
@@ -438,7 +435,7 @@ $(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/l
 	$(link)
 
 # So are the calls of chance that this test makes.
-$(B)/host_replay.elf: $(patsubst %.c,$(B)/recorded/%.o,tests/fuzz.c tests/fuzz_calls.c tests/fuzz_ask.c)
+$(B)/host_replay.elf: $(patsubst %.c,$(B)/recorded/%.o,$(wildcard tests/lib/fuzz*.c))
 
 $(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'

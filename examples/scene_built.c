@@ -4,22 +4,12 @@
 
 #include "models.h"
 #include "scene.h"
+#include "scene_box.h"
 
 /* A box of 1 x 0.7 x 0.5 units; a quantum is 1/4096 unit. */
-#define BOX_X 2048
-#define BOX_Y 1434
-#define BOX_Z 1024
-static const int16_t box_vertices[8][3] = {
-    {-BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, -BOX_Y, -BOX_Z}, {BOX_X, BOX_Y, -BOX_Z},
-    {-BOX_X, BOX_Y, -BOX_Z},  {-BOX_X, -BOX_Y, BOX_Z}, {BOX_X, -BOX_Y, BOX_Z},
-    {BOX_X, BOX_Y, BOX_Z},    {-BOX_X, BOX_Y, BOX_Z},
-};
-static const uint16_t box_faces[12][3] = {
-    {0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-    {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7},
-};
+static const int16_t box_vertices[8][3] = SCENE_BOX_CORNERS(2048, 1434, 1024);
 static const struct carom_mesh_raw box_mesh = {
-    box_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
+    box_vertices, scene_box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
 /* A tetrahedron and an L of three cubes, for piles; all smaller by half than the box. */
@@ -82,16 +72,9 @@ static const struct carom_mesh_raw ball_mesh = {
 };
 
 /* A slab of 6 x 1 x 0.2 units. */
-#define BELT_X 12288
-#define BELT_Y 2048
-#define BELT_Z 410
-static const int16_t belt_vertices[8][3] = {
-    {-BELT_X, -BELT_Y, -BELT_Z}, {BELT_X, -BELT_Y, -BELT_Z}, {BELT_X, BELT_Y, -BELT_Z},
-    {-BELT_X, BELT_Y, -BELT_Z},  {-BELT_X, -BELT_Y, BELT_Z}, {BELT_X, -BELT_Y, BELT_Z},
-    {BELT_X, BELT_Y, BELT_Z},    {-BELT_X, BELT_Y, BELT_Z},
-};
+static const int16_t belt_vertices[8][3] = SCENE_BOX_CORNERS(12288, 2048, 410);
 static const struct carom_mesh_raw belt_mesh = {
-    belt_vertices, box_faces, 8, 12, 12, CAROM_SOLID,
+    belt_vertices, scene_box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
 /*

@@ -11,8 +11,8 @@
  * change of its sign. Failures: no hit; one so late that the surfaces are by then deeper than 2
  * units in each other; one for an earlier approach, in which they do not meet.
  */
-#include "accuracy.h"
-#include "meeting.h"
+#include "lib/accuracy.h"
+#include "lib/meeting.h"
 
 #define SAMPLES  40
 #define ULP      (1.0L / 65536)

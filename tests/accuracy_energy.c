@@ -14,11 +14,11 @@
  * 2^-113 of terms that are no larger than the energy times 50, the ratio of the moments of inertia.
  * So what is found is right to 2^-95 of the energy.
  */
-#include "accuracy.h"
+#include "lib/accuracy.h"
 
 #include <stdio.h>
 
-#include "impact_real.h"
+#include "lib/impact_real.h"
 
 __extension__ typedef __float128 wide;
 

@@ -7,10 +7,10 @@
  * sides at random that leave the largest unknown at about 1; the fourth has entries of 30 bits
  * anywhere. A system so near to singular that gauss refuses it would be a failure.
  */
-#include "accuracy.h"
-#include "gauss_rows.h"
+#include "lib/accuracy.h"
+#include "lib/gauss_rows.h"
 
-#include "impact_real.h"
+#include "lib/impact_real.h"
 
 static struct gauss workspace;
 static int32_t rows[GAUSS_MAX][GAUSS_MAX + 1];

@@ -10,11 +10,11 @@
  *
  * 9 is one mover, 15 two. The error of an impulse is |P - P of the oracle| / |P of the oracle|.
  */
-#include "accuracy.h"
+#include "lib/accuracy.h"
 
 #include <stdio.h>
 
-#include "impact_real.h"
+#include "lib/impact_real.h"
 
 static struct gauss workspace;
 

@@ -17,8 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "accuracy.h"
-#include "lab.h"
+#include "lib/accuracy.h"
+#include "lib/lab.h"
 #include "mesh/mass.h"
 
 #define ROWS         24 /* of a surface of revolution */

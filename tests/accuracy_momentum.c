@@ -18,8 +18,8 @@
  */
 #include <math.h>
 
-#include "accuracy.h"
-#include "crowd.h"
+#include "lib/accuracy.h"
+#include "lib/crowd.h"
 #include "world/world.h"
 
 #define BODIES 32

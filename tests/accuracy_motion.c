@@ -12,9 +12,9 @@
  */
 #include <math.h>
 
-#include "accuracy.h"
+#include "lib/accuracy.h"
 #include "body/body.h"
-#include "lab.h"
+#include "lib/lab.h"
 
 #define FRAMES 1000000
 

@@ -14,7 +14,7 @@
 #include "num/fix.h"
 #include "port.h"
 #include "scene.h"
-#include "test.h"
+#include "lib/test.h"
 
 #ifndef BENCH_MESH_BYTES
 #define BENCH_MESH_BYTES SCENE_LARGE_MESH_BYTES

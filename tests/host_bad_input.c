@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 
 enum { FRAMES_BEFORE = 60, FRAMES_AFTER = 60 };
 

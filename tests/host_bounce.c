@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 
 #define FRAMES      100000
 #define FRAMES_LONG 1000000

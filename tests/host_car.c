@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "carom_joint.h"
-#include "lab.h"
+#include "lib/lab.h"
 #include "port.h"
-#include "real.h"
+#include "lib/real.h"
 #include "scene_games.h"
 
 #define FRAMES             2000

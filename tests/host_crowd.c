@@ -12,8 +12,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "crowd.h"
-#include "real.h"
+#include "lib/crowd.h"
+#include "lib/real.h"
 
 static const double restitutions[] = {0, 0.5, 1};
 

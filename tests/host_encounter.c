@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "open_cases.h"
-#include "real.h"
-#include "soak.h"
+#include "lib/open_cases.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 #define SHAPES      20
 #define EACH        500 /* meetings of a shape */

@@ -31,9 +31,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "first_hit.h"
-#include "lab.h"
-#include "special.h"
+#include "lib/first_hit.h"
+#include "lib/lab.h"
+#include "lib/special.h"
 
 #define MOTIONS      160 /* of a pair of meshes */
 #define HEAD_MOTIONS 25

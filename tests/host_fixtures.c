@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "fixture.h"
+#include "lib/fixture.h"
 
 #define BRIEF_SECONDS 4
 #define LONG_SECONDS  120

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz.h"
-#include "open_cases.h"
+#include "lib/fuzz.h"
+#include "lib/open_cases.h"
 
 #define WORLDS    40
 #define CALLS     250

@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "crowd.h"
-#include "open_cases.h"
+#include "lib/crowd.h"
+#include "lib/open_cases.h"
 
 #define FRAMES 300
 #define STRIDE 23 /* shares no factor with the lengths of the axes */

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 
 #define FRAMES       900
 #define CREEP_FRAMES 120

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "carom_joint.h"
-#include "real.h"
-#include "soak.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 #define FRAMES      2000
 #define FRAMES_LONG 100000

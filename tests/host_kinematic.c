@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "real.h"
-#include "soak.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 #define FRAMES      1000
 #define FRAMES_LONG 10000

@@ -13,8 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "real.h"
-#include "soak.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 #define FRAMES 200
 #define STACK  5

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "lab.h"
+#include "lib/box.h"
+#include "lib/lab.h"
 
 #define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)
@@ -158,15 +159,8 @@ static void test_slide(void)
 /* --------------------------------------------------------------------- plate */
 
 /* Plates of 100 x 100 and 40 x 40 units, 1/32 thick: the bodies are 30 times as large as that. */
-#define PLATE(half)                                                                                \
-    {                                                                                              \
-        {-half, -half, -2}, {half, -half, -2}, {-half, half, -2}, {half, half, -2},                \
-            {-half, -half, 2}, {half, -half, 2}, {-half, half, 2},                                 \
-        {                                                                                          \
-            half, half, 2                                                                          \
-        }                                                                                          \
-    }
-static const int16_t wide_vertices[8][3] = PLATE(6400), narrow_vertices[8][3] = PLATE(2560);
+static const int16_t wide_vertices[8][3] = BOX_CORNERS(6400, 6400, 2);
+static const int16_t narrow_vertices[8][3] = BOX_CORNERS(2560, 2560, 2);
 
 static struct carom_mesh_raw thin_plate(bool moves)
 {

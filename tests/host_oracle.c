@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "carom.h"
-#include "oracle.h"
+#include "lib/oracle.h"
 
 extern const struct carom_mesh_raw head_mesh, field_mesh;
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 #include "paper/paper.h"
 
 #define POSES  100

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 
 /* Enough for every bounce, the slide and sleep. */
 #define FRAMES 480

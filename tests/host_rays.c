@@ -14,7 +14,7 @@
 
 #include "query/query.h"
 #include "scene.h"
-#include "shapes.h"
+#include "lib/shapes.h"
 
 __extension__ typedef __int128 wide;
 

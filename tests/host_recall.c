@@ -8,28 +8,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "crossing.h"
-#include "lab.h"
+#include "lib/box.h"
+#include "lib/crossing.h"
+#include "lib/lab.h"
 
 #define POSES 1000
 #define PAIRS 65536
 #define STEPS 64 /* on the way to the first pose that touches */
 
 /* Boxes, 2^-12 units a quantum. */
-static const uint16_t box_faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                                          {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                                          {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
 static int16_t box_vertices[8][3];
 
 static struct carom_mesh_raw make_box(int x, int y, int z)
 {
-    const int half[3] = {x / 2, y / 2, z / 2};
+    const int low[3] = {-x / 2, -y / 2, -z / 2}, high[3] = {x / 2, y / 2, z / 2};
 
-    for (int i = 0; i < 8; i++) {
-        for (int k = 0; k < 3; k++) {
-            box_vertices[i][k] = (int16_t)(i >> k & 1 ? half[k] : -half[k]);
-        }
-    }
+    box_corners(box_vertices, low, high);
     return (struct carom_mesh_raw){
         (const int16_t(*)[3])box_vertices, box_faces, 8, 12, 12, CAROM_SOLID};
 }

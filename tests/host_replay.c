@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Recordings of random worlds, half of whose calls are hostile (tests/fuzz.h): played they come to the same states, begun
+ * Recordings of random worlds, half of whose calls are hostile (tests/lib/fuzz.h): played they come to the same states, begun
  * with the world or in the middle of its life. Then the files are changed: each byte, each length, and bytes of chance with the sum at the end
  * mended. A changed file is refused or played on a valid world; the debug build has sanitizers.
  *
@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "fuzz.h"
-#include "recorded.h"
+#include "lib/fuzz.h"
+#include "lib/recorded.h"
 #include "world/world.h"
 
 #define WORLDS     40

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 
 #define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab.h"
-#include "real.h"
+#include "lib/lab.h"
+#include "lib/real.h"
 
 #define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "crowd.h"
-#include "real.h"
+#include "lib/crowd.h"
+#include "lib/real.h"
 
 #define NEAR 3e-5 /* the query may take so little for none, units */
 

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host_scenes.h"
-#include "real.h"
+#include "lib/host_scenes.h"
+#include "lib/real.h"
 
 #define CROSSING_TOLERANCE 1e-9
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "crowd.h"
+#include "lib/crowd.h"
 
 #define FRAMES 600
 #define HEAP   12

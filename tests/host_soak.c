@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "open_cases.h"
-#include "real.h"
-#include "soak.h"
+#include "lib/open_cases.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 /* What make test runs: the first ones, and some in which an engine was found to fail once. */
 #define FIRST 30

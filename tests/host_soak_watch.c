@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "real.h"
-#include "soak.h"
+#include "lib/real.h"
+#include "lib/soak.h"
 
 static struct soak_world world;
 static struct soak_result result;

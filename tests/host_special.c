@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab.h"
-#include "open_cases.h"
-#include "special.h"
+#include "lib/lab.h"
+#include "lib/open_cases.h"
+#include "lib/special.h"
 
 #define CASES  100000
 #define STRIDE 5 /* shares no factor with the number of classes */

@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "carom_body.h"
-#include "lab.h"
+#include "lib/lab.h"
 #include "scene.h"
 #include "view.h"
-#include "viewed.h"
+#include "lib/viewed.h"
 
 #define ALL 255u
 

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab.h"
+#include "lib/lab.h"
 #include "view.h"
-#include "viewed.h"
+#include "lib/viewed.h"
 
 #define FRAMES 240
 #define LOOKS  4 /* states of a session that are compared */

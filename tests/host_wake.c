@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "crowd.h"
+#include "lib/crowd.h"
 
 #define SETTLE    400 /* frames */
 #define SNAPSHOT  65536

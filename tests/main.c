@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "port.h"
-#include "test.h"
+#include "lib/test.h"
 
 /* Weak: a board's image may have some of them only, the others are NULL. */
 #define SUITE(name) extern const struct test tests_##name[] __attribute__((weak));

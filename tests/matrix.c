@@ -14,7 +14,7 @@
  * world; the same over as many frames after `at` as before. "absent NAME ..." is a scene that the
  * memory at hand does not hold.
  */
-#include "plays.h"
+#include "lib/plays.h"
 #include "port.h"
 #include "world/world.h"
 

@@ -3,14 +3,14 @@
  * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages,
  * from=FRAME begins with the world as it is before that frame,
  * caps=2,1,16,64,0,64 in a world of these capacities, which a small board has room to play. The scenes are compiled as
- * they are, with tests/recorded.h before them.
+ * they are, with tests/lib/recorded.h before them.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "port.h"
-#include "recorded.h"
+#include "lib/recorded.h"
 #include "scene_games.h"
 
 struct carom_record recorder;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "num/arena.h"
-#include "test.h"
+#include "lib/test.h"
 
 static _Alignas(8) uint8_t block[64];
 

@@ -2,7 +2,7 @@
 /* The caller's say about contacts: what it is told, and what comes of its answer. */
 #include <string.h>
 
-#include "boxes.h"
+#include "lib/boxes.h"
 
 enum { PLATE, BOX };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES  3000

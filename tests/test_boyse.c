@@ -2,9 +2,9 @@
 /*
  * The paper's four kernels as special cases, with times worked out by hand, and how a slice starts.
  */
-#include "duo.h"
-#include "real.h"
-#include "test.h"
+#include "lib/duo.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 /* ------------------------------------------------------- the paper's kernels */
 

@@ -3,11 +3,11 @@
  * What a collision test costs, in instructions where the board counts them: of the candidates of
  * the head scene, which nearly all miss, and of features that are made to meet.
  */
-#include "meeting.h"
+#include "lib/meeting.h"
 #include "port.h"
 #include "scene.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define FRAMES   240

@@ -4,9 +4,9 @@
  * over the slice and every change of its sign is closed in on.
  */
 #include "boyse/event.h"
-#include "duo.h"
-#include "real.h"
-#include "test.h"
+#include "lib/duo.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES   4000 /* of each kind */

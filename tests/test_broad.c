@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "pairs/broad.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 20000

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "contact/contact.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CONTACTS   64
 #define CANDIDATES 4096

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Places of contacts against the features of duo.h in double precision. */
 #include "contact/contact.h"
-#include "duo.h"
-#include "real.h"
-#include "test.h"
+#include "lib/duo.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 5000

@@ -3,8 +3,8 @@
 # The mesh converter, build/tools/carom-mesh, on files made here; prints TAP.
 # With ../shared/meshes beside the project its meshes are converted too.
 
-# shellcheck source=tests/convert.inc
-. "$(dirname "$0")/convert.inc"
+# shellcheck source=tests/lib/convert.inc
+. "$(dirname "$0")/lib/convert.inc"
 
 # ------------------------------------------------------------------ the files
 

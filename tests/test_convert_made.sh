@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # The mesh converter on grids of heights and shapes; each object by itself; previews. Prints TAP.
 
-# shellcheck source=tests/convert.inc
-. "$(dirname "$0")/convert.inc"
+# shellcheck source=tests/lib/convert.inc
+. "$(dirname "$0")/lib/convert.inc"
 
 # ----------------------------------------------------- grids of heights, shapes
 

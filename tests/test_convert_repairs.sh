@@ -3,8 +3,8 @@
 # The mesh converter's repairs: holes that are filled, meshes that are simplified, parts that overlap or
 # nest. Volumes are those of the shapes by their formulas. Prints TAP.
 
-# shellcheck source=tests/convert.inc
-. "$(dirname "$0")/convert.inc"
+# shellcheck source=tests/lib/convert.inc
+. "$(dirname "$0")/lib/convert.inc"
 
 python3 - <<'END_OF_FILES' || exit 1
 from math import cos, pi, sin

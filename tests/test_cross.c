@@ -3,9 +3,9 @@
  * Whether bodies have a point in common: triangles against separating axes in whole numbers; poses that hardly
  * touch, and hardly do not, against separating axes in double precision.
  */
-#include "asked.h"
+#include "lib/asked.h"
 #include "query/cross.h"
-#include "real.h"
+#include "lib/real.h"
 
 #ifdef TEST_LONG
 #define PAIRS 400000

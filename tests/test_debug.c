@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What carom_debug_draw hands over, against the mesh by hand and sums over all of it. */
 #include "carom_debug.h"
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 enum { ROOM = 64 };
 

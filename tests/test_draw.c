@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Pictures whose pixels are known by hand. */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 static uint8_t reference[SIZE][SIZE];
 

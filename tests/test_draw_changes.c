@@ -2,9 +2,9 @@
 /* carom_draw_changes: the same pixels as carom_draw, and no more of them written than it says. */
 #include <string.h>
 
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 #include "scene.h"
-#include "shapes.h"
+#include "lib/shapes.h"
 
 #ifdef TEST_LONG
 enum { FRAMES = 600 };

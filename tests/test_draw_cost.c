@@ -8,8 +8,8 @@
 #include "draw/draw.h"
 #include "port.h"
 #include "scene.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 /*
  * Instructions, of 320 x 240 and of 512 x 512 pixels in all frames that are looked at, of a picture of

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Lines of the world: over a picture, and in it, where bodies hide them. */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
 enum { LINES = 4000 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a carom_paint changes in pictures, and what it does not. */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 enum { RAMPS = 12, ENTRIES = RAMPS * DRAW_SHADES };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The picture that carom_draw is given: its format, its memory, its errors. */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 static uint8_t reference[SIZE][SIZE];
 

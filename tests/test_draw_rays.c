@@ -3,7 +3,7 @@
  * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere; and their shadows on
  * each other and on the ground, with the light from anywhere.
  */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
 #define ORACLE_SCENES 2000

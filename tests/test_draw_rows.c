@@ -2,9 +2,9 @@
 /* Pictures that are handed over row by row: the same pixels as in memory that holds them all. */
 #include <string.h>
 
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 #include "scene.h"
-#include "shapes.h"
+#include "lib/shapes.h"
 
 #ifdef TEST_LONG
 enum { FRAMES = 300 };

@@ -3,7 +3,7 @@
  * Shades from corner to corner, against the same in double precision: lumps of chance seen from anywhere. The oracle
  * finds the faces that share a shade by joining all that meet in an edge, and the face of a pixel by looking at all.
  */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
 #define LUMPS 300

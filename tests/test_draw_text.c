@@ -2,7 +2,7 @@
 /* Text over pictures: pixel by pixel from the font, and letters that are known by hand. */
 #include <string.h>
 
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
 enum { TEXTS = 3000 };

@@ -2,7 +2,7 @@
 /* Filters: who may touch, and what happens to bodies that a filter parts or lets touch. */
 #include <string.h>
 
-#include "boxes.h"
+#include "lib/boxes.h"
 #include "pairs/broad.h"
 
 enum { PLATE, BOX, FLOOR };

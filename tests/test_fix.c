@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "num/fix.h"
-#include "real.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 200000

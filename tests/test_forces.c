@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "num/fnv.h"
-#include "one_world.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define CAPS 3, 2, 16, 16, 0, 32, 0, 2, 0

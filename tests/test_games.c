@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "carom_body.h"
-#include "one_world.h"
+#include "lib/one_world.h"
 #include "port.h"
 #include "scene_games.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define SECOND 60
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "gauss_rows.h"
-#include "test.h"
+#include "lib/gauss_rows.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 enum { EXACT_CASES = 20000, DOUBLE_CASES = 20000 };

@@ -3,10 +3,10 @@
  * What gauss_solve costs, refinement included: instructions of a Cortex-M3 that counts them, over
  * the systems of random impacts. Where no board counts, only the solutions are looked at.
  */
-#include "gauss_rows.h"
-#include "impact_real.h"
+#include "lib/gauss_rows.h"
+#include "lib/impact_real.h"
 #include "port.h"
-#include "test.h"
+#include "lib/test.h"
 
 enum { CASES = 400, WORST_9 = 23000, WORST_15 = 56000 };
 

@@ -2,9 +2,9 @@
 /* Where a HIT was: a box of any attitude that falls onto a floor, or onto another one. */
 #include <string.h>
 
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define CAPS 3, 4, 32, 64, 0, 128, 0, 0, 2

@@ -2,8 +2,8 @@
 /* Ids of bodies that come and go, and the caller's pointer: every public function takes both names of a body. */
 #include <string.h>
 
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define BODIES 4

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The oracle for random impacts is that of impact_real.h, given the engine's rounded numbers. */
-#include "impact_real.h"
-#include "test.h"
+#include "lib/impact_real.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 enum { CASES = 30000 };

@@ -4,9 +4,9 @@
  * edges, of two meshes.
  */
 #include "interfere/interfere.h"
-#include "real.h"
-#include "solids.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/solids.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define POSES 2000 /* of each two shapes */

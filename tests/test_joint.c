@@ -4,10 +4,10 @@
 
 #include "carom_body.h"
 #include "carom_joint.h"
-#include "one_world.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define PAIRS 4
 #define CAPS  4, PAIRS, 24, 32, 0, 32, 3, 1

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "carom_joint.h"
-#include "one_world.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS 4, 4, 24, 32, 0, 32, 3, 1
 #define UNIT ((int64_t)1 << 32)

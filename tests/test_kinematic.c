@@ -7,10 +7,10 @@
 
 #include "carom_body.h"
 #include "num/fnv.h"
-#include "one_world.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS 4, 4, 48, 64, 0, 64, 0, 2
 #define ONE  ((int64_t)1 << 40) /* a unit, or a radian, a frame */

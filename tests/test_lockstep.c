@@ -8,8 +8,8 @@
 
 #include "port.h"
 #include "scene_net.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define LINKS 200

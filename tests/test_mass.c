@@ -2,7 +2,8 @@
 #include <string.h>
 
 #include "mesh/mass.h"
-#include "test.h"
+#include "lib/box.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 2000
@@ -42,22 +43,15 @@ static void finish(struct shape *s, uint32_t vertices, uint32_t faces, int quant
     s->raw.kind = CAROM_SOLID;
 }
 
-/* Add a box; the corner number has a bit for each axis. */
 static void add_box(struct shape *s, const int16_t low[3], const int16_t high[3], int quantum_bits)
 {
-    static const uint8_t sides[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
-                                         {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
-                                         {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    const int from[3] = {low[0], low[1], low[2]}, to[3] = {high[0], high[1], high[2]};
     uint32_t v = s->raw.vertex_count, f = s->raw.face_count;
 
-    for (int i = 0; i < 8; i++) {
-        for (int k = 0; k < 3; k++) {
-            s->vertices[v + (uint32_t)i][k] = i >> k & 1 ? high[k] : low[k];
-        }
-    }
+    box_corners(s->vertices + v, from, to);
     for (int i = 0; i < 12; i++) {
         for (int k = 0; k < 3; k++) {
-            s->faces[f + (uint32_t)i][k] = (uint16_t)(v + sides[i][k]);
+            s->faces[f + (uint32_t)i][k] = (uint16_t)(v + box_faces[i][k]);
         }
     }
     finish(s, v + 8, f + 12, quantum_bits);

@@ -5,10 +5,10 @@
  */
 #include <string.h>
 
-#include "one_world.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define CAPS 3, 4, 48, 64, 0, 128, 0, 3, 0

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "mesh_shapes.h"
+#include "lib/mesh_shapes.h"
 
 static int64_t dot64(const int64_t a[3], const int64_t b[3])
 {

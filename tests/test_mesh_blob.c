@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "mesh_shapes.h"
+#include "lib/mesh_shapes.h"
 
 #define BLOB_MAX 1024
 static uint8_t blob[BLOB_MAX];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "mesh_shapes.h"
+#include "lib/mesh_shapes.h"
 
 #ifdef TEST_LONG
 #define POINT_STEP 1 /* of the places on a face that are looked up in the z-lists */

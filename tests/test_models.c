@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The meshes of examples/models.h: closed, of the size and the volume that they are made for. */
 #include "models.h"
-#include "test.h"
+#include "lib/test.h"
 
 static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(BOWL_VERTICES, BOWL_FACES)];
 

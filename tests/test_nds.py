@@ -11,7 +11,7 @@ import struct
 import subprocess
 import sys
 
-from tap import board_cases
+from lib.tap import board_cases
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILT = os.path.join(ROOT, "build", "nds", "head")

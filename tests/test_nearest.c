@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Closest points: by hand, and against every pair of edges and of corners and faces in double precision. */
-#include "asked.h"
+#include "lib/asked.h"
 
 #ifdef TEST_LONG
 #define POSES 3000

@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "world/world.h"
 
 #define CAPS 2, 2, 16, 16, 0, 32

@@ -2,7 +2,7 @@
 /* Bodies that are solid from one side: a platform to jump through. */
 #include <string.h>
 
-#include "boxes.h"
+#include "lib/boxes.h"
 #include "num/fix.h"
 
 enum { PLATFORM, BOX, FLOOR };

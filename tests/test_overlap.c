@@ -2,7 +2,7 @@
 /* Bodies start apart: what is refused, pushed out, or let pass. */
 #include <string.h>
 
-#include "boxes.h"
+#include "lib/boxes.h"
 
 enum { PLATE, BOX, FLOOR, HUGE };
 

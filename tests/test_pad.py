@@ -12,7 +12,7 @@ from functools import partial
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tools"))
 import run_board  # noqa: E402
-from tap import board_cases  # noqa: E402
+from lib.tap import board_cases  # noqa: E402
 
 SCENES = {"gba": "head48", "nds": "head450", "psx": "head450"}
 STEPS = 200

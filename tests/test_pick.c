@@ -3,7 +3,7 @@
  * A pixel's ray: in the middle and at the corners by hand; and that what is picked is what was drawn, by the
  * colours of random pictures.
  */
-#include "draw_scene.h"
+#include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
 #define PICTURES 400

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "port.h"
-#include "test.h"
+#include "lib/test.h"
 
 /* Two instructions a round. */
 #if defined __arm__

@@ -5,11 +5,11 @@
  * one body inside the other. Held against all pairs: of faces in exact arithmetic, of features in
  * double precision.
  */
-#include "crossing.h"
+#include "lib/crossing.h"
 #include "interfere/interfere.h"
-#include "real.h"
-#include "solids.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/solids.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define POSES 200

@@ -7,8 +7,8 @@
  */
 #include "port.h"
 #include "scene.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 enum { POSES = 24, ROOM = 2048 };
 

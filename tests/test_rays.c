@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "asked.h"
+#include "lib/asked.h"
 
 #ifdef TEST_LONG
 #define RAYS 20000

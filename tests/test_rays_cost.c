@@ -8,8 +8,8 @@
 #include "carom_query.h"
 #include "port.h"
 #include "scene.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 enum { RAYS = 200, KINDS = 3, SWEEPS = 60 };
 

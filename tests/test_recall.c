@@ -3,10 +3,10 @@
  * Recall of queries at random poses: every pair of faces that crosses, by trying all in exact
  * arithmetic, is found. Half of the poses are grazing. host_recall.c is the long form.
  */
-#include "crossing.h"
-#include "real.h"
+#include "lib/crossing.h"
+#include "lib/real.h"
 #include "scene.h"
-#include "shapes.h"
+#include "lib/shapes.h"
 
 #ifdef TEST_LONG
 #define POSES       600 /* of each two shapes */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "carom_replay.h"
-#include "test.h"
+#include "lib/test.h"
 
 #define CAPS       8, 16, 64, 256, 64, 256, 2, 6, 4
 #define FILE_BYTES 8192

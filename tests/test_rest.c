@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Single contacts, and resting ones. */
-#include "hand.h"
-#include "real.h"
+#include "lib/hand.h"
+#include "lib/real.h"
 
 /* ----------------------------------------------------------------- one impact */
 

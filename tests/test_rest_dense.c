@@ -14,10 +14,10 @@
  *
  * Two frictionless impacts at once are held against a solution in double precision.
  */
-#include "real.h"
+#include "lib/real.h"
 #include "solve/parts.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 20000

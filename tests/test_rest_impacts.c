@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Any contacts at once. */
-#include "hand.h"
-#include "real.h"
+#include "lib/hand.h"
+#include "lib/real.h"
 
 #ifdef TEST_LONG
 #define CASES 20000

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Islands: what sleeps together, and what is solved apart. */
-#include "hand.h"
+#include "lib/hand.h"
 
 static void frame_of_sleep(const struct pair *touching, uint32_t count)
 {

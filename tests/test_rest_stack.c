@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Heavy on light: what a solve says of itself, and normals of faces that lie on each other. */
 #include "solve/rigid.h"
-#include "hand.h"
-#include "real.h"
+#include "lib/hand.h"
+#include "lib/real.h"
 
 #ifdef TEST_LONG
 #define CASES 400

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* An island put into its motion as one rigid body, or to rest: the last resort of a step. */
 #include "solve/rigid.h"
-#include "hand.h"
-#include "real.h"
+#include "lib/hand.h"
+#include "lib/real.h"
 
 static const struct pair chain[2] = {{2, 1}, {3, 2}};
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "mesh/scan.h"
-#include "test.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define CASES 20000

@@ -6,9 +6,9 @@
  */
 #include <string.h>
 
-#include "one_world.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS 3, 3, 64, 64, 64, 256
 /* Thousandths of a unit a second, as units a frame. */

@@ -2,7 +2,7 @@
 /* Sensors: what is in them, to the frame; and that nothing else notices them. */
 #include <string.h>
 
-#include "boxes.h"
+#include "lib/boxes.h"
 
 enum { PLATE, BOX, FLOOR, ZONE };
 

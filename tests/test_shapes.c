@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "carom_shapes.h"
-#include "real.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 #define V_MAX CAROM_CAPSULE_VERTICES(32)
 #define F_MAX CAROM_CAPSULE_FACES(32)

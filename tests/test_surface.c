@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "contact/contact.h"
-#include "shapes.h"
+#include "lib/shapes.h"
 
 #define SIDE  6
 #define COUNT ((SIDE + 1) * (SIDE + 1))

@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "asked.h"
+#include "lib/asked.h"
 
 #ifdef TEST_LONG
 #define WAYS       1500

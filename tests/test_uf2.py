@@ -12,7 +12,7 @@ import subprocess
 import sys
 import zlib
 
-from tap import board_cases
+from lib.tap import board_cases
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILT = os.path.join(ROOT, "build", "pico", "head")

@@ -5,9 +5,9 @@
  */
 #include <string.h>
 
-#include "one_world.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS 3, 2, 32, 64, 64, 128
 #define ONE  ((int64_t)1 << 40) /* a unit, or a radian, a frame */

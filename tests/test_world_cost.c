@@ -5,7 +5,7 @@
  */
 #include "port.h"
 #include "scene.h"
-#include "test.h"
+#include "lib/test.h"
 
 #define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 static _Alignas(8) uint8_t mesh_block[BOX_BYTES];

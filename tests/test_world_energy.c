@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 #include "step/parts.h"
 
 #define CAPS 4, 4, 4, 4, 4, 4

@@ -5,10 +5,10 @@
  */
 #include <string.h>
 
-#include "one_world.h"
-#include "real.h"
-#include "shapes.h"
-#include "test.h"
+#include "lib/one_world.h"
+#include "lib/real.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS 3, 2, 16, 16, 16, 32
 #define ONE  ((int64_t)1 << 40) /* a unit, or a radian, a frame */

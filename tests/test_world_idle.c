@@ -8,7 +8,7 @@
 
 #include "carom.h"
 #include "scene.h"
-#include "test.h"
+#include "lib/test.h"
 
 #define CAPS      3, 2, 64, 64, 0, 256
 #define FAR       2

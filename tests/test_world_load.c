@@ -5,8 +5,8 @@
  */
 #include <string.h>
 
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #if defined TEST_LONG
 #define CHANGES 2000 /* of each state of each world */

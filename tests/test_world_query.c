@@ -5,8 +5,8 @@
  */
 #include <string.h>
 
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #define CAPS   4, 4, 32, 256, 16, 64
 #define ROOM   64

@@ -2,8 +2,8 @@
 /* Whole steps at the ends of what a world takes. Their worth is in a build with sanitizers. */
 #include <string.h>
 
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define STRIDE 1

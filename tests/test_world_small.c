@@ -5,9 +5,10 @@
  */
 #include <string.h>
 
-#include "crossing.h"
-#include "real.h"
-#include "test.h"
+#include "lib/box.h"
+#include "lib/crossing.h"
+#include "lib/real.h"
+#include "lib/test.h"
 
 /* bodies, pairs, contacts, faces, entries, candidates */
 #define CAPS   3, 3, 4, 5, 0, 6
@@ -20,36 +21,15 @@ _Static_assert(sizeof(void *) > 4 || CAROM_WORLD_BYTES(CAPS) <= 6304, "a small w
 enum { X = 2048, Y = 1229, Z = 614, T = 1500, P = 20000 };
 static const int16_t corners[3][8][3] = {
     {{-P, -P, 0}, {P, -P, 0}, {P, P, 0}, {-P, P, 0}},
-    {{-X, -Y, -Z},
-     {X, -Y, -Z},
-     {-X, Y, -Z},
-     {X, Y, -Z},
-     {-X, -Y, Z},
-     {X, -Y, Z},
-     {-X, Y, Z},
-     {X, Y, Z}},
+    BOX_CORNERS(X, Y, Z),
     {{T, T, T}, {T, -T, -T}, {-T, T, -T}, {-T, -T, T}},
 };
-static const uint16_t sides[3][12][3] = {
-    {{0, 1, 2}, {0, 2, 3}},
-    {{0, 2, 1},
-     {1, 2, 3},
-     {4, 5, 6},
-     {5, 7, 6},
-     {0, 1, 4},
-     {1, 5, 4},
-     {2, 6, 3},
-     {3, 6, 7},
-     {0, 4, 2},
-     {2, 4, 6},
-     {1, 3, 5},
-     {3, 7, 5}},
-    {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}},
-};
+static const uint16_t plane_faces[2][3] = {{0, 1, 2}, {0, 2, 3}};
+static const uint16_t tetrahedron_faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 static const struct carom_mesh_raw raws[3] = {
-    {corners[0], sides[0], 4, 2, 12, CAROM_SURFACE},
-    {corners[1], sides[1], 8, 12, 12, CAROM_SOLID},
-    {corners[2], sides[2], 4, 4, 12, CAROM_SOLID},
+    {corners[0], plane_faces, 4, 2, 12, CAROM_SURFACE},
+    {corners[1], box_faces, 8, 12, 12, CAROM_SOLID},
+    {corners[2], tetrahedron_faces, 4, 4, 12, CAROM_SOLID},
 };
 
 static _Alignas(8) uint8_t mesh_blocks[3][CAROM_MESH_BYTES(8, 12)];

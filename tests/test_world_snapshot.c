@@ -5,8 +5,8 @@
  */
 #include <string.h>
 
-#include "shapes.h"
-#include "test.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
 
 #ifdef TEST_LONG
 #define STRIDE 1

@@ -7,7 +7,7 @@
 
 #include "carom.h"
 #include "scene.h"
-#include "test.h"
+#include "lib/test.h"
 
 #define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
 /* A pair, a few contacts: what one box on one plane needs, and some more. */

@@ -6,8 +6,8 @@
  */
 #include <string.h>
 
-#include "one_world.h"
-#include "shapes.h"
+#include "lib/one_world.h"
+#include "lib/shapes.h"
 #include "world/world.h"
 
 #define CAPS(entries) 6, 12, 64, 256, entries, 512

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
-#include "test.h"
+#include "lib/test.h"
 #include "mesh/zlist.h"
 
 #ifdef TEST_LONG

@@ -31,7 +31,7 @@
 #include "expect.hpp"
 
 extern "C" {
-#include "oracle.h"
+#include "lib/oracle.h"
 #include "scene.h"
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """One answer from every instruction set, compiler and option: tests/matrix.c, built in many ways.
 
-Every build plays the scenes of tests/plays.c and must print the same hash for each. What cannot be
+Every build plays the scenes of tests/lib/plays.c and must print the same hash for each. What cannot be
 built or run is a failure, as is a hash that differs; then the first frame that differs is looked for,
 and in it the stage that left something else. Snapshots that one build takes on the way are gone on
 with by another, of the other byte order or word length, for as many frames. A row a build and scene goes to
@@ -37,7 +37,7 @@ CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that are gone on with el
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
-PROGRAM = ["tests/matrix.c", "tests/plays.c", "port/option.c"] + sorted(
+PROGRAM = ["tests/matrix.c", "tests/lib/plays.c", "port/option.c"] + sorted(
     name for name in glob.glob("examples/scene*.c", root_dir=ROOT)
     if not name.endswith(("_rom.c", "_play.c")))
 SCENE_MESHES = ["build/gen/*_mesh.c", "build/gen/*_ramps.c"]  # constants: compiled once a target
@@ -101,7 +101,7 @@ that one build had taken in frame 500 were gone on with by another, of the other
 length, to the same end.
 
 A scene's hash is over the state after every frame, the step's status and events and what was asked of
-the world: faces that interfere, what lies inside of what, pictures. tests/plays.c has the scenes. Every
+the world: faces that interfere, what lies inside of what, pictures. tests/lib/plays.c has the scenes. Every
 other build finds its memory full of rubbish. A line a build and scene is in out/matrix.csv.
 What clang makes for mips and mipsel is MIPS II code. SuperH's is not optimised, since GCC 12 loses
 comparisons there.

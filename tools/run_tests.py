@@ -47,7 +47,7 @@ def command(path, select):
 
 def run(path, select):
     """Run one file, pass its lines on; returns how many tests passed and failed, and how many cases were
-    left out because they are known to fail (tests/open_cases.c)."""
+    left out because they are known to fail (tests/lib/open_cases.c)."""
     passed = failed = left_out = 0
     nothing_selected = False
     process = subprocess.Popen(command(path, select), stdin=subprocess.DEVNULL,

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "box.h"
 #include "lab.h"
 #include "open_cases.h"
 
@@ -138,20 +139,11 @@ carom_quat_q30 lab_random_turn(uint64_t *state)
         name##_vertices, name##_faces, sizeof name##_vertices / 6, sizeof name##_faces / 6, 12,    \
             CAROM_SOLID                                                                            \
     }
-#define CORNERS(x, y, z)                                                                           \
-    {-(x), -(y), -(z)}, {(x), -(y), -(z)}, {-(x), (y), -(z)}, {(x), (y), -(z)}, {-(x), -(y), (z)}, \
-        {(x), -(y), (z)}, {-(x), (y), (z)},                                                        \
-    {                                                                                              \
-        (x), (y), (z)                                                                              \
-    }
 
-static const int16_t box_vertices[8][3] = {CORNERS(2048, 1229, 614)};
-static const uint16_t box_faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                                          {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                                          {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+static const int16_t box_vertices[8][3] = BOX_CORNERS(2048, 1229, 614);
 const struct carom_mesh_raw lab_box = SOLID(box);
 
-static const int16_t plate_vertices[8][3] = {CORNERS(2048, 1638, 32)};
+static const int16_t plate_vertices[8][3] = BOX_CORNERS(2048, 1638, 32);
 #define plate_faces box_faces
 const struct carom_mesh_raw lab_plate = SOLID(plate);
 

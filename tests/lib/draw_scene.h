@@ -8,6 +8,7 @@
 #ifndef CAROM_TESTS_DRAW_SCENE_H
 #define CAROM_TESTS_DRAW_SCENE_H
 
+#include "box.h"
 #include "carom_draw.h"
 #include "draw/draw.h"
 #include "test.h"
@@ -38,12 +39,7 @@ static const int16_t half_vertices[][3] = {
     {-4096, -4096, 0}, {4096, -4096, 0}, {0, 0, 0}, {-4096, 4096, 0}};
 
 /* A cube of +-1/2 unit. */
-static const int16_t cube_vertices[][3] = {
-    {-2048, -2048, -2048}, {2048, -2048, -2048}, {-2048, 2048, -2048}, {2048, 2048, -2048},
-    {-2048, -2048, 2048},  {2048, -2048, 2048},  {-2048, 2048, 2048},  {2048, 2048, 2048}};
-static const uint16_t cube_faces[][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                                         {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                                         {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+static const int16_t cube_vertices[8][3] = BOX_CORNERS(2048, 2048, 2048);
 
 static struct carom_mesh square, half, cube, plain;
 
@@ -67,7 +63,7 @@ static void build_meshes(void)
     build(&plain, raw, plain_mem, sizeof plain_mem);
     raw = (struct carom_mesh_raw){half_vertices, half_faces, 4, 1, 12, CAROM_SURFACE};
     build(&half, raw, half_mem, sizeof half_mem);
-    raw = (struct carom_mesh_raw){cube_vertices, cube_faces, 8, 12, 12, CAROM_SOLID};
+    raw = (struct carom_mesh_raw){cube_vertices, box_faces, 8, 12, 12, CAROM_SOLID};
     build(&cube, raw, cube_mem, sizeof cube_mem);
 }
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "box.h"
 #include "shapes.h"
 #include "real.h"
 
@@ -45,16 +46,13 @@ static void build(struct shape *s)
 
 void shape_box(struct shape *s, int quantum_bits, int x, int y, int z)
 {
+    const int low[3] = {-x / 2, -y / 2, -z / 2}, high[3] = {x / 2, y / 2, z / 2};
+
     begin(s, quantum_bits, CAROM_SOLID);
-    for (int i = 0; i < 8; i++) {
-        add_vertex(s, (i & 1 ? x : -x) / 2, (i & 2 ? y : -y) / 2, (i & 4 ? z : -z) / 2);
-    }
-    add_square(s, 0, 2, 3, 1);
-    add_square(s, 4, 5, 7, 6);
-    add_square(s, 0, 1, 5, 4);
-    add_square(s, 2, 6, 7, 3);
-    add_square(s, 0, 4, 6, 2);
-    add_square(s, 1, 3, 7, 5);
+    box_corners(s->vertices, low, high);
+    memcpy(s->faces, box_faces, sizeof box_faces);
+    s->raw.vertex_count = 8;
+    s->raw.face_count = 12;
     build(s);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include <string.h>
 
+#include "box.h"
 #include "boxes.h"
 
 struct carom_config boxes_config;
@@ -12,18 +13,11 @@ static _Alignas(8) uint8_t block[BOXES_WORLDS][CAROM_WORLD_BYTES(BOXES_CAPS)];
 
 void boxes_make(int number, int x, int y, int z)
 {
-    static const uint16_t faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
-                                          {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
-                                          {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    const int half[3] = {x, y, z};
+    const int low[3] = {-x, -y, -z}, high[3] = {x, y, z};
     struct carom_mesh_raw raw = {
-        (const int16_t(*)[3])vertices[number], faces, 8, 12, 10, CAROM_SOLID};
+        (const int16_t(*)[3])vertices[number], box_faces, 8, 12, 10, CAROM_SOLID};
 
-    for (int i = 0; i < 8; i++) {
-        for (int k = 0; k < 3; k++) {
-            vertices[number][i][k] = (int16_t)((i >> k & 1) ? half[k] : -half[k]);
-        }
-    }
+    box_corners(vertices[number], low, high);
     CHECK_EQ(
         carom_mesh_build(&boxes_mesh[number], &raw, mesh_block[number], sizeof mesh_block[number]),
         CAROM_OK);
