@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The cells of b under a box, and how high b is there. */
+/* The cells of b's grid under a box, and the highest z of b in them. */
 #include "narrow.h"
 
-/* Cell of a coordinate in quanta along one axis of a grid, clamped to it. */
+/* Cell of a coordinate (quanta) along one axis of the grid, clamped to the grid. */
 static int32_t clamp_cell(int32_t x, int32_t x0, int shift, int32_t n)
 {
     int32_t cell = (x - x0) >> shift;
@@ -23,7 +23,7 @@ struct interfere_cells interfere_cells_under(const struct carom_mesh *mb, const 
     };
 }
 
-/* The highest z of b in a cell; below all of it when there is none. */
+/* Highest z of b in a cell; below every vertex if the cell is empty. */
 static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;

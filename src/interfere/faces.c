@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* The list of interfering faces, and the order of candidates. */
+/* The list of interfering faces, its order, and the order of candidates. */
 #include "narrow.h"
 
-/* A face that is among so many of the last that were listed is not listed again. */
+/*
+ * Look this far back in the list for a repetition before adding a face: the candidates of one pair
+ * repeat each other's faces.
+ */
 #define LAST_FACES 8
 
 int candidate_compare(const struct candidate *a, const struct candidate *b)
@@ -69,7 +72,7 @@ void interfere_finish(struct interfere *w)
     }
 }
 
-/* Whether a face is in the list, which must be sorted. */
+/* True if the sorted list contains the face. */
 static bool has_face(const struct interfere *w, struct carom_face_ref face)
 {
     uint32_t low = 0, high = w->face_pool->used;
@@ -86,7 +89,7 @@ static bool has_face(const struct interfere *w, struct carom_face_ref face)
     return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
 }
 
-/* Whether a face is among the last of the list: those of one pair repeat each other. */
+/* True if the face is one of the last LAST_FACES in the list. */
 static bool is_among_last(const struct interfere *w, struct carom_face_ref face)
 {
     uint32_t used = w->face_pool->used, first = used > LAST_FACES ? used - LAST_FACES : 0;
@@ -108,7 +111,7 @@ static void add_face(struct interfere *w, uint16_t body, uint16_t face)
         return;
     }
     if (pool->used == pool->size) {
-        interfere_finish(w); /* most of a full list are repetitions */
+        interfere_finish(w); /* a full list is mostly repetitions */
         if (has_face(w, ref)) {
             return;
         }
@@ -121,7 +124,7 @@ static void add_face(struct interfere *w, uint16_t body, uint16_t face)
     w->faces[pool->used++] = ref;
 }
 
-/* The face that owns a vertex: every one that is tested has just one. */
+/* The face that owns a vertex. Each vertex that can be a candidate has exactly one owner. */
 static uint16_t owner_of_vertex(const struct carom_mesh *mesh, uint32_t v)
 {
     for (uint32_t r = mesh->ring_start[v]; r < mesh->ring_start[v + 1]; r++) {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether two features of faces that are near each other can touch. */
+/*
+ * Can two features of faces near each other touch? Tests each by its place (beside, above) and by
+ * the normal cones (paper, section 2).
+ */
 #include "narrow.h"
 
 static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
@@ -9,7 +12,7 @@ static struct interfere_vec difference(const struct interfere_vec *a, const stru
 
 /* ---------------------------------------------------------- vertices, faces */
 
-/* Whether a point stays beside a triangle with normal n: seen along the axis that n is most along. */
+/* True if a point stays beside a triangle with normal n all span, seen along n's largest axis. */
 static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
                          const struct interfere_vec *const t[3], const int32_t n[3])
 {
@@ -60,12 +63,12 @@ bool interfere_face_vertex(const struct interfere *w, const struct target *t, ui
 
 /* -------------------------------------------------------------------- edges */
 
-/* Two edges in the middle of the way, in b's mesh axes. */
-struct lines {
+/* Two edges at mid-span, in b's mesh axes. */
+struct edge_pair {
     const struct carom_edge *a, *b;
     const struct interfere_vec *start_a, *start_b;
-    int32_t e[3]; /* direction of a's; of b's: b->direction */
-    int32_t w[3]; /* e x f, q30 */
+    int32_t e[3]; /* direction of a's edge; that of b's edge is b->direction */
+    int32_t w[3]; /* e x f, q30; along the normal of an edge/edge contact */
 };
 
 static int64_t size_of(const int32_t v[3])
@@ -75,8 +78,9 @@ static int64_t size_of(const int32_t v[3])
 }
 
 /*
- * Which of +w and -w lies between the faces of an edge, a bit each, d being the direction of the other
- * edge: square to its edge in a face with normal n, (e x f).(n x f) is e.n, and (e x f).(n x e) is -f.n.
+ * Which of +w (bit 0) and -w (bit 1) lies between the two faces of an edge. d is the direction of
+ * the other edge. In a face with normal n the direction square to its own edge is n x f or n x e,
+ * and (e x f).(n x f) = e.n, (e x f).(n x e) = -f.n: so the sign of n.d decides.
  */
 static uint32_t sides_between(const struct carom_mesh *mesh, const struct carom_edge *edge,
                               const int32_t d[3], int32_t tolerance_q28)
@@ -93,10 +97,10 @@ static uint32_t sides_between(const struct carom_mesh *mesh, const struct carom_
 }
 
 /*
- * Whether +w or -w can be the normal: it must lie in the normal cones of both edges (Gauss arcs).
- * The angle turned moves w / |w| by up to turn / sine; all is multiplied by the sine.
+ * True if +w or -w lies in the normal cones of both edges, the arcs between their faces' normals. A
+ * turn by an angle moves w / |w| by up to angle / sine, so tolerances are multiplied by the sine.
  */
-static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t sine_q30)
+static bool arcs_meet(const struct interfere *in, const struct edge_pair *l, int64_t sine_q30)
 {
     int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
     int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
@@ -111,8 +115,8 @@ static bool arcs_meet(const struct interfere *in, const struct lines *l, int64_t
 }
 
 /*
- * Whether an edge stays beside the line of the other one, seen along w: what begins at `start` from
- * the line and runs along `other`.
+ * True if an edge stays beside the other edge's line, seen along w. The edge begins at `start` from
+ * that line and runs along `other`.
  */
 static bool passes_by(const struct interfere *in, const int32_t w[3], const int32_t line[3],
                       const struct interfere_vec *start, const int32_t other[3], int32_t length_q22)
@@ -128,8 +132,8 @@ static bool passes_by(const struct interfere *in, const int32_t w[3], const int3
     return from + (run < 0 ? run : 0) > limit || from + (run > 0 ? run : 0) < -limit;
 }
 
-/* Whether two edges of which neither box keeps them apart can touch. */
-static bool edges_may_touch(const struct interfere *in, struct lines *l)
+/* True if two edges can touch. Precondition: their boxes meet. */
+static bool edges_may_touch(const struct interfere *in, struct edge_pair *l)
 {
     const int32_t *f = l->b->direction.c;
     struct interfere_vec d, d_back;
@@ -140,9 +144,9 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
     carom_cross(l->w, l->e, f, 30);
     largest = fix_larger(fix_larger(fix_abs32(l->w[0]), fix_abs32(l->w[1])), fix_abs32(l->w[2]));
     if (largest < CAROM_ONE_Q30 / 64 + (in->leaf->cone_q30 - INTERFERE_CONE_Q30)) {
-        return true; /* may be parallel somewhere on the way: leave it to the exact test */
+        return true; /* may become parallel during the span: leave them to the exact test */
     }
-    sine_q30 = size_of(l->w) + 4; /* at least */
+    sine_q30 = size_of(l->w) + 4; /* at least |w| */
     d = difference(l->start_a, l->start_b);
     limit = sine_q30 * (in->leaf->near_q20 + 4) + carom_abs(carom_dot(l->w, in->leaf->shift.c)) / 2;
     if (carom_abs(carom_dot(l->w, d.c)) > limit || !arcs_meet(in, l, sine_q30)) {
@@ -156,12 +160,12 @@ static bool edges_may_touch(const struct interfere *in, struct lines *l)
 bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
                          int j)
 {
-    /* an owned edge runs with its face */
-    struct lines lines;
+    /* an owned edge runs in the direction of its face's corners */
+    struct edge_pair edges;
 
-    lines.a = &w->a->mesh->edges[w->a->mesh->faces[interfere_face(w, i)].edge[k]];
-    lines.b = &w->b->mesh->edges[t->face->edge[j]];
-    lines.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
-    lines.start_b = &t->p[j];
-    return edges_may_touch(w, &lines);
+    edges.a = &w->a->mesh->edges[w->a->mesh->faces[interfere_face(w, i)].edge[k]];
+    edges.b = &w->b->mesh->edges[t->face->edge[j]];
+    edges.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
+    edges.start_b = &t->p[j];
+    return edges_may_touch(w, &edges);
 }

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Gathering the candidates of a pair, at once or in chunks, and of all pairs in turn. */
+/*
+ * Gather the candidates of one pair, whole or in chunks, or of all pairs in turn; keep them for
+ * later steps of the pair.
+ */
 #include "narrow.h"
 
 /*
- * Whether all of b, seen from any point that a may reach, fits q22: only the largest meshes with
+ * True if all of b, seen from any point that a can reach, fits q22. Only the largest meshes with
  * the fastest bodies do not.
  */
 static bool in_range(const struct body *a, const struct body *b)
@@ -11,7 +14,10 @@ static bool in_range(const struct body *a, const struct body *b)
     return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
 }
 
-/* How far turns of a body's axes carry the other one around, by squares: below 2^27 times 2^34. */
+/*
+ * Measure of how far `by`'s turn carries `other` around it: |u|^2 radius^2, radius in q12. The
+ * factors are below 2^27 and 2^34.
+ */
 FIX_APART static int64_t carried_around(const struct interfere *w, const struct body *other,
                                         const struct body *by)
 {
@@ -25,9 +31,10 @@ FIX_APART static int64_t carried_around(const struct interfere *w, const struct 
 }
 
 /*
- * In the axes of a small body that spins a large one sweeps through everything: then the small one asks. Of
- * two of about one size it is as good that the one asks whose leaves may be smaller. Kinds
- * and edges of candidates change places again when they are taken (interfere_emit).
+ * Choose which body's leaves are swept (a) and which body's cells are searched (b). In the axes of
+ * a small spinning body a large one sweeps through everything, so then the small body's leaves are
+ * swept. Between bodies of about one size the pair's order stays. interfere_emit swaps kinds and
+ * features back.
  */
 static void choose_asker(struct interfere *w)
 {
@@ -45,9 +52,9 @@ static void choose_asker(struct interfere *w)
 }
 
 /*
- * How far a direction of one body may be off what the middle of both ends of the span makes of it, as seen
- * from the other: by half of what the bodies turn in the span, whatever the axes, and by what room their regions
- * give to turns.
+ * Bound on the angle between a direction as the mid-span mean carries it over and the true one at
+ * any time of the span: half of what both bodies turn in the span, whatever the axes, plus the room
+ * that their regions leave for turns.
  */
 static int64_t off_the_middle_q30(const struct interfere *w)
 {
@@ -84,7 +91,10 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
     interfere_leaves(w);
 }
 
-/* The same against each chunk of b's lists, which cover what any pair with b reaches. */
+/*
+ * gather_pair against each chunk of b's z-lists. The lists cover what any pair with b reaches, so
+ * later pairs of the same step can use them.
+ */
 static void gather_over(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const uint16_t b = all->pairs[number].b;

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which faces of two bodies are near each other on their way: leaves of a, swept, against b's
- * z-lists.
+ * Find the faces of b that a's leaves come near during the span: sweep each leaf's sphere, cull it
+ * by box and height, walk the cells under it.
  *
- * A point of a goes from start to end, seen from b, within `near` of the straight way from x - shift
- * / 2 to x + shift / 2, x being the mean of both. If it meets a point y of b on it then for any
- * vector k, |k.(x - y)| <= |k| near + |k.shift| / 2. All that is dropped here is dropped by that. Of
- * a whole leaf the shift is its centre's: from the middle, others differ by half of their turn.
+ * Notation: seen from b, a point of a moves within `near` of the straight line from x - shift / 2
+ * to x + shift / 2, x being its place at mid-span. If it meets a point y of b during the span, then
+ * |k.(x - y)| <= |k| near + |k.shift| / 2 for every vector k. Each cull in this folder uses that
+ * bound. A leaf has one shift, its centre's; other points' shifts differ by the turn from the
+ * middle to either end, which near_q20 includes.
  */
 #include "narrow.h"
 
-/* What is cut off by carrying points into b's frame, q20. */
+/* Bound on truncation when points are carried into b's frame, q20. */
 #define PLACE_NOISE_Q20 8
 
 /* ------------------------------------------------------------------- leaves */
 
-/* The highest z of b in the cells under a on its way. */
+/* Highest z of b in the cells that a passes over during the span, quanta. */
 static int32_t highest_of_b(const struct interfere *w)
 {
     int64_t around_q22 = w->a->radius_q22 + w->leaf->near_q22 +
@@ -32,7 +33,7 @@ static int32_t highest_of_b(const struct interfere *w)
     return interfere_highest(w, low, high, INT32_MAX);
 }
 
-/* A coordinate of the sphere around a leaf, swept along its way. */
+/* Set shift, reach and box along axis k from the leaf's sphere. */
 static inline void sweep_sphere(struct interfere *w, int k)
 {
     const struct carom_mesh *mb = w->b->mesh;
@@ -48,7 +49,7 @@ static inline void sweep_sphere(struct interfere *w, int k)
     l->quanta_high[k] = interfere_quanta(mb, x + radius + reach, k) + 1;
 }
 
-/* Whether the sphere around a leaf, swept along its way, meets the box of b and what lies under it. */
+/* Sweep the leaf's sphere. Returns true if it meets b's box and is not above all of b under it. */
 static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
     const int16_t(*box)[3] = w->b->mesh->box;
@@ -76,15 +77,15 @@ static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16
     return l->axis_q15[0] * p[0] + l->axis_q15[1] * p[1] + l->axis_q15[2] * p[2];
 }
 
-/* Whether three places are all on one side of an interval. */
+/* True if three coordinates all lie on the same side of an interval. */
 static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32_t high)
 {
     return (p < low && q < low && r < low) || (p > high && q > high && r > high);
 }
 
 /*
- * Whether a face of b meets the box and the slab of the swept leaf: seen from above, for its z in the
- * cell was looked at.
+ * True if a face of b meets the leaf's box in x and y, and the leaf's slab. The caller has compared
+ * z in the cell.
  */
 static inline bool face_near(const struct interfere *w, uint16_t face)
 {
@@ -100,7 +101,7 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
                       l->slab_low_q15, l->slab_high_q15);
 }
 
-/* Whether a face comes up for the first time, as far as is remembered. */
+/* True if the face is not remembered as tested against this leaf; remembers it. */
 static inline bool is_new(struct interfere *w, uint16_t face)
 {
     uint16_t *seen = &w->leaf->seen[face % INTERFERE_SEEN];
@@ -119,7 +120,7 @@ static inline void visit_face(struct interfere *w, uint16_t face)
     }
 }
 
-/* The faces of b in one cell, from the highest z1 down to the leaf. */
+/* Visit b's faces in a cell, highest z1 first, down to the bottom of the leaf's box. */
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
     const struct carom_mesh *mb = w->b->mesh;
@@ -134,7 +135,7 @@ static void visit_cell(struct interfere *w, uint32_t cell)
     }
 }
 
-/* The same of the lists that were made. */
+/* visit_cell, for z-lists made within the step. */
 static void visit_made(struct interfere *w, uint32_t cell)
 {
     const struct zentry *entry = w->lists.entry;
@@ -156,7 +157,7 @@ static void visit_leaf(struct interfere *w)
     if (!interfere_place_leaf(w)) {
         return;
     }
-    memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* CAROM_NO_FACE */
+    memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* = CAROM_NO_FACE */
     cells = interfere_cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
@@ -174,8 +175,9 @@ static void visit_leaf(struct interfere *w)
 /* -------------------------------------------------------------------- pair */
 
 /*
- * An upper bound of the centre's z less the radius, q20, of the leaves that leaf_near does not find above
- * `top`: the sphere of every leaf is within twice the radius of a.
+ * Upper bound on centre.z - radius (q20, a's axes turned to b's); leaves above it cannot reach b
+ * below `top`. Each leaf's sphere lies within twice a's radius of a's centre, which bounds the
+ * effect of turns.
  */
 static int64_t highest_leaf(const struct interfere *w, int32_t top)
 {
@@ -193,7 +195,7 @@ static int64_t highest_leaf(const struct interfere *w, int32_t top)
     return reach_q20 < INT32_MAX / 2 ? reach_q20 : INT32_MAX / 2;
 }
 
-/* The next leaf that is not above all of a height of b; most leaves end here. */
+/* Skip leaves whose centre.z - radius exceeds the bound. Most leaves end here. */
 static const struct carom_leaf *next_leaf(const struct interfere *w, const struct carom_leaf *leaf,
                                           int64_t highest_q20)
 {

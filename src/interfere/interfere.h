@@ -1,16 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * interfere - from pairs of bodies to interfering faces and candidates for the collision test.
+ * interfere - from pairs of bodies to interfering faces and candidates (paper, section 1 and figure
+ * 1: interference detection by z-lists).
  *
- * For a pair (a, b) the question is asked in b's mesh frame, where b's sorted z-lists lie ready. The
- * leaves of a that survive a sphere test are carried into that frame and swept along their way; the
- * z-lists of the cells under a swept leaf name the faces of b near it. What lies apart by planes is
- * dropped, a bit for each vertex; the rest is narrowed to the vertex/face and edge/edge pairs that
- * can touch.
+ * In: a pair (a, b), the span of time for which it is gathered, both bodies' regions or paths, b's
+ * z-lists. Out: candidates in the pool, each a pair of features that may touch; the list of
+ * interfering faces, for statistics and pictures.
  *
- * The result is conservative for every motion that stays within the bodies' regions: it may hold
- * pairs that do not touch and lacks none that do. So how it is cut into chunks, which duplicates
- * survive and what is culled early change the cost of a step, never its outcome.
+ * Steps, all in b's mesh frame, and the files that hold them:
+ *   gather.c     choose which body's leaves are swept, gather one pair or all
+ *   motion.c     relative motion of a as seen from b over the span, and its tolerance
+ *   interfere.c  cull leaves by their swept spheres; find faces of b by cells
+ *   cells.c      cells under a box, highest z of b there
+ *   leaf.c       carry a leaf's vertices, slab and faces into b's frame
+ *   narrow.c     cull the leaf's vertices and faces against one face of b
+ *   features.c   exact culls of a vertex/face or edge/edge pair: beside, normal cone
+ *   keep.c       the pool: emit a candidate, make room, keep candidates of other pairs
+ *   lists.c      z-lists made within a step, for surfaces that move
+ *   faces.c      list of interfering faces, order of candidates
+ *   overlap.c    queries without motion: face pairs that cross, point inside a mesh
+ *
+ * The result is conservative for every motion that stays within both regions: it lacks no pair of
+ * features that can touch, and may hold some that cannot. So chunk sizes, duplicates and early
+ * culls change the cost of a step, never its outcome.
  */
 #ifndef CAROM_SRC_INTERFERE_H
 #define CAROM_SRC_INTERFERE_H
@@ -32,7 +44,7 @@ struct candidate {
 /* Order of candidates, hits and contacts: by pair, kind, i, j. Negative when a comes first. */
 int candidate_compare(const struct candidate *a, const struct candidate *b);
 
-/* Told of every candidate, some at a time. */
+/* Receives every candidate of a gather, in one or more chunks. */
 struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
 };
@@ -41,8 +53,9 @@ struct candidate_visitor {
 #define INTERFERE_CONE_Q30 21474836
 
 /*
- * Faces of b that a leaf has come up with lately: a face lies in several cells. One that takes the
- * slot of another makes it forgotten, which is only work done twice.
+ * Slots that remember faces of b which the leaf has already been tested against, since a face lies
+ * in several cells. A face that takes the slot of another one makes the engine test the other one
+ * again: that costs time only.
  */
 #define INTERFERE_SEEN 64
 
@@ -51,62 +64,68 @@ struct interfere_vec {
     int32_t c[3];
 };
 
-/* The plane of a face of the leaf in the middle of its way, by the reach along its normal over and under. */
+/*
+ * Plane of one of the leaf's faces at mid-span: unit normal, and the offsets along it above and
+ * below which no point of b can meet the face.
+ */
 struct interfere_plane {
     int32_t n_q30[3], above_q18, below_q18;
 };
 
-/* A leaf of a as it moves, in b's mesh axes: all points by `shift`, but for a tolerance. Lengths are
- * q20. */
+/*
+ * A moving leaf of a in b's mesh axes. Over the span every point of the leaf moves by `shift`,
+ * within the tolerance `near_q20`. Lengths are q20 unless the name says otherwise.
+ */
 struct interfere_leaf {
-    /* of its pair */
-    carom_m3_q30 to_b;       /* from a's mesh axes to b's: the mean of start and end */
-    struct interfere_vec at; /* a's centre of mass in b's mesh frame, likewise */
-    carom_m3_q30 change;     /* from start to end */
+    /* set once a pair, by interfere_set_motion and gather_pair or query */
+    carom_m3_q30 to_b;       /* from a's mesh axes to b's: mean of start and end of the span */
+    struct interfere_vec at; /* a's centre of mass in b's mesh frame at mid-span */
+    carom_m3_q30 change;     /* to_b at the end of the span less to_b at the start */
     struct interfere_vec moves;
-    int64_t near_q22;  /* how far points may be off the straight way between both */
-    int32_t angle_q30; /* how far one body turns as seen from the other */
-    int32_t skew_q30;  /* how far to_b is from a rotation, which it shortens to its cosine */
+    int64_t near_q22;  /* bound on a point's distance from its straight relative motion */
+    int32_t angle_q30; /* bound on the turn of one body as seen from the other, radians */
+    int32_t skew_q30;  /* bound on how much to_b, a mean, shortens vectors: 1 - cosine */
     int32_t cone_q30;  /* cosine tolerance of normal cones */
-    int32_t top;       /* the highest z of b under a, quanta */
+    int32_t top;       /* highest z of b in the cells under a, quanta */
 
     const struct carom_leaf *leaf;
     uint16_t seen[INTERFERE_SEEN];
     struct interfere_vec shift;
-    int32_t near_q20;                            /* the tolerance */
-    struct interfere_vec reach;                  /* it and half of the shift, along each axis */
-    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices in the middle of their ways */
-    int32_t quanta_low[3], quanta_high[3]; /* around the ways, in b's quanta from its origin */
-    int32_t axis_q15[3];                   /* of its slab */
-    int32_t slab_low_q15, slab_high_q15;   /* along that, around the ways, in b's quanta */
+    int32_t near_q20;                            /* near_q22, and what turns add at this leaf */
+    struct interfere_vec reach;                  /* near_q20 and half of |shift|, along each axis */
+    struct interfere_vec p[CAROM_LEAF_VERTICES]; /* vertices at mid-span */
+    int32_t quanta_low[3], quanta_high[3];       /* swept box, b's quanta from b's origin */
+    int32_t axis_q15[3];                         /* axis of the leaf's slab, in b's axes */
+    int32_t slab_low_q15, slab_high_q15;         /* interval swept along that axis, in b's quanta */
     bool listed;
-    uint32_t corners[CAROM_LEAF_FACES];  /* of each face, once listed, a bit each */
-    uint8_t own_edges[CAROM_LEAF_FACES]; /* that each face owns, once listed, a bit each */
-    uint32_t boxed;                      /* faces with boxes around their ways, a bit each */
+    /* if listed: each face's corners as bits of the leaf's vertices, and the edges that it owns */
+    uint32_t corners[CAROM_LEAF_FACES];
+    uint8_t own_edges[CAROM_LEAF_FACES];
+    uint32_t boxed; /* faces whose swept box is set, a bit each */
     struct interfere_vec face_low[CAROM_LEAF_FACES], face_high[CAROM_LEAF_FACES];
-    uint32_t placed; /* faces whose planes are known, a bit each */
+    uint32_t placed; /* faces whose plane is set, a bit each */
     struct interfere_plane planes[CAROM_LEAF_FACES];
 };
 
 struct target;
 struct interfere_query;
-/* A rectangle seen from above, quanta. */
+/* A rectangle in x and y, in quanta of a mesh. */
 struct interfere_area {
     int32_t low[2], high[2];
 };
 
-/* The part of both regions' time that a pair is gathered for, frames. */
+/* The part of both regions' time that a pair is gathered for, in frames. */
 struct interfere_span {
     int64_t from_a_q30, from_b_q30, time_q30;
-    uint32_t most; /* a gather that finds more candidates gives up */
-    /* what the pair has kept, the last in the pool, stays: only what is added is visited */
+    uint32_t most; /* limit: a gather that finds more candidates returns INTERFERE_TOO_MANY */
+    /* add to the pair's kept candidates, the last in the pool, and visit only new ones */
     bool more;
 };
 
-/* What a gather returns that gave up. */
+/* Returned by a gather that exceeded interfere_span.most. */
 #define INTERFERE_TOO_MANY 1
 
-/* All pairs of a world, and their bodies. */
+/* All pairs of a world, with the bodies that they number. */
 struct interfere_pairs {
     const struct body *bodies;
     const struct pair *pairs;
@@ -116,86 +135,100 @@ struct interfere_pairs {
 struct interfere {
     struct candidate *candidates;
     struct pool *candidate_pool;
-    struct pair_work *meetings; /* of all pairs; NULL: none is kept */
-    uint32_t pair_count;        /* so many */
-    uint32_t own_first;         /* where the candidates of the pair at hand begin */
+    struct pair_work *meetings; /* one for each pair; NULL: no pair keeps candidates */
+    uint32_t pair_count;        /* entries of meetings */
+    uint32_t own_first;         /* index of the first candidate of the pair being gathered */
     struct carom_face_ref *faces;
     struct pool *face_pool;
     struct zlist lists;
-    uint32_t gathers, candidate_count; /* for the statistics */
+    uint32_t gathers, candidate_count; /* for statistics */
 
-    bool whole; /* the pool holds every candidate of the pair at hand */
+    bool whole; /* the pool holds every candidate of the pair: no chunk was handed out */
     bool stale; /* the bodies are not those that regions and pairs were set for */
     int error;
     struct candidate_visitor *visitor;
 
-    /* what becomes of the leaf and a face of b whose plane it reaches: candidates, or pairs of faces */
+    /*
+     * Called for the leaf and each face of b whose plane the leaf reaches: emits candidates in a
+     * step, lists face pairs in a query.
+     */
     void (*meet)(struct interfere *w, struct target *t);
-    struct interfere_query *query; /* of a query */
+    struct interfere_query *query; /* the query that runs; NULL in a step */
 
-    /* the pair being worked on */
+    /* the pair being gathered */
     const struct body *a, *b;
     struct interfere_span span;
     uint16_t pair;
-    struct interfere_leaf *leaf; /* room for one and for its pair, the caller's */
+    struct interfere_leaf *leaf; /* scratch: the leaf at hand and the motion of its pair */
 
-    bool by_paths;                   /* it is gathered for the paths at hand alone */
-    bool swapped;                    /* a is b of the pair, and b a */
-    bool pooled;                     /* b's z-lists are in `lists` */
-    const struct carom_mesh *listed; /* the mesh that `lists` are of; NULL: none */
-    struct interfere_area area;      /* where they hold all of it */
+    bool by_paths; /* span is that of the paths, not of the regions */
+    bool swapped;  /* a is b of the pair and b is a, see choose_asker */
+    bool pooled;   /* b's z-lists are those in `lists` */
+    const struct carom_mesh
+        *listed;                /* `lists` are this mesh's and complete within `area`; NULL: none */
+    struct interfere_area area; /* in quanta of `listed` */
 };
 
-/* Hand every candidate of a pair to the visitor that the pool keeps. */
+/* Hand the candidates that the pool keeps of a pair to the visitor. */
 void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate_visitor *visitor);
 
 /*
- * The same of a pair whose candidates are gathered anew, to be kept for a span of both regions, or for the
- * paths at hand alone; in chunks when the pool has not room for all of them.
+ * Gather the candidates of a pair anew and hand them to the visitor; in chunks if the pool is too
+ * small for all of them.
+ *
+ *   span  part of both regions' time that the candidates are to cover (its times count if keep)
+ *   keep  keep the candidates if the pool has room; else gather for the present paths alone
+ *
  * Returns CAROM_OK, INTERFERE_TOO_MANY, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
 int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
                          const struct interfere_span *span, bool keep,
                          struct candidate_visitor *visitor);
 
-/* The same of all pairs, for the whole of the regions, and none is kept. */
+/*
+ * Gather all pairs in turn, for the whole of their regions, and keep none. Returns as
+ * interfere_visit_pair.
+ */
 int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);
 
-/* Note the faces that own the features of candidates as interfering ones. */
+/* Add the faces that own the candidates' features to the list of interfering faces. */
 void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
                           const struct candidate *c, uint32_t n);
 
-/* Forget z-lists that were made; the surface has moved or gone. */
+/* Forget z-lists made within a step: the surface has moved or is gone. */
 void interfere_forget_lists(struct interfere *w);
 
-/* Sort the interfering faces and drop repeated ones. */
+/* Sort the list of interfering faces and drop repetitions. */
 void interfere_finish(struct interfere *w);
 
-/* A body where it is. */
+/* A body and its pose. */
 struct interfere_placed {
     const struct body *body;
     const struct body_state *state;
 };
 
 /*
- * The face pairs of a and b that interfere at their poses, each once: every pair that has a point in
- * common, and hardly any other. Candidates and interfering faces in w stay as they are.
- * Returns how many, or CAROM_ERR_FACES_FULL; some pairs are in `out` then all the same.
+ * List the face pairs of a and b that interfere at their poses, each pair once: every pair with a
+ * common point, and hardly any other. Candidates and interfering faces in w stay as they are.
+ * Returns the number of pairs, or CAROM_ERR_FACES_FULL after `room` pairs were written.
  */
 int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room);
 
-/* Asked of a face of a and one of b that may cross: whether they do. */
+/* Exact test of a face of a and a face of b that may cross: true if they do. */
 struct interfere_sure {
     bool (*cross)(struct interfere_sure *self, uint16_t face_a, uint16_t face_b);
 };
 
-/* Whether any pair of faces of a, a SOLID, and b is sure to cross. */
+/* True if `sure` confirms any pair of faces. a must be a SOLID. */
 bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                           struct interfere_sure *sure);
 
-/* Whether a's first vertex is inside b, or under a SURFACE. No faces of both may interfere. */
+/*
+ * True if a's first vertex is inside b, or under b if that is a SURFACE. Precondition: no faces of
+ * a and b cross.
+ */
 bool interfere_inside(struct interfere_placed a, struct interfere_placed b);
 
 #endif

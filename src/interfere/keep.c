@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The pool keeps the candidates of as many pairs as fit; those of the others are gathered anew whenever
- * somebody asks for them. So a short pool costs time.
+ * The candidate pool. It keeps the candidates of as many pairs as fit. The other pairs are gathered
+ * anew each time they are searched, so a small pool costs time, not results.
  */
 #include "narrow.h"
 
-/* Give up other pairs' candidates when less than this part of the pool would be free. */
+/*
+ * When less than 1 / LEAST_FREE_PART of the pool would be free, drop all other pairs' candidates.
+ */
 #define LEAST_FREE_PART 8
 
 void interfere_number(struct interfere *w, uint32_t number)
 {
     const struct pair_work *m = &w->meetings[number];
 
-    /* all of a pair's candidates have one number */
+    /* all candidates of a pair carry one number: look at the first */
     if (m->count > 0 && w->candidates[m->first].pair != number) {
         for (uint32_t i = m->first; i < m->first + m->count; i++) {
             w->candidates[i].pair = (uint16_t)number;
@@ -20,7 +22,9 @@ void interfere_number(struct interfere *w, uint32_t number)
     }
 }
 
-/* How many candidates of a pair that is kept begin at a place. */
+/*
+ * Number of candidates of the kept pair that begins at a place of the pool; 0 if none begins there.
+ */
 static uint32_t kept_at(const struct interfere *w, uint32_t place)
 {
     uint16_t number = w->candidates[place].pair;
@@ -34,8 +38,9 @@ static uint32_t kept_at(const struct interfere *w, uint32_t place)
 }
 
 /*
- * Close the gaps that pairs left which were gathered anew, or which are kept no longer: candidates there
- * may have any number. What the pair at hand has so far stays behind all others.
+ * Move the kept pairs' candidates down over the gaps that dropped pairs left. A candidate in a gap
+ * may carry any number, so kept pairs are renumbered first. The candidates of the pair at hand stay
+ * last.
  */
 static void close_gaps(struct interfere *w)
 {
@@ -64,7 +69,10 @@ static void close_gaps(struct interfere *w)
     pool->used = kept + own;
 }
 
-/* Make room for one candidate more: by the gaps, by giving up other pairs, by handing over a chunk. */
+/*
+ * Make room for one more candidate: close gaps, else drop other pairs, else hand the visitor a
+ * chunk of the pair at hand.
+ */
 static void make_room(struct interfere *w)
 {
     struct pool *pool = w->candidate_pool;

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* A leaf of a, carried into b's frame in the middle of its way: its vertices, its slab, its faces. */
+/*
+ * Carry a leaf of a into b's frame at mid-span: its vertices, its slab, and its faces' boxes and
+ * planes.
+ */
 #include "narrow.h"
 
-/* Carry coordinate k of the leaf's vertices into b's frame, and bound it. */
+/* Carry coordinate k of the leaf's vertices into b's frame, and set its swept box along k. */
 static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
 {
     const struct carom_mesh *mb = w->b->mesh;
     struct interfere_leaf *l = w->leaf;
-    /* copies: what is stored might be a part of w for all that a compiler knows */
+    /* copies: the compiler must assume that a store may alias w */
     const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
                   at = w->leaf->at.c[k];
     const carom_v3_q22 *end = local + l->leaf->vertex_count;
@@ -24,7 +27,7 @@ static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_
     l->quanta_high[k] = interfere_quanta(mb, high + l->reach.c[k], k) + 1;
 }
 
-/* A length in quanta, q15; what does not fit is as good as the largest that does. */
+/* A length in quanta, q15, saturated to 32 bits. */
 FIX_APART static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_q18)
 {
     int64_t x_q15 = x_q18 * ((int64_t)1 << (mesh->raw.quantum_bits - 3));
@@ -33,9 +36,10 @@ FIX_APART static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_
 }
 
 /*
- * Where the slab of the leaf is, seen along its axis from b's origin. A product of the axis and a
- * vertex of b is below 2^15 times the length of the vertex, sqrt 3 2^15: 32 bits hold it. The axis is
- * off by half a unit along each of b's, the product by half of the vertex's coordinates.
+ * Set the interval that the leaf sweeps along its slab's axis, measured from b's origin. Bounds:
+ * axis times a vertex of b is below 2^15 sqrt(3) times 2^15 in magnitude, which fits 32 bits. Each
+ * component of the axis is rounded by up to half a unit, so the product is off by up to half the
+ * sum of the vertex's coordinates (rounding_q15).
  */
 static void place_slab(struct interfere *w)
 {
@@ -52,7 +56,7 @@ static void place_slab(struct interfere *w)
         l->axis_q15[k] = (int32_t)carom_round(axis_q30[k], 15);
         rounding_q15 += (low > high ? low : high) / 2 + 1;
     }
-    /* low and high are those of a's own axes: to_b has them but for its skew */
+    /* low_q22 and high_q22 are measured in a's own axes; to_b preserves them but for its skew */
     reach_q18 = interfere_reach_q18(l, axis_q30) +
                 (int32_t)(fix_mul(w->a->radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
                 (rounding_q15 >> (mb->raw.quantum_bits - 3));
@@ -66,7 +70,7 @@ bool interfere_place_leaf(struct interfere *w)
     struct interfere_leaf *l = w->leaf;
     const struct carom_leaf *leaf = l->leaf;
     const uint16_t *vertex = &ma->leaf_vertices[leaf->first_vertex];
-    /* copies, again */
+    /* copies: see place_axis */
     const int16_t(*quanta)[3] = ma->raw.vertices;
     const int32_t one = (int32_t)1 << (22 - ma->raw.quantum_bits), x = -ma->mass.centre.c[0],
                   y = -ma->mass.centre.c[1], z = -ma->mass.centre.c[2];

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Z-lists made within a step, for surfaces that move. When the pool of entries is short they come in
- * chunks, and pairs are gathered for each: a face lies in all of its cells, in one chunk or another.
+ * Make z-lists within a step, for surfaces that move. If the pool of entries is too small the lists
+ * are made in chunks, and the pairs are gathered once for each chunk. Every (face, cell) entry is
+ * in one of the chunks, so no pair is lost.
  */
 #include "narrow.h"
 
-/* Lists reach farther than is asked for by this part. */
+/* Lists extend beyond the requested area by this fraction of its size: 1 / AREA_PART. */
 #define AREA_PART 256
 
+/* True if the face's bounding rectangle meets the area. */
 static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct interfere_area *area)
 {
     const uint16_t *corner = mesh->raw.faces[face];
@@ -25,7 +27,7 @@ static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct i
     return true;
 }
 
-/* Whether the lists at hand are of that mesh and hold all of an area. */
+/* True if the lists at hand are complete, of that mesh, and cover the area. */
 static bool hold(const struct interfere *w, const struct carom_mesh *mesh,
                  const struct interfere_area *area)
 {
@@ -33,7 +35,7 @@ static bool hold(const struct interfere *w, const struct carom_mesh *mesh,
            w->area.high[0] >= area->high[0] && w->area.high[1] >= area->high[1];
 }
 
-/* A little more than is asked for: bodies that are led aside ask again in the same step. */
+/* Enlarge the requested area a little: a body that a hit deflects asks again in the same step. */
 static struct interfere_area grown(const struct interfere_area *area)
 {
     struct interfere_area more = *area;
@@ -88,7 +90,7 @@ struct interfere_area interfere_area_under(const struct body *bodies, const stru
         }
         fix_rotate_back(way, &r, way);
         for (int k = 0; pairs[i].b == b && k < 2; k++) {
-            /* places are below 2^14 units: 2^34 quanta */
+            /* places are below 2^14 units, hence 2^34 quanta; clamp before the cast */
             int64_t at = way[k] >> shift;
             int32_t middle = (int32_t)(at < -(1 << 20) ? -(1 << 20) : at > 1 << 20 ? 1 << 20 : at);
 

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* How one body of a pair moves as the other sees it. */
+/*
+ * The relative motion of a pair's bodies over the span, as b sees it: mean axes, shift, and a
+ * tolerance for all that is not straight.
+ */
 #include "narrow.h"
 
-/* Whoever asks for a candidate places it by other roundings. */
+/* Tolerance for the collision test, which places features with other roundings, q22. */
 #define PATH_NOISE_Q22 16
 
 void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a)
@@ -16,11 +19,13 @@ void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q
 }
 
 /*
- * How far a point may be off the straight way from its start to its end, as seen from b: an eighth
- * of the second derivative. A turn with the Cayley vector u moves a point at r by at most 2 |u| r,
- * and that by at most 4 |u|^2 (1 + |u|) r; in axes that turn so themselves there is twice the turn
- * times the way on top. What meets b, or comes within the margin, is no farther from its centre then
- * than b's radius and the margin, so its way later and before is all that it may be farther.
+ * Bound on a point's distance from the straight line between its start and its end, as seen from b:
+ * an eighth of the second derivative of its motion.
+ *
+ * A turn with Cayley vector u moves a point at distance r by at most 2 |u| r and bends that motion
+ * by at most 4 |u|^2 (1 + |u|) r. In axes that turn so themselves twice the turn times the motion
+ * comes on top. A point that meets b or comes within the margin is then within b's radius plus the
+ * margin of b's centre; its motion before and after bounds its distance at other times.
  */
 static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
                        const struct body_sweep *b, int64_t distance_q22, int64_t margin_q22)
@@ -42,7 +47,10 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
     return bend / 8 + 2;
 }
 
-/* The sweep of a body; returns how far it may be off that. */
+/*
+ * Set the sweep of a body over the span. Returns the tolerance that its motion needs beyond the
+ * sweep.
+ */
 FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body *b,
                                     int64_t from_q30, struct body_sweep *sweep)
 {
@@ -54,7 +62,7 @@ FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body
     return b->region.room_q22;
 }
 
-/* Whether a body has the axes of the world, all the time. */
+/* True if the body's axes are the world's throughout the sweep. */
 static bool is_upright(const struct interfere *w, const struct body *b,
                        const struct body_sweep *sweep)
 {
@@ -78,7 +86,7 @@ bool interfere_set_motion(struct interfere *w)
         start[k] = a->at.c[k] - b->at.c[k];
         end[k] = start[k] + ((a->way.c[k] - b->way.c[k]) >> 8);
     }
-    if (!is_upright(w, w->b, b)) { /* most ground is */
+    if (!is_upright(w, w->b, b)) { /* skipped for most ground */
         fix_rotate_back(start, &b->start, start);
         fix_rotate_back(end, &b->end, end);
     }
@@ -103,7 +111,7 @@ bool interfere_set_motion(struct interfere *w)
         }
     }
     l->angle_q30 = 2 * (a->u_q30 + b->u_q30);
-    /* 1 - cos^2 of half of the angle, at most a quarter of its square */
+    /* 1 - cos^2 of half the angle, at most a quarter of the angle's square */
     l->skew_q30 = carom_mul_q30(l->angle_q30, l->angle_q30) / 4 + 1;
     l->near_q22 = margin_q22 + sag_q22(w, a, b, distance, margin_q22);
     return true;

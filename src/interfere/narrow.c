@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A swept leaf against a face of b: part them by the plane of that face, find the faces of the leaf that
- * are near it, and emit the pairs of features that can touch.
+ * Cull a swept leaf against one face of b: by that face's plane, then the leaf's faces by plane and
+ * box, then pairs of features; emit the candidates that are left.
  */
 #include "narrow.h"
 
@@ -25,8 +25,8 @@ static void place_target(const struct interfere *w, struct target *t)
 /* ------------------------------------------------------------------- planes */
 
 /*
- * Which vertices of the leaf stay over the plane of b's face on their way, or under it. False when
- * all of them do the same.
+ * Set which of the leaf's vertices stay above or below the plane of b's face all span. Returns
+ * false if all stay on the same side.
  */
 static bool part_by_plane(const struct interfere *w, struct target *t)
 {
@@ -49,7 +49,7 @@ static bool part_by_plane(const struct interfere *w, struct target *t)
     return over != all && under != all;
 }
 
-/* Whether the box around the way of face i of the leaf meets that of b's face. */
+/* True if the swept box of the leaf's face i meets the box of b's face. */
 static inline bool boxes_meet(struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = w->leaf;
@@ -70,7 +70,7 @@ uint32_t interfere_faces_near(struct interfere *w, const struct target *t)
     for (uint32_t i = 0, n = l->leaf->face_count; i < n; i++) {
         uint32_t corners = l->corners[i];
 
-        /* does it reach to both sides of the plane, or near to it? */
+        /* some corner may get below the plane, and some above it */
         if ((corners & ~t->over) != 0 && (corners & ~t->under) != 0 && boxes_meet(w, t, i)) {
             near |= 1u << i;
         }
@@ -80,7 +80,7 @@ uint32_t interfere_faces_near(struct interfere *w, const struct target *t)
 
 /* ----------------------------------------------------------------- features */
 
-/* Whether a point of the leaf stays out of the box of b's face on its way. */
+/* True if a point of the leaf stays outside the box of b's face all span. */
 static bool outside_target(const struct interfere_leaf *l, const struct interfere_vec *p,
                            const struct target *t)
 {
@@ -92,7 +92,7 @@ static bool outside_target(const struct interfere_leaf *l, const struct interfer
     return false;
 }
 
-/* Whether a corner of b's face is out of the box around the way of face i of the leaf. */
+/* True if a corner of b's face is outside the swept box of the leaf's face i. */
 static bool outside_face(const struct interfere_leaf *l, const struct interfere_vec *p, uint32_t i)
 {
     const int32_t *low = l->face_low[i].c, *high = l->face_high[i].c;
@@ -101,7 +101,7 @@ static bool outside_face(const struct interfere_leaf *l, const struct interfere_
            p->c[0] < low[0] || p->c[0] > high[0];
 }
 
-/* Whether a corner of b's face comes to the plane of face i of the leaf. */
+/* True if a corner of b's face can reach the plane of the leaf's face i. */
 static bool reaches_plane(struct interfere *w, const struct interfere_vec *p, uint32_t i)
 {
     const struct interfere_plane *plane = &w->leaf->planes[i];
@@ -114,13 +114,13 @@ static bool reaches_plane(struct interfere *w, const struct interfere_vec *p, ui
     return height_q18 <= plane->above_q18 && height_q18 >= plane->below_q18;
 }
 
-/* Whether two places are both before a box along an axis, or both behind it. */
+/* True if two coordinates are both below or both above an interval. */
 static inline bool both_beside(int32_t p, int32_t q, int32_t low, int32_t high)
 {
     return p < low ? q < low : p > high && q > high;
 }
 
-/* The vertices that the leaf owns against b's face. */
+/* Emit vertices that the leaf owns against b's face. */
 static void vertices_face(struct interfere *w, const struct target *t)
 {
     const struct interfere_leaf *l = w->leaf;
@@ -133,7 +133,7 @@ static void vertices_face(struct interfere *w, const struct target *t)
     }
 }
 
-/* Corner k of b's face against faces of the leaf, a bit each. */
+/* Emit corner k of b's face against the leaf's faces `near`, a bit each. */
 static void face_vertex(struct interfere *w, const struct target *t, int k, uint32_t near)
 {
     for (uint32_t i = 0; near != 0; i++, near >>= 1) {
@@ -145,7 +145,7 @@ static void face_vertex(struct interfere *w, const struct target *t, int k, uint
     }
 }
 
-/* The box of an edge of b's face, from c to d, with all that the leaf reaches beyond its own places. */
+/* Box of the edge c-d of b's face, grown by the leaf's reach. */
 static void box_edge(const struct interfere_leaf *l, const struct interfere_vec *c,
                      const struct interfere_vec *d, struct interfere_vec *low,
                      struct interfere_vec *high)
@@ -158,7 +158,7 @@ static void box_edge(const struct interfere_leaf *l, const struct interfere_vec 
     }
 }
 
-/* The edges that face i of the leaf owns against edge j of b's face, in a box. */
+/* Emit the edges that face i of the leaf owns and that meet the box, against edge j of b's face. */
 static void edges_edge(struct interfere *w, const struct target *t, uint32_t i, int j,
                        const struct interfere_vec *low, const struct interfere_vec *high)
 {
@@ -179,7 +179,7 @@ static void edges_edge(struct interfere *w, const struct target *t, uint32_t i, 
     }
 }
 
-/* Edge j of b's face against the edges of faces of the leaf, a bit each. */
+/* Emit edge j of b's face against edges of the leaf's faces `near`, a bit each. */
 static void edge_edges(struct interfere *w, const struct target *t, int j, uint32_t near)
 {
     struct interfere_vec low, high;
@@ -209,7 +209,7 @@ void interfere_features(struct interfere *w, struct target *t)
 
 void interfere_narrow(struct interfere *w, uint16_t face_b)
 {
-    struct target t; /* the rest of it is set by and by: nearly all end here */
+    struct target t; /* set step by step: nearly all faces fail the plane */
 
     t.number = face_b;
     t.face = &w->b->mesh->faces[face_b];

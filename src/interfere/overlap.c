@@ -1,32 +1,37 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Which faces of two bodies interfere at their poses: the leaves of a against b's z-lists, as in a
- * step but without motion, and what no plane of theirs parts by an edge of each.
+ * Queries without motion: which face pairs of two bodies cross at their poses, and is a body inside
+ * another.
  *
- * Places in b's frame are off by a few units of q20, and faces are dropped only when a direction is
- * known in which they are farther apart than that: no pair that crosses is lost, however thin.
+ * A query walks a's leaves over b's z-lists as a step does. A face pair that no face's plane
+ * separates is then tested by directions across one edge of each. Places in b's frame are off by a
+ * few units of q20. A pair is dropped only if some direction separates it by more than that, so no
+ * crossing pair is lost, however thin.
  */
 #include "narrow.h"
 
-/* Boxes of bodies are compared with some room, q22: more than all that is cut off here. */
+/* Margin when boxes of bodies are compared, q22: more than all truncation here. */
 #define BOX_MARGIN_Q22 256
 
 struct interfere_query {
-    struct interfere_sure *sure; /* NULL: pairs that may cross count */
+    struct interfere_sure *sure; /* exact test of each pair; NULL: list every pair that may cross */
     struct carom_face_pair *out;
     uint32_t room, count;
     bool swapped; /* a is the caller's b */
-    bool again;   /* leaves come up again, for other z-lists of b */
+    bool again;   /* leaves repeat, once for each chunk of b's z-lists */
 
-    /* of the leaf at hand */
+    /* for the leaf at hand */
     const struct carom_leaf *leaf;
-    uint32_t first;     /* its first pair */
-    int32_t edge_scale; /* makes its edges as long as fits 2^30 */
+    uint32_t first;     /* index of the leaf's first pair in `out` */
+    int32_t edge_scale; /* largest power of two that keeps the leaf's scaled edges below 2^30 */
 };
 
 /* ------------------------------------------------------------------- leaves */
 
-/* The power of two that makes lengths up to this as large as fits 2^30; length_q20 < 2^30. */
+/*
+ * Largest power of two that keeps lengths up to length_q20 below 2^30 when scaled; 0 < length_q20 <
+ * 2^30.
+ */
 static int32_t scale_for(int32_t length_q20)
 {
     CAROM_ASSERT(length_q20 > 0 && length_q20 < 1 << 30);
@@ -37,13 +42,13 @@ static void begin_leaf(struct interfere_query *q, const struct carom_leaf *leaf)
 {
     q->leaf = leaf;
     q->first = q->again ? 0 : q->count;
-    /* an edge is shorter than the sphere is wide, but for what cutting off makes of it */
+    /* an edge is at most the sphere's diameter long, plus truncation */
     q->edge_scale = scale_for((leaf->radius_q22 >> 1) + 8);
 }
 
 /* -------------------------------------------------------------------- pairs */
 
-/* Two faces, the corner that is alone on its side of the other one's plane first. */
+/* Two faces; corner 0 of each is the one alone on its side of the other face's plane. */
 struct overlap {
     const struct interfere_vec *p[3], *q[3];
     int32_t scale_p, scale_q; /* for their edges */
@@ -64,11 +69,11 @@ static int64_t rise(const int32_t w[3], const struct interfere_vec *from,
 }
 
 /*
- * Whether the direction across edge 0 k of both faces keeps them apart, q being the upper one or not.
- * Sides and signs only say what is worth a try: in the end all six corners are looked at.
+ * True if the direction across edges 0-k of both faces separates them, q being the upper face or
+ * not. Sides and signs only choose which directions to try; the result rests on all six corners.
  *
- * Bounds: edges are scaled up to 2^30, w is cut to 2^29. The boxes of the faces meet, so corners
- * differ by less than 2^30, and the three products by less than 2^61 together.
+ * Bounds: edges are scaled to below 2^30, w is truncated to 2^29. The boxes of the faces meet, so
+ * corners differ by less than 2^30, and the three products sum to less than 2^61.
  */
 static bool apart_across(const struct overlap *m, int k, bool upper)
 {
@@ -98,14 +103,14 @@ static bool apart_across(const struct overlap *m, int k, bool upper)
     return gap - top > limit;
 }
 
-/* The corner that is alone on its side of a plane, by the bits of those over it. */
+/* The corner alone on its side of a plane, indexed by the bits of the corners above the plane. */
 static const uint8_t lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
 
 /*
- * Whether two faces that each reach through the other one's plane are apart. On the line in which
- * the planes meet each face covers an interval between its two edges from the lone corner. The faces
- * cross if the intervals overlap; otherwise the edges at the ends that are nearest each other keep
- * them apart. Which ends these are follows from the sides of the lone corners.
+ * True if two faces that each reach through the other's plane do not meet. Where both planes
+ * intersect each face covers an interval, bounded by its two edges at the lone corner. If the
+ * intervals overlap the faces cross. Otherwise the direction across the two edges at the facing
+ * ends separates them. The sides of the lone corners say which ends face each other.
  */
 static bool intervals_apart(struct overlap *m, const struct interfere_vec *const p[3],
                             const struct interfere_vec q[3], uint32_t over_p, uint32_t over_q)
@@ -123,7 +128,7 @@ static bool intervals_apart(struct overlap *m, const struct interfere_vec *const
     return apart_across(m, 1, !q_over) || apart_across(m, 2, q_over);
 }
 
-/* A face lies in several cells and may come up again: pairs are listed once. */
+/* Add a pair unless listed: a face lies in several cells and may come up again. */
 static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
 {
     struct interfere_query *q = w->query;
@@ -142,7 +147,10 @@ static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
     q->out[q->count++] = pair;
 }
 
-/* Whether face i of the leaf and b's face may have a point in common, their planes met. */
+/*
+ * True if face i of the leaf and b's face may have a common point. Precondition: each reaches the
+ * other's plane.
+ */
 static bool faces_cross(const struct interfere *w, const struct target *t, uint32_t i)
 {
     const struct interfere_leaf *l = w->leaf;
@@ -153,7 +161,7 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     int32_t size = 0;
 
     for (int k = 0; k < 3; k++) {
-        size |= t->high.c[k] - t->low.c[k]; /* has the bits of the largest */
+        size |= t->high.c[k] - t->low.c[k]; /* has as many bits as the largest side */
         over_p |= (t->over >> corner[k] & 1) << k;
     }
     m.scale_q = scale_for(size);
@@ -173,7 +181,7 @@ static void list_pair(struct interfere *w, const struct target *t, uint32_t i)
     }
 }
 
-/* Whether b's face reaches to both sides of the plane of face i of the leaf, or near to it. */
+/* True if b's face reaches the plane of face i of the leaf; sets corners_over and corners_under. */
 static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 {
     const struct interfere_plane *plane = &w->leaf->planes[i];
@@ -196,7 +204,9 @@ static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
     return t->corners_over != 7 && t->corners_under != 7;
 }
 
-/* List the faces of the leaf that neither boxes nor the planes of both keep apart from b's face. */
+/*
+ * w->meet of a query: list the leaf's faces that neither boxes nor planes separate from b's face.
+ */
 static void meet(struct interfere *w, struct target *t)
 {
     uint32_t near = interfere_faces_near(w, t);
@@ -210,14 +220,14 @@ static void meet(struct interfere *w, struct target *t)
 
 /* ------------------------------------------------------------------- bodies */
 
-/* The box of a mesh along an axis, from its centre of mass. */
+/* A side of the mesh's box along axis k, from its centre of mass. */
 static int32_t side_q20(const struct carom_mesh *mesh, int side, int k)
 {
     return mesh->box[side][k] * ((int32_t)1 << (20 - mesh->raw.quantum_bits)) -
            (mesh->mass.centre.c[k] >> 2);
 }
 
-/* Whether the box around a's sphere, seen from b, and b's are apart. */
+/* True if the box around a's sphere, in b's axes, is apart from b's box. */
 static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
 {
     int64_t around = (w->a->radius_q22 + BOX_MARGIN_Q22) >> 2;
@@ -232,7 +242,7 @@ static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
     return false;
 }
 
-/* Whether the box around a's own, seen from b, and b's are apart. */
+/* True if the box around a's own box, in b's axes, is apart from b's box. */
 static bool box_apart(const struct interfere *w)
 {
     const struct interfere_leaf *l = w->leaf;
@@ -259,9 +269,9 @@ static bool box_apart(const struct interfere *w)
 }
 
 /*
- * Where a is as seen from b; false when their boxes are apart. Bounds: no point of a body is more than
- * 444 units from its centre or origin, so of boxes that meet, all places in b's frame are within 1332
- * units and fit q20.
+ * Place a as seen from b. Returns false if their boxes are apart. Bounds: each point of a body is
+ * within 444 units of its centre and of its origin, so if the boxes meet every place in b's frame
+ * is within 1332 units and fits q20.
  */
 static bool place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
 {
@@ -284,7 +294,7 @@ static bool place_pair(struct interfere *w, const struct body_state *a, const st
     return !box_apart(w);
 }
 
-/* What of b a may reach, seen from above in b's quanta; all is below 2^31 q20. */
+/* The rectangle of b that a may reach, in b's quanta; everything is below 2^31 in q20. */
 static struct interfere_area area_at(const struct interfere *w)
 {
     int shift = 20 - w->b->mesh->raw.quantum_bits;
@@ -298,7 +308,7 @@ static struct interfere_area area_at(const struct interfere *w)
     return area;
 }
 
-/* All leaves of a, against each chunk of b's z-lists when they are made from the pool. */
+/* Visit all leaves of a, against each chunk of b's z-lists if those are made from the pool. */
 static void visit_leaves(struct interfere *w)
 {
     const struct interfere_area area = area_at(w);
@@ -313,7 +323,7 @@ static void visit_leaves(struct interfere *w)
     }
 }
 
-/* interfere_query of pairs that are sure to cross, or of those that may. */
+/* interfere_query if sure is NULL, else only pairs that `sure` confirms. */
 static int query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                  struct interfere_sure *sure, struct carom_face_pair *out, uint32_t room)
 {
@@ -357,12 +367,12 @@ bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct
 {
     CAROM_ASSERT(a.body->mesh->raw.kind == CAROM_SOLID);
     return query(w, a, b, sure, NULL, 0) !=
-           0; /* no room for a pair: the first one ends the search */
+           0; /* room is 0: the first pair found ends the search with an error */
 }
 
 /* -------------------------------------------------------------- containment */
 
-/* Where a's first vertex is in b's mesh, q22; false when it is too far away to fit. */
+/* Place a's first vertex in b's mesh, q22 from its origin. Returns false if it does not fit. */
 static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct interfere_placed b)
 {
     const struct carom_mesh *mb = b.body->mesh;
@@ -391,9 +401,9 @@ static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct int
 }
 
 /*
- * 1 when a point is on the left of an edge seen from above, else -1. One that is on its line counts
- * as moved a little along x, and far less along y, for all edges alike: so no column slips between
- * two faces or meets both. Bounds: all is within 2^30, so the products are below 2^62.
+ * 1 if a point is left of an edge seen from above, else -1. A point on the edge's line counts as
+ * shifted a little along x, and far less along y, the same for all edges: so no vertical line slips
+ * between two faces or meets both. Bounds: lengths are below 2^30, products below 2^62.
  */
 static int side_of(const carom_v3_q22 *from, const carom_v3_q22 *to, const carom_v3_q22 *p)
 {
@@ -404,7 +414,7 @@ static int side_of(const carom_v3_q22 *from, const carom_v3_q22 *to, const carom
     return left > 0 ? 1 : -1;
 }
 
-/* 1 for a face over a point that looks up, -1 for one that looks down, 0 for one elsewhere. */
+/* For a face above the point: 1 if it looks up, -1 if it looks down. 0 for any other face. */
 static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v3_q22 *p)
 {
     carom_v3_q22 corner[3], d;
@@ -429,7 +439,7 @@ static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v
     return (side > 0 ? height < 0 : height > 0) ? side : 0;
 }
 
-/* How often more faces over a point look up than down, by the z-lists of its cell. */
+/* Winding number: upward minus downward faces above a point, from the z-list of its cell. */
 static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
 {
     int to_quanta = 22 - mesh->raw.quantum_bits, winding = 0;
@@ -449,7 +459,7 @@ static int winding_at(const struct carom_mesh *mesh, const carom_v3_q22 *p)
     return winding;
 }
 
-/* The same for a mesh whose own z-lists are those of another shape. */
+/* winding_at over all faces, for a mesh whose own z-lists are out of date. */
 static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
 {
     int winding = 0;
