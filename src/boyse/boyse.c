@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* The first of the roots of P(t) that is a hit. */
+/* Find the first root of P(t) that is a hit, and its event: boyse_first. */
 #include "event.h"
 #include "place.h"
 
 /*
- * A pair that starts clear of contact is followed to a surface this much nearer (see lower): a place of a path
- * is within 3 units of the pose that is committed there, of each of two bodies, at the end of one path
- * and at the start of the next.
+ * Roots are sought of a surface this much nearer, for a pair that starts clear of contact (see
+ * lower). A place on a path is within 3 units of the pose that is committed there; that counts for
+ * two bodies, at the end of one path and at the start of the next.
  */
 #define ROOT_LEVEL_Q22 12
-/* A pair that touches gets nearer by no more than this part of that. */
+/* A pair that touches may approach by 1 / TOUCHING_DIVISOR of that. */
 #define TOUCHING_DIVISOR 64
-/* Where bodies turn, P is too coarse for edges below this sine, 1/64: digits that w is short of. */
+/* Edges in turning bodies below this sine, 1/64: P is too coarse, w lacks NEARLY_PARALLEL bits. */
 #define PARALLEL_Q30    (1 << 24)
 #define NEARLY_PARALLEL 6
 /* The first step back from a root to the event. */
 #define BACK_Q30 (1 << 12)
-/* How often the level of edges that come to be parallel is made a quarter. */
+/* How often the level is divided by 4 for edges that become parallel. */
 #define LEVELS 6
 
 /*
- * The sign of a pair that touches at the start, as near as the surface that roots are looked for of,
- * or overlaps; 0 for one that does not.
+ * Sign of a pair that touches at the start: as near as ROOT_LEVEL_Q22, or overlapping. 0 if the
+ * pair does not touch.
  */
 static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
                             const struct boyse_places *start, int64_t gap_q40)
@@ -29,7 +29,7 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
     struct boyse_touch touch;
     int32_t limit_q22 = pair->skin_q22 / 2;
 
-    /* of edges this is |w| times the gap, which is no wider than it */
+    /* for edges this is |w| times the gap, which is at most the gap */
     if (carom_abs(gap_q40) >> 18 >= limit_q22) {
         return 0;
     }
@@ -38,7 +38,10 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
                                                                                         : 0;
 }
 
-/* How far apart edges are at a time, or their lines: those turn their normal round on the way. */
+/*
+ * Distance of the edges at a time, or of their lines if those do not face each other: the normal of
+ * the lines may flip during the path.
+ */
 static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c,
                         const struct boyse_places *start, int32_t t_q30)
 {
@@ -49,8 +52,8 @@ static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c
 }
 
 /*
- * The last time before `root` at which features are farther apart than `gap`, to a 4096th of how long
- * before that is, by the exact test alone: back in growing steps, then by halving.
+ * The last time before `root` at which the features are farther apart than `gap`, to 1/4096 of its
+ * distance from the root. Uses the exact test alone: back in growing steps, then bisection.
  */
 static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
                           const struct boyse_places *start, int32_t gap_q22, int32_t root_q30)
@@ -72,8 +75,8 @@ static int32_t last_apart(const struct boyse_pair *pair, const struct candidate 
 }
 
 /*
- * Of edges that are nearly parallel at a root, P may be small because |w| is, and its rounding is a gap
- * of that over |w|: the exact test must have the gap near the root as well.
+ * True if the exact test confirms a gap near 0 at a root. For nearly parallel edges P may be small
+ * because |w| is, and its rounding is a gap of rounding / |w|.
  */
 static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_touch *touch)
@@ -82,8 +85,8 @@ static bool is_there(const struct boyse_pair *pair, const struct candidate *c,
 }
 
 /*
- * Go through the roots until one is a hit. `shift`: what P is less than its true value, q40; `far` is
- * set when one would be but for its gap.
+ * Go through the roots until one is a hit. shift_q40 is what was subtracted from P. Sets `far` if a
+ * root failed only by its gap.
  */
 static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
                       const struct boyse_places *start, const struct curve *curve,
@@ -100,7 +103,7 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 
         touch.valid = false;
 
-        /* a vertex that comes out through the back of a face is no hit, wherever it does */
+        /* a vertex that leaves through the back of a face is no hit */
         if (c->kind == CANDIDATE_EDGE_EDGE || walk.slope8 < 0) {
             scale_q30 = boyse_test(pair, c, start, walk.t_q30, &touch);
         }
@@ -129,8 +132,8 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 }
 
 /*
- * How much nearer the surface is that roots are looked for of, in P: not by more than half of the
- * event gap, however small the angle between edges is.
+ * How much nearer the sought surface is, as a value of P: at most half of the event gap, however
+ * small the edges' angle.
  */
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start)
@@ -147,11 +150,13 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
 }
 
 /*
- * A frame may end with a gap so small that there is no root on [0, 1], and rounding would then commit
- * an overlap: look for the root of a surface a little nearer. What touches already must not get
- * deeper. Returns what P is lowered by.
- * Of edges it is at most half of what they start with. Those that are parallel just when they meet
- * change the sign of the gap and that of w there: P only comes near to 0, and that must be seen.
+ * What to subtract from P. A frame may end with a gap so small that P has no root on [0, 1], and
+ * rounding would then commit an overlap: so seek the root of a surface a little nearer. A pair that
+ * touches already must not get deeper.
+ *
+ * For a pair that starts close subtract at most half of its gap. Edges that are parallel just when
+ * they meet change the sign of w together with that of the gap: P only comes near 0, and that must
+ * be found.
  */
 static int64_t lower(int64_t gap_q40, int touching, int64_t level)
 {
@@ -165,14 +170,15 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level)
 }
 
 /*
- * Edges that are nearly parallel in bodies that turn, by the exact test alone: whether they have met
- * when the path ends. P's rounding, over their sine, is more than slow bodies go.
+ * Test nearly parallel edges of turning bodies by the exact test alone: true if they have met by
+ * the end of the path. P's rounding over their sine exceeds the way of slow bodies.
  */
 static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, struct boyse_hit *hit)
 {
     struct boyse_touch from, to;
-    int32_t event_q22 = pair->skin_q22 / 2, root = CAROM_ONE_Q30; /* there they have met */
+    int32_t event_q22 = pair->skin_q22 / 2,
+            root = CAROM_ONE_Q30; /* a time at which they have met */
 
     boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
     if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
@@ -188,7 +194,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     }
     boyse_test(pair, c, start, root, &to);
     if (to.gap_q22 < -event_q22) {
-        return false; /* they came to be over each other there, far behind each other */
+        return false; /* they came to face each other there, deep in overlap */
     }
     hit->root_q30 = root;
     hit->t_q30 = last_apart(pair, c, start, event_q22, hit->root_q30);
@@ -212,8 +218,9 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         shift_q40 = lower(a[0], touching, level_q40(pair, c, start));
     }
     /*
-     * Over a convex edge or vertex a point is over no face until it is there, so what is no hit is
-     * asked again of the surface itself; of a level between when |w| made it small.
+     * Across a convex edge or vertex a point is over no face until it is at the surface. So a root
+     * that is no hit is sought again with the surface itself; with levels between if |w| made the
+     * gap small.
      */
     for (int tries = 0;; tries++) {
         bool far = false, found;
@@ -226,7 +233,7 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         }
         a[0] += shift_q40;
         if (touching != 0 && c->kind != CANDIDATE_EDGE_EDGE && a[0] < 0) {
-            /* it touches from behind, beside the face: it may come out and go in again on the way */
+            /* touches from behind, beside the face: it may come out and go in again */
             shift_q40 = level_q40(pair, c, start);
             touching = 0;
             continue;

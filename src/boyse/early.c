@@ -2,26 +2,29 @@
 /*
  * The early test: can two features meet on the path at all?
  *
- * Along a fixed axis a point that starts with x + x' t is at most bend t^2 from there. So two of
- * them are at least gap + t rate - t^2 bend apart: concave in t, least at an end of [0, 1]. Where
- * that stays above the tolerance the features do not meet. The axes are the normal, and in the
- * plane across it those along which one feature can lie beside the other.
+ * Along a fixed axis a point that starts as x + x' t is at most bend t^2 from there. So two points
+ * are at least gap + t rate - t^2 bend apart: concave in t, least at an end of [0, 1]. If that
+ * stays above the tolerance at both ends the features do not meet. The axes are the normal and,
+ * across it, the directions along which one feature can lie beside the other.
  *
- * Nearly every candidate ends here. So lengths are what is in the high words of products, q20, and
- * what that cuts off is in the tolerances; and what could be a loop over three components is spelled
- * out, because compilers leave such loops. Features of a candidate start within 1000 units of each
- * other and go less than 512, of the 2048 that fit.
+ * Nearly every candidate ends here, so speed decides the form. Lengths are high words of products,
+ * q20; tolerances include the truncation. Loops over three components are written out, because
+ * compilers leave them as loops. Features of a candidate start within 1000 units of each other and
+ * move less than 512; 2048 fit.
  */
 #include "place.h"
 
-/* BOYSE_NEAR_Q22, and 6 units for what is cut off. */
+/* BOYSE_NEAR_Q22, and 6 units for truncation. */
 #define NEAR_Q20 (BOYSE_NEAR_Q22 / 4 + 6)
-/* The same along edges: the exact test finds nearly parallel ones to meet only about where they do. */
+/*
+ * The same along edges: the exact test locates the meeting place of nearly parallel edges only
+ * roughly.
+ */
 #define BESIDE_Q20 24
-/* What is cut off a bend and a rate. */
+/* Truncation of a bend and a rate. */
 #define BEND_SLACK_Q20 8
 
-/* By way of unsigned numbers: gcc would carry on with 64 bits after the shift of a signed one. */
+/* Unsigned, because after the shift of a signed number gcc would carry on with 64 bits. */
 static inline int32_t cut(int64_t v, int shift)
 {
     return (int32_t)(uint32_t)((uint64_t)v >> shift);
@@ -43,7 +46,7 @@ static inline struct vec cross(const int32_t a[3], const int32_t b[3], int shift
                          cut((int64_t)a[0] * b[1] - (int64_t)a[1] * b[0], shift)}};
 }
 
-/* A point of from's mesh in the axes of to, at the start. */
+/* A point of from's mesh in view axes, at the start. */
 static inline struct vec place_q20(const struct boyse_view *view, const carom_v3_q22 *p)
 {
     return (struct vec){{dot(view->r.c[0], p->c, 32) + (view->centre.c[0] >> 2),
@@ -58,7 +61,7 @@ static inline bool stays_above(int32_t gap, int32_t rate, int32_t bend, int32_t 
 
 /* ------------------------------------------------------------------ vertex, face */
 
-/* Whether the vertex at x stays beyond one side of the face. */
+/* True if the vertex at x stays beyond one side of the face. */
 static bool vertex_stays_beside(const struct boyse_view *view, uint32_t face, const struct vec *x,
                                 const struct vec *velocity)
 {
@@ -87,7 +90,10 @@ static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidat
     const carom_v3_q22 vertex = mesh_vertex(view->from->mesh, c->i);
     const struct vec x = place_q20(view, &vertex);
     const int32_t *n = face->normal.c;
-    /* below the face, it must come up before it can meet it; one that touches is looked at */
+    /*
+     * a vertex that starts below the face must come up before it can hit; one that touches goes on
+     * to the exact test
+     */
     int32_t below_q20 = (pair->skin_q22 >> 3) + NEAR_Q20, way_q20 = view->seen.way_q22 >> 2;
     int32_t gap_q20 = dot(n, x.c, 30) - (face->offset_q22 >> 2), rate_q20, bend_q20;
     struct vec velocity;
@@ -102,7 +108,7 @@ static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidat
     rate_q20 = dot(n, velocity.c, 30);
     bend_q20 = (view->seen.bend_q22 >> 2) + BEND_SLACK_Q20;
     if (gap_q20 < -below_q20) {
-        /* it must come up and then go down: the rate must change its sign */
+        /* it must rise above the plane, then fall: the bend must be able to flip the rate's sign */
         if (gap_q20 + rate_q20 + bend_q20 <= -below_q20 || rate_q20 >= 3 * bend_q20) {
             return false;
         }
@@ -114,7 +120,9 @@ static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidat
 
 /* ------------------------------------------------------------------- edge, edge */
 
-/* Something along an edge: at its start, and how much more it is at the end. */
+/*
+ * A linear quantity along an edge: its value at the edge's start, and its growth to the edge's end.
+ */
 struct stretch {
     int32_t start, more;
 };
@@ -130,8 +138,8 @@ static inline int32_t most(struct stretch s)
 }
 
 /*
- * How fast the points of an edge move along an axis by the turn u of its body: axis . 2 u x p is
- * 2 (axis x u) . p. `bits`: of the direction.
+ * Speed along an axis of the edge's points by the turn u of their body: axis . 2 u x p = 2 (axis x
+ * u) . p. `bits` is the format of `direction`.
  */
 static inline struct stretch turning_rate(const struct vec *axis, const carom_v3_q30 *u,
                                           const struct vec *start_q20, const int32_t direction[3],
@@ -151,21 +159,24 @@ static inline uint32_t size_of(const struct vec *axis)
            (uint32_t)fix_abs32(axis->c[2]);
 }
 
-/* A length times |axis|, q20. */
+/* A q22 length times |axis|, in q20. */
 static inline int32_t scaled(uint32_t size_q30, int32_t length_q22)
 {
     return (int32_t)((uint64_t)size_q30 * (uint32_t)length_q22 >> 32);
 }
 
-/* Two edges at the start: places in q20 and directions e, f in the axes of b, d from b's to a's. */
-struct lines {
+/*
+ * Two edges at the start, in b's axes: places and d (from b's start to a's) in q20, directions e
+ * and f.
+ */
+struct edge_lines {
     const struct carom_edge *edge_a, *edge_b;
     struct vec start_a, start_b, d, e_q28;
     const int32_t *f;
 };
 
-/* Whether they stay beside each other along an axis of length to 1. */
-static bool edges_stay_beside(const struct boyse_view *view, const struct lines *l,
+/* True if the edges stay apart along an axis of length at most 1. */
+static bool edges_stay_beside(const struct boyse_view *view, const struct edge_lines *l,
                               const struct vec *axis)
 {
     const struct body_path *path_b = body_path(view->to);
@@ -182,7 +193,7 @@ static bool edges_stay_beside(const struct boyse_view *view, const struct lines 
     if (path_b->turns) {
         b1 = turning_rate(axis, &path_b->u, &l->start_b, l->f, 30, length_b);
     }
-    /* from rates to places at the end of the path, but for the bend */
+    /* from rates to places at the end of the path, without the bend */
     a1.start += a0.start + dot(axis->c, view->field.c, 32);
     a1.more += a0.more;
     b1.more += b0.more;
@@ -205,10 +216,9 @@ static bool edges_may_meet(const struct boyse_pair *pair, const struct candidate
                                dot(view->r.c[2], direction, 32)}};
     struct vec w = cross(e_q28.c, f, 28), axis;
     uint32_t size = size_of(&w);
-    /* edges that touch are looked at from either side */
+    /* edges that touch may be on either side */
     int32_t near = scaled(size, (pair->skin_q22 >> 1) + 4 * NEAR_Q20) + 2;
-    int32_t gap =
-        dot(w.c, d.c, 30); /* this and what it is compared with: |w| times a length, q20 */
+    int32_t gap = dot(w.c, d.c, 30); /* gap, near and way below are all |w| times a length, q20 */
 
     if (gap < 0) {
         gap = -gap;
@@ -228,8 +238,8 @@ static bool edges_may_meet(const struct boyse_pair *pair, const struct candidate
             return false;
         }
     }
-    /* made here, it is in memory only for the few that come so far */
-    const struct lines l = {edge_a, edge_b, p, q, d, e_q28, f};
+    /* made here, so that only the few candidates that come this far pay for its memory */
+    const struct edge_lines l = {edge_a, edge_b, p, q, d, e_q28, f};
 
     axis = cross(w.c, f, 30);
     if (edges_stay_beside(view, &l, &axis)) {

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+/* From a root back to its event: the last time at which the gap is still the event gap. */
 #include "event.h"
 
-/* The time of an event is found when the gap is within this of the wanted one. */
+/* An event's time is found when the gap is within this of the wanted one. */
 #define EVENT_SLACK_Q22 4
-/* More than P can be. */
+/* More than any value of P. */
 #define BEYOND ((int32_t)1 << 30)
 
-/* A time, and by how much the features are farther apart than wanted at it. */
+/* A time, and the opening less the wanted one there. */
 struct sample {
     int32_t t_q30, excess;
 };
@@ -18,7 +19,7 @@ static int32_t open_at(const struct opening *o, int32_t t_q30)
     return o->sign < 0 ? -p : p;
 }
 
-/* N(t) of a path less 1; the products of both are left out where only one turns. */
+/* N(t) of a path less 1. Products of both norms are left out where only one body turns. */
 static int32_t growth_q30(const struct body_path *path, int32_t t_q30, int32_t t2_q30)
 {
     return path->turns
@@ -40,7 +41,7 @@ static int32_t limited(int64_t v)
     return v < BEYOND ? v > -BEYOND ? (int32_t)v : -BEYOND : BEYOND;
 }
 
-/* What the event gap comes to in P where edges are at an angle of the sine `scale`. */
+/* Set wanted and slack: the event gap in P, for edges at an angle of sine `scale`. */
 static void set_wanted(struct opening *o, int32_t t_q30, int32_t scale_q30)
 {
     int32_t factor = factor_q30(o->pair, t_q30, scale_q30);
@@ -59,9 +60,8 @@ static struct sample sample_at(struct opening *o, int32_t t_q30)
 }
 
 /*
- * Between a time at which the features are farther apart than wanted and a later one at which they
- * are not, find one at which they are as wanted, or farther by no more than the slack: by secants,
- * halving when they gain little.
+ * Find a time between `far` (opening above wanted) and `near` (below) whose opening is above wanted
+ * by at most the slack: secants, bisection when they gain little.
  */
 static int32_t narrow_down(struct opening *o, struct sample far, struct sample near)
 {
@@ -70,7 +70,7 @@ static int32_t narrow_down(struct opening *o, struct sample far, struct sample n
         struct sample s;
 
         if (round % 3 != 2) {
-            /* aim at the middle of the slack, so that the next time is far and close */
+            /* aim at the middle of the slack, so that the next sample is still far but close */
             uint32_t part_q30 = curve_quotient_q30((uint32_t)(far.excess - o->slack / 2),
                                                    (uint32_t)far.excess - (uint32_t)near.excess);
 
@@ -87,7 +87,7 @@ static int32_t narrow_down(struct opening *o, struct sample far, struct sample n
     return far.t_q30;
 }
 
-/* The time of the widest opening of 33 samples between two roots. */
+/* The time of the widest opening, of 33 samples between two roots. */
 static int32_t widest(const struct opening *o, int32_t from, int32_t root, int32_t *open)
 {
     int32_t best = from;
@@ -106,8 +106,8 @@ static int32_t widest(const struct opening *o, int32_t from, int32_t root, int32
 }
 
 /*
- * Of features that never open by the event gap: the time of half their largest opening, at far, but
- * no nearer than they start; 0 when they are never open.
+ * The time of half the largest opening, which is at `far`, for features that never open by the
+ * event gap; no less than their opening at the start. 0 if they never open.
  */
 static int32_t half_open(struct opening *o, int32_t from, int32_t far, int32_t open, int32_t root)
 {
@@ -123,7 +123,7 @@ static int32_t half_open(struct opening *o, int32_t from, int32_t far, int32_t o
                        (struct sample){root, o->wanted > 0 ? -o->wanted : -1});
 }
 
-/* The event, looked for at first `back` before the root. */
+/* Search for the event, first `back` before the root. */
 static int32_t search(struct opening *o, int32_t from, struct sample root, uint32_t back)
 {
     struct sample far, near = root;
@@ -140,7 +140,7 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
     if (far.excess < 0) {
         int32_t open, time = widest(o, from, root.t_q30, &open);
 
-        /* whether they open far enough goes by what is wanted there, not at the root */
+        /* wanted at that time decides whether they open far enough, not wanted at the root */
         o->by_time = true;
         far = sample_at(o, time);
         near = root;
@@ -152,9 +152,9 @@ static int32_t search(struct opening *o, int32_t from, struct sample root, uint3
 }
 
 /*
- * Whether what is wanted in P a time dt before the root is so much other than there that the event
- * gap is off by half the slack. The factor of P changes by up to 2 (c + c^2 + s^2) dt of itself, c and
- * s of both bodies, |w| by up to 2 (s_a + s_b) dt; of edges both are less by their sine.
+ * True if wanted, dt before the root, differs so much from wanted at the root that the event gap is
+ * off by half the slack. The norm factors change by up to 2 (c + c^2 + s^2) dt of themselves, c and
+ * s of both bodies; |w| changes by up to 2 (s_a + s_b) dt. For edges both have the factor |w|.
  */
 static bool time_matters(const struct opening *o, int32_t scale_q30, int32_t dt_q30)
 {
@@ -181,7 +181,7 @@ int32_t boyse_event_q30(struct opening *o, int32_t from, const struct walk *root
     missing = o->wanted - (o->sign < 0 ? -root->p : root->p);
     missing = missing > 0 ? missing : 1;
     met.excess = -missing;
-    /* first guess: the way at the closing speed of the root, and a little more */
+    /* first guess: the missing opening at the closing speed of the root, and a little more */
     back =
         curve_quotient_q30((uint32_t)missing + (uint32_t)o->slack / 2, (uint32_t)steep8 + 1) >> 3;
     t_q30 = search(o, from, met, back < 64 ? 64 : back);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A pair of bodies on their paths: how each sees the other, and bounds of what moves. */
+/* A pair of bodies on their paths: how each sees the other one's motion, and bounds on that. */
 #include "boyse.h"
 
 static int64_t length_q22(const int32_t v_q24[3])
@@ -15,10 +15,10 @@ static int32_t clamp(int64_t v)
 }
 
 /*
- * Bounds of the path. A point at r goes by at most 2 s |r|, and is at most
- * (2 s^2 + 2 s^3 + 2 c s) |r| t^2 < 3 (s^2 + c s) |r| t^2 from r + 2t u x r, as s < 0.31 (body.h).
- * Seen from `to`, which turns as well while the point goes D from a place within X of its centre,
- * there are 2 s (X + D) of way and 2 s D + 3 (s^2 + c s) (X + D) of bend on top.
+ * Bounds of the path, of which this is the part s^2 + c s. A point at r moves by at most 2 s |r|,
+ * and is at most (2 s^2 + 2 s^3 + 2 c s) |r| t^2 < 3 (s^2 + c s) |r| t^2 from r + 2t u x r, as s <
+ * 0.31 (body.h). If `to` turns as well, while the point moves by D from within X of to's centre, it
+ * sees another 2 s (X + D) of way and 2 s D + 3 (s^2 + c s) (X + D) of bend.
  */
 static int32_t bend_q30(const struct body_path *path, int64_t s_q30)
 {
@@ -52,9 +52,10 @@ static void set_bounds(struct boyse_view *view)
 }
 
 /*
- * Two features that meet on the path start within its way of each other, and lie within the radius
- * of a body that turns; what does not turn is referred to the feature itself, of which an edge of
- * `from` has its start a diameter away. No length in P is above the sum of these.
+ * Set how many bits beyond q22 the lengths in P can have. Features that meet on the path start
+ * within its way of each other, and within the radius of a body that turns. A body that does not
+ * turn is referred to the feature itself; an edge of `from` then has its start up to a diameter
+ * away. No length in P exceeds the sum of these.
  */
 static void set_fine(struct boyse_view *view)
 {
@@ -65,7 +66,10 @@ static void set_fine(struct boyse_view *view)
     view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
 }
 
-/* v in the axes of a body; often, gravity above all, there is nothing to turn, or the body is not turned. */
+/*
+ * Turn v into a body's axes. Skipped if v is 0 (gravity's difference often is) or the body is not
+ * turned.
+ */
 static void into_axes(int64_t v[3], const struct body *b)
 {
     const int32_t *q = body_path(b)->q.c;
@@ -75,7 +79,7 @@ static void into_axes(int64_t v[3], const struct body *b)
     }
 }
 
-/* How `to` sees `from`; view->r is known. */
+/* Set how `to` sees `from`; view->r is given. */
 static void set_view(struct boyse_view *view, struct body *from, struct body *to)
 {
     int64_t centre_q32[3], v[3], g[3];
@@ -111,7 +115,7 @@ static void set_view(struct boyse_view *view, struct body *from, struct body *to
     set_fine(view);
 }
 
-/* a's mesh axes to b's, and back. */
+/* Set both views' matrices: a's mesh axes to b's, and back. */
 static void set_axes(struct boyse_pair *pair)
 {
     const carom_m3_q30 *a = &pair->a->path.start.r, *b = &pair->b->path.start.r;

@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * place - where the features of a candidate are: shared by the exact test, the early test and
- * the polynomial.
+ * place - where the features of a candidate are, for the exact test, the early test and the
+ * polynomial.
  */
 #ifndef CAROM_SRC_BOYSE_PLACE_H
 #define CAROM_SRC_BOYSE_PLACE_H
 
 #include "boyse.h"
 
-/* Units of the last place of q22 that rounding may be off by in the place of a point. */
+/* Bound on the rounding of a point's place, units of q22. */
 #define BOYSE_POINT_NOISE_Q22 4
-/* Gaps that the early test looks at: rounding, and the nearer surface of boyse_first. */
+/* Tolerance of the early test: rounding, and the nearer surface of boyse_first (ROOT_LEVEL_Q22). */
 #define BOYSE_NEAR_Q22 12
-/* Below this sine, 1/16, w and d are kept to more digits. */
+/* Below this sine, 1/16, w and d get more digits. */
 #define BOYSE_FINE_Q30 (1 << 26)
-/* Sine of the angle below which edges count as parallel, 2^-25: that of directions' rounding. */
+/*
+ * Sine below which edges count as parallel, 2^-25: rounding of directions turns edges by as much.
+ */
 #define BOYSE_PARALLEL_Q30 (1 << 5)
 
-/* How `to` sees `from` in the role of a candidate: of a face the vertex, of b's edge a's. */
+/* The view of a candidate: `from` has the vertex, or edge a; `to` has the face, or edge b. */
 static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
                                                   const struct candidate *c)
 {
@@ -25,66 +27,67 @@ static inline const struct boyse_view *boyse_view(const struct boyse_pair *pair,
 }
 
 /*
- * A vertex and a face, or two edges, at the start of the path or at some time of it: in the mesh
- * axes of view->to, about its centre of mass.
+ * A vertex and a face, or two edges, at some time of the path: in the mesh axes of view->to, from
+ * its centre of mass.
  */
 struct boyse_places {
-    carom_v3_q22 vertex; /* of the vertex, or where a's edge starts; of view->from */
-    const int32_t *n;    /* normal of the face */
+    carom_v3_q22 vertex; /* the vertex, or where edge a starts; of view->from */
+    const int32_t *n;    /* unit normal of the face */
 
     const struct carom_edge *edge_a, *edge_b;
-    carom_v3_q22 start_b; /* where b's edge starts */
-    int32_t e[3];         /* directions of the edges */
+    carom_v3_q22 start_b; /* where edge b starts */
+    int32_t e[3];         /* unit directions of edges a and b */
     const int32_t *f;
-    int32_t w[3], d[3]; /* e x f times 2^up, and from a point of b's line to a's start */
+    int32_t w[3], d[3]; /* w = e x f times 2^up; d from a point of b's line to a's start */
     int32_t up,
-        on_b_q22; /* 0 but for edges that are nearly parallel; where on b's edge that point is */
+        /* up: 0 unless the edges are nearly parallel; on_b: place of d's point along edge b */
+        on_b_q22;
 };
 
-/* Everything of two edges but `vertex` and e, which are given. */
+/* Set everything of two edges but `vertex` and e, which are given. */
 void boyse_complete_edges(struct boyse_places *p);
 
-/* Whether neither body turns, so that w stays as it is at the start. */
+/* True if neither body turns: w keeps its value of the start. */
 static inline bool boyse_steady(const struct boyse_pair *pair)
 {
     return !pair->a->path.turns && !pair->b->path.turns;
 }
 
-/* n.vertex - offset, kept whole: q52. */
+/* n.vertex - offset, unrounded: q52. */
 static inline int64_t boyse_plane_gap_q52(const struct boyse_view *view, const struct candidate *c,
                                           const struct boyse_places *p)
 {
     return carom_dot(p->n, p->vertex.c) - carom_shl(view->to->mesh->faces[c->j].offset_q22, 30);
 }
 
-/* The features at the start. */
+/* Place the features at the start. */
 void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
                        struct boyse_places *p);
 
 /*
- * Whether they can meet on the path, by first-order motion and a bound of the rest. False for
- * nearly every candidate.
+ * Early test: true if the features may meet on the path, by first-order motion and a bound of the
+ * rest. False for nearly every candidate.
  */
 bool boyse_may_meet(const struct boyse_pair *pair, const struct candidate *c);
 
 /*
- * The coefficients of P up to the degree, q40, |a_k| < 2^52; returns the degree: 2, 4 or 6. Of edges in
- * bodies that do not turn it is 2^up times as much as |w| times the gap.
+ * The coefficients of P, q40, |a_k| < 2^52. Returns the degree: 2, 4 or 6. If neither body turns
+ * edges have P = 2^up |w| gap, else P has the factor |w| alone.
  */
 int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
                      const struct boyse_places *start, int64_t a_q40[BOYSE_DEGREE + 1]);
 
-/* |w| of two edges at a time, as the gap is multiplied by it in P. */
+/* |w| of two edges at a time, as it is a factor of P. */
 int32_t boyse_scale(const struct boyse_pair *pair, const struct boyse_places *start, int32_t t_q30);
 
 /*
- * The exact test without the places in the world: fills in touch->gap_q22, valid and sign. Returns
- * |w| of two edges at that time, as it is in P, 1 for a vertex and a face.
+ * Exact test without world places: sets touch->gap_q22, valid and sign. Returns |w| of two edges at
+ * that time as it is in P; 1 for a vertex and a face.
  */
 int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
                    const struct boyse_places *start, int32_t t_q30, struct boyse_touch *touch);
 
-/* boyse_touch at the start, where the places are at hand. */
+/* boyse_touch at the start, with the places given. */
 void boyse_touch_start(const struct boyse_pair *pair, const struct candidate *c,
                        const struct boyse_places *start, struct boyse_touch *touch);
 

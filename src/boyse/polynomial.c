@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Features at the start of a path, and the coefficients of P(t). */
+/* The features at the start of the path, and the coefficients of P(t). */
 #include "place.h"
 
 /*
- * Of edges that are nearly parallel w is small, and what is rounded off it turns N: its products are
- * exact, so it is taken with as many more digits. What is left turns N by little, and does no harm as
- * far as d is short: from the point of b's line that is next to a's start, not from b's start.
+ * Set w and d of two edges. If they are nearly parallel w is small and its rounding would turn N.
+ * Its products are exact, so it gets `up` more bits. The rest of the error does little harm if d is
+ * short: so d is taken from the point of b's line nearest to a's start, not from b's start.
  */
 void boyse_complete_edges(struct boyse_places *p)
 {
@@ -57,10 +57,10 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
 /* --------------------------------------------------------------- coefficients */
 
 /*
- * Below, directions are q30 and lengths have as many bits beyond q22 as fit 30 (view->fine): the
- * error of w.d is divided by |w|, so edges that are nearly parallel need them. Products are summed
- * up whole, for each power of t: below 2^62, as all lengths of a pair together are below 2^30, and
- * the coefficients of a direction below 1, 0.7 and 0.3. They are kept as q40.
+ * Directions are q30. Lengths have view->fine bits beyond q22, so that they just fit 30 bits: the
+ * error of w.d is divided by |w|, so nearly parallel edges need them. Products for one power of t
+ * are summed whole and rounded once: below 2^62, since all lengths of a pair together are below
+ * 2^30 and the coefficients of a direction below 1, 0.7 and 0.3. Coefficients are q40.
  */
 static int64_t sum_q40(int64_t sum, int fine)
 {
@@ -80,9 +80,9 @@ static void refine(int32_t out[3], const int32_t v_q22[3], int fine)
 }
 
 /*
- * A vector that turns with a body, times its norm N(t) = (1 + c t)^2 + s^2 t^2 (body.h):
- * c[0] + c[1] t + c[2] t^2. Cayley's formula gives
- * r + 2t (c r + u x r) + t^2 (2 u (u.r) + 2 c u x r + (c^2 - s^2) r).
+ * A vector r that turns with a body, times the norm N(t) = (1 + c t)^2 + s^2 t^2 (body.h): c[0] +
+ * c[1] t + c[2] t^2. Cayley's formula gives r + 2t (c r + u x r) + t^2 (2 u (u.r) + 2 c u x r +
+ * (c^2 - s^2) r).
  */
 struct quadratic {
     int32_t c[3][3];
@@ -97,7 +97,7 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     q->c[0][1] = r[1];
     q->c[0][2] = r[2];
     if (!path->turns) {
-        return; /* c[1] and c[2] are not looked at */
+        return; /* c[1] and c[2] stay unset; nobody reads them */
     }
     carom_cross(q->c[1], u->c, r, 29);
     along = (int32_t)carom_round(carom_dot(u->c, r), 29);
@@ -113,7 +113,7 @@ static void turning(struct quadratic *q, const int32_t r[3], const struct body_p
     }
 }
 
-/* sum += x.y for a direction x and lengths y, both of which turn: by powers, up to 4. */
+/* sum += x.y for a direction x and a length y that both turn, by powers of t up to 4. */
 static void add_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
     for (int i = 0; i < 3; i++) {
@@ -123,7 +123,7 @@ static void add_product(int64_t sum[5], const struct quadratic *x, const struct 
     }
 }
 
-/* sum = x.y of two that turn or move, but for sum[0]. */
+/* sum = x.y, but for sum[0], which the caller has exactly. */
 static void set_product(int64_t sum[5], const struct quadratic *x, const struct quadratic *y)
 {
     sum[1] = carom_dot(x->c[0], y->c[1]) + carom_dot(x->c[1], y->c[0]);
@@ -133,7 +133,7 @@ static void set_product(int64_t sum[5], const struct quadratic *x, const struct 
     sum[4] = carom_dot(x->c[2], y->c[2]);
 }
 
-/* v x, as fix_mul has it, which is called too often here: |v| < 2^52. */
+/* fix_mul_q30 without the call: too frequent here. |v| < 2^52. */
 static inline int64_t times_q30(int64_t v, int32_t x_q30)
 {
     int64_t high = (v >> 32) * x_q30, low = (int64_t)(uint32_t)v * x_q30;
@@ -141,13 +141,13 @@ static inline int64_t times_q30(int64_t v, int32_t x_q30)
     return high * 4 + carom_round(low, 30);
 }
 
-/* A polynomial of a degree times a path's norm: two more coefficients. */
+/* Multiply a polynomial by a path's norm: two more coefficients. */
 static void times_norm(int64_t *a, int degree, const struct body_path *path)
 {
     int32_t once_q30 = 2 * path->c_q30, twice_q30 = body_norm2_q30(path);
 
     a[degree + 1] = a[degree + 2] = 0;
-    /* from the top: what is lower is still without the factor */
+    /* from the top, so that lower coefficients are still without the factor */
     for (int k = degree + 2; k >= 1; k--) {
         a[k] += k >= 2 ? times_q30(a[k - 2], twice_q30) : 0;
         a[k] += once_q30 != 0 ? times_q30(a[k - 1], once_q30) : 0;
@@ -155,9 +155,9 @@ static void times_norm(int64_t *a, int degree, const struct body_path *path)
 }
 
 /*
- * The way of from's centre. A point that does not turn is its own centre, which keeps the numbers
- * of large meshes small: `at` is where it starts from, about to's centre of reference. False when
- * it is farther away than any two features can come together from.
+ * The way of from's centre, starting `at` from to's centre. A point that does not turn is its own
+ * centre: that keeps numbers small for large meshes. Returns false if it is farther away than
+ * features of the pair can be that meet.
  */
 static bool centre_way(struct quadratic *q, const struct boyse_view *view, const int32_t at_q22[3])
 {
@@ -175,7 +175,7 @@ static bool centre_way(struct quadratic *q, const struct boyse_view *view, const
     return true;
 }
 
-/* Coefficients without a root. */
+/* Set coefficients without a root. */
 static int never(int64_t *a)
 {
     a[0] = (int64_t)1 << 40;
@@ -183,7 +183,7 @@ static int never(int64_t *a)
     return 2;
 }
 
-/* Where from's feature starts, from its centre of mass. */
+/* Where from's feature starts, relative to from's centre of mass. */
 static void arm_of(int32_t arm_q22[3], const struct boyse_view *view,
                    const struct boyse_places *start)
 {
@@ -192,7 +192,7 @@ static void arm_of(int32_t arm_q22[3], const struct boyse_view *view,
     }
 }
 
-/* A vertex that moves before a face that does not turn. */
+/* P of a vertex against a face that does not turn; returns the degree. */
 static int moving_vertex(const struct boyse_view *view, const struct boyse_places *start,
                          int64_t *a)
 {
@@ -219,8 +219,8 @@ static int moving_vertex(const struct boyse_view *view, const struct boyse_place
 }
 
 /*
- * n(t).(c(t) + r(t)) - offset, n turning with `to`: c is the way of the vertex's centre, r the
- * vertex about it. Only what turns has its factor.
+ * P of a vertex against a turning face: n(t).(c(t) + r(t)) - offset, c the way of the vertex's
+ * centre, r the vertex about it. Only a body that turns contributes its norm. Returns the degree.
  */
 static int turning_face(const struct boyse_view *view, const struct boyse_places *start,
                         int32_t offset_q22, int64_t *a)
@@ -259,7 +259,7 @@ static int turning_face(const struct boyse_view *view, const struct boyse_places
     return 6;
 }
 
-/* out = x x y for a direction x that turns and lengths y, collected by powers: degree 4. */
+/* out = x x y for a direction x and a length y that both turn, by powers of t: degree 4. */
 static void cross_product(int32_t out[5][3], const struct quadratic *x, const struct quadratic *y)
 {
     for (int k = 0; k < 3; k++) {
@@ -280,7 +280,7 @@ static void cross_product(int32_t out[5][3], const struct quadratic *x, const st
     }
 }
 
-/* Where c is at the start: see edge_polynomial. */
+/* Where c starts, see edge_polynomial. */
 static void place_centres(int32_t at[3], const struct boyse_pair *pair,
                           const struct boyse_places *start)
 {
@@ -291,7 +291,7 @@ static void place_centres(int32_t at[3], const struct boyse_pair *pair,
         at[i] -= b_turns ? 0 : start->start_b.c[i];
     }
     if (!b_turns) {
-        /* of b's line, take the point that is nearest: it keeps long edges in range */
+        /* refer b's line to its point nearest to a: keeps long edges in range */
         int32_t along_q22 = (int32_t)carom_round(carom_dot(start->f, at), 30);
 
         for (int i = 0; i < 3; i++) {
@@ -300,7 +300,10 @@ static void place_centres(int32_t at[3], const struct boyse_pair *pair,
     }
 }
 
-/* The moment of a's line about a's centre, r_a x e, or of b's about b's, as it turns with its body. */
+/*
+ * The moment of a line about its body's centre, turning with the body: r_a x e of a, or r_b x f of
+ * b.
+ */
 static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
                           const struct boyse_places *start, bool of_a)
 {
@@ -317,7 +320,7 @@ static void set_moment_of(struct quadratic *k, const struct boyse_pair *pair,
     }
 }
 
-/* Both bodies turn: degree 6. */
+/* P of two edges if both bodies turn: degree 6. */
 static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
                       const struct boyse_places *start, const struct quadratic *centre)
 {
@@ -342,8 +345,9 @@ static void both_turn(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pa
 }
 
 /*
- * One body turns, with its edge x, or none: x.(y x c) + y.k with k the moment of x, in which y does
- * not turn; the triple product changes its sign with the roles of the edges. Returns the degree.
+ * P of two edges if one body turns, with its edge x, or none. P = x.(y x c) + y.k, k the moment of
+ * x, y the other edge, which does not turn. Swapping the edges' roles flips the sign of the triple
+ * product. Returns the degree.
  */
 static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pair,
                      const struct boyse_places *start, const struct quadratic *centre)
@@ -372,12 +376,13 @@ static int one_turns(int64_t sum[BOYSE_DEGREE + 1], const struct boyse_pair *pai
 }
 
 /*
- * For edges e through r_a from a's centre and f through r_b from b's, c from b's centre to a's:
+ * P of two edges. With e through r_a from a's centre, f through r_b from b's, c from b's centre to
+ * a's:
  *
  *   w.d = (e x f).(c + r_a - r_b) = e.(f x c) + f.(r_a x e) + e.(r_b x f)
  *
- * where r_a x e turns with a, and r_b x f with b. A line that does not turn is referred to a point
- * on it, so that its r is 0.
+ * r_a x e turns with a, r_b x f with b. A line that does not turn is referred to a point on it,
+ * which makes its r zero.
  */
 static int edge_polynomial(const struct boyse_pair *pair, const struct boyse_places *start,
                            int64_t *a)

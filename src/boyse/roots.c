@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* P(t) in 32 bits, and the walk over its roots. */
+/* P(t) in 32 bits, and a walk over its roots that passes none. */
 #include "roots.h"
 
-#define CURVE_BITS 29 /* of the sum of the coefficients */
+#define CURVE_BITS 29 /* bits of the sum of all |a_k| */
 #define STRIDE_Q30 16
 #define ROUNDS     300 /* never reached: strides grow twofold */
 #define NEVER_Q30  ((uint32_t)2 << 30)
 
-/* n 2^30 / d, rounded down, by way of the 32 upper bits of n and the 16 upper ones of d. */
+/* Division by the upper 32 bits of n and the upper 16 of d. */
 uint32_t curve_quotient_q30(uint32_t n, uint32_t d)
 {
     int up = 32 - fix_bits32(n), down = 32 - fix_bits32(d), shift;
@@ -37,7 +37,7 @@ bool curve_init(struct curve *q, const int64_t a[BOYSE_DEGREE + 1], int degree)
     }
     sum = first + reach;
     q->degree = degree;
-    q->shift = fix_bits(sum + (sum >> 20)) - CURVE_BITS; /* room for what is rounded away from 0 */
+    q->shift = fix_bits(sum + (sum >> 20)) - CURVE_BITS; /* room for what rounding adds */
     if (q->shift > 0) {
         for (int k = 0; k <= degree; k++) {
             uint32_t low = (uint32_t)a[k] >> q->shift;
@@ -72,9 +72,9 @@ static void curve_slope(const struct curve *q, int32_t t_q30, int32_t *p, int32_
 }
 
 /*
- * The farthest step that cannot pass a root when |P| is at least size + 8 d s + 8 c s^2 from here on:
- * to the first root of that, q30. Never: more than 1.
- * Terms: size < 2^29, |d| < 2^29 and |c| < 2^31, so the discriminant is below 2^58 + 2^59.
+ * The longest step s (q30) that cannot pass a root if |P| >= size + 8 d s + 8 c s^2 from here on:
+ * up to the first root of that bound. NEVER_Q30 if it has none up to 1. Bounds: size < 2^29, |d| <
+ * 2^29, |c| < 2^31, so the discriminant is below 2^58 + 2^59.
  */
 static uint32_t safe_step_q30(int32_t size, int32_t d, int32_t c)
 {
@@ -85,7 +85,7 @@ static uint32_t safe_step_q30(int32_t size, int32_t d, int32_t c)
         return NEVER_Q30;
     }
     root = (uint32_t)fix_sqrt_above((uint64_t)(square - rest));
-    /* as 2 size / (root - d) where that does not cancel: a root too large makes it short */
+    /* 2 size / (root - d) does not cancel; a root taken too large makes the step short */
     if (d < 0 || root - (uint32_t)d > root / 2) {
         return curve_quotient_q30((uint32_t)size >> 2, root - (uint32_t)d);
     }
@@ -99,8 +99,8 @@ static void advance(struct walk *w, uint32_t step_q30)
 }
 
 /*
- * From the start all of P is known: |P| >= |a0| + d t + (a2 - rest) t^2, rest being the sum of the
- * higher coefficients.
+ * Begin at 0, and take the first safe step. At the start all of P is known: |P| >= |a0| + d t + (a2
+ * - rest) t^2, rest being the sum of the higher coefficients.
  */
 void walk_begin(struct walk *w, const struct curve *q)
 {
@@ -121,15 +121,15 @@ void walk_begin(struct walk *w, const struct curve *q)
     }
 }
 
-/* 16: what slope8 is too low by at most. */
+/* A safe step from the present place. 16: slope8 may be too low by as much. */
 static uint32_t walk_step_q30(const struct walk *w, const struct curve *q)
 {
     return safe_step_q30(fix_abs32(w->p), w->p < 0 ? -w->slope8 - 16 : w->slope8, -q->bend8);
 }
 
 /*
- * The end of the way to a root: where P's slope alone leads to it and its bend changes nothing that
- * is above the noise, q30. 0: not yet.
+ * The last step to a root, q30: P's slope alone leads to it, and its bend changes nothing above the
+ * noise. 0 if that is not yet so.
  */
 static uint32_t last_step_q30(const struct walk *w, const struct curve *q)
 {
@@ -153,7 +153,7 @@ bool walk_next(struct walk *w, const struct curve *q)
 
         curve_slope(q, w->t_q30, &w->p, &w->slope8);
         side = fix_abs32(w->p) <= CURVE_NOISE ? 0 : w->p > 0 ? 1 : -1;
-        /* rounding may carry t across a root: a change of sign is one as well */
+        /* rounding may carry t across a root: a change of sign is a root, too */
         crossed = side != 0 && side == -w->side;
         if (side != 0) {
             w->side = side;
@@ -178,9 +178,9 @@ bool walk_next(struct walk *w, const struct curve *q)
 }
 
 /*
- * Where P is steep, |P| >= |slope| s - bend s^2 less the noise holds beyond the root, which at half
- * of slope / bend is above the noise and was since the root. Else in growing strides while P stays
- * in the noise. The sign beyond is a new one, not a root passed by.
+ * Where P is steep, |P| >= |slope| s - bend s^2 less the noise holds beyond the root; at s = slope
+ * / (2 bend) that is above the noise, and has been since the root. Elsewhere step by growing
+ * strides while P stays in the noise. The sign found beyond starts anew: it is no root passed by.
  */
 void walk_over(struct walk *w, const struct curve *q)
 {

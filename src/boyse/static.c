@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The paper's static check of a candidate: whether its features touch in the placed poses, and how far they are from it. */
+/*
+ * The paper's static check of a candidate: do its features touch in the given poses, and how far
+ * are they from touching?
+ */
 #include "place.h"
 
-/* Units that places at a root may be off by, and the nearer surface that is looked for there. */
+/* Allowance for the rounding of places at a root and for the nearer surface sought there. */
 #define CLEAR_NOISE_Q22 96
-/* Edges for which w needs more digits than these may meet far from both. */
+/* Edges whose w needs more bits than this may meet far from both lines' nearest points. */
 #define CLEAR_UP_MAX 5
 
 static bool is_near(const struct boyse_view *view, const struct candidate *c,
@@ -23,9 +26,10 @@ static bool is_near(const struct boyse_view *view, const struct candidate *c,
 }
 
 /*
- * The distance that two features still have. Where they meet, two points of them do, and at the start these were
- * no nearer to each other than the plane or the lines. Edges that do not overlap have their lines' distance. A
- * vertex that is not yet half a skin below a face may come to touch it there.
+ * A bound on the distance that the features still have. Where they meet two of their points
+ * coincide, and at the start these were no nearer to each other than the plane or the lines. Edges
+ * that do not overlap count by their lines' distance. A vertex below a face counts from half a skin
+ * below it, since from there on it may touch.
  */
 static int32_t left_between(const struct boyse_pair *pair, const struct candidate *c,
                             const struct boyse_touch *touch)
@@ -38,7 +42,7 @@ static int32_t left_between(const struct boyse_pair *pair, const struct candidat
     return gap_q22 < 0 ? -gap_q22 - pair->skin_q22 / 2 : gap_q22;
 }
 
-/* The same less noise, which is over the sine of edges; features that are not near have `left`. */
+/* left_q22 less noise; for edges the noise is divided by their sine. */
 static int32_t clear_of(const struct candidate *c, const struct boyse_places *p, int32_t left_q22)
 {
     int up = c->kind == CANDIDATE_EDGE_EDGE ? p->up : 0;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Features of a candidate at a given time: their places, their distance, and the exact test. */
+/* A candidate's features at a given time: their places, their distance, and the exact test. */
 #include "place.h"
 
 /* ------------------------------------------------------------------ places at t */
 
 /*
- * 2^59 / d for 2^29 <= d <= 2^30, within 2 units: 15 bits of it by division, the others by a step of
- * Newton's, y + y (2^45 - d y) / 2^45. What is in the brackets fits 32 bits, being less than 2 d.
+ * 2^59 / d for 2^29 <= d <= 2^30, within 2 units: 15 bits by division, the rest by a Newton step y
+ * + y (2^45 - d y) / 2^45. The bracket fits 32 bits, being less than 2 d.
  */
 static int32_t inverse_q59(uint32_t d)
 {
@@ -17,8 +17,8 @@ static int32_t inverse_q59(uint32_t d)
 }
 
 /*
- * Cayley's turn at one time, 1 + k t (1 + c t) [u] + k t^2 (u u^T - s^2), k = 2 / N(t), N(t) being
- * (1 + c t)^2 + s^2 t^2 (body.h); not set when the body does not turn.
+ * Cayley rotation at one time, 1 + k t (1 + c t) [u] + k t^2 (u u^T - s^2), k = 2 / N(t), N(t) = (1
+ * + c t)^2 + s^2 t^2 (body.h). r is unset if the body does not turn.
  */
 struct turn {
     bool turns;
@@ -57,7 +57,7 @@ static void turn_at(struct turn *turn, const struct body_path *path, const carom
                               {zx - once[1], yz + once[0], CAROM_ONE_Q30 - xx - yy}}};
 }
 
-/* v in any format is turned in place; its length keeps it within int32. */
+/* Turn v, in any format, in place; its length keeps it within int32. */
 static void apply(const struct turn *turn, int32_t v[3])
 {
     if (turn->turns) {
@@ -76,7 +76,7 @@ static void apply_back(const struct turn *turn, int32_t v[3])
 struct moment {
     const struct boyse_view *view;
     struct turn from, to;
-    int32_t centre_q22[3]; /* of from, in axes that do not turn with to */
+    int32_t centre_q22[3]; /* of from, in axes that do not turn with `to` */
 };
 
 static int32_t set_turns(struct moment *m, const struct boyse_view *view, int32_t t_q30)
@@ -101,7 +101,10 @@ static void set_moment(struct moment *m, const struct boyse_view *view, int32_t 
     }
 }
 
-/* A direction of from's in to's mesh axes as it is at the start, and back to from's mesh. */
+/*
+ * A direction of `from`: from its start, in view axes, to to's mesh axes at this time; and back to
+ * from's mesh axes.
+ */
 static void direction_to(const struct moment *m, const int32_t start[3], int32_t out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -122,7 +125,7 @@ static void direction_back(const struct moment *m, const int32_t n[3], int32_t o
     carom_rotate_back(out, &m->view->r, out);
 }
 
-/* A point of from, in to's mesh axes and about to's centre as the start is. */
+/* A point of `from`, given at the start: in to's mesh axes at this time, from to's centre. */
 static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
 {
     carom_v3_q22 p;
@@ -138,7 +141,7 @@ static carom_v3_q22 point_to(const struct moment *m, const carom_v3_q22 *start)
     return p;
 }
 
-/* A direction from to's mesh axes to the world's. */
+/* Turn a direction from to's mesh axes to the world's. */
 static void to_world(const struct moment *m, int32_t v[3])
 {
     apply(&m->to, v);
@@ -180,7 +183,7 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
 
 /* ------------------------------------------------------------------ two edges */
 
-/* 1 / |w| of edges as m 2^-(29 - up), |w| with the digits that it is kept to. */
+/* 1 / |w| as m 2^-(29 - up), |w| in its extended digits. */
 struct inverse {
     int32_t m; /* 2^29 .. 2^30 */
     int up;    /* 0 .. 9 */
@@ -191,7 +194,7 @@ static struct inverse inverse_of(int32_t sine_q30)
     uint32_t d = sine_q30 > BOYSE_FINE_Q30 ? (uint32_t)sine_q30 : BOYSE_FINE_Q30;
     int up = 30 - fix_bits32(d);
 
-    /* a sine of 1, and a little more by rounding */
+    /* the sine is 1, or a little more by rounding */
     return up < 0 ? (struct inverse){1 << 29, 0} : (struct inverse){inverse_q59(d << up), up};
 }
 
@@ -204,7 +207,7 @@ static int64_t over_sine(int64_t v, struct inverse sine)
     return (int64_t)(int32_t)(uint32_t)(wide >> 32) * sine.m + low;
 }
 
-/* w.d is kept to q32 until it is divided by |w|: nearly parallel edges lose nothing. */
+/* w.d keeps q32 until the division by |w|, so nearly parallel edges lose no digits. */
 static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
 {
     int64_t gap = over_sine(sign * wd_q52 >> 20, sine) >> 10;
@@ -215,7 +218,7 @@ static int32_t edge_gap(int64_t wd_q52, struct inverse sine, int sign)
     return (int32_t)gap;
 }
 
-/* The unit normal w / |w| of two edges, in the mesh axes of both. */
+/* The unit normal w / |w| of two edges, in both bodies' mesh axes. */
 struct edge_normal {
     int32_t on_a[3], on_b[3];
 };
@@ -228,8 +231,8 @@ static void set_normal(int32_t n_q30[3], const struct boyse_places *p, struct in
 }
 
 /*
- * With N = w / |w|, -(d x f).N is how far along a's edge, by |w|, the line of b's comes nearest: how far
- * aside of it a's start is. Rounding is in that, so it is in that that ends are kept, as a vertex is
+ * -(d x f).N, N = w / |w|: |w| times the place on a's edge where b's line comes nearest, measured
+ * from a's start. The tolerance applies to this number, since rounding is in it, as for a vertex
  * over a face.
  */
 static int32_t aside_q22(const int32_t d[3], const int32_t along_q30[3], const int32_t n_q30[3])
@@ -246,8 +249,9 @@ static bool within(int64_t aside_q22, int64_t end_q22)
 }
 
 /*
- * Where on b's line the place of nearest approach is, or of it the end of a's edge that it is beyond:
- * edges that are nearly parallel may follow each other on nearly one line and have no place in common.
+ * Place on b's line of the nearest approach; if that is beyond an end of a's edge, the place
+ * nearest to that end. Nearly parallel edges may follow each other along nearly one line and have
+ * no place in common.
  */
 static int64_t place_on_b_q22(const struct boyse_places *p, int64_t aside_q22, int64_t length_q22,
                               int32_t sine_q30)
@@ -258,13 +262,13 @@ static int64_t place_on_b_q22(const struct boyse_places *p, int64_t aside_q22, i
     if (aside_q22 >= length_q22) {
         s_q22 = p->edge_a->length_q22;
     } else if (aside_q22 > 0) {
-        /* less than the edge's length times the sine before it is shifted: below 2^61 */
+        /* below edge length times sine before the shift, hence below 2^61 */
         s_q22 = (aside_q22 << (30 + p->up)) / sine_q30;
     }
     return p->on_b_q22 + ((s_q22 * cosine_q30) >> 30);
 }
 
-/* Whether the places of nearest approach along the two lines are on the edges. */
+/* True if the places of nearest approach on both lines are on the edges. */
 static bool meet_on_edges(const struct boyse_places *p, const int32_t n_q30[3], int32_t sine_q30)
 {
     int64_t length_a = (int64_t)p->edge_a->length_q22 * sine_q30 >> (30 + p->up);
@@ -279,13 +283,13 @@ static bool meet_on_edges(const struct boyse_places *p, const int32_t n_q30[3], 
 }
 
 /*
- * What N = w / |w| makes of the faces of two edges, cosines. Out: by how much they look along N, out
- * of b and against a. N leaves b's edge outwards and enters a's, on neither side inside a face, when
- * `most` is not above 0, and -N when `least` is not below it.
+ * How N = w / |w| lies to the faces of both edges, as cosines. out: how much the faces look along
+ * N, b's outwards and a's against it. N leaves b's edge outwards and enters a's, into no face on
+ * either side, if most <= 0; -N does if least >= 0.
  */
 struct cones {
     int32_t out, most, least;
-    bool border; /* one has a face on one side alone: there N may look away from it */
+    bool border; /* one edge has a face on one side only: N may look away from it */
 };
 
 static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
@@ -294,8 +298,8 @@ static inline int32_t cosine_q30(const int32_t a[3], const int32_t b[3])
 }
 
 /*
- * Along the inward normal of a face with normal f at an edge of direction d, N is N.(f x d), which is
- * f.(d x N); and the opposite at the other side of the edge.
+ * Add an edge's faces. At an edge of direction d the inward direction in a face with normal f is f
+ * x d, and N.(f x d) = f.(d x N); the other side has the opposite sign.
  */
 static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
                       const struct carom_edge *edge, const int32_t n[3], bool outwards)
@@ -319,9 +323,9 @@ static void add_cones(struct cones *cones, const struct carom_mesh *mesh,
 }
 
 /*
- * The sign of N, by the way that the faces of both edges look: edges that are nearly flat have both
- * normals within the tolerance of their cones. 0: neither is. The two faces of a convex edge look
- * along any N between them, taken together, so a sign that nothing but the tolerance allows is none.
+ * Sign of N, by the way that the faces of both edges look. Nearly flat edges have both signs within
+ * the tolerance of their cones. Taken together the two faces of a convex edge look along any N
+ * between them, so a sign that only the tolerance allows is rejected. 0: neither sign is possible.
  */
 static int sign_of(const struct moment *m, const struct boyse_places *p,
                    const struct edge_normal *n)
@@ -341,7 +345,7 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
     return 0;
 }
 
-/* Returns |w| as it is in P; `n` is set when the touch is valid. */
+/* Exact test of two edges. Returns |w| as it is in P; sets n if the touch is valid. */
 static int32_t test_edges(const struct moment *m, const struct boyse_places *p,
                           struct boyse_touch *touch, struct edge_normal *n)
 {
@@ -399,7 +403,7 @@ int32_t boyse_test(const struct boyse_pair *pair, const struct candidate *c,
     return CAROM_ONE_Q30;
 }
 
-/* The same with the normal in the world. */
+/* boyse_test with the normal in world axes. */
 static void touch_at(const struct moment *m, const struct candidate *c,
                      const struct boyse_places *p, struct boyse_touch *touch)
 {
@@ -412,7 +416,7 @@ static void touch_at(const struct moment *m, const struct candidate *c,
         sign = touch->sign;
     } else {
         test_vertex_face(m, c, p, touch);
-        normal = p->n; /* of the face */
+        normal = p->n; /* the face's */
         sign = c->kind == CANDIDATE_VERTEX_FACE ? 1 : -1;
     }
     if (!touch->valid) {
