@@ -283,11 +283,39 @@ static void list_decal(const struct receiver *r, const struct lit *lit, uint32_t
     }
 }
 
+static int32_t sign(int32_t a)
+{
+    return (a > 0) - (a < 0);
+}
+
+/*
+ * Push the corners of a convex polygon outward by a pixel's sixteenth or two. Two parts of a shadow that meet along a line
+ * round their corners on it apart from each other; grown, they overlap instead of leaving pixels between them lit.
+ */
+static void grow(struct draw_vertex *corner, int n)
+{
+    int32_t x[DRAW_CLIP_MAX], y[DRAW_CLIP_MAX];
+
+    for (int i = 0; i < n; i++) {
+        x[i] = draw_x(corner[i].yx_q4);
+        y[i] = draw_y(corner[i].yx_q4);
+    }
+    for (int i = 0; i < n; i++) {
+        int before = (i + n - 1) % n, after = (i + 1) % n;
+        /* counter-clockwise with y down: the outward normal of an edge (dx, dy) is (-dy, dx) */
+        int32_t right = sign(y[before] - y[i]) + sign(y[i] - y[after]);
+        int32_t down = sign(x[i] - x[before]) + sign(x[after] - x[i]);
+
+        corner[i].yx_q4 = (y[i] + down) * (1 << 16) + ((x[i] + right) & 0xffff);
+    }
+}
+
 /* List the part of a triangle that a prism keeps the light from; false for too little room. */
 static bool list_shadow(const struct receiver *r, struct lit *lit, const struct prism *prism)
 {
     const uint32_t faces = r->list->face_count, vertices = r->list->vertex_count;
     int32_t polygon[DRAW_CLIP_MAX][3];
+    struct draw_vertex corner[DRAW_CLIP_MAX];
     uint32_t place[DRAW_CLIP_MAX], last = lit->plane[2];
     int n;
 
@@ -301,7 +329,11 @@ static bool list_shadow(const struct receiver *r, struct lit *lit, const struct 
     }
     list_plane(r, lit);
     for (int i = 0; i < n; i++) {
-        place[i] = list_vertex(r->list, draw_clipped_vertex(r->body, polygon[i]));
+        corner[i] = draw_clipped_vertex(r->body, polygon[i]);
+    }
+    grow(corner, n);
+    for (int i = 0; i < n; i++) {
+        place[i] = list_vertex(r->list, corner[i]);
     }
     for (int i = 2; i < n; i++) {
         list_decal(r, lit, place[0], place[i - 1], place[i]);
