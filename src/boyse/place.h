@@ -39,9 +39,8 @@ struct boyse_places {
     int32_t e[3];         /* unit directions of edges a and b */
     const int32_t *f;
     int32_t w[3], d[3]; /* w = e x f times 2^up; d from a point of b's line to a's start */
-    int32_t up,
-        /* up: 0 unless the edges are nearly parallel; on_b: place of d's point along edge b */
-        on_b_q22;
+    int32_t up;         /* 0 unless the edges are nearly parallel */
+    int32_t on_b_q22;   /* place of d's point along edge b */
 };
 
 /* Set everything of two edges but `vertex` and e, which are given. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
+/* carom_draw_changes: find what changed since the last picture, and draw only those rectangles. */
 #include "../num/fnv.h"
 #include "draw.h"
 
-/* A part of the picture costs as much to begin as so many pixels of it to draw. */
+/* Drawing a part costs as much on top as drawing this many pixels. */
 #define PART_PIXELS 2048
 
 /* ---------------------------------------------------------------- rectangles */
@@ -12,7 +13,7 @@ static int32_t area(const struct carom_rect *r)
     return (r->x1 - r->x0) * (r->y1 - r->y0);
 }
 
-/* Have the pixels of a rectangle drawn, together with those of another where that costs less. */
+/* Add a rectangle to the changed ones; merge rectangles where that costs less. */
 static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
 {
     int i = 0;
@@ -27,7 +28,7 @@ static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
             drawn->changed_count == CAROM_DRAWN_RECTS) {
             rect = both;
             *other = drawn->changed[--drawn->changed_count];
-            i = 0; /* it may reach others now */
+            i = 0; /* the merged one may reach others */
         }
     }
     drawn->changed[drawn->changed_count++] = rect;
@@ -35,15 +36,17 @@ static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
 
 /* -------------------------------------------------------------------- bodies */
 
-/* What goes into a picture. */
+/* What goes into the picture. */
 struct changes {
     struct draw_source source;
-    struct draw_view view;                   /* of all of it */
-    const struct carom_face_ref *refs, *end; /* interfering faces of bodies not yet looked at */
+    struct draw_view view;                   /* of the whole picture */
+    const struct carom_face_ref *refs, *end; /* interfering faces of bodies not yet visited */
     uint64_t lines_hash;
 };
 
-/* What is to show of a body, but for where on the picture; of one that is not there, nothing. */
+/*
+ * What is to show of a body, except for its place on the picture; empty if there is no such body.
+ */
 static struct carom_drawn_body look(const struct draw_source *source, uint32_t number)
 {
     struct carom_drawn_body now = {.moves = 0};
@@ -65,7 +68,7 @@ static bool same_body(const struct carom_drawn_body *before, const struct carom_
            memcmp(&a->rotation, &b->rotation, sizeof a->rotation) == 0;
 }
 
-/* Where a body shows: all of it, or those of its faces that are given. */
+/* The rectangle around a body, or around those of its faces that are given. */
 static struct carom_rect find_rect(const struct changes *c, const struct carom_body_look *look,
                                    const struct carom_face_ref *faces, ptrdiff_t count)
 {
@@ -87,10 +90,13 @@ static struct carom_rect find_rect(const struct changes *c, const struct carom_b
     return draw_on_picture(&c->view, draw_extent_end(&extent, &c->view));
 }
 
-/* Beyond this, q16, a body's place could not be told from the eye. */
+/* Largest reach, q16, at which a body's place is still representable from the eye. */
 #define REACH_MOST ((int64_t)1024 << 16)
 
-/* Where a body and its shadows show: they are between it and where it would be as far behind as they may fall. */
+/*
+ * The rectangle around a body and its shadows, which lie between the body and its copy moved by the
+ * shadows' reach.
+ */
 static struct carom_rect find_all(const struct changes *c, uint32_t number,
                                   const struct carom_body_look *look)
 {
@@ -120,8 +126,8 @@ static struct carom_rect find_all(const struct changes *c, uint32_t number,
 }
 
 /*
- * Look at a body: what changes of it is added to `drawn`, unless all is drawn anyway. How far one that
- * stands still reaches is not worth finding out before it is set elsewhere.
+ * Visit a body: add what changes of it to `drawn`, unless everything is drawn anyway. The rectangle
+ * of a body at rest is only found once it moves.
  */
 static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t number)
 {
@@ -150,7 +156,7 @@ static void see_body(struct changes *c, struct carom_drawn *drawn, uint32_t numb
 
 /* --------------------------------------------------------------------- lines */
 
-/* A hash of the lines of the paint; 0 for none. */
+/* A hash of the paint's lines; 0 without lines. */
 static uint64_t hash_lines(const struct carom_paint *paint)
 {
     uint64_t hash = paint && paint->line_count ? FNV_START : 0;
@@ -167,7 +173,7 @@ static uint64_t hash_lines(const struct carom_paint *paint)
     return hash;
 }
 
-/* Where the lines show: around all of them. */
+/* The rectangle around all lines. */
 static struct carom_rect find_lines(const struct changes *c)
 {
     const struct carom_paint *paint = c->source.paint;
@@ -199,7 +205,7 @@ static void see_lines(const struct changes *c, struct carom_drawn *drawn)
 
 /* ------------------------------------------------------------------- picture */
 
-/* Whether two paints are the same but for lines and the ramps of bodies. Either may be NULL. */
+/* True if two paints, either of which may be NULL, agree except in lines and bodies' ramps. */
 static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
 {
     static const struct carom_paint none = {0};
@@ -214,7 +220,7 @@ static bool same_paint(const struct carom_paint *a, const struct carom_paint *b)
            a->crease_q30 == b->crease_q30;
 }
 
-/* Whether the pixels are those that were drawn before, in the same way. */
+/* True if the picture was drawn before on the same pixels, in the same way. */
 static bool same_picture(const struct carom_drawn *drawn, const struct carom_camera *camera,
                          const struct carom_picture *picture, enum carom_draw_style style)
 {
@@ -230,7 +236,9 @@ static bool same_picture(const struct carom_drawn *drawn, const struct carom_cam
            memcmp(&drawn->camera.target, &camera->target, sizeof camera->target) == 0;
 }
 
-/* How many bodies there are to look at, of the picture and of the world. */
+/*
+ * Number of bodies to visit: those of the last picture or those of the world, whichever are more.
+ */
 static uint32_t body_count(const struct changes *c, const struct carom_drawn *drawn)
 {
     bool more = drawn->shows && drawn->count > c->source.count;
@@ -238,7 +246,7 @@ static uint32_t body_count(const struct changes *c, const struct carom_drawn *dr
     return more ? drawn->count : c->source.count;
 }
 
-/* Whether all is where it is in the picture, and no face interferes or did. */
+/* True if nothing has moved since the last picture, and no face interferes or did. */
 static bool stands_still(const struct changes *c, const struct carom_drawn *drawn)
 {
     uint32_t count = body_count(c, drawn);
@@ -266,7 +274,7 @@ static struct carom_rect touched_in(const struct changes *c, const struct carom_
         touched->x1 < all.x1 ? touched->x1 : all.x1, touched->y1 < all.y1 ? touched->y1 : all.y1};
 }
 
-/* Take down what is to be shown, and what of the picture that changes. */
+/* Find the changed rectangles, and note what the picture shows. */
 static void find_changes(struct changes *c, const struct carom_camera *camera,
                          const struct carom_picture *picture, enum carom_draw_style style,
                          struct carom_drawn *drawn)

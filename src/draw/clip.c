@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Faces and edges that reach out of the guard band are cut at it. */
+/* Clip faces and edges that reach out of the guard band. */
 #include "draw.h"
 
 /*
- * How far inside of a plane: the near plane, then left, right, top and bottom of the guard band. Up
- * to a factor; |result| <= 2^30.
+ * How far a point is inside a plane, up to a factor: 0 the near plane, then left, right, top and
+ * bottom of the guard band. |result| <= 2^30.
  */
 static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], int plane)
 {
@@ -24,14 +24,12 @@ static int32_t clip_distance(const struct draw_body *body, const int32_t at[3], 
 
 /*
  * Where an edge crosses a plane. Always computed from the inner end, so that two faces get the same
- * point of the edge that they share.
+ * point of a shared edge.
  */
 static void cross_plane(int32_t out[3], const int32_t inner[3], const int32_t outer[3],
                         int64_t d_inner, int64_t d_outer)
 {
-    /*
-     * d_inner >= 0 > d_outer, both at most 2^32: the fraction is below 1 and the product below 2^63
-     */
+    /* d_inner >= 0 > d_outer, both at most 2^32: the fraction is below 1, the product below 2^63 */
     int64_t t_q30 = d_inner * CAROM_ONE_Q30 / (d_inner - d_outer);
 
     for (int k = 0; k < 3; k++) {
@@ -64,7 +62,7 @@ int draw_cut(int32_t polygon[DRAW_CLIP_MAX][3], const int64_t inside[DRAW_CLIP_M
     return m;
 }
 
-/* Rounding may have left a corner that clipping made a hair outside. */
+/* Clamp first: rounding may have left the corner a hair outside. */
 struct draw_vertex draw_clipped_vertex(const struct draw_body *body, int32_t at[3])
 {
     if (at[2] < body->near) {

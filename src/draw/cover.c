@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* The cover: pixels that the largest body surely hides what is behind it from. */
 #include "draw.h"
 
-#define MARGIN_Q4     32 /* two pixels, for what corners were rounded by */
-#define RADIUS_MIN_Q4 96 /* what is covered by less is hardly worth asking */
+#define MARGIN_Q4     32 /* two pixels, for the rounding of corners */
+#define RADIUS_MIN_Q4 96 /* a smaller cover hides too little to pay */
 #define LIMIT_Q4      (DRAW_GUARD * 16)
 
 /*
- * The radius of a ball about the centre of mass that lies within a solid: when the centre is behind
- * the planes of all faces, it is inside, and no face is nearer than the nearest of these planes.
+ * The radius of a ball about the centre of mass that lies within the solid. If the centre is behind
+ * the planes of all faces it is inside, and no face is nearer than the nearest plane. Negative if
+ * there is none.
  */
 static int32_t ball_within(const struct carom_mesh *mesh)
 {
@@ -32,9 +34,9 @@ static void way_to(const struct draw_view *view, const carom_v3_q32 *position, i
 }
 
 /*
- * A line of sight that passes through the ball comes into the body before it is as far away as the
- * ball's centre: what is further away is hidden. On the picture the ball is an ellipse, and wherever it
- * is it reaches at least focal radius / distance from the projection of its centre.
+ * A line of sight through the ball enters the body before it is as far away as the ball's centre,
+ * so whatever is farther is hidden. On the picture the ball is an ellipse, which reaches at least
+ * focal radius / distance from its centre's projection in every direction.
  */
 void draw_cover_init(struct draw_view *view, const struct draw_source *source, uint32_t body)
 {
@@ -72,7 +74,7 @@ void draw_cover_init(struct draw_view *view, const struct draw_source *source, u
     fix_normalise(&cover->axis, world_way);
 }
 
-/* Near enough: it only saves asking. */
+/* An estimate, which only decides whether the exact question is worth asking. */
 bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
                     const struct carom_leaf *leaf)
 {

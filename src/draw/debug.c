@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A world as triangles and lines. */
+/* carom_debug_draw: hand a world to other renderers as triangles, lines and points. */
 #include "carom_debug.h"
 #include "draw.h"
 
@@ -8,7 +8,7 @@
 #define SHADE        (DRAW_SHADES * 3 / 4)
 #define FRAMES_AHEAD 16
 
-/* A body, and what hands it over. */
+/* The body at hand, and where its parts are sent. */
 struct scribe {
     const struct carom_debug *debug;
     uint32_t flags;
@@ -20,8 +20,9 @@ struct scribe {
 /* ------------------------------------------------------------------- places */
 
 /*
- * A place of the mesh in the world. Quanta are below 2^16 and at most 2^-7 units, so a coordinate in q32 is below
- * 2^41, and 2^42 less the centre of mass; positions are below 2^45.
+ * A vertex of the mesh in world axes. Bounds: quanta are below 2^16 and at most 2^-7 units, so a
+ * coordinate in q32 is below 2^41, and below 2^42 after the centre of mass is subtracted; positions
+ * are below 2^45.
  */
 static carom_v3_q32 place(const struct scribe *s, const int16_t quanta[3])
 {
@@ -40,7 +41,7 @@ static carom_v3_q32 place(const struct scribe *s, const int16_t quanta[3])
     return out;
 }
 
-/* A place so far along a direction from another. */
+/* The point at a distance from another along a direction. */
 static carom_v3_q32 along(const carom_v3_q32 *from, const int32_t direction_q30[3],
                           int64_t size_q32)
 {
@@ -67,7 +68,7 @@ static void line(const struct scribe *s, const carom_v3_q32 *from, const carom_v
 
 /* ------------------------------------------------------------------- bodies */
 
-/* The faces; refs .. end are those that interfere, in their order. */
+/* Send the faces; refs .. end are the body's interfering ones, in order. */
 static void hand_faces(const struct scribe *s, const struct carom_face_ref *refs,
                        const struct carom_face_ref *end)
 {
@@ -107,7 +108,10 @@ static void hand_edges(const struct scribe *s)
     }
 }
 
-/* Corner i has the higher side along axis k when its bit k is set; an edge joins two that differ by one bit. */
+/*
+ * Corner i is at the upper side along axis k if bit k is set; corners that differ by one bit share
+ * an edge.
+ */
 static void hand_box(const struct scribe *s)
 {
     const struct carom_mesh *mesh = s->look.mesh;
@@ -162,7 +166,7 @@ static void hand_velocity(const struct scribe *s, const struct carom_world *worl
 
 /* ----------------------------------------------------------------- contacts */
 
-/* A line as long as half of the smaller body's radius. */
+/* Send each contact as a line of half the smaller body's radius. */
 static void hand_contacts(const struct scribe *s, const struct carom_world *world)
 {
     const struct carom_debug *debug = s->debug;

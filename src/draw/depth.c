@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Depth: which of several faces at a pixel is in front, and where along a row that changes. */
 #include "draw.h"
 
 void draw_depths(const struct draw_sweep *s, struct draw_span *span)
@@ -13,18 +14,18 @@ void draw_depths(const struct draw_sweep *s, struct draw_span *span)
     span->w_high = high > c ? high : c;
 }
 
-/* Depth along a row: w at the middle of a pixel, and what the next pixel adds. */
+/* Depth along a row: w at the middle of a pixel, and its growth a pixel. */
 struct slope {
     int64_t w, dx;
 };
 
 /*
- * The plane of depth through the corners of a face, at pixel (x, y).
+ * The plane of depth through a face's corners, at pixel (x, y).
  *
- * It goes through the corners as they were rounded to q4, so that at any pixel of the face the depth
- * lies between those of the corners, however thin it is. Corners are at most 2^15 apart, hence area
- * <= 2^30; depths differ by less than 2^31, hence numerators < 2^51, and slopes < 2^43 when the area
- * is at least 2^8; times 2^15 sixteenths of a pixel that is less than 2^59.
+ * It goes through the corners as rounded to q4. So at any pixel of the face, however thin, the
+ * depth lies between those of the corners. Bounds: corners are at most 2^15 apart, so area <= 2^30;
+ * depths differ by less than 2^31, so numerators are below 2^51, and slopes below 2^43 as the area
+ * is at least 2^8; times 2^15 sixteenths of a pixel that is below 2^59.
  */
 static struct slope slope_at(const struct draw_sweep *s, const struct draw_face *face, int32_t x,
                              int32_t y)
@@ -35,13 +36,13 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
     int32_t xa = draw_x(a->yx_q4), ya = draw_y(a->yx_q4);
     int32_t x1 = draw_x(b->yx_q4) - xa, y1 = draw_y(b->yx_q4) - ya;
     int32_t x2 = draw_x(c->yx_q4) - xa, y2 = draw_y(c->yx_q4) - ya;
-    int32_t area_q8 = x2 * y1 - x1 * y2; /* twice the area; y runs down the page */
+    int32_t area_q8 = x2 * y1 - x1 * y2; /* twice the area; y runs down */
     int64_t w1 = (int64_t)b->w_q26 - a->w_q26, w2 = (int64_t)c->w_q26 - a->w_q26;
     struct slope slope;
     int64_t dy;
 
     if (area_q8 < 256) {
-        /* Less than half a pixel lights hardly one: its mean depth will do. */
+        /* less than half a pixel: the mean depth will do */
         return (struct slope){a->w_q26 + (w1 + w2) / 3, 0};
     }
     slope.dx = (w2 * y1 - w1 * y2) * 16 / area_q8;
@@ -50,7 +51,7 @@ static struct slope slope_at(const struct draw_sweep *s, const struct draw_face 
     return slope;
 }
 
-/* How far a is in front of b at pixel x, and what the next pixel adds. */
+/* How far a is in front of b at pixel x, and its growth a pixel. */
 static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a, struct draw_span *b,
                              int32_t x)
 {
@@ -60,7 +61,7 @@ static struct slope ahead_at(const struct draw_sweep *s, struct draw_span *a, st
     return (struct slope){wa.w - wb.w, wa.dx - wb.dx};
 }
 
-/* Of two faces at the same depth the one that was listed later is in front. */
+/* At equal depth the face listed later is in front. */
 static bool later(struct draw_span *a, struct draw_span *b)
 {
     return a->face < b->face;
@@ -78,7 +79,7 @@ static bool in_front(const struct draw_sweep *s, struct draw_span *a, struct dra
     return ahead > 0 || (ahead == 0 && later(a, b));
 }
 
-/* Forget spans that ended. Out of line: it is hardly ever needed. */
+/* Remove spans that have ended. Out of line, since it is hardly ever needed. */
 DRAW_OUT_OF_LINE void drop_ended_spans(struct draw_sweep *s)
 {
     int n = 0;
@@ -104,7 +105,7 @@ static void put_under(struct draw_sweep *s, struct draw_span *span)
     }
 }
 
-/* Make the nearest span at x the top one, if there is any; forget those that ended. */
+/* Make the nearest span at x the top one, if there is one; remove spans that have ended. */
 static void find_top(struct draw_sweep *s)
 {
     int n = 0, best = -1;
@@ -129,15 +130,16 @@ static void find_top(struct draw_sweep *s)
 }
 
 /*
- * The first pixel before `to` at which another span comes in front of the top one, which is in front
- * at x: where their planes cross, or the other begins. `to` when there is none; `which` tells it.
+ * The first pixel before `to` at which another span comes in front of the top one, which is in
+ * front at x: where their planes cross, or where the other begins. Sets `which` to that span.
+ * Returns `to` if there is none.
  */
 static int32_t find_crossing(const struct draw_sweep *s, int32_t to, int *which)
 {
     for (int i = 0; i < s->under_count; i++) {
         struct draw_span *u = s->under[i];
         int32_t from = u->x_q15[0] >> 15, end = u->x_q15[1] >> 15;
-        int64_t pixels, wanted = !later(u, s->top); /* ahead by so much it is in front */
+        int64_t pixels, wanted = !later(u, s->top); /* lead at which it is in front */
         struct slope ahead;
 
         from = from > s->x ? from : s->x + 1;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Division by a table of inverses, for processors that cannot divide. */
 #include "draw.h"
 
 /* 2^32 / d, rounded down. */
@@ -8,7 +9,7 @@
 #define INVERSE_64(d)                                                                              \
     INVERSE_16(d), INVERSE_16((d) + 16), INVERSE_16((d) + 32), INVERSE_16((d) + 48)
 
-/* A little less for 1, which has none of 32 bits. */
+/* The inverse of 1 does not fit 32 bits: a little less. */
 static const uint32_t inverses[257] = {
     0,
     UINT32_MAX,
@@ -27,9 +28,9 @@ static const uint32_t inverses[257] = {
 };
 
 /*
- * Below 256 the inverse is right to less than 1 in 2^32, so that the quotient lacks at most 1. Above,
- * the divisor is rounded up to 8 bits: each step leaves less than a 64th of what there was, until it
- * is not more than two divisors.
+ * For d < 256 the inverse is exact to 1 in 2^32, so the quotient lacks at most 1. Above, the
+ * divisor is rounded up to 8 bits: each step leaves less than a 64th of the rest, until at most two
+ * divisors are left.
  */
 uint32_t draw_quotient(uint32_t n, uint32_t d)
 {

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* carom_draw: check the arguments, set up the view, draw by style. */
 #include "draw.h"
 
-/* Whether pixels of a picture can be written where it says. */
+/* Check that a picture's pixels can be written where it says. */
 static int check_pixels(const struct carom_picture *picture, enum carom_draw_style style)
 {
     int shift = draw_pixel_shift(picture->format);
-    int32_t each = shift < 0 ? 1 : 1 << shift; /* bytes */
+    int32_t each = shift < 0 ? 1 : 1 << shift; /* bytes of a pixel */
     int32_t row = shift < 0 ? (picture->width + 1) / 2 : picture->width * each;
 
     if (picture->row) {

@@ -1,30 +1,50 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * draw - a picture of a world: camera, clipping, flat shading row by row, wireframe. What it sees of
- * the world source.c asks, as any program may.
+ * draw - a picture of a world: camera, clipping, flat or smooth shading row by row, wireframe,
+ * lines, text. (The paper drew by graphics hardware.)
+ *
+ * In: a world, a camera, a picture with its paint and workspace. Out: pixels. Like any program,
+ * draw asks the world only through carom.h (source.c).
+ *
+ * Steps of CAROM_DRAW_FLAT, and the files that hold them:
+ *   draw.c       check arguments, choose the style
+ *   changes.c    only what changed since the last picture
+ *   source.c     what is drawn; paint.c: how it is painted
+ *   view.c       camera; a body's pose seen from it; vertices to the picture
+ *   cover.c      what the largest body surely hides
+ *   flat.c       list the faces that show in a part of the picture
+ *   clip.c       faces that reach out of the guard band
+ *   smooth.c     shades from corner to corner
+ *   shadow.c     parts of faces in shadow, listed over them
+ *   outline.c    a solid's outline as the light sees it
+ *   segment.c    lines of the world, as thin faces
+ *   scanline.c   pixels row by row; depth.c: where faces cover each other
+ *   pixels.c     runs of pixels; palette.c: their colours
+ *
+ * Beside it: wire.c (wireframe), line.c, text.c and font.c (over a picture), pick.c (the body at a
+ * pixel), debug.c (triangles and lines for other renderers), rect.c (rectangles), divide.c.
  *
  * Four frames of reference:
  *
  *   world   q32
  *   mesh    relative to the eye along the mesh's axes, q22 shifted right by the body's `shift`, so
- *           that nothing that belongs to the body is longer than 2^29
+ *           that nothing of the body is longer than 2^29
  *   view    x right, y down, z forward, scaled so that the guard band is |x| <= z, |y| <= z
- *   picture pixels in q4 from the middle of the picture, y down; more exactly, x from the left side
- *           and y from 7/16 above the top side of the pixel `middle`, so that a
- *           corner at y is above the middle of row y >> 4, counted from that pixel, and of no
- *           row before
+ *   picture pixels in q4 from the middle of the picture, y down; exactly, x from the left side of
+ *           the pixel `middle`, y from 7/16 above its top side: a corner at y is above the middle
+ *           of row y >> 4, counted from that pixel, and of no row before
  *
  * The guard band is a square of DRAW_GUARD pixels either way of the middle of the picture. It holds
- * the largest picture, so that faces are clipped exactly only against it and the near plane; the
- * rows cut the rest at the edges of the picture.
+ * the largest picture. So faces are clipped exactly only against it and the near plane; rows cut
+ * the rest at the edges of the picture.
  *
- * Depth is w_q26 = 1 / z: it is linear over the picture, larger is nearer, and it is 2^31 on the
- * near plane, 1/32 unit in front of the eye.
+ * Depth is w_q26 = 1 / z: linear over the picture, larger is nearer, 2^31 on the near plane, 1/32
+ * unit in front of the eye.
  *
- * FLAT works on a part of the picture, a rectangle, at a time: all of it when the workspace holds
- * all faces that show in it. They are listed by the row in which they begin. Then each row knows
- * its faces from left to right; where one alone covers a pixel no depth is looked at, and every
- * pixel is written about once.
+ * FLAT works on a rectangular part of the picture at a time: all of it if the workspace holds all
+ * faces that show in it. Faces are listed by their first row. Each row then knows its faces from
+ * left to right. Where one face alone covers a pixel no depth is compared, and every pixel is
+ * written about once.
  */
 #ifndef CAROM_SRC_DRAW_H
 #define CAROM_SRC_DRAW_H
@@ -35,8 +55,8 @@
 #define DRAW_GUARD 1024
 
 /*
- * Some compilers would rather have one copy of what two callers share; and the copy that a program's pixels
- * do not need is to stay out of what others have in fast memory.
+ * DRAW_INLINE: some compilers would rather keep one copy for two callers. DRAW_OUT_OF_LINE: a copy
+ * for pixel formats that a program does not use stays out of others' fast memory.
  */
 #if defined __GNUC__
 #define DRAW_INLINE      __attribute__((always_inline)) static inline
@@ -46,7 +66,7 @@
 #define DRAW_OUT_OF_LINE static
 #endif
 
-/* Ramps of a palette. Interfering faces are HOT. */
+/* Ramps of a palette. HOT ramps are for interfering faces. */
 #define DRAW_BACKGROUND     CAROM_RAMP_BACKGROUND
 #define DRAW_STATIONARY     CAROM_RAMP_STATIONARY
 #define DRAW_MOVING         CAROM_RAMP_MOVING
@@ -55,7 +75,7 @@
 #define DRAW_SHADES         CAROM_RAMP_SHADES
 #define DRAW_RAMPS          8 /* of carom_draw_palette */
 
-/* A rectangle of pixels; x1 and y1 are outside. */
+/* A rectangle of pixels; x1 and y1 are excluded. */
 struct draw_rect {
     int32_t x0, y0, x1, y1;
 };
@@ -64,8 +84,8 @@ struct draw_rect {
 
 struct draw_source {
     const struct carom_world *world;
-    uint32_t count;                   /* numbers of bodies are below */
-    const struct carom_face_ref *hot; /* interfering faces, by body; those that are to show */
+    uint32_t count;                   /* bodies are numbered below this */
+    const struct carom_face_ref *hot; /* interfering faces to show, ordered by body */
     int hot_count;
     const struct carom_paint *paint; /* or NULL */
 };
@@ -73,13 +93,13 @@ struct draw_source {
 void draw_source_init(struct draw_source *source, const struct carom_world *world,
                       const struct carom_paint *paint);
 
-/* The mesh of a body; NULL when there is none of this number. */
+/* The mesh of a body; NULL if there is no such body. */
 static inline const struct carom_mesh *draw_mesh(const struct draw_source *source, uint32_t number)
 {
     return carom_body_mesh(source->world, (int)number);
 }
 
-/* A body as it is now; false when there is none of this number. */
+/* Look up a body's present pose. Returns false if there is no such body. */
 static inline bool draw_look(const struct draw_source *source, uint32_t number,
                              struct carom_body_look *look)
 {
@@ -90,42 +110,42 @@ static inline bool draw_look(const struct draw_source *source, uint32_t number,
 
 #define DRAW_SIDES 5
 
-/* Pixels that the largest body covers: what is further away than w there is hidden. */
+/* Pixels that the largest body surely covers: what is deeper than w there is hidden. */
 struct draw_cover {
     uint32_t body;
-    uint32_t radius2_q8; /* of a circle on the picture; 0: none */
+    uint32_t radius2_q8; /* of a circle on the picture; 0: there is no cover */
     int32_t x_q4, y_q4;
     uint32_t w_q26;
-    carom_v3_q30 axis; /* from the eye through its middle, in the world */
-    int32_t slope_q16; /* how fast what is covered opens along that */
+    carom_v3_q30 axis; /* from the eye through the circle's middle, world axes */
+    int32_t slope_q16; /* opening of the covered cone along the axis */
 };
 
-/* The camera, and the part of the picture that is being drawn. */
+/* The camera, and the part of the picture being drawn. */
 struct draw_view {
     carom_v3_q32 eye;
     carom_m3_q30 axes; /* rows: right, down and forward in the world */
     int64_t focal_q16; /* pixels */
-    int32_t scale_q30; /* of view x and y; view z is shifted right by z_shift */
+    int32_t scale_q30; /* scale of view x and y; view z is shifted right by z_shift */
     int z_shift;
-    int32_t horizon;       /* the first row that looks down, or one far outside of the picture */
-    int32_t middle[2];     /* the pixel from which pixels are counted; in an even column */
-    int32_t round_q29[2];  /* what makes picture coordinates of view ones; 2^29 the guard band */
-    struct draw_rect rect; /* the part, counted from there */
-    carom_v3_q30 side[DRAW_SIDES]; /* the planes through the eye around it; normals inward, world */
+    int32_t horizon;       /* first row below the horizon, or one far outside the picture */
+    int32_t middle[2];     /* the pixel from which pixels are counted; its column is even */
+    int32_t round_q29[2];  /* offset from view to picture coordinates; 2^29 is the guard band */
+    struct draw_rect rect; /* the part, counted from `middle` */
+    carom_v3_q30 side[DRAW_SIDES]; /* planes through the eye around it: inward normals, world */
     struct draw_cover cover;
-    carom_v3_q30 light; /* towards it, in the world; its length is half of what shades differ by */
-    uint32_t shade_q24; /* of what is across it */
-    int shift_least;    /* of bodies */
-    carom_v3_q30 sun;   /* towards the light, of length 1 */
+    carom_v3_q30 light; /* towards the light, world axes; as long as half the range of shades */
+    uint32_t shade_q24; /* shade of a face across the light */
+    int shift_least;    /* lower bound on bodies' `shift` */
+    carom_v3_q30 sun;   /* towards the light, world axes, length 1 */
 };
 
-/* Ramps of a body, with its paint if it has one. */
+/* A body's ramps, with its paint if it has one. */
 struct draw_coat {
-    const uint8_t *faces; /* of each face, 0: its own; or NULL */
+    const uint8_t *faces; /* one for each face, 0: the body's own; or NULL */
     uint8_t own, hot;
 };
 
-/* The usual ones. */
+/* The ramps of a body without paint. */
 static inline struct draw_coat draw_usual_coat(bool moving)
 {
     return (struct draw_coat){NULL, (uint8_t)(DRAW_STATIONARY + moving),
@@ -136,18 +156,17 @@ static inline struct draw_coat draw_usual_coat(bool moving)
 struct draw_body {
     const struct carom_mesh *mesh;
     bool moving;
-    int sees; /* 2 when all of it lies inside of the part, else 1 */
+    int sees; /* 2 if all of the body lies inside the part, else 1 */
     int shift;
     int32_t near;                  /* view z of the near plane */
-    int32_t eye[3];                /* from the mesh's centre of mass; mesh axes, q(22 - shift) */
-    carom_v3_q30 side[DRAW_SIDES]; /* the view's, in mesh axes */
-    carom_v3_q30 cover;            /* its axis, in the same */
-    uint32_t ramp;                 /* the first palette entry if it has no paint, and the view's
-                                      shade; in q24 */
-    carom_v3_q30 light;            /* the view's, in mesh axes */
+    int32_t eye[3];                /* from the mesh's centre of mass, mesh axes, q(22 - shift) */
+    carom_v3_q30 side[DRAW_SIDES]; /* the view's planes, mesh axes */
+    carom_v3_q30 cover;            /* the cover's axis, mesh axes */
+    /* first palette entry of a body without paint, plus the view's shade; q24 */
+    uint32_t ramp;
+    carom_v3_q30 light; /* the view's light, mesh axes */
     struct draw_coat coat;
-    const uint32_t *
-        hot; /* flat.c: a bit for each face, whether it interferes; there if there is a paint; or NULL */
+    const uint32_t *hot; /* set by flat.c: a bit a face, interfering; NULL: none, and no paint */
     /* view = (to_view (vertex << up) + origin) / 2^30 */
     carom_m3_q30 to_view;
     int64_t origin[3];
@@ -156,8 +175,8 @@ struct draw_body {
 };
 
 /*
- * A corner on the picture. With y in the upper half, corners compare by height, and the row is the
- * upper 12 bits.
+ * A corner on the picture: y in the upper half, so that corners compare by height, and the row is
+ * the upper 12 bits.
  */
 struct draw_vertex {
     int32_t yx_q4;
@@ -185,7 +204,7 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
 /* Choose the part of the picture to draw. */
 void draw_view_rect(struct draw_view *view, struct draw_rect rect);
 
-/* All of a picture. */
+/* All of the picture, as a part. */
 static inline struct draw_rect draw_whole(const struct draw_view *view,
                                           const struct carom_picture *picture)
 {
@@ -194,62 +213,67 @@ static inline struct draw_rect draw_whole(const struct draw_view *view,
     return (struct draw_rect){x0, y0, x0 + picture->width, y0 + picture->height};
 }
 
-/* Prepare a body for the view's part; false when nothing of it can show there. */
+/* Prepare a body for the view's part. Returns false if nothing of it can show there. */
 bool draw_body_init(struct draw_body *body, const struct draw_view *view,
                     const struct carom_body_look *look);
-/* The same of a body that need not show there; without `sees`. */
+/* draw_body_init for a body that need not show; leaves `sees` unset. */
 void draw_body_place(struct draw_body *body, const struct draw_view *view,
                      const struct carom_body_look *look);
 /*
- * Whether a sphere around a point, given about the centre of mass, may show inside the rect: 0, or
- * 1, or 2 when all of it does.
+ * Can a sphere, given from the centre of mass, show inside the part? 0: no. 1: perhaps. 2: all of
+ * it does.
  */
 int draw_sees_sphere(const struct draw_body *body, const carom_v3_q22 *centre, int32_t radius_q22);
 
-/* A vertex of the mesh on the picture; false when it is outside of the guard band or too near. */
+/* Project a vertex of the mesh. Returns false if it is outside the guard band or too near. */
 bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vertex *vertex);
 
 /* A vertex of the mesh in view coordinates: right, down, forward; each below 2^30 in size. */
 void draw_place(const struct draw_body *body, uint32_t number, int32_t at[3]);
 
-/* A point in view coordinates, inside of the guard band and beyond the near plane, on the picture. */
+/*
+ * Project a point in view coordinates; it must be inside the guard band and beyond the near plane.
+ */
 struct draw_vertex draw_project(const struct draw_body *body, const int32_t at[3]);
 
-/* How far some vertices reach on the picture. */
+/* The extent of some vertices on the picture. */
 struct draw_extent {
-    int32_t low[2][2], high[2][2]; /* of view x / z and y / z, as two numbers */
-    bool near;                     /* one of them is too near to say */
+    int32_t low[2][2], high[2][2]; /* bounds of view x / z and y / z, each as two numbers */
+    bool near;                     /* some vertex is too near: no bound */
 };
 
 void draw_extent_begin(struct draw_extent *extent);
 void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, uint32_t number);
-/* A pixel more on each side, within the view's part; nothing of no vertices. */
+/*
+ * The extent with a pixel more on each side, within the view's part; empty if there are no
+ * vertices.
+ */
 struct draw_rect draw_extent_end(const struct draw_extent *extent, const struct draw_view *view);
 
-/* A body for points of the world that belong to none, with `shift` set. */
+/* A body for points of the world that belong to no body; `shift` must be set. */
 void draw_body_of_points(struct draw_body *body, const struct draw_view *view, int shift);
 
-/* ---- clip.c: what is left of faces and edges in the guard band */
+/* ---- clip.c: what the guard band leaves of faces and edges */
 
 /*
  * Clip a face, or an edge as a polygon of two corners, given by its vertices.
- *   out  what is left, on the picture; of an edge, the first two
- * Returns their number: a triangle gains at most one corner a plane.
+ *   out  the remaining corners, on the picture; for an edge the first two count
+ * Returns their number: a convex polygon gains at most one corner a plane.
  */
 #define DRAW_CLIP_MAX 8
 int draw_clip(const struct draw_body *body, const uint16_t *numbers, int n,
               struct draw_vertex out[DRAW_CLIP_MAX]);
-/* The same of corners in view coordinates; these are overwritten, with those of what is left. */
+/* draw_clip of corners in view coordinates; overwrites them with the remaining corners. */
 int draw_clip_placed(const struct draw_body *body, int32_t polygon[DRAW_CLIP_MAX][3], int n,
                      struct draw_vertex out[DRAW_CLIP_MAX]);
 
-/* A corner of what is left, cut again perhaps, on the picture. */
+/* Project a corner that clipping made, clamped to the guard band and near plane. */
 struct draw_vertex draw_clipped_vertex(const struct draw_body *body, int32_t at[3]);
 
 /*
- * Sutherland and Hodgman's step: the part of a convex polygon inside one plane.
- *   inside  how far each corner is inside of it, up to a factor; within +-2^32
- * Returns the number of corners that are left.
+ * A step of Sutherland and Hodgman: cut a convex polygon at one plane.
+ *   inside  how far each corner is inside, up to a common factor; within +-2^32
+ * Returns the number of remaining corners.
  */
 int draw_cut(int32_t polygon[DRAW_CLIP_MAX][3], const int64_t inside[DRAW_CLIP_MAX], int n);
 
@@ -258,7 +282,7 @@ int draw_cut(int32_t polygon[DRAW_CLIP_MAX][3], const int64_t inside[DRAW_CLIP_M
 /* n / d by a table of inverses and products; n < 2^31, 0 < d < 2^16. */
 uint32_t draw_quotient(uint32_t n, uint32_t d);
 
-/* The same, of a signed n, by what is quicker. */
+/* n / d for a signed n, by the quicker way. */
 static inline int32_t draw_divide(int32_t n, int32_t d)
 {
 #if defined __arm__ && !defined __ARM_FEATURE_IDIV
@@ -271,12 +295,12 @@ static inline int32_t draw_divide(int32_t n, int32_t d)
 #endif
 }
 
-/* ---- cover.c: what a body surely hides */
+/* ---- cover.c: what the largest body surely hides */
 
-/* Set the view's cover, which is in a body, if there is one of this number. */
+/* Set the view's cover to the ball inside a body, if there is such a body. */
 void draw_cover_init(struct draw_view *view, const struct draw_source *source, uint32_t body);
 
-/* Whether some of a leaf may be covered. */
+/* True if some of a leaf may be covered. */
 bool draw_may_cover(const struct draw_view *view, const struct draw_body *body,
                     const struct carom_leaf *leaf);
 
@@ -302,35 +326,35 @@ struct draw_span;
 struct draw_sweep;
 struct draw_list;
 
-/* Where a pass over the bodies is. */
+/* The body whose shades are being computed. */
 struct draw_shades {
     const struct draw_body *body;
-    uint16_t *at; /* at its vertices, q8 and 1 more; 0: not known yet. NULL: faces have one shade */
+    uint16_t *at; /* shade at each vertex, q8 plus 1; 0: unknown. NULL: each face has one shade */
     int32_t crease_q30; /* faces share a shade if their normals' product is no less */
     uint32_t shade_q24; /* the view's */
 };
-#define DRAW_SHADES_MANY 0xffffu /* a vertex has more than one */
+#define DRAW_SHADES_MANY 0xffffu /* the vertex has several shades */
 
 struct carom_smooth {
-    /* List a face of which the corners are in these places of the list. There must be room for two faces. */
+    /* List a face whose corners have these places in the list. Room for two faces must be free. */
     void (*list)(const struct draw_shades *shades, uint32_t face, const struct draw_rect *rect,
                  struct draw_list *list, const uint32_t place[3], uint32_t colour, bool inside);
     /* List what the guard band leaves of a face. */
     void (*list_clipped)(const struct draw_shades *shades, uint32_t face,
                          const struct draw_rect *rect, struct draw_list *list, uint32_t colour);
-    /* The shades of a face's corners; and those of places on the face, in view coordinates. */
+    /* The shades of a face's corners; those of points on the face, in view coordinates. */
     void (*corners)(const struct draw_shades *shades, uint32_t face, int32_t shade_q8[3]);
     void (*between)(const struct draw_shades *shades, uint32_t face, int32_t (*at)[3], int n,
                     int32_t *shade_q8);
     /*
-     * Give the face that was listed last, or the one before with its plane, the shades of the plane's corners; a tint is
-     * listed where there is more than one.
+     * Give the last listed face (or, with its plane, the one before) the shades of the plane's
+     * corners. Lists a tint if the shades differ.
      */
     void (*tint)(struct draw_list *list, struct draw_face *face, const int32_t shade_q8[3]);
-    /* The pixels of a row up to x1, and those of a run of a span with a tint. */
+    /* Draw a row's pixels up to x1; draw a run of a span that has a tint. */
     void (*row)(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1);
     void (*run)(const struct draw_sweep *s, const struct draw_span *span, int32_t from, int32_t to);
-    /* A shade of the background as the pixels of a row. */
+    /* A pixel row of the background in a given shade. */
     uint32_t (*ground)(const struct carom_picture *picture, int32_t y, int32_t shade_q8);
 };
 
@@ -339,99 +363,101 @@ static inline const struct carom_smooth *draw_smooth(const struct carom_paint *p
     return paint ? paint->smooth : NULL;
 }
 
-/* ---- outline.c: what the light sees of a solid */
+/* ---- outline.c: a solid's outline, as the light sees it */
 
-/* An edge of the outline. Heights are along across[1], q, and p along across[0] is how far right it is. */
+/* An edge of the outline. q: height along across[1]. p: place along across[0]. */
 struct draw_outline_edge {
-    int32_t at[2][3]; /* its lower and its upper end, view coordinates */
+    int32_t at[2][3]; /* lower and upper end, view coordinates */
     int32_t p[2], q[2];
-    int32_t up; /* 1; -1 when what is lit is on its right */
+    int32_t up; /* 1 if the lit side is on the left, -1 if on the right */
 };
 
-/* Between two edges and two heights. */
+/* The area between two edges and two heights. */
 struct draw_trapezoid {
     uint16_t left, right;
     int32_t low, high;
 };
 
 struct draw_outline {
-    carom_v3_q30 across[2]; /* seen from the light, right and up; view coordinates */
+    carom_v3_q30 across[2]; /* right and up as seen from the light; view coordinates */
     struct draw_outline_edge *edges;
     uint32_t edge_count;
     struct draw_trapezoid *trapezoids;
     uint32_t trapezoid_count;
-    uint64_t *keys;   /* ends of edges, by height */
-    uint16_t *active; /* edges at the height at hand, and how far right each of them is */
+    uint64_t *keys;   /* ends of edges, sorted by height */
+    uint16_t *active; /* edges at the present height, and the place of each */
     int64_t *place;
 };
 
 /*
- * The outline of a placed solid and the trapezoids that it holds, in scratch memory that is aligned to 8.
+ * Find the outline of a placed solid and its trapezoids, in scratch memory aligned to 8.
  *   sun  towards the light, view coordinates
- * Returns whether there was room.
+ * Returns false if there was not enough room.
  */
 bool draw_outline_find(struct draw_outline *outline, const struct draw_body *body,
                        const int32_t sun[3], void *scratch, size_t bytes);
-/* A point of an edge at a height. */
+/* The point of an edge at a height. */
 void draw_outline_point(const struct draw_outline *outline, uint32_t edge, int32_t q,
                         int32_t at[3]);
-/* How far right and up a point is. */
+/* The place and height of a point across the light. */
 void draw_outline_across(const struct draw_outline *outline, const int32_t at[3], int32_t pq[2]);
 
-/* ---- shadow.c: the parts of faces that solids keep the light from */
+/* ---- shadow.c: the parts of faces that solids keep from the light */
 
 struct draw_list;
 
 struct carom_shadows {
-    /* Before bodies of a picture are placed: all have one scale then. */
+    /* Call before the bodies of a picture are placed: gives all of them one scale. */
     void (*init)(const struct draw_source *source, struct draw_view *view);
-    /* How far behind the centre of a body its shadow may fall on others: q16; 0 for none. */
+    /* How far behind a body's centre its shadow may fall, q16; 0 for no shadow. */
     int64_t (*reach)(const struct draw_source *source, const struct draw_view *view,
                      uint32_t number, const struct carom_body_look *look);
     /*
-     * List the shadows of all solids on a body. One of which the outline does not fit into the scratch memory has
-     * none. False when there is no room in the list.
+     * List the shadows of all solids on a body. A solid whose outline does not fit into the scratch
+     * memory casts none. Returns false if the list is full.
      */
     bool (*list)(const struct draw_source *source, const struct draw_view *view,
                  const struct draw_shades *shades, const struct draw_body *body, uint32_t number,
                  struct draw_list *list, void *scratch, size_t bytes);
 };
 
-/* NULL without shadows. */
+/* The shadow functions of a paint; NULL without shadows. */
 static inline const struct carom_shadows *draw_shadows(const struct draw_source *source)
 {
     return source->paint ? source->paint->shadows : NULL;
 }
 
-/* ---- scanline.c: their pixels, row by row */
+/* ---- scanline.c: pixels, row by row */
 
-/* A triangle on the picture. It begins with its top corner and runs counter-clockwise. */
+/* A triangle on the picture: its top corner first, then counter-clockwise. */
 struct draw_face {
-    uint16_t corner[3]; /* into the vertices */
-    uint16_t next;      /* in its row's list: 1 + where it is, 0 at the end */
-    uint16_t colour;    /* palette entry, and DRAW_DECAL */
+    uint16_t corner[3]; /* places in the list's vertices */
+    uint16_t next;      /* next face in the same row's list: 1 + its place, 0 at the end */
+    uint16_t colour;    /* palette entry, DRAW_DECAL, DRAW_TINT */
 };
 
 /*
- * A decal lies on another face: its depth is that of the face listed after it, which is in no row. So both agree on
- * their depth to the last bit, whatever their corners are rounded to.
+ * DRAW_DECAL: the face lies on another face, which is listed after it and is in no row's list, and
+ * takes that face's depth. So both depths agree to the last bit, whatever their corners are rounded
+ * to.
  */
 #define DRAW_DECAL  0x8000u
-#define DRAW_TINT   0x4000u /* it has a shade of its own at each pixel: draw_tint */
+#define DRAW_TINT   0x4000u /* it has a shade at each pixel: draw_tint */
 #define DRAW_COLOUR 0x1fffu /* palettes have at most 256 ramps of 32 */
 
-/* The face that gives a face its depth. Faces are listed downward. */
+/* The face whose plane gives a face its depth. Faces are listed downward in memory. */
 static inline const struct draw_face *draw_plane(const struct draw_face *face)
 {
     return face->colour & DRAW_DECAL ? face - 1 : face;
 }
 
 /*
- * The shades of a face over the picture, listed after the face and its plane in the place of another one: at the plane's
- * top corner, and what a pixel to the right and one below add. A shade is 256, from 0 to one less than all are.
+ * A linear shade over the picture, listed after the face and its plane in the place of a further
+ * face: the shade at the plane's top corner, and its growth a pixel to the right and a pixel down.
+ * A shade is 256 units, from 0 to one less than the number of all.
  */
 struct draw_tint {
-    uint16_t at_q8, right_q16[2], below_q16[2]; /* upper and lower half */
+    uint16_t at_q8, right_q16[2], below_q16[2]; /* growths as upper and lower half */
 };
 _Static_assert(sizeof(struct draw_tint) == sizeof(struct draw_face),
                "it takes the place of a face");
@@ -442,60 +468,63 @@ static inline const struct draw_tint *draw_tint(const struct draw_face *face)
 }
 
 /*
- * What shows in a part of the picture: vertices from one end of the workspace, faces from the
- * other, the last one first. What is between them is for the rows.
+ * What shows in a part of the picture: vertices from one end of the workspace, faces downward from
+ * the other end. The rows use the room between them.
  */
 struct draw_list {
-    uint16_t *rows; /* heads of lists of faces, by the row of the part in which they begin */
+    uint16_t *rows; /* heads of the lists of faces, by first row in the part */
     struct draw_vertex *vertices;
-    struct draw_face *faces;           /* face i is faces[-i]; there is no face 0 or vertex 0 */
-    uint32_t vertex_count, face_count; /* with these two */
-    size_t room;                       /* bytes between */
+    struct draw_face *faces; /* face i is faces[-i]; place 0 of faces and vertices is unused */
+    uint32_t vertex_count, face_count; /* including the unused place 0 */
+    size_t room;                       /* bytes between both */
 };
 
-/* Draw the part. False when there is too little room for one of its rows, unless it must be. */
+/*
+ * Draw the part. Returns false if the room is too small for one of its rows; with `must` draws what
+ * fits.
+ */
 bool draw_rows(const struct draw_view *view, const struct draw_list *list,
                const struct carom_picture *picture, bool must);
 
 /* ---- depth.c: where faces cover each other */
 
-/* A face in the row at hand. */
+/* A face in the present row. */
 struct draw_span {
-    int32_t x_q15[2], step_q15[2]; /* left and right, so that x >> 15 is the first pixel; a row */
-    int32_t until;                 /* the row in which an edge has ended */
+    int32_t x_q15[2], step_q15[2]; /* left and right edge (x >> 15: first pixel); growth a row */
+    int32_t until;                 /* the row in which an edge ends */
     int32_t rest;   /* rows after that: > 0 with a new left edge, < 0 with a new right one */
-    uint32_t pixel; /* its colour, over a whole word */
+    uint32_t pixel; /* its colour, repeated over a whole word */
     const struct draw_face *face;
-    uint32_t w_low, w_high; /* of its corners; 0 until they are needed */
-    struct draw_span *next; /* of those that begin, or of those that are free */
+    uint32_t w_low, w_high; /* bounds of its corners' depth; 0 until needed */
+    struct draw_span *next; /* in the list of spans that begin, or of free ones */
 };
 
 #define DRAW_UNDER_MAX 64
 
-/* A row of which the pixels before x are done. */
+/* A row whose pixels before x are done. */
 struct draw_sweep {
     const struct draw_view *view;
     const struct draw_vertex *vertices;
-    uint8_t *row; /* its pixel 0 */
-    int32_t safe; /* a run that ends here may write 3 pixels more */
+    uint8_t *row; /* address of pixel 0 */
+    int32_t safe; /* a run that ends at or before this may overwrite 3 pixels more */
     int pixel_shift;
     const struct carom_smooth *smooth; /* or NULL */
     const uint32_t *palette;
     uint8_t format;
     int32_t y, x;
-    uint32_t ground;       /* the background */
-    struct draw_span *top; /* what shows from x on; NULL: not known, or nothing */
-    int32_t end;           /* where it ends */
-    int32_t gate;          /* a span that begins here or later meets no other */
-    uint32_t under_high;   /* the least depth of the others, w_q26 */
+    uint32_t ground;       /* background pixel */
+    struct draw_span *top; /* the face that shows from x on; NULL: unknown, or none */
+    int32_t end;           /* where the top span ends */
+    int32_t gate;          /* a span that begins at or after this meets no other */
+    uint32_t under_high;   /* bound on the depth of the spans in `under`, w_q26 */
     int under_count;
-    struct draw_span *under[DRAW_UNDER_MAX]; /* others that may show later */
+    struct draw_span *under[DRAW_UNDER_MAX]; /* spans behind the top one that may show later */
 };
 
-/* The least and the most of a face's depth, when they are needed first. */
+/* Set the bounds of a span's depth; done when first needed. */
 void draw_depths(const struct draw_sweep *s, struct draw_span *span);
 
-/* Whether the top span is in front of all of another one, which can wait until it ends. */
+/* True if the top span is in front of all of another span, which is then put under it. */
 static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, struct draw_span *span)
 {
     if (top->w_high == 0) {
@@ -511,24 +540,24 @@ static inline bool draw_hides(struct draw_sweep *s, struct draw_span *top, struc
     return false;
 }
 
-/* Whether a span is in front of all others, as far as is known. */
+/* True if a span is surely in front of all spans in `under`. */
 static inline bool draw_shows(const struct draw_sweep *s, const struct draw_span *span)
 {
     return span->w_low > s->under_high;
 }
 
-/* Go on to pixel `to`. */
+/* Draw up to pixel `to`. */
 void draw_advance(struct draw_sweep *s, int32_t to);
-/* Take in a span of which the first pixel is not before x. */
+/* Take in a span whose first pixel is not before x. */
 void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 
 /* ---- pixels.c: runs of pixels in memory */
 
 /*
- * Stores of 2 and 4 bytes into memory of any type. Where the processor takes words at odd places they
- * may lie there; where it does not, a compiler would make four byte stores of one, so that runs are
- * written by what their ends allow. Pixels of two bytes or four are never written by the byte: the
- * video memory of some machines does not take that.
+ * Stores of 2 and 4 bytes into memory of any type. Where the processor can store words at odd
+ * addresses the types may lie there. Elsewhere a compiler would make four byte stores of one, so
+ * runs are written as their ends allow. Pixels of two or four bytes are never written by single
+ * bytes: some machines' video memory does not take that.
  */
 #if defined __ARM_FEATURE_UNALIGNED || defined __i386__ || defined __x86_64__
 #define DRAW_ANYWHERE 1
@@ -540,7 +569,7 @@ void draw_overlap(struct draw_sweep *s, struct draw_span *span);
 #if defined __GNUC__
 typedef uint16_t draw_half __attribute__((may_alias, DRAW_ALIGNED));
 typedef uint32_t draw_word __attribute__((may_alias, DRAW_ALIGNED));
-typedef uint32_t draw_pixel4 __attribute__((may_alias)); /* a pixel of 4 bytes, in its place */
+typedef uint32_t draw_pixel4 __attribute__((may_alias)); /* a pixel of 4 bytes, aligned */
 typedef struct {
     uint32_t word[4];
 } __attribute__((may_alias)) draw_four;
@@ -553,72 +582,75 @@ typedef struct {
 } draw_four;
 #endif
 
-/* A pixel is 2^shift bytes; half a byte, the left one in its upper half, when that is -1. */
+/* A pixel takes 2^shift bytes; -1: half a byte, the left pixel in the upper half. */
 int draw_pixel_shift(uint8_t format);
 
-/* Where pixel x of a row is, or the byte that it is in. */
+/* Address of pixel x of a row, or of the byte that holds it. */
 static inline uint8_t *draw_pixel(uint8_t *row, int pixel_shift, int32_t x)
 {
     return row + (pixel_shift < 0 ? x >> 1 : x * (1 << pixel_shift));
 }
 
 /*
- * Pixel 0 of row y, both counted from the middle of the picture. Called once for each row of the view's
- * part, when the row before it is complete: a display that is sent rows hears of them here.
+ * Address of pixel 0 of row y, both counted from the view's middle. Called once for each row of the
+ * view's part, after the row before is complete: a display that is sent rows is told of them here.
  */
 uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
-/* Pixels from <= x < to of a row in one colour, and no others. */
+/* Draw pixels from <= x < to of a row in one colour, and no others. */
 void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel);
 
-/* The background of row y of the view's part. */
+/* The background pixel of row y of the view's part. */
 uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *picture, int32_t y);
 
 /* ---- wire.c */
 
 void draw_wire(const struct draw_source *source, struct draw_view *view,
                const struct carom_picture *picture, struct draw_rect part);
-/* A line between two places in the guard band, within the view's part. */
+/* Draw a line between two places in the guard band, within the view's part. */
 void draw_line(const struct draw_view *view, const struct carom_picture *picture,
                const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour);
 
 /* ---- segment.c: lines of the world */
 
-/* A line on the picture. Returns whether anything of it is in the guard band. */
+/* Project a line. Returns false if nothing of it is in the guard band. */
 bool draw_segment(const struct draw_view *view, const carom_v3_q32 *from, const carom_v3_q32 *to,
                   struct draw_vertex ends[2]);
-/* Whether a point may be an end. */
+/* True if a point is in range as an end. */
 bool draw_point_in_range(const carom_v3_q32 *point);
-/* The corners of a line that is one pixel wide, counter-clockwise, a little nearer than it is. */
+/* The corners of a line one pixel wide, counter-clockwise, a little nearer than the line. */
 void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4]);
-/* The pixels that a line may take, within the view's part; none: all zero. */
+/* The pixels that a line may take, within the view's part; all zero if none. */
 struct draw_rect draw_segment_rect(const struct draw_view *view, const struct draw_vertex ends[2]);
 
 /* ---- rect.c: rectangles of a picture */
 
-/* Pixels of a picture from those counted from the middle; around two; whether there are none. */
+/*
+ * From pixels counted from the view's middle to the picture's; the rectangle around two; true if a
+ * rectangle is empty.
+ */
 struct carom_rect draw_on_picture(const struct draw_view *view, struct draw_rect r);
 struct carom_rect draw_around(const struct carom_rect *a, const struct carom_rect *b);
 bool draw_is_empty(const struct carom_rect *r);
-/* Let what is touched, which may be NULL, hold those of a rectangle, too. */
+/* Grow `touched`, which may be NULL, to hold a rectangle. */
 void draw_touch(struct carom_rect *touched, struct carom_rect r);
 
-/* ---- paint.c: what is drawn otherwise than usual */
+/* ---- paint.c: what a paint changes */
 
-/* Whether the paint of a picture can be used: CAROM_OK, or what carom_draw returns. */
+/* Check a picture's paint. Returns CAROM_OK or the error that carom_draw returns. */
 int draw_check_paint(const struct carom_picture *picture);
-/* The light of the paint. */
+/* Set the view's light from the paint. */
 void draw_paint_light(struct draw_view *view, const struct carom_paint *paint);
-/* The ramp that paint gives a body; 0: none. */
+/* The ramp that a paint gives a body; 0: none. */
 uint8_t draw_paint_ramp(const struct carom_paint *paint, uint32_t number);
-/* Put paint, which may be NULL, over the usual ramps of a body. */
+/* Apply a paint, which may be NULL, to a body's ramps. */
 void draw_paint_body(struct draw_coat *coat, const struct carom_paint *paint, uint32_t number);
-/* Faces whose normals have at least this product share shades: q30. */
+/* Least product of two faces' normals, q30, at which they share shades. */
 int32_t draw_crease(const struct carom_paint *paint);
 /* The ramp of a face. */
 uint32_t draw_face_ramp(const struct draw_coat *coat, const struct carom_paint *paint,
                         uint32_t face);
-/* Ramps of a paint's palette. */
+/* The number of ramps in a paint's palette. */
 static inline uint32_t draw_ramps(const struct carom_paint *paint)
 {
     return paint && paint->palette ? paint->ramps : DRAW_RAMPS;
@@ -627,7 +659,7 @@ static inline uint32_t draw_ramps(const struct carom_paint *paint)
 /* ---- font.c */
 
 #define DRAW_GLYPH_WIDTH 5
-/* By character from 32 on; the last is a box. */
+/* Indexed by character - 32; the last glyph is a box. */
 extern const uint8_t draw_font[96][DRAW_GLYPH_WIDTH];
 
 /* ---- palette.c */
@@ -637,20 +669,20 @@ static inline const uint32_t *draw_palette(const struct carom_picture *picture)
     return picture->paint && picture->paint->palette ? picture->paint->palette : carom_draw_palette;
 }
 
-/* A palette entry as a pixel of the picture, over a whole word as often as it fits. */
+/* A palette entry as a pixel of the picture, repeated over a whole word. */
 uint32_t draw_colour(const struct carom_picture *picture, uint32_t index);
-/* The same of a format and a palette that are at hand. */
+/* draw_colour with a format and a palette. */
 uint32_t draw_entry(uint8_t format, const uint32_t *palette, uint32_t index);
 
 /* ---- draw.c: a picture and its parts */
 
-/* Whether a picture's size, pixels and paint are such that it can be drawn on. */
+/* Check that a picture's size, pixels and paint can be drawn on. */
 int draw_check_picture(const struct carom_picture *picture, enum carom_draw_style style);
-/* Whether a picture can be drawn, but for the camera. Returns what carom_draw does. */
+/* Check everything but the camera. Returns what carom_draw returns. */
 int draw_check(const struct carom_world *world, const struct carom_camera *camera,
                const struct carom_picture *picture, enum carom_draw_style style);
 
-/* Draw a part of the picture; nothing outside of it changes. */
+/* Draw a part of the picture, and nothing outside of it. */
 int draw_part(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, enum carom_draw_style style,
               struct draw_rect part);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+/* CAROM_DRAW_FLAT: list the faces that show in a part of the picture, then have its rows drawn. */
 #include "list.h"
 
-#define OUTSIDE LIST_VERTICES_MAX /* in place of a vertex's place, which is below */
+#define OUTSIDE LIST_VERTICES_MAX /* marks a vertex without a place in the list; places are below */
 
 /* The most that a leaf may list: its faces, clipped, and their corners. */
 #define LEAF_FACES    (CAROM_LEAF_FACES * (DRAW_CLIP_MAX - 2))
@@ -11,7 +12,7 @@
 
 #define LINE_ROOM (2 * sizeof(struct draw_face) + 4 * sizeof(struct draw_vertex))
 
-/* Where a pass over the world is. */
+/* State of a pass over the world. */
 struct flat {
     const struct draw_source *source;
     struct draw_view *view;
@@ -19,14 +20,14 @@ struct flat {
     struct draw_body body;
     struct draw_shades shades;
     uint16_t *shade_room;
-    uint16_t *seen; /* a vertex of the body -> where it is in the list; 0 when it is not */
+    uint16_t *seen; /* for each vertex of the body, its place in the list; 0: not visited */
     uint32_t *hot_bits;
     uint16_t *rows;
     struct draw_vertex *vertices;
-    uint8_t *end;  /* of the workspace */
-    void *scratch; /* after that, for shadows */
+    uint8_t *end;  /* end of the workspace for lists */
+    void *scratch; /* after that, scratch memory for shadows */
     size_t scratch_bytes;
-    uint32_t largest; /* of the solids, its number; none: their count */
+    uint32_t largest; /* number of the largest solid; number of bodies if there is none */
 };
 
 /* ------------------------------------------------------------ into the list */
@@ -45,7 +46,7 @@ static void list_clipped(struct flat *f, uint32_t number, uint32_t colour)
     }
 }
 
-/* Where a vertex of the body is in the list: OUTSIDE when it has no place there. */
+/* Project a vertex into the list and return its place; OUTSIDE if it cannot be projected. */
 static uint32_t see_vertex(struct flat *f, uint32_t number)
 {
     uint32_t place = OUTSIDE;
@@ -57,7 +58,7 @@ static uint32_t see_vertex(struct flat *f, uint32_t number)
     return place;
 }
 
-/* Whether a face is covered: its corners are, and what covers is round. */
+/* True if a face is covered: its corners are, and the cover is convex. */
 static bool hidden(const struct flat *f, const struct draw_cover *cover, uint32_t i, uint32_t j,
                    uint32_t k)
 {
@@ -67,7 +68,7 @@ static bool hidden(const struct flat *f, const struct draw_cover *cover, uint32_
            draw_covers(cover, &vertices[k]);
 }
 
-/* A face with shades from corner to corner. */
+/* List a face with shades from corner to corner. */
 static void see_shaded(struct flat *f, uint32_t number, const uint32_t place[3], uint32_t colour,
                        bool inside, const struct draw_cover *cover)
 {
@@ -80,7 +81,7 @@ static void see_shaded(struct flat *f, uint32_t number, const uint32_t place[3],
     }
 }
 
-/* A face that looks at the eye. */
+/* List a face that looks at the eye. */
 static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bool inside,
                             const struct draw_cover *cover)
 {
@@ -109,7 +110,10 @@ static inline void see_face(struct flat *f, uint32_t number, uint32_t colour, bo
 
 /* ------------------------------------------------------- over bodies, faces */
 
-/* List what shows of a leaf, which may be known to be inside of the part. There must be room for the most that it may be. */
+/*
+ * List what shows of a leaf. inside: the leaf is known to be inside the part. There must be room
+ * for the most that a leaf may list.
+ */
 static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
                      const struct draw_cover *cover)
 {
@@ -125,7 +129,7 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
         uint32_t number = *numbers++;
         const struct carom_face *face = &faces[number];
 
-        /* q(20 - shift): what is seen so much edge-on that it matters does not show */
+        /* q(20 - shift); truncation only matters for faces seen so edge-on that they do not show */
         if ((int32_t)(carom_dot(face->normal.c, eye) >> 32) > face->offset_q22 >> shift) {
             uint32_t colour = list_colour(body, paint, &face->normal, number);
 
@@ -134,7 +138,7 @@ static void see_leaf(struct flat *f, const struct carom_leaf *leaf, bool inside,
     }
 }
 
-/* Mark the interfering faces of a body. */
+/* Mark a body's interfering faces. */
 static void mark_hot(struct flat *f, uint32_t number)
 {
     const struct carom_face_ref *refs = f->source->hot;
@@ -156,7 +160,7 @@ static void mark_hot(struct flat *f, uint32_t number)
     }
 }
 
-/* Prepare for the shades of a body, none of which is known yet. */
+/* Prepare for a body's shades, none of which is known yet. */
 static void begin_shades(struct flat *f)
 {
     f->shades.at = NULL;
@@ -167,7 +171,7 @@ static void begin_shades(struct flat *f)
     }
 }
 
-/* List the lines of the paint; false when there is no room for all of them. */
+/* List the paint's lines. Returns false if there is not room for all. */
 static bool see_lines(struct flat *f)
 {
     const struct carom_paint *paint = f->source->paint;
@@ -194,7 +198,10 @@ static bool see_lines(struct flat *f)
     return true;
 }
 
-/* Whether there is room for the most that a leaf may list; a face may have a tint, which takes the room of another. */
+/*
+ * True if there is room for the most that a leaf may list. With smooth shades each face may have a
+ * tint, which takes a face's room.
+ */
 static bool has_room(const struct flat *f)
 {
     size_t tints = f->shade_room ? LEAF_FACES : 0;
@@ -204,7 +211,7 @@ static bool has_room(const struct flat *f)
            f->list.face_count + LEAF_FACES + tints <= LIST_FACES_MAX;
 }
 
-/* List what shows in the part; false when there is no room for all of it. */
+/* List what shows in the part. Returns false if there is not room for all. */
 static bool see_part(struct flat *f)
 {
     const struct carom_shadows *shadows = draw_shadows(f->source);
@@ -254,10 +261,12 @@ static bool see_part(struct flat *f)
 
 /* -------------------------------------------------------------------- parts */
 
-/* For some leaves, and for some 60 faces of a row. */
+/* Room for some leaves, and for some 60 faces in a row. */
 #define ROOM_LEAST 8160
 
-/* Lay out the workspace, and find the largest solid. */
+/*
+ * Lay out the workspace, and find the largest solid. Returns false if the workspace is too small.
+ */
 static bool make_flat(struct flat *f, const struct carom_picture *picture)
 {
     uint8_t *at = (uint8_t *)picture->workspace;
@@ -300,7 +309,7 @@ static bool make_flat(struct flat *f, const struct carom_picture *picture)
 }
 
 /*
- * Draw a part of the picture; false when the workspace is too small for it, unless it must be
+ * Draw a part of the picture. Returns false if the workspace is too small for it and it need not be
  * drawn.
  */
 static bool try_part(struct flat *f, const struct carom_picture *picture, struct draw_rect part,
@@ -315,9 +324,9 @@ static bool try_part(struct flat *f, const struct carom_picture *picture, struct
 }
 
 /*
- * All at once when the workspace is large enough; otherwise fewer rows, and when a single one is
- * too much, fewer columns. A pixel is drawn in any case, with as many of its faces as there is room
- * for: some 60 in front of each other when it is smallest.
+ * Draw everything at once if the workspace is large enough; else halve the number of rows, and when
+ * a single row is too much, the columns. A single pixel is drawn in any case, with as many faces as
+ * there is room for: some 60 in front of each other in the smallest workspace.
  */
 int draw_flat(const struct draw_source *source, struct draw_view *view,
               const struct carom_picture *picture, struct draw_rect rect)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A line over a picture that is drawn. */
+/* carom_draw_line: a line over a finished picture. */
 #include "draw.h"
 
 int carom_draw_line(const struct carom_camera *camera, const struct carom_picture *picture,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* list - faces and their corners into the list of what shows in a part of the picture. */
+/* list - put faces and their corners into the list of what shows in a part of the picture. */
 #ifndef CAROM_SRC_DRAW_LIST_H
 #define CAROM_SRC_DRAW_LIST_H
 
@@ -8,7 +8,7 @@
 #define LIST_VERTICES_MAX 0x8000u
 #define LIST_FACES_MAX    0xffffu
 
-/* Bytes between vertices and faces. */
+/* Free bytes between vertices and faces. */
 static inline size_t list_room(const struct draw_list *list)
 {
     return (size_t)((const uint8_t *)(list->faces - (list->face_count - 1)) -
@@ -16,8 +16,9 @@ static inline size_t list_room(const struct draw_list *list)
 }
 
 /*
- * Shade 0 looks straight away from the light: the far side keeps its relief without a second light.
- * The light is a little short, so that shades stay below DRAW_SHADES; the ramp is in the bits above.
+ * The palette entry of a face. Shade 0 faces straight away from the light, so that the far side
+ * keeps its relief without a second light. The light is a little short, so that shades stay below
+ * DRAW_SHADES; the ramp is in the bits above.
  */
 static inline uint32_t list_colour(const struct draw_body *body, const struct carom_paint *paint,
                                    const carom_v3_q30 *normal, uint32_t number)
@@ -39,14 +40,14 @@ static inline uint32_t list_colour(const struct draw_body *body, const struct ca
     return colour;
 }
 
-/* The number of a new vertex. There must be room. */
+/* Add a vertex and return its place. There must be room. */
 static inline uint32_t list_vertex(struct draw_list *list, struct draw_vertex vertex)
 {
     list->vertices[list->vertex_count] = vertex;
     return list->vertex_count++;
 }
 
-/* List a face by its first row, if it shows in the part of the picture. There must be room. */
+/* List a face by its first row, if it shows in the part. There must be room. */
 static inline void list_face(const struct draw_rect *rect, struct draw_list *list, uint32_t i,
                              uint32_t j, uint32_t k, uint32_t colour, bool inside)
 {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The outline of a solid, as the light sees it: the edges between faces that take the light and faces that do not.
- * All that the solid hides lies behind it. A sweep across the light cuts what is inside into trapezoids: at
- * each height the edges are crossed from left to right, and a stretch is inside where more of them go up than down, or
- * the other way. Edges that cross between two corners' heights are taken in their order half way.
+ * The outline of a solid, as the light sees it: edges between lit and unlit faces. All that the
+ * solid shades lies behind it. A sweep across the light cuts its inside into trapezoids. At each
+ * height the edges are ordered from left to right, and a stretch is inside where more of the edges
+ * before it go up than down, or the other way round. If edges cross between two heights their order
+ * half way counts.
  */
 #include "../num/sort.h"
 #include "list.h"
 
-/* Two coordinates across the light, of a point in view coordinates. */
+/* Two coordinates across the light of a point in view coordinates. */
 static void across(const struct draw_outline *o, const int32_t at[3], int32_t pq[2])
 {
     for (int k = 0; k < 2; k++) {
@@ -21,7 +22,7 @@ static bool is_lit(const struct draw_body *body, uint32_t face)
     return carom_dot(body->mesh->faces[face].normal.c, body->light.c) > 0;
 }
 
-/* Add an edge of which the lit side is on the left; one that is level bounds nothing. */
+/* Add an edge whose lit side is on the left. A level edge bounds nothing and is left out. */
 static void add_edge(struct draw_outline *o, const struct draw_body *body, uint32_t from,
                      uint32_t to)
 {
@@ -47,7 +48,7 @@ static void add_edge(struct draw_outline *o, const struct draw_body *body, uint3
     o->edge_count++;
 }
 
-/* List the edges of the outline; false when there are more than fit. */
+/* List the edges of the outline. Returns false if there are more than fit. */
 static bool find_edges(struct draw_outline *o, const struct draw_body *body, uint32_t most)
 {
     const struct carom_mesh *mesh = body->mesh;
@@ -66,7 +67,7 @@ static bool find_edges(struct draw_outline *o, const struct draw_body *body, uin
     return true;
 }
 
-/* How far up an edge a height is, q30. */
+/* The part of an edge below a height, q30. */
 static int64_t part_of(const struct draw_outline_edge *edge, int32_t q)
 {
     return ((int64_t)q - edge->q[0]) * CAROM_ONE_Q30 / ((int64_t)edge->q[1] - edge->q[0]);
@@ -87,13 +88,13 @@ void draw_outline_point(const struct draw_outline *o, uint32_t number, int32_t q
 
 #define STRETCHES_MAX 16
 
-/* The stretches inside of the outline at one height; each is a trapezoid that is not ended yet. */
+/* The stretches inside the outline at one height, each an unfinished trapezoid. */
 struct stretches {
     struct draw_trapezoid open[STRETCHES_MAX];
     int count;
 };
 
-/* Put the edges that are crossed half way between two heights in order from left to right. */
+/* Order the active edges from left to right, half way between two heights. */
 static void order_edges(struct draw_outline *o, uint32_t count, int32_t low, int32_t high)
 {
     int32_t q = (int32_t)(((int64_t)low + high) >> 1);
@@ -113,7 +114,7 @@ static void order_edges(struct draw_outline *o, uint32_t count, int32_t low, int
     }
 }
 
-/* The stretches between edges in order. */
+/* Find the stretches between the ordered edges. */
 static void find_stretches(const struct draw_outline *o, uint32_t count, int32_t low,
                            struct stretches *now)
 {
@@ -133,7 +134,10 @@ static void find_stretches(const struct draw_outline *o, uint32_t count, int32_t
     }
 }
 
-/* Go on with those that have the same edges as before; end the others. False when there is no room. */
+/*
+ * Continue stretches that have the same edges as before; finish the others as trapezoids. Returns
+ * false if there is no room.
+ */
 static bool join_stretches(struct draw_outline *o, const struct stretches *before,
                            struct stretches *now, int32_t q, uint32_t most)
 {
@@ -158,7 +162,7 @@ static bool join_stretches(struct draw_outline *o, const struct stretches *befor
     return true;
 }
 
-/* Leave out edges that end at a height or below it. */
+/* Remove edges that end at or below a height. */
 static uint32_t drop_ended(struct draw_outline *o, uint32_t count, int32_t q)
 {
     uint32_t n = 0;
@@ -171,7 +175,7 @@ static uint32_t drop_ended(struct draw_outline *o, uint32_t count, int32_t q)
     return n;
 }
 
-/* A height and an edge as a key that sorts by height. */
+/* A key of a height and an edge's end, which sorts by height. */
 static uint64_t key_of(int32_t q, uint32_t edge)
 {
     return (uint64_t)((uint32_t)q ^ 0x80000000u) << 32 | edge;
@@ -187,7 +191,7 @@ static bool sweep(struct draw_outline *o, uint32_t most)
     struct stretches was = {.count = 0}, now;
     uint32_t active = 0, n = 2 * o->edge_count;
 
-    /* an edge begins at its even number and ends at its odd one */
+    /* number 2 e is the begin of edge e, 2 e + 1 its end */
     for (uint32_t i = 0; i < n; i++) {
         o->keys[i] = key_of(o->edges[i / 2].q[i % 2], i);
     }
@@ -218,12 +222,12 @@ static bool sweep(struct draw_outline *o, uint32_t most)
 
 /* ------------------------------------------------------------------- outline */
 
-/* Two directions across the light. */
+/* Find two directions across the light. Returns false if `sun` is 0. */
 static bool find_across(struct draw_outline *o, const int32_t sun[3])
 {
     int64_t v[3] = {0, 0, 0};
-    int flat =
-        carom_abs(sun[0]) > carom_abs(sun[1]); /* x and y: neither need be far from the light */
+    int flat = carom_abs(sun[0]) >
+               carom_abs(sun[1]); /* of x and y, the one that the light is more along */
 
     v[flat ? 0 : 1] = -(int64_t)sun[2];
     v[2] = sun[flat ? 0 : 1];

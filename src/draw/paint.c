@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+/* Paint: light, ramps and lines that a program chooses; checks of them. */
 #include "draw.h"
 
 #define RAMPS_MAX 256
 #define LINES_MAX 4096
 
-#define USUAL_CREASE_Q30 690190709 /* the cosine of 50 degrees */
+#define USUAL_CREASE_Q30 690190709 /* cosine of 50 degrees */
 
-/* Light and shadow together differ by so much less than DRAW_SHADES shades, 2^24 each. */
+/* The range of shades is this much less than DRAW_SHADES shades, 2^24 each. */
 #define SLACK_Q24 512
 
 static int check_lines(const struct carom_paint *paint)
@@ -51,8 +52,8 @@ int draw_check_paint(const struct carom_picture *picture)
 }
 
 /*
- * Shades go from `low`, away from the light, to 32, towards it, less the slack: that is one part in 2^20, as
- * the usual light has it, for what unit vectors are off by when they are rounded. All stays below 2^29.
+ * Shades go from `low`, away from the light, to 32, towards it, less the slack: one part in 2^20,
+ * as for the usual light, for the rounding of unit vectors. All numbers stay below 2^29.
  */
 void draw_paint_light(struct draw_view *view, const struct carom_paint *paint)
 {
@@ -84,7 +85,7 @@ void draw_paint_light(struct draw_view *view, const struct carom_paint *paint)
     }
 }
 
-/* A ramp of the palette; 0 for one that it has not. */
+/* A ramp if the palette has it, else 0. */
 static uint8_t known(const struct carom_paint *paint, uint8_t ramp)
 {
     return ramp < draw_ramps(paint) ? ramp : 0;

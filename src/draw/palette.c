@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The palette, and palette entries as pixels of each format. */
 #include "draw.h"
 
 /* Entry i of a ramp between two colours, one channel at a time. */
@@ -16,7 +17,7 @@
     BLEND_4(from, to, 0, n), BLEND_4(from, to, 4, n), BLEND_4(from, to, 8, n),                     \
         BLEND_4(from, to, 12, n)
 
-/* DRAW_SHADES entries from `low` over `middle` to `high`. */
+/* DRAW_SHADES entries from `low` through `middle` to `high`. */
 #define RAMP(low, middle, high) BLEND_16(low, middle, 16), BLEND_16(middle, high, 15)
 
 /* In the order of enum carom_colour. */
@@ -24,7 +25,7 @@
 
 #define BLACK_8 0, 0, 0, 0, 0, 0, 0, 0
 
-/* In the order of enum carom_ramp; then black up to the named colours, for the program. */
+/* In the order of enum carom_ramp; then black, for the program to set, up to the named colours. */
 _Static_assert(7 * DRAW_SHADES + 24 == CAROM_COLOUR_BLACK, "colours are where they are named");
 const uint32_t carom_draw_palette[256] = {
     RAMP(0x0e1522, 0x22344c, 0x56708c), /* background */
@@ -61,11 +62,11 @@ int carom_draw_ramp(uint32_t ramp[CAROM_RAMP_SHADES], uint32_t rgb)
     return CAROM_OK;
 }
 
-/* First grey of each usual ramp, and what it gains up to the last. */
+/* First grey of each usual ramp, and the growth to its last. */
 static const uint8_t greys[][2] = {{0, 1}, {2, 4}, {6, 7}, {14, 1}, {15, 0}};
 #define GREY_RAMPS (sizeof greys / sizeof greys[0])
 
-/* The light of a colour, by what eyes see of red, green and blue, to the nearest of 16. */
+/* The luminance of a colour, to the nearest of 16. */
 static uint32_t grey_of(uint32_t rgb)
 {
     uint32_t light = (rgb >> 16 & 0xff) * 77 + (rgb >> 8 & 0xff) * 150 + (rgb & 0xff) * 29;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* From a pixel of a picture to the ray behind it, and to the face that it shows. */
+/* From a pixel of a picture to the ray behind it, and to the face that the pixel shows. */
 #include "carom_query.h"
 #include "draw.h"
 
@@ -8,8 +8,9 @@
 #define WAY_BITS 47
 
 /*
- * A direction through a place of the picture, and how far ahead it goes, in pixels q46: the focal length is
- * below 2^32 in q16 and half a picture below 2^27, so sums are below 2^62.
+ * Set the direction through a place of the picture, and how far forward it goes, in pixels q46.
+ * Bounds: the focal length is below 2^32 in q16 and half a picture below 2^27, so sums are below
+ * 2^62.
  */
 static void look_through(const struct draw_view *view, const int64_t at_q16[2], int64_t way[3],
                          int64_t *ahead)
@@ -45,7 +46,7 @@ int carom_view_ray(const struct carom_camera *camera, int32_t width, int32_t hei
     bits = fix_bits3(way);
     for (int k = 0; k < 3; k++) {
         ray->way.c[k] = fix_shift(way[k], WAY_BITS - bits);
-        /* it begins in the near plane, 1/32 units ahead; 34 bits count, so what is divided is below 2^62 */
+        /* begin in the near plane, 1/32 units ahead; with 34 bits the dividend is below 2^62 */
         ray->from.c[k] = camera->eye.c[k] + fix_shift(way[k], 34 - bits) * ((int64_t)1 << 27) /
                                                 fix_shift(ahead, 34 - bits);
     }

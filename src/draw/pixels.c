@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Pixels in memory: where a row is, its background, and runs of one colour. */
 #include "draw.h"
 
 int draw_pixel_shift(uint8_t format)
@@ -23,8 +24,8 @@ uint8_t *draw_pixels(const struct draw_view *view, const struct carom_picture *p
 }
 
 /*
- * Half of the shades are for each side of the horizon; they meet there, and are used up a picture's height away. In
- * steps of 2^bits a shade.
+ * The shade of a row by its distance from the horizon, in steps of 2^-bits shades. Half of the
+ * shades are for each side; they meet at the horizon, and reach their ends a picture's height away.
  */
 static int32_t shade_by_horizon(int32_t below, int32_t height, int bits)
 {
@@ -52,7 +53,7 @@ uint32_t draw_ground(const struct draw_view *view, const struct carom_picture *p
                                              (uint32_t)shade_of_row(view, picture, y, 0));
 }
 
-/* The bytes from p to end of a word that repeats. */
+/* Write a repeated word to the bytes from p to end. */
 static void run_bytes(uint8_t *p, uint8_t *end, uint32_t word)
 {
     if (!DRAW_ANYWHERE && (uintptr_t)p & 1 && p < end) {
@@ -62,7 +63,7 @@ static void run_bytes(uint8_t *p, uint8_t *end, uint32_t word)
         *(draw_half *)(void *)p = (uint16_t)word;
         p += 2;
     }
-    /* some processors write several words at once, where they are aligned */
+    /* some processors write several aligned words at once */
     if (((uintptr_t)p & 3) == 0) {
         const draw_four four = {{word, word, word, word}};
 
@@ -97,7 +98,7 @@ void draw_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t 
     if (pixel_shift < 0) {
         uint8_t *first = row + (from >> 1), *last = row + (to >> 1);
 
-        /* halves of bytes that are shared with a neighbour */
+        /* half bytes shared with a neighbour */
         if (from & 1) {
             *first = (uint8_t)((*first & 0xf0) | (pixel & 0x0f));
             from++;

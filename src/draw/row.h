@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* row - the pixels of a row from its spans, for the files that know a size of a pixel or shades of faces. */
+/*
+ * row - draw a row's pixels from its spans; included by each file that has its own pixel size or
+ * shading.
+ */
 #ifndef CAROM_SRC_DRAW_ROW_H
 #define CAROM_SRC_DRAW_ROW_H
 
 #include "draw.h"
 
 /*
- * Pixels from <= x < to, and perhaps 3 pixels more. Here most runs are of a few pixels, and it costs
- * less to write four at a time than to see where they end.
+ * Draw pixels from <= x < to, and perhaps 3 pixels more. Most runs here are short, and writing four
+ * pixels at a time costs less than finding where a run ends.
  */
 static inline void fill_run(uint8_t *row, int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
@@ -39,7 +42,7 @@ static inline void fill_run(uint8_t *row, int pixel_shift, int32_t from, int32_t
     }
 }
 
-/* Take in a span that begins where it is not free. */
+/* Take in a span that begins before the gate. */
 static inline void row_overlap(struct draw_sweep *s, struct draw_span *span)
 {
     if (s->end <= s->x) {
@@ -55,7 +58,7 @@ static inline void row_overlap(struct draw_sweep *s, struct draw_span *span)
     }
 }
 
-/* A run of what is on top, or of nothing. */
+/* Draw a run of the top span, or of the background. */
 DRAW_INLINE void fill_top(const struct draw_sweep *s, const struct draw_span *top, bool tints,
                           int pixel_shift, int32_t from, int32_t to, uint32_t pixel)
 {
@@ -66,7 +69,7 @@ DRAW_INLINE void fill_top(const struct draw_sweep *s, const struct draw_span *to
     }
 }
 
-/* The pixels of a row up to x1. `tints`: some faces have a shade of their own at each pixel. */
+/* Draw a row's pixels up to x1. tints: some faces have a shade at each pixel. */
 DRAW_INLINE void fill_row(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1,
                           int pixel_shift, bool tints)
 {

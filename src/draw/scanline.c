@@ -1,28 +1,31 @@
 /* SPDX-License-Identifier: MIT */
+/*
+ * Draw a part row by row: keep each row's spans from left to right, and have their pixels filled.
+ */
 #include "row.h"
 
-/* The state of a walk over the rows of a part. */
+/* State of a walk over the rows of a part. */
 struct rows {
     const struct draw_view *view;
     const struct draw_list *list;
     const uint32_t *palette;
     uint8_t format;
-    struct draw_span *free, *unused,
-        *unused_end;          /* room for further ones: some again, all others */
-    struct draw_span *fresh;  /* those that begin in the row at hand, from left to right */
-    struct draw_span **spans; /* those of the row, from left to right; a sentinel at the end */
-    struct draw_span **last;  /* the list of the row before, in the same way */
+    struct draw_span *free;                /* list of spans to use again */
+    struct draw_span *unused, *unused_end; /* spans never used */
+    struct draw_span *fresh;  /* spans that begin in the present row, from left to right */
+    struct draw_span **spans; /* spans of the row from left to right, with a sentinel at the end */
+    struct draw_span **last;  /* the same for the row before */
     uint32_t count;
     struct draw_span sentinel;
 };
 
 /*
- * One side of a span, along the edge from a down to b, at the middle of a row that it crosses.
+ * Set one side of a span, along the edge from a down to b, at the middle of a row that it crosses.
  *
  * It depends on the edge and the row alone, so that faces that share an edge meet without a gap or
- * an overlap. Corners are at most 2^15 apart, so the quotient is at most 2^30 in size; times the
- * part of the edge above the row it is less than that of dx, 2^30. A pixel is right of the side when
- * its middle is: 2^14 less, and rounded up.
+ * an overlap. Bounds: corners are at most 2^15 apart, so the quotient is at most 2^30 in size;
+ * times the part of the edge above the row it is less than dx times 2^15, 2^30. A pixel is right of
+ * the side if its middle is: subtract 2^14 and round up.
  */
 static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t b, int32_t row)
 {
@@ -34,7 +37,7 @@ static inline void set_side(struct draw_span *span, int side, int32_t a, int32_t
     span->step_q15[side] = slope_q15;
 }
 
-/* Set a span to the first row of its face, or of the part. */
+/* Set a span at the first row of its face, or of the part. */
 static inline void begin_span(struct draw_span *span, const struct draw_vertex *vertices,
                               int32_t row)
 {
@@ -64,7 +67,7 @@ static inline void begin_span(struct draw_span *span, const struct draw_vertex *
     }
 }
 
-/* Go on along the third edge. */
+/* Continue a span along its face's third edge. */
 static inline void turn_span(struct draw_span *span, const struct draw_vertex *vertices,
                              int32_t row)
 {
@@ -80,7 +83,10 @@ static inline void turn_span(struct draw_span *span, const struct draw_vertex *v
     span->rest = 0;
 }
 
-/* Begin with the faces of a row. */
+/*
+ * Make spans for the faces that begin in a row, sorted by their left side. Returns false if there
+ * is no room.
+ */
 static bool begin_faces(struct rows *r, int32_t row)
 {
     uint32_t number = r->list->rows[row - r->view->rect.y0];
@@ -114,7 +120,7 @@ static bool begin_faces(struct rows *r, int32_t row)
     return true;
 }
 
-/* Put a span behind those of the row that begin left of it. */
+/* Insert a span from the right end, behind spans that begin left of it. */
 static inline void put(struct draw_span **end, struct draw_span *span)
 {
     int32_t x_q15 = span->x_q15[0];
@@ -125,14 +131,14 @@ static inline void put(struct draw_span **end, struct draw_span *span)
     end[0] = span;
 }
 
-/* Make the spans of a row from those of the row before and the ones that begin. */
+/* Make a row's spans from those of the row before and the fresh ones. */
 static void step_row(struct rows *r, int32_t row)
 {
     struct draw_span **from = r->spans + 1, **to = r->last + 1, **end = from + r->count;
     struct draw_span *fresh = r->fresh;
     int32_t fresh_x = fresh ? fresh->x_q15[0] : INT32_MAX;
 
-    int32_t last_x = INT32_MIN; /* of the rightmost one so far */
+    int32_t last_x = INT32_MIN; /* left side of the rightmost span so far */
 
     for (; from < end; from++) {
         struct draw_span *span = *from;
@@ -173,7 +179,7 @@ static void step_row(struct rows *r, int32_t row)
     r->count = (uint32_t)(to - end) - 1;
 }
 
-/* Pixels of 4 bytes have a row of their own, which knows their size when it is compiled. */
+/* A copy for pixels of 4 bytes, whose size is then a constant. */
 DRAW_OUT_OF_LINE void fill_row_4(struct draw_sweep *s, struct draw_span *const *spans, int32_t x1)
 {
     fill_row(s, spans, x1, 2, false);
@@ -184,7 +190,7 @@ static void fill_row_any(struct draw_sweep *s, struct draw_span *const *spans, i
     fill_row(s, spans, x1, s->pixel_shift, false);
 }
 
-/* Lay out the room: spans, and two lists of as many with a sentinel at both ends. */
+/* Lay out the room: spans, and two lists of them with sentinels at both ends. */
 static void make_room(struct rows *r, struct draw_span *low)
 {
     size_t each = sizeof(struct draw_span) + 2 * sizeof(struct draw_span *);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
+/* Lines of the world: clipped, projected, and as ribbons of two faces. */
 #include "draw.h"
 
 #define POINT_LIMIT_Q32 ((int64_t)1 << (14 + 32))
-#define HALF_Q4         8 /* of a pixel */
+#define HALF_Q4         8 /* half a pixel */
 
 bool draw_point_in_range(const carom_v3_q32 *point)
 {
@@ -15,8 +16,9 @@ bool draw_point_in_range(const carom_v3_q32 *point)
 }
 
 /*
- * Both ends relative to the eye, in q22, and how far to shift them so that they are shorter than 2^29, as bodies
- * are: at most 2^15 units in each direction are a length below 2^38, so by 9 at most.
+ * Set both ends relative to the eye, q22, and return the shift that makes them shorter than 2^29,
+ * as for bodies. At most 2^15 units in each direction are a length below 2^38, so the shift is at
+ * most 9.
  */
 static int place_ends(const struct draw_view *view, const carom_v3_q32 *const point[2],
                       int64_t at[2][3])
@@ -68,16 +70,16 @@ static struct draw_vertex moved(const struct draw_vertex *from, int32_t x_q4, in
     uint32_t x = (uint32_t)(draw_x(from->yx_q4) + x_q4), w = from->w_q26;
     uint32_t y = (uint32_t)(draw_y(from->yx_q4) + y_q4);
 
-    /* nearer by 2^-8, so that it shows where it lies on a face; w_q26 is at most 2^31 */
+    /* nearer by 2^-8, so that the line shows where it lies on a face; w_q26 is at most 2^31 */
     return (struct draw_vertex){(int32_t)(y << 16 | (x & 0xffff)),
                                 w < 0x7f000000u ? w + (w >> 8) : 0x7fffffffu};
 }
 
 /*
- * Half a pixel to either side, across the axis that the line is nearer to: then each column, or row, between its
- * ends has one pixel whose middle is inside; and it goes on by half a pixel beyond either end, so that the pixels
- * of the ends are there, too. Corners are a pixel outside of the guard band at most, and have room for that:
- * 2^14 and 32 sixteenths are an int16.
+ * The ribbon reaches half a pixel to either side, across the axis that the line is nearer to: so
+ * each column, or row, between the ends has one pixel whose middle is inside. It also goes half a
+ * pixel beyond either end, which includes the ends' pixels. Corners are at most a pixel outside the
+ * guard band: 2^14 and 32 sixteenths fit an int16.
  */
 void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4])
 {
@@ -90,12 +92,12 @@ void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4])
         a = &ends[1];
         b = &ends[0];
     }
-    if (steep) { /* down its left side, up its right one */
+    if (steep) { /* down the left side, up the right one */
         corner[0] = moved(a, -aside - HALF_Q4, -HALF_Q4);
         corner[1] = moved(b, aside - HALF_Q4, HALF_Q4);
         corner[2] = moved(b, aside + HALF_Q4, HALF_Q4);
         corner[3] = moved(a, -aside + HALF_Q4, -HALF_Q4);
-    } else { /* down at its left end, up at its right one */
+    } else { /* down at the left end, up at the right one */
         corner[0] = moved(a, -HALF_Q4, -aside - HALF_Q4);
         corner[1] = moved(a, -HALF_Q4, -aside + HALF_Q4);
         corner[2] = moved(b, HALF_Q4, aside + HALF_Q4);
@@ -103,7 +105,10 @@ void draw_ribbon(const struct draw_vertex ends[2], struct draw_vertex corner[4])
     }
 }
 
-/* The lower and the higher of two pixels, and two more on either side, within low .. high. */
+/*
+ * The interval from the lower to the higher pixel, with two more on either side, within low ..
+ * high.
+ */
 static void span_pixels(int32_t a, int32_t b, int32_t low, int32_t high, int32_t out[2])
 {
     int32_t first = fix_smaller(a, b) - 2, end = fix_larger(a, b) + 3;

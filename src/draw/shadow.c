@@ -1,33 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Shadows. The outline of a solid, as the light sees it, is cut into triangles; each keeps the light from all that lies
- * in a prism behind it, whose sides go through its edges along the light. A shadow on a face is the part of that
- * face inside of the prism, a polygon. It is drawn as a decal over the face, in a darker shade, so that its edge is
- * exact at every size of the picture. All is done in view coordinates: they are linear in the world's.
+ * Shadows. The outline of a solid, as the light sees it, is cut into triangles. Each keeps the
+ * light from a prism behind it, whose sides run through the triangle's edges along the light. The
+ * shadow on a face is the part of the face inside the prism, a polygon. It is drawn as a decal over
+ * the face in a darker shade, so its edge is exact at every size of the picture. Everything is in
+ * view coordinates, which are linear in the world's.
  */
 #include "list.h"
 
 #define SIDES 4
 
-/* How far something reaches across the light: right and up. */
+/* Bounds across the light: right and up. */
 struct extent {
     int32_t low[2], high[2];
 };
 
-/* Where a triangle keeps the light from. */
+/* The volume that a triangle of the outline shades. */
 struct prism {
-    carom_v3_q30 side[SIDES]; /* inward, q28; the last one is the triangle's own plane */
-    int32_t corner[3][3];     /* on side k lies corner k, and 0 on the last */
+    carom_v3_q30 side[SIDES]; /* inward normals, q28; the last is the triangle's own plane */
+    int32_t corner[3][3];     /* corner k lies on side k, corner 0 on the last */
     struct extent extent;
 };
 
-/* A solid that keeps the light from a body. */
+/* A solid that casts shadows. */
 struct caster {
     struct draw_outline outline;
     struct prism *prisms;
     uint32_t prism_count;
-    struct extent extent; /* of all of them */
-    int32_t from[3];      /* the body -> the solid, world, q16 */
+    struct extent extent; /* of the whole outline */
+    int32_t from[3];      /* from the body to the solid, world axes, q16 */
     int32_t radius;       /* q16 */
 };
 
@@ -39,7 +40,7 @@ struct receiver {
     const struct draw_shades *shades;
     struct draw_list *list;
     carom_m3_q30 turn; /* its axes to the world's */
-    int32_t sun[3];    /* view coordinates */
+    int32_t sun[3];    /* towards the light, view coordinates */
     void *scratch;     /* for an outline and its prisms */
     size_t bytes;
 };
@@ -62,7 +63,10 @@ static void init(const struct draw_source *source, struct draw_view *view)
 
 /* ------------------------------------------------------------------- prisms */
 
-/* Inward of the plane through an edge and the light: q28, and false for an edge along the light. */
+/*
+ * Set the inward normal, q28, of the plane through an edge and the light. Returns false for an edge
+ * along the light.
+ */
 static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t a[3],
                          const int32_t b[3])
 {
@@ -85,7 +89,7 @@ static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t
     return is;
 }
 
-/* The plane of a face, inward: away from the light. */
+/* Set the plane of a triangle; inward is away from the light. */
 static bool plane_of(carom_v3_q30 *side, int32_t corner[3][3])
 {
     int32_t to[3];
@@ -96,7 +100,10 @@ static bool plane_of(carom_v3_q30 *side, int32_t corner[3][3])
     return side_through(side, to, corner[0], corner[2]);
 }
 
-/* Complete the prism of a triangle, counter-clockwise to the light; false for one that is edge-on to it. */
+/*
+ * Set the sides of a triangle's prism; the triangle runs counter-clockwise as the light sees it.
+ * Returns false if it is edge-on to the light.
+ */
 static bool make_prism(struct prism *prism, const int32_t sun[3])
 {
     bool is = true;
@@ -110,7 +117,7 @@ static bool make_prism(struct prism *prism, const int32_t sun[3])
 
 static const struct extent nothing = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
 
-/* Have an extent hold a point. */
+/* Grow an extent to hold a point. */
 static void reach(struct extent *extent, const struct draw_outline *o, const int32_t at[3])
 {
     int32_t pq[2];
@@ -128,7 +135,7 @@ static bool overlap(const struct extent *a, const struct extent *b)
            b->low[1] <= a->high[1];
 }
 
-/* Add the prisms of a trapezoid, two at most. */
+/* Add the prisms of a trapezoid, at most two. */
 static void add_prisms(struct caster *c, const struct draw_trapezoid *t, const int32_t sun[3])
 {
     const struct draw_outline *o = &c->outline;
@@ -152,7 +159,10 @@ static void add_prisms(struct caster *c, const struct draw_trapezoid *t, const i
     }
 }
 
-/* Make the prisms of a placed solid behind its outline in the scratch memory; false when there is no room. */
+/*
+ * Make a placed solid's outline and prisms in the scratch memory. Returns false if there is no
+ * room.
+ */
 static bool make_prisms(struct caster *c, const struct receiver *r, const struct draw_body *body)
 {
     const struct draw_outline *o = &c->outline;
@@ -176,7 +186,7 @@ static bool make_prisms(struct caster *c, const struct receiver *r, const struct
     return true;
 }
 
-/* Cut a polygon to the inside of a prism. */
+/* Cut a polygon to the inside of a prism; returns the number of corners left. */
 static int cut_to_prism(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int n)
 {
     for (int s = 0; s < SIDES && n > 0; s++) {
@@ -201,7 +211,7 @@ static int cut_to_prism(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX
 
 /* ------------------------------------------------------------------- decals */
 
-/* A face in shadow keeps some of its relief. */
+/* The shadowed shade of a face; it keeps some relief. */
 static uint32_t shadowed(uint32_t colour)
 {
     uint32_t shade = colour % DRAW_SHADES;
@@ -209,7 +219,10 @@ static uint32_t shadowed(uint32_t colour)
     return colour - shade + shade * 3 / 8;
 }
 
-/* A shade from corner to corner is continued where faces look away from the light. */
+/*
+ * The shadowed shade of a corner. Beyond the lit side it is continued, so that it joins the shade
+ * of faces that look away from the light.
+ */
 static int32_t shadowed_q8(const struct receiver *r, int32_t shade_q8)
 {
     int32_t middle = (int32_t)(r->view->shade_q24 >> 16), dark = shade_q8 * 3 / 8;
@@ -217,17 +230,16 @@ static int32_t shadowed_q8(const struct receiver *r, int32_t shade_q8)
     return shade_q8 <= middle ? shade_q8 : fix_larger(dark, 3 * middle - 2 * shade_q8);
 }
 
-/* A triangle that takes the light, all in the guard band. */
+/* A lit triangle inside the guard band. */
 struct lit {
     int32_t corner[3][3];     /* view coordinates */
-    struct draw_vertex on[3]; /* the picture, to the same bit as those of the face */
-    uint32_t colour;          /* in shadow */
-    int32_t
-        shade_q8[3];   /* of its corners in shadow, if the body has shades from corner to corner */
-    uint32_t plane[3]; /* where these are in the list; all 0: not there yet */
+    struct draw_vertex on[3]; /* on the picture, equal to the face's corners to the bit */
+    uint32_t colour;          /* its colour in shadow */
+    int32_t shade_q8[3];      /* its corners' shades in shadow, if the body is smooth */
+    uint32_t plane[3];        /* places of the corners in the list; all 0: not listed yet */
 };
 
-/* The room that the decals of one prism on one triangle may take. */
+/* The most that the decals of one prism on one triangle may take. */
 #define DECAL_VERTICES (3 + DRAW_CLIP_MAX)
 #define DECAL_FACES    (3 * (DRAW_CLIP_MAX - 2)) /* each with its plane and its tint */
 #define DECAL_ROOM                                                                                 \
@@ -240,7 +252,7 @@ static bool has_room(const struct draw_list *list)
            list->face_count + DECAL_FACES <= LIST_FACES_MAX;
 }
 
-/* List the corners that give the decals of a triangle their depth. */
+/* List the corners whose plane gives the decals of a triangle their depth; once. */
 static void list_plane(const struct receiver *r, struct lit *lit)
 {
     for (int k = 0; k < 3 && lit->plane[2] == 0; k++) {
@@ -248,7 +260,7 @@ static void list_plane(const struct receiver *r, struct lit *lit)
     }
 }
 
-/* Turn a triangle so that its top corner is the first one, as in a face. */
+/* Rotate a triangle's corners so that the top one is first, as in a face. */
 static void top_first(struct lit *lit)
 {
     const struct lit was = *lit;
@@ -289,8 +301,9 @@ static int32_t sign(int32_t a)
 }
 
 /*
- * Push the corners of a convex polygon outward by a pixel's sixteenth or two. Two parts of a shadow that meet along a line
- * round their corners on it apart from each other; grown, they overlap instead of leaving pixels between them lit.
+ * Push the corners of a convex polygon outward by one or two sixteenths of a pixel. Two parts of a
+ * shadow that meet along a line round their corners on it independently of each other; grown, they
+ * overlap instead of leaving lit pixels between them.
  */
 static void grow(struct draw_vertex *corner, int n)
 {
@@ -310,7 +323,7 @@ static void grow(struct draw_vertex *corner, int n)
     }
 }
 
-/* List the part of a triangle that a prism keeps the light from; false for too little room. */
+/* List the part of a triangle inside a prism. Returns false if there is too little room. */
 static bool list_shadow(const struct receiver *r, struct lit *lit, const struct prism *prism)
 {
     const uint32_t faces = r->list->face_count, vertices = r->list->vertex_count;
@@ -338,14 +351,14 @@ static bool list_shadow(const struct receiver *r, struct lit *lit, const struct 
     for (int i = 2; i < n; i++) {
         list_decal(r, lit, place[0], place[i - 1], place[i]);
     }
-    if (r->list->face_count == faces) { /* nothing of it shows */
+    if (r->list->face_count == faces) { /* nothing of it shows: free its corners */
         r->list->vertex_count = vertices;
         lit->plane[2] = last;
     }
     return true;
 }
 
-/* List the shadows of a solid on a triangle. */
+/* List a solid's shadows on a triangle. */
 static bool shade_triangle(const struct receiver *r, const struct caster *c, struct lit *lit)
 {
     struct extent extent = nothing;
@@ -361,7 +374,7 @@ static bool shade_triangle(const struct receiver *r, const struct caster *c, str
     return true;
 }
 
-/* The same on a face, of which the guard band may leave a few triangles. */
+/* List a solid's shadows on a face, of which the guard band may leave several triangles. */
 static bool shade_face(const struct receiver *r, const struct caster *c, uint32_t face)
 {
     int32_t polygon[DRAW_CLIP_MAX][3];
@@ -402,14 +415,14 @@ static bool shade_face(const struct receiver *r, const struct caster *c, uint32_
 /* ---------------------------------------------------------- bodies and leaves */
 
 /*
- * Whether a sphere may keep the light from another, `from` being the way to its centre and `radius` both radii, q16
- * below 2^29: it is not behind, and the ray of light through its centre goes by closely enough.
+ * True if a sphere may shade another: it is not behind it, and the ray through its centre passes
+ * closely enough. from: the way to its centre; radius: sum of both radii; q16, below 2^29.
  */
 static bool may_shade(const struct draw_view *view, const int32_t from[3], int32_t radius)
 {
     int64_t along = carom_dot(from, view->sun.c) >> 30;
 
-    /* squares below 2^60, three of them below 2^62 */
+    /* squares are below 2^60, three of them below 2^62 */
     return along >= -radius && carom_dot(from, from) - along * along <=
                                    ((int64_t)radius + 4) * (radius + 4) + 64 * along;
 }
@@ -419,7 +432,7 @@ static int32_t radius_q16(int32_t radius_q22)
     return (radius_q22 >> 6) + 1;
 }
 
-/* The centre of a leaf from the centre of its body, in the world's axes, q16. */
+/* The centre of a leaf from the centre of its body, world axes, q16. */
 static void leaf_centre(int32_t out[3], const carom_m3_q30 *turn, const struct carom_leaf *leaf)
 {
     int32_t at[3];
@@ -458,7 +471,10 @@ static int64_t find_reach(const struct draw_source *source, const struct draw_vi
     return reach;
 }
 
-/* Whether a face takes the light, as far as its own body goes: one of its corners does, if these have shades. */
+/*
+ * True if a face takes the light as far as its own body lets it: with shades at corners, if one of
+ * its corners does.
+ */
 static bool takes_light(const struct receiver *r, uint32_t number)
 {
     int32_t shade_q8[3], middle = (int32_t)(r->view->shade_q24 >> 16);
@@ -470,7 +486,7 @@ static bool takes_light(const struct receiver *r, uint32_t number)
     return fix_largest(shade_q8) > middle;
 }
 
-/* Whether a face shows and takes the light. */
+/* True if a face looks at the eye and takes the light. */
 static bool may_be_shaded(const struct receiver *r, uint32_t number)
 {
     const struct draw_body *body = r->body;
@@ -480,7 +496,7 @@ static bool may_be_shaded(const struct receiver *r, uint32_t number)
                                          face->offset_q22 >> (2 + body->shift);
 }
 
-/* List the shadows of a solid on the body. */
+/* List a solid's shadows on the body. */
 static bool shade_by_caster(const struct receiver *r, const struct caster *c)
 {
     const struct carom_mesh *mesh = r->body->mesh;
@@ -507,7 +523,7 @@ static bool shade_by_caster(const struct receiver *r, const struct caster *c)
     return true;
 }
 
-/* The same of one that may be too far aside, and may have too long an outline. */
+/* shade_by_caster, unless the solid is too far aside or its outline does not fit. */
 static bool shade_by(const struct receiver *r, const struct carom_body_look *own,
                      const struct carom_body_look *look)
 {

@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Shades from corner to corner of a face. At a vertex the faces between two creases share one shade, the mean of theirs:
- * what two of them show along their edge is the same. A fan of faces in one plane counts as one face, so that it
- * does not matter how a plane was cut into triangles.
+ * Shades from corner to corner of a face. At a vertex all faces between two creases share one
+ * shade, the mean of theirs, so both faces of an edge show the same along it. Neighbouring faces in
+ * one plane count as one face, so that it does not matter how a plane was cut into triangles.
  */
 #include "list.h"
 #include "row.h"
 
 #define HALF_SHADE_Q8 128
 #define MOST_Q8       ((DRAW_SHADES - 1) * 256 - 1)
-#define STEEP_Q16     ((int64_t)1 << 21) /* all shades in a pixel: the face is thinner than one */
-#define PLANE_Q30     1073578288         /* the cosine of a degree */
+#define STEEP_Q16                                                                                  \
+    ((int64_t)1 << 21)       /* all shades within a pixel: the face is thinner than a pixel */
+#define PLANE_Q30 1073578288 /* cosine of a degree */
 
 /* ----------------------------------------------------------------- vertices */
 
-/* A face at a vertex, which is its corner k. */
+/* A face at a vertex, and the number of that corner. */
 struct place {
     uint32_t face;
     int k;
 };
 
-/* The faces that share a shade. */
+/* Faces that share a shade at a vertex: the sum of their shades, and how many count. */
 struct fan {
     int64_t sum_q24;
     int32_t count;
 };
 
 /*
- * The next face about a vertex, counter-clockwise or not. False at a border and where the angle is more than a crease
- * has; `bends` tells whether it is in another plane.
+ * Go to the next face around a vertex, counter-clockwise if forward. Returns false at a border or a
+ * crease. Sets `bends` if the face is in another plane.
  */
 static bool go_on(const struct draw_shades *shades, uint32_t vertex, struct place *at, bool forward,
                   bool *bends)
@@ -63,7 +64,10 @@ static int64_t shade_of(const struct draw_shades *shades, uint32_t face)
     return (carom_dot(f->normal.c, shades->body->light.c) >> 32) + (int64_t)shades->shade_q24;
 }
 
-/* Add the faces from one on, but for itself; true when they come round to it, `at` is the last one else. */
+/*
+ * Add the faces that follow a face. Returns true if they come round to it; else `at` is the last
+ * face before a border or crease.
+ */
 static bool add_fan(const struct draw_shades *shades, uint32_t vertex, struct place *at,
                     bool forward, struct fan *fan)
 {
@@ -72,7 +76,7 @@ static bool add_fan(const struct draw_shades *shades, uint32_t vertex, struct pl
 
     while (go_on(shades, vertex, at, forward, &bends)) {
         if (at->face == first) {
-            /* it lies in the plane of one that was added */
+            /* the first face lies in the plane of one that was added */
             if (!bends && fan->count > 1) {
                 fan->sum_q24 -= shade_of(shades, first);
                 fan->count--;
@@ -92,7 +96,7 @@ static int32_t mean_q8(const struct fan *fan)
     return draw_divide((int32_t)(fan->sum_q24 >> 16), fan->count);
 }
 
-/* The shade of a corner, which may be that of all faces at its vertex. */
+/* The shade of a corner. Remembers it if all faces at the vertex share it. */
 static int32_t corner_q8(const struct draw_shades *shades, uint32_t face, int k)
 {
     const uint32_t vertex = shades->body->mesh->raw.faces[face][k];
@@ -109,7 +113,7 @@ static int32_t corner_q8(const struct draw_shades *shades, uint32_t face, int k)
     if (shades->at[vertex] != 0) {
         add_fan(shades, vertex, &at, true, &fan);
     }
-    /* all that share it begin at the same crease */
+    /* start at a crease, the same for all faces that share the shade */
     shades->at[vertex] = DRAW_SHADES_MANY;
     fan = (struct fan){shade_of(shades, at.face), 1};
     add_fan(shades, vertex, &at, false, &fan);
@@ -123,7 +127,7 @@ static void find_corners(const struct draw_shades *shades, uint32_t face, int32_
     }
 }
 
-/* How a, b and c turn, seen along an axis: twice an area, below 2^48. */
+/* Twice the area of a, b, c seen along an axis, signed; below 2^48. */
 static int64_t turn(const int32_t a[3], const int32_t b[3], const int32_t c[3], int axis)
 {
     int i = fix_next(axis), j = fix_next(i);
@@ -156,7 +160,7 @@ static void find_between(const struct draw_shades *shades, uint32_t face, int32_
         int64_t second = turn(corner[0], at[i], corner[2], axis);
         int64_t third = turn(corner[0], corner[1], at[i], axis);
 
-        /* areas below 2^48, shades below 2^13 */
+        /* areas are below 2^48, shades below 2^13 */
         shade_q8[i] = of[0];
         if (area != 0) {
             shade_q8[i] += (int32_t)((second * (of[1] - of[0]) + third * (of[2] - of[0])) / area);
@@ -171,7 +175,9 @@ static int32_t limit(int32_t value, int32_t most)
     return value < 0 ? 0 : value > most ? most : value;
 }
 
-/* A shade as pixels take it: the middle of one to the middle of the other. */
+/*
+ * The shade for pixels, which blend from the middle of one palette entry to the middle of the next.
+ */
 static int32_t within_q8(int32_t shade_q8)
 {
     return limit(shade_q8 - HALF_SHADE_Q8, MOST_Q8);
@@ -189,8 +195,9 @@ static int32_t from_halves(const uint16_t half[2])
 }
 
 /*
- * The shades over the picture, as depth.c has depths: corners are at most 2^15 apart, shades 2^13, so that numerators are
- * at most 2^29. The area is scaled to 15 bits; 2^31 over that is at most 2^17. False for a face too thin to have any.
+ * Set a shade that is linear over the picture, as depth is in depth.c. Bounds: corners are at most
+ * 2^15 apart, shades 2^13, so numerators are at most 2^29. The area is scaled to 15 bits; 2^31
+ * divided by it is at most 2^17. Returns false for a face too thin to be shaded.
  */
 static bool find_tint(struct draw_tint *tint, const struct draw_list *list,
                       const struct draw_face *plane, const int32_t shade_q8[3])
@@ -242,7 +249,7 @@ static void add_tint(struct draw_list *list, struct draw_face *face, const int32
     }
 }
 
-/* List a face with the shades of its corners. */
+/* List a face with its corners' shades. */
 static void list_with(const struct draw_rect *rect, struct draw_list *list, const uint32_t place[3],
                       const int32_t shade_q8[3], uint32_t colour, bool inside)
 {
@@ -302,11 +309,11 @@ static void list_clipped(const struct draw_shades *shades, uint32_t face,
 
 /* ------------------------------------------------------------------- pixels */
 
-/* In which order the pixels of a square of 4 x 4 take on the next shade: 1/32 to 31/32. */
+/* Ordered dithering: when a pixel of a 4 x 4 square takes the next shade, 1/32 to 31/32. */
 static const uint8_t order[4][4] = {
     {1, 17, 5, 21}, {25, 9, 29, 13}, {7, 23, 3, 19}, {31, 15, 27, 11}};
 
-/* A colour between two entries of a palette. */
+/* A colour between a palette entry and the next. */
 static uint32_t mix(const uint32_t *entry, uint32_t part_q8)
 {
     uint32_t a = entry[0], b = entry[1], keep = 256 - part_q8;
@@ -316,7 +323,7 @@ static uint32_t mix(const uint32_t *entry, uint32_t part_q8)
     return (ends >> 8 & 0xff00ff) | (middle >> 8 & 0x00ff00);
 }
 
-/* How many shades make one of grey in a ramp, q16. */
+/* Shades for each step of grey in a ramp, q16. */
 static int32_t coarse_q16(const struct draw_sweep *s, uint32_t base)
 {
     int32_t low = (int32_t)(draw_entry(s->format, s->palette, base) & 15);
@@ -326,7 +333,10 @@ static int32_t coarse_q16(const struct draw_sweep *s, uint32_t base)
     return draw_divide((DRAW_SHADES - 1) << 16, greys > 0 ? greys : 1);
 }
 
-/* The entry that a pixel takes when shades are mixed in a pattern: whole ones, or coarser. */
+/*
+ * The palette entry of a pixel when shades are dithered: pick by whole shades, pick_coarse by steps
+ * of grey.
+ */
 static uint32_t pick(int32_t shade_q16, uint32_t order_32)
 {
     return (uint32_t)(shade_q16 + (int32_t)order_32 * (1 << 11)) >> 16;
@@ -339,10 +349,10 @@ static uint32_t pick_coarse(int32_t shade_q16, int32_t coarse_q16, uint32_t orde
     return (uint32_t)limit((shade_q16 + aside + (1 << 15)) >> 16, DRAW_SHADES - 1);
 }
 
-/* Shades along a row: that of pixel `from`, and what the next one adds. */
+/* Shades along a row: that of pixel `from`, and the growth a pixel. */
 struct shade_line {
     int32_t from, to, q16, step_q16;
-    bool within; /* none is out of range: that of a pixel which is hardly in its face may be */
+    bool within; /* all are in range; a pixel hardly in its face may not be */
 };
 
 static struct shade_line find_line(const struct draw_sweep *s, const struct draw_span *span,
@@ -360,7 +370,7 @@ static struct shade_line find_line(const struct draw_sweep *s, const struct draw
     return line;
 }
 
-/* The pixels of a line; `format` and `within` are known when this is compiled. */
+/* Draw the pixels of a line; format and within are compile-time constants. */
 DRAW_INLINE void shade_pixels(const struct draw_sweep *s, const struct shade_line *line,
                               uint32_t base, uint8_t format, bool within)
 {
@@ -397,7 +407,7 @@ static void shade_greys(const struct draw_sweep *s, const struct shade_line *lin
     }
 }
 
-/* What is seldom: 16 bits, greys, and shades to be kept in range. */
+/* The rare cases: 16 bits, greys, and shades that must be clamped. */
 DRAW_OUT_OF_LINE void shade_others(const struct draw_sweep *s, const struct shade_line *line,
                                    uint32_t base)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* All that drawing asks a world, through its public interface. */
+/* Everything that drawing asks of a world, through the public interface. */
 #include "draw.h"
 
 void draw_source_init(struct draw_source *source, const struct carom_world *world,

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* Text over a picture that is drawn. */
+/* carom_draw_text: text over a finished picture. */
 #include "draw.h"
 
 #define PLACE_MAX 16384
 #define SCALE_MAX 64
-#define GLYPH_BOX 95 /* in the place of 127; of all characters that there are not */
+#define GLYPH_BOX 95 /* glyph for all characters that the font lacks, in the place of 127 */
 
 /* A line of text on the picture. */
 struct writing {
     const struct carom_picture *picture;
-    const char *text, *end; /* its characters */
-    int32_t x, scale;       /* where the first cell begins */
-    struct draw_rect rect;  /* its cells, as far as they are in the picture */
+    const char *text, *end; /* the characters */
+    int32_t x, scale;       /* left end of the first cell; pixels for each of a glyph's */
+    struct draw_rect rect;  /* its cells, clipped to the picture */
     int pixel_shift;
     bool opaque;
     uint32_t colour, paper; /* pixels */
@@ -29,14 +29,14 @@ static int32_t clamp(int64_t v, int32_t low, int32_t high)
     return v < low ? low : v > high ? high : (int32_t)v;
 }
 
-/* Pixels from <= x < to of a row, as far as they are in the picture. */
+/* Draw pixels from <= x < to of a row, clipped to the picture. */
 static void run(const struct writing *w, uint8_t *row, int64_t from, int64_t to, uint32_t pixel)
 {
     draw_run(row, w->pixel_shift, clamp(from, w->rect.x0, w->rect.x1),
              clamp(to, w->rect.x0, w->rect.x1), pixel);
 }
 
-/* The pixels of a row of the picture that are in row `line` of the glyphs. */
+/* Draw, in row y of the picture, row `line` of the glyphs. */
 static void write_row(const struct writing *w, int32_t y, int32_t line)
 {
     const struct carom_picture *picture = w->picture;
@@ -65,7 +65,7 @@ static void write_row(const struct writing *w, int32_t y, int32_t line)
     }
 }
 
-/* A line of text of which the top is at y. */
+/* Draw a line of text whose top is at y. */
 static void write_line(struct writing *w, int64_t y, struct carom_rect *touched)
 {
     const struct carom_picture *picture = w->picture;
@@ -95,7 +95,7 @@ static int check_text(const struct carom_picture *picture, const struct carom_te
     if (where == NULL || text == NULL) {
         return CAROM_ERR_NULL;
     }
-    /* rows are as FLAT has them, pixels are of either style */
+    /* rows as for FLAT, pixels of either style */
     result = draw_check_picture(picture, CAROM_DRAW_FLAT);
     if (result != CAROM_OK) {
         return result;

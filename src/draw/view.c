@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The camera: a body's pose as seen from it, vertices to the picture, extents on the picture. */
 #include "draw.h"
 
 #define CAMERA_LIMIT_Q32 ((int64_t)1 << (14 + 32))
@@ -7,12 +8,15 @@
 #define NEAR_BITS        5 /* the near plane is 2^-5 units in front of the eye */
 
 /*
- * Towards the light: (-6, -2, 3) / 7, low from the left, so that a landscape shows its relief. Short
- * of length 1 by one part in 2^20.
+ * Towards the light: (-6, -2, 3) / 7, low from the left, so that a landscape shows its relief.
+ * Shorter than 1 by one part in 2^20.
  */
 static const carom_v3_q30 usual_light = {{-920349257, -306783086, 460174628}};
 
-/* Right, down and forward, unit vectors. Looking straight up or down, right is the world's x. */
+/*
+ * Set right, down and forward, unit vectors. If the camera looks straight up or down, right is the
+ * world's x. Returns false if eye and target coincide.
+ */
 static bool camera_axes(carom_m3_q30 *axes, const struct carom_camera *camera)
 {
     carom_v3_q30 right = {{CAROM_ONE_Q30, 0, 0}}, forward;
@@ -34,7 +38,7 @@ static bool camera_axes(carom_m3_q30 *axes, const struct carom_camera *camera)
     return true;
 }
 
-/* A row looks down by the same angle everywhere: the camera does not roll. */
+/* The row of the horizon. The camera does not roll, so the horizon is a row. */
 static int32_t find_horizon(const struct draw_view *view, int32_t height)
 {
     const int32_t far = 1 << 14, ahead = view->axes.c[2][2], down = -view->axes.c[1][2];
@@ -43,7 +47,10 @@ static int32_t find_horizon(const struct draw_view *view, int32_t height)
     if (down <= 1 << 16) { /* straight up or down */
         return ahead < 0 ? -far : far;
     }
-    /* the middle of a row is half a pixel below the one from which rows are counted; of an odd height, on it */
+    /*
+     * a row's middle is half a pixel below the pixel that rows are counted from; for an odd height,
+     * on it
+     */
     row = (view->focal_q16 * ahead / down + (height & 1 ? 1 << 16 : 1 << 15)) >> 16;
     return row < -far ? -far : row > far ? far : (int32_t)row;
 }
@@ -71,8 +78,8 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     view->round_q29[0] = (1 << 14) + (width - 2 * view->middle[0]) * (8 << 15);
     view->round_q29[1] = (1 << 14) + (height & 1) * (8 << 15) + (7 << 15);
     /*
-     * x : z must become (focal / DRAW_GUARD) x : z. A power of two taken off z keeps the factor of
-     * x at most 1, so that no coordinate grows. focal <= 2^15 pixels, so z_shift <= 5.
+     * x : z must become (focal / DRAW_GUARD) x : z. Dividing z by a power of two keeps the factor
+     * of x at most 1, so that no coordinate grows. focal <= 2^15 pixels, so z_shift <= 5.
      */
     view->focal_q16 = (int64_t)camera->focal_q16 * height;
     view->horizon = find_horizon(view, height);
@@ -84,7 +91,7 @@ int draw_view_init(struct draw_view *view, const struct carom_camera *camera, in
     return CAROM_OK;
 }
 
-/* The middle of the picture from that corner of the pixel `middle` from which pixels are counted. */
+/* The middle of the picture, from the corner of pixel `middle` that pixels are counted from. */
 static void find_halves(const struct draw_view *view, int32_t half_q4[2])
 {
     half_q4[0] = view->round_q29[0] >> 15 & 24;
@@ -100,7 +107,7 @@ void draw_view_rect(struct draw_view *view, struct draw_rect rect)
     view->rect = rect;
     memcpy(view->side[4].c, view->axes.c[2], sizeof view->side[4].c);
     for (int s = 0; s < 4; s++) {
-        /* Inside of a low edge e is focal x - e z >= 0; of a high edge the negative. */
+        /* inside of a low edge e: focal x - e z >= 0; of a high edge: the negative */
         int64_t sign = s & 1 ? -1 : 1, edge_q4 = edges[s >> 1][s & 1] * 16 - half_q4[s >> 1];
         int64_t v[3] = {0, 0, -sign * edge_q4 * (1 << 12)};
         carom_v3_q30 plane;
@@ -112,8 +119,8 @@ void draw_view_rect(struct draw_view *view, struct draw_rect rect)
 }
 
 /*
- * Whether a point is less than the radius outside of each plane: 0, or 1, or 2 when it is so much
- * inside of each; normals are of length 1.
+ * Is a sphere inside all planes? 0: outside some plane. 2: wholly inside all. 1: neither. Normals
+ * have length 1.
  */
 static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int64_t radius)
 {
@@ -134,8 +141,8 @@ static int within(const carom_v3_q30 side[DRAW_SIDES], const int32_t at[3], int6
 }
 
 /*
- * Whether a body may show, as `within` has it. In q16, since it is less than 2^15 units away in
- * each direction; the radius has room for what that cuts off.
+ * `within` for a body's sphere, in q16: the body is less than 2^15 units away in each direction.
+ * The radius allows for truncation.
  */
 static int sees_body(const struct draw_view *view, const carom_v3_q32 *position, int32_t radius_q22)
 {
@@ -147,7 +154,7 @@ static int sees_body(const struct draw_view *view, const carom_v3_q32 *position,
     return within(view->side, at, (radius_q22 >> 6) + 4);
 }
 
-/* The eye in mesh axes, and how far q22 must be shifted so that the body stays below 2^29. */
+/* Set the eye in mesh axes, and the shift from q22 that keeps the body below 2^29. */
 static void place_eye(struct draw_body *body, const struct draw_view *view, const carom_m3_q30 *r,
                       const carom_v3_q32 *position)
 {
@@ -166,7 +173,7 @@ static void place_eye(struct draw_body *body, const struct draw_view *view, cons
     while (reach >> body->shift >> 29) {
         body->shift++;
     }
-    /* |eye| <= 2^14 and |position| <= 2^12 units, so reach < 2^16 units: 38 bits. */
+    /* |eye| <= 2^14 and |position| <= 2^12 units, so reach < 2^16 units: 38 bits */
     CAROM_ASSERT(body->shift <= 9);
     for (int k = 0; k < 3; k++) {
         body->eye[k] = (int32_t)(eye[k] >> body->shift);
@@ -174,8 +181,9 @@ static void place_eye(struct draw_body *body, const struct draw_view *view, cons
 }
 
 /*
- * From vertices in quanta to view coordinates in one step. A vertex is below 2^30 in q22, and so is
- * the centre of mass; with the eye, t < 2^31, and all products add up to less than 2^63.
+ * Combine the steps from vertices in quanta to view coordinates into one. A vertex is below 2^30 in
+ * q22, and so is the centre of mass; with the eye t < 2^31, and all products add up to less than
+ * 2^63.
  */
 static void place_vertices(struct draw_body *body)
 {
@@ -194,7 +202,7 @@ static void place_vertices(struct draw_body *body)
     }
 }
 
-/* The view's part of a body of which shift is known. shift <= 9 and z_shift <= 5, so near is at least 2^3. */
+/* Set what depends on the body's shift. shift <= 9 and z_shift <= 5, so near is at least 2^3. */
 static void place_depth(struct draw_body *body, const struct draw_view *view)
 {
     body->near = 1 << (22 - NEAR_BITS - body->shift - view->z_shift);
@@ -202,7 +210,7 @@ static void place_depth(struct draw_body *body, const struct draw_view *view)
     memcpy(body->round_q29, view->round_q29, sizeof body->round_q29);
 }
 
-/* To view coordinates, from the axes in which it has the view's. */
+/* Scale to_view from the view's axes to view coordinates. */
 static void scale_to_view(struct draw_body *body, const struct draw_view *view)
 {
     for (int k = 0; k < 3; k++) {
@@ -300,11 +308,11 @@ static inline int32_t pixels_q4(int32_t x, int up, int32_t inverse, int32_t roun
 }
 
 /*
- * To the picture, from inside the guard band and beyond the near plane.
+ * Project a place inside the guard band and beyond the near plane.
  *
  * z < 2^29 is scaled to 2^31 <= s < 2^32. r = 2^31 / (s / 2^16), both rounded down, is right to one
- * part in 2^15, so 2^30 - s r / 2^17 is at most 2^15 in size; with it one step of Newton's makes
- * the inverse right to 2^-28. It comes out below 2^62 / s, hence below 2^31.
+ * part in 2^15, so 2^30 - s r / 2^17 is at most 2^15 in size; with that a Newton step makes the
+ * inverse right to 2^-28. It is below 2^62 / s, hence below 2^31.
  *
  * z >= 2^(31 - w_shift), so the last shift is not negative, and w_q26 is below 2^31.
  */
@@ -348,7 +356,7 @@ bool draw_vertex(const struct draw_body *body, uint32_t number, struct draw_vert
 
 void draw_extent_begin(struct draw_extent *extent)
 {
-    /* infinities the wrong way round */
+    /* plus infinity for the low bounds, minus infinity for the high ones */
     *extent = (struct draw_extent){.low = {{1, 0}, {1, 0}}, .high = {{-1, 0}, {-1, 0}}};
 }
 
@@ -374,7 +382,7 @@ void draw_extent_add(struct draw_extent *extent, const struct draw_body *body, u
     }
 }
 
-/* The pixel, counted from the middle, that has x / z of the guard band; or the end that is nearer. */
+/* The pixel, counted from the view's middle, at x / z of the guard band; clamped to low .. high. */
 static int32_t pixel_at(const int32_t x[2], int32_t half_q4, int32_t low, int32_t high)
 {
     int64_t pixel = ((int64_t)x[0] * (DRAW_GUARD * 16) / x[1] + half_q4) >> 4;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* CAROM_DRAW_WIRE: edges of front faces, interfering faces, lines. */
 #include "draw.h"
 
 #define WIRE_SHADE (DRAW_SHADES * 3 / 4)
@@ -17,8 +18,8 @@ static void put_pixel(const struct draw_view *view, const struct carom_picture *
 }
 
 /*
- * One pixel a column, or a row for a steep line, from the pixel that holds one end to the one that
- * holds the other. Starting at the lower end makes the pixels the same in either direction.
+ * One pixel a column, or a row for a steep line, between the pixels that hold the ends. Starting at
+ * the lower end makes the pixels independent of the line's direction.
  */
 void draw_line(const struct draw_view *view, const struct carom_picture *picture,
                const struct draw_vertex *a, const struct draw_vertex *b, uint32_t colour)
@@ -35,9 +36,7 @@ void draw_line(const struct draw_view *view, const struct carom_picture *picture
         size[1] = -size[1];
     }
     n = size[major];
-    /*
-     * |size| <= 2^11 pixels; the error of a step, 2^-16, grows to 2^-5 of a pixel at the far end.
-     */
+    /* |size| <= 2^11 pixels: the error of a step, 2^-16, grows to 2^-5 of a pixel at the far end */
     if (n > 0) {
         step_q16 = size[!major] * (1 << 16) / n;
     }
@@ -73,8 +72,8 @@ static void draw_edge(const struct draw_view *view, const struct carom_picture *
 }
 
 /*
- * The edges that are drawn for a face: an edge belongs to the first of its two faces, and is seen
- * when either of them looks at the eye.
+ * Draw a face's edges. An edge belongs to the first of its two faces, and shows if either face
+ * looks at the eye.
  */
 static void draw_face_wire(const struct draw_view *view, const struct carom_picture *picture,
                            const struct draw_body *body, uint32_t number)
@@ -123,7 +122,7 @@ static bool see_body(struct draw_body *body, const struct draw_view *view,
     return true;
 }
 
-/* The interfering faces, over what was drawn of them before. */
+/* Draw the interfering faces over their first wireframe. */
 static void draw_hot_wire(const struct carom_picture *picture, const struct draw_view *view,
                           const struct draw_source *source)
 {
@@ -166,7 +165,7 @@ void draw_wire(const struct draw_source *source, struct draw_view *view,
 {
     struct draw_body body;
 
-    /* a line may leave its place by a pixel: what is that near is drawn too */
+    /* a line may leave its place by a pixel: draw what is that near, too */
     draw_view_rect(view, (struct draw_rect){part.x0 - 2, part.y0 - 2, part.x1 + 2, part.y1 + 2});
     view->rect = part;
     for (int32_t y = part.y0; y < part.y1; y++) {

@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A mesh of one leaf that goes straight: for each face near it, from when until when they may
- * touch. Features are then looked at in windows of the stretch, only where faces are, and nothing behind the
- * first hit is looked at.
+ * For each face near a one-leaf mesh that moves straight: from when until when may they touch?
+ * Features are then tested in windows of the stretch, only where faces are, and not beyond the
+ * first hit.
  *
- * Along any direction the mesh covers an interval that moves steadily, so when it may touch a face, which covers
- * another one, is a division. The directions are the normals of the mesh and that of the face.
+ * Along any axis the mesh covers an interval that moves steadily, and a face covers a fixed one, so
+ * the times at which they overlap come from a division. The axes are normals of the mesh, and the
+ * normal of the face.
  */
 #include "ahead.h"
 
-/* Cut off here, on top of all that a gather allows for. */
+/* Truncation here, beyond what a gather allows for. */
 #define NOISE_Q20 32
 /*
- * Farther than any place of a mesh, quanta q14: such a place is below 2^14 sqrt 3 2^15. With what is near, below a
- * 32nd of this, differences are below 2^31.
+ * Bound on any place of a mesh in quanta q14, which is below 2^14 sqrt 3 2^15. With near_q14, below
+ * a 32nd of this, differences are below 2^31.
  */
 #define FAR_Q14 ((int32_t)1 << 30)
-/* Axes with a larger cosine are one. */
+/* Axes with a larger cosine between them count as one. */
 #define SAME_AXIS_Q30 (CAROM_ONE_Q30 - (1 << 20))
-/* So many faces are enough for a list, but for a short one. */
+/* A list of this many faces is long enough, once it reaches LIST_LEAST. */
 #define LIST_FACES 10
 #define LIST_LEAST 512
 
 /* ----------------------------------------------------------------------- mesh */
 
-/* A length in quanta of b, q14; what does not fit is as good as the largest that does. */
+/* A length in b's quanta, q14, saturated to +-FAR_Q14. */
 static int32_t to_q14(const struct carom_mesh *mesh, int64_t x_q20)
 {
     int64_t x = x_q20 * ((int64_t)1 << mesh->raw.quantum_bits) >> 6;
@@ -32,7 +33,7 @@ static int32_t to_q14(const struct carom_mesh *mesh, int64_t x_q20)
     return x > FAR_Q14 ? FAR_Q14 : x < -FAR_Q14 ? -FAR_Q14 : (int32_t)x;
 }
 
-/* The pair as a gather sets it up for a path that does not turn. */
+/* Set up the pair as a gather does for a path that does not turn. */
 static void set_pair(struct ahead *h)
 {
     const struct body *a = h->work.a, *b = h->work.b;
@@ -48,7 +49,7 @@ static void set_pair(struct ahead *h)
     h->near_q20 = (skins_q22 + mesh_drift_most(b->mesh)) / 4 + NOISE_Q20;
 }
 
-/* The vertices of a in b's axes, and the box around them. */
+/* Set a's vertices in b's axes, and the box around them. */
 static void set_vertices(struct ahead *h)
 {
     const struct interfere_leaf *l = h->work.leaf;
@@ -71,7 +72,7 @@ static void set_vertices(struct ahead *h)
     }
 }
 
-/* How far a's vertices reach along a direction: q18. */
+/* The interval that a's vertices cover along a direction, q18. */
 static void reach_q18(const struct ahead *h, const int32_t n_q30[3], int32_t *low, int32_t *high)
 {
     *low = INT32_MAX;
@@ -84,7 +85,7 @@ static void reach_q18(const struct ahead *h, const int32_t n_q30[3], int32_t *lo
     }
 }
 
-/* Whether a has an axis already, or the opposite of it. */
+/* True if a has that axis, or its opposite, already. */
 static bool has_axis(const struct ahead *h, const int32_t n_q30[3])
 {
     for (uint32_t i = 0; i < h->axes; i++) {
@@ -95,7 +96,7 @@ static bool has_axis(const struct ahead *h, const int32_t n_q30[3])
     return false;
 }
 
-/* Take an axis, the way up it that a goes: those that a goes farther along come first. */
+/* Add an axis, signed so that a moves up it. Axes along which a moves farther come first. */
 static void add_axis(struct ahead *h, const int32_t n_q30[3])
 {
     struct ahead_axis axis;
@@ -131,7 +132,10 @@ static void set_axes(struct ahead *h)
     }
 }
 
-/* Near along an axis, whose product with a vertex of b is off by half a unit for each of its quanta. */
+/*
+ * The tolerance along an axis: the axis times a vertex of b is off by half a unit for each quantum
+ * of the vertex.
+ */
 static int32_t near_of(const struct ahead *h)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
@@ -176,7 +180,7 @@ bool ahead_begin(struct ahead *h, const struct interfere *work, const struct bod
     h->work.swapped = h->work.pooled = false;
     h->work.meet = interfere_features;
     h->pool = (struct pool){AHEAD_CANDIDATES, 0, 0, 0};
-    if (!is_upright(b)) { /* most ground is */
+    if (!is_upright(b)) { /* skipped for most ground */
         fix_rotate_back(h->start_q32, &b->path.start.r, h->start_q32);
         fix_rotate_back(h->way_q32, &b->path.start.r, h->way_q32);
     }
@@ -189,7 +193,7 @@ bool ahead_begin(struct ahead *h, const struct interfere *work, const struct bod
 
 /* -------------------------------------------------------------------- stretch */
 
-/* Whether the box around a, over the stretch, meets that of b and is not above what lies under it. */
+/* True if a's box, swept over the stretch, meets b's box and is not above all of b under it. */
 static bool passes(struct ahead *h)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
@@ -210,7 +214,7 @@ static bool passes(struct ahead *h)
 
 bool ahead_stretch(struct ahead *h, int32_t from_q30, int32_t to_q30)
 {
-    /* spheres within it meet; places are within some radii then and fit q20 */
+    /* beyond it the spheres do not meet; within it places are within a few radii and fit q20 */
     int64_t reach_q22 = 2 * ((int64_t)h->work.a->radius_q22 + h->work.b->radius_q22 + h->near_q20);
 
     for (int k = 0; k < 3; k++) {
@@ -226,7 +230,7 @@ bool ahead_stretch(struct ahead *h, int32_t from_q30, int32_t to_q30)
     return passes(h);
 }
 
-/* Where a is at the start of the stretch along its axes. */
+/* Set a's intervals along its axes at the start of the stretch. */
 static void place_axes(struct ahead *h)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
@@ -265,7 +269,7 @@ static inline int32_t along(const int32_t n_q14[3], const int16_t p[3])
     return n_q14[0] * p[0] + n_q14[1] * p[1] + n_q14[2] * p[2];
 }
 
-/* The times by the plane of a face. */
+/* Narrow the times by the plane of a face. */
 static bool plane_times(struct times *times, const struct ahead *h, const struct carom_face *face)
 {
     const int32_t *n = face->normal.c;
@@ -279,7 +283,7 @@ static bool plane_times(struct times *times, const struct ahead *h, const struct
                    : times_narrow(times, low, high, way, times_shift(way), 0, 0, near);
 }
 
-/* When a may touch a face of b. */
+/* Narrow the times at which a may touch a face of b; false if never. */
 static bool face_times(struct times *times, const struct ahead *h, uint16_t face)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
@@ -300,8 +304,8 @@ static bool face_times(struct times *times, const struct ahead *h, uint16_t face
 }
 
 /*
- * When there are more faces than are worth a look at once, those are left out that are touched last: the
- * list ends there. It goes on for LIST_LEAST at least, as long as there is room.
+ * Once the list has enough faces drop those that are touched last: the list then ends at their
+ * time. While there is room it reaches at least LIST_LEAST.
  */
 static void leave_out_last(struct ahead *h)
 {
@@ -320,7 +324,7 @@ static void leave_out_last(struct ahead *h)
         }
     }
     h->count = kept;
-    if (h->moves_q20[2] < 0) { /* lower faces are later than that */
+    if (h->moves_q20[2] < 0) { /* the shorter stretch does not reach as low */
         int32_t goes = (int32_t)((int64_t)h->moves_q20[2] * h->end >> TIMES_BITS);
 
         h->low_quanta[2] =
@@ -341,8 +345,8 @@ static void note_face(struct ahead *h, uint16_t face)
 }
 
 /*
- * Whether a may touch any face in a cell: its column from the lowest place that a has up to the highest face. A face
- * that lies in several cells has a part in each.
+ * True if a may touch a face in a cell, by the cell's column from a's lowest place to its highest
+ * face. A face that lies in several cells is found by its part in each.
  */
 static bool cell_near(const struct ahead *h, int32_t col, int32_t row, int32_t top)
 {
@@ -372,7 +376,7 @@ static bool cell_near(const struct ahead *h, int32_t col, int32_t row, int32_t t
     return true;
 }
 
-/* The faces of b in a cell, from the highest one down to a. */
+/* Note b's faces in a cell, highest first, down to a. */
 static void note_cell(struct ahead *h, int32_t col, int32_t row)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
@@ -391,13 +395,13 @@ static void note_cell(struct ahead *h, int32_t col, int32_t row)
     }
 }
 
-/* The faces of b in the cells under a. */
+/* Note b's faces in the cells under a. */
 static void note_faces(struct ahead *h)
 {
     const struct carom_mesh *mb = h->work.b->mesh;
     const struct interfere_cells cells = interfere_cells_under(mb, h->low_quanta, h->high_quanta);
 
-    memset(h->work.leaf->seen, 0xff, sizeof h->work.leaf->seen); /* CAROM_NO_FACE */
+    memset(h->work.leaf->seen, 0xff, sizeof h->work.leaf->seen); /* = CAROM_NO_FACE */
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
             note_cell(h, col, row);
@@ -416,7 +420,7 @@ bool ahead_list(struct ahead *h)
 
 /* -------------------------------------------------------------------- windows */
 
-/* Place the leaf in the middle of a window, as a gather does in the middle of a way. */
+/* Place the leaf in the middle of a window, as a gather does at mid-span. */
 static void place_leaf(struct ahead *h, int32_t from, int32_t to)
 {
     struct interfere_leaf *l = h->work.leaf;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A ray in the frame of a mesh. It is carried over from the place of it that is nearest to the body, so that
- * what is rounded off there is not multiplied by how far away it begins.
+ * Carry a ray into the frame of a mesh. Start from the ray's point nearest to the body, so that
+ * rounding there is not multiplied by the distance to the ray's start.
  */
 #include "query.h"
 
-/* Places and ways between bodies and rays in q14: below 2^30. */
+/* Places and ways between bodies and rays, q14: below 2^30. */
 #define FAR_SHIFT 18
 
 /* n / d in q30, for 0 <= n <= d; d > 0. */
@@ -21,8 +21,8 @@ static int32_t part_q30(int64_t n, int64_t d)
 }
 
 /*
- * Where the ray is nearest to a point, as a part of its way; any part would do. Bounds: `to` and the way are
- * below 2^30 in q14, so sums of three products are below 2^61.
+ * The part of the way at which the ray is nearest to a point; precision does not matter. Bounds:
+ * `to` and the way are below 2^30 in q14, so sums of three products are below 2^61.
  */
 static int32_t nearest_q30(const int64_t to_q32[3], const carom_v3_q32 *way)
 {
@@ -37,7 +37,7 @@ static int32_t nearest_q30(const int64_t to_q32[3], const carom_v3_q32 *way)
     return along <= 0 || square == 0 ? 0 : part_q30(along, square);
 }
 
-/* Whether the box around the ray and the one around the body's sphere are apart. */
+/* True if the ray's box and the box of the body's sphere are apart. */
 static bool boxes_apart(const struct carom_ray *ray, const struct body *body,
                         const struct body_state *state)
 {
@@ -55,8 +55,8 @@ static bool boxes_apart(const struct carom_ray *ray, const struct body *body,
 }
 
 /*
- * Whether a point near which the ray is nearest to a body is outside of its sphere: with some room for a
- * part that is rounded. Components are below 2^22 in q12 when this may be false.
+ * True if the ray's point nearest to a body is outside the body's sphere; the limit allows for the
+ * rounded part. Components are below 2^22 in q12 when this may be false.
  */
 static bool outside(const int64_t at_q32[3], int32_t radius_q22)
 {
@@ -74,8 +74,8 @@ static bool outside(const int64_t at_q32[3], int32_t radius_q22)
 }
 
 /*
- * d / along in q30, |d| <= |along|: of more than 32 bits those are used that count most.
- * Bounds: below 2^62 after the shift; half of the divisor makes it nearest.
+ * d / along in q30, to nearest, |d| <= |along|; of numbers above 32 bits the upper ones count.
+ * Bounds: below 2^62 after the shift.
  */
 static int32_t slope(int64_t d, int64_t along, int shift)
 {
@@ -90,7 +90,7 @@ static int32_t slope(int64_t d, int64_t along, int shift)
     return (int32_t)(n > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : n < -CAROM_ONE_Q30 ? -CAROM_ONE_Q30 : n);
 }
 
-/* The main axis: the one that a vector is most along. */
+/* The main axis: the largest component's. */
 static int main_axis(const int64_t d[3])
 {
     int axis = carom_abs(d[1]) > carom_abs(d[0]) ? 1 : 0;
@@ -98,7 +98,10 @@ static int main_axis(const int64_t d[3])
     return carom_abs(d[2]) > carom_abs(d[axis]) ? 2 : axis;
 }
 
-/* The ray through `at`, a part t of the way, in the mesh's coordinates; false when it has no direction left. */
+/*
+ * Set the ray through `at`, the part t of the way, in the mesh's coordinates. Returns false if no
+ * direction is left.
+ */
 static bool set_ray(struct query_ray *ray, const int64_t at_q32[3], const int64_t way_q32[3],
                     int32_t t_q30)
 {
@@ -145,7 +148,7 @@ bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struc
     if (outside(at, body->mesh->radius_q22)) {
         return false;
     }
-    if ((q[1] | q[2] | q[3]) != 0) { /* most ground is not turned */
+    if ((q[1] | q[2] | q[3]) != 0) { /* skipped for most ground */
         carom_m3_q30 r;
 
         fix_matrix(&r, &state->rotation);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The first hit of a ray in a world, or all of them in order. */
+/* The first hit of a ray in a world, or all hits in order. */
 #include "query.h"
 
 #define LIMIT_Q32     ((int64_t)1 << (15 + 32))
@@ -33,18 +33,18 @@ static int check_ray(const struct carom_ray *ray)
     return longest < WAY_LEAST_Q32 ? CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
-/* Hits as they are found: the first `room` ones, in order. */
+/* Hits found so far: the first `room` ones, in order. */
 struct cast {
     struct query_struck base;
     const struct carom_world *w;
     struct carom_ray_hit *hits;
     uint32_t room, count;
-    bool more;    /* there are more than `room` */
-    bool nearest; /* only the first one is wanted */
+    bool more;    /* there are more than fit */
+    bool nearest; /* only the first hit is wanted */
     uint16_t body;
 };
 
-/* t in q48 of a place on a ray: three digits of 16 bits. length < 2^48. */
+/* A place on a ray as t in q48, three digits of 16 bits. length < 2^48. */
 static int64_t part_q48(int64_t way_q32, int64_t length_q32)
 {
     uint64_t rest = (uint64_t)way_q32, by = (uint64_t)length_q32, t = 0;
@@ -65,7 +65,7 @@ static int64_t key_of(const struct carom_ray_hit *hit)
     return (int64_t)hit->t_q30 << 18 | (int64_t)hit->t_rest;
 }
 
-/* Whether a hit is before another in order; equal ones are neither. */
+/* True if a hit comes before b in order; false if they are equal. */
 static bool is_before(int64_t t_q48, uint16_t body, uint16_t face, const struct carom_ray_hit *b)
 {
     int64_t t_b = key_of(b);
@@ -76,7 +76,7 @@ static bool is_before(int64_t t_q48, uint16_t body, uint16_t face, const struct 
     return body != b->body ? body < b->body : face < b->face;
 }
 
-/* A hit that has its place among those so far; one that is there already stays as it is. */
+/* Insert a hit in order; ignore one that is there already. */
 static void take_hit(struct query_struck *self, struct query_ray *ray,
                      const struct query_strike *strike)
 {
@@ -109,7 +109,7 @@ static void take_hit(struct query_struck *self, struct query_ray *ray,
     }
 }
 
-/* Describe a hit: its place, and the normal in the world. */
+/* Set a hit's place and its normal in world axes. */
 static void complete(const struct carom_world *w, const struct carom_ray *ray,
                      struct carom_ray_hit *hit)
 {
@@ -139,7 +139,7 @@ static void cast(struct cast *c, const struct carom_ray *ray,
         c->body = (uint16_t)i;
         carried.back = filter && (filter->flags & CAROM_QUERY_BACK);
         if (c->nearest && c->count > 0) {
-            /* no farther than the one that is known; t is rounded down */
+            /* no farther than the hit that is known; t is rounded down */
             int64_t end_q32 =
                 fix_mul_q30(carried.length_q32, c->hits[0].t_q30) + (carried.length_q32 >> 30) + 2;
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Whether two bodies have a point in common where they are. The vertices of a are carried into b's axes once,
- * each coordinate rounded to a whole number as fine as 30 bits allow; b's are whole numbers there. From then on all is
- * exact: it is decided by the signs of volumes and areas, and touching counts.
+ * Do two bodies have a common point at their poses? a's vertices are carried into b's axes and
+ * rounded once, to integers as fine as 30 bits allow; b's vertices are integers there. From then on
+ * everything is exact: signs of volumes and areas decide, and touching counts.
  */
 #include "cross.h"
 
@@ -22,8 +22,8 @@ static inline int sign_of(int64_t v)
 }
 
 /*
- * The side of the plane through three places that a fourth is on: 1 where they run counter-clockwise seen from it.
- * Bounds: differences are below 2^30, the cross product below 2^61, and what is summed up below 2^93.
+ * The side of the plane through a, b, c on which p lies: 1 if a, b, c run counter-clockwise seen
+ * from p. Bounds: differences are below 2^30, the cross product below 2^61, the sum below 2^93.
  */
 static int side_of_plane(const place *a, const place *b, const place *c, const place *p)
 {
@@ -40,19 +40,19 @@ static int side_of_plane(const place *a, const place *b, const place *c, const p
 
 /* ------------------------------------------------------------------- in a plane */
 
-/* The two axes along which places of a plane are told apart. */
+/* The two axes along which places in a plane are compared. */
 struct seen {
     int i, j;
 };
 
-/* The side of the line from a to b that p is on. Bounds: below 2^61. */
+/* The side of the line from a to b on which p lies. Bounds: below 2^61. */
 static int side_of_line(struct seen s, const place *a, const place *b, const place *p)
 {
     return sign_of((int64_t)(b->c[s.i] - a->c[s.i]) * (p->c[s.j] - a->c[s.j]) -
                    (int64_t)(b->c[s.j] - a->c[s.j]) * (p->c[s.i] - a->c[s.i]));
 }
 
-/* Whether two intervals have a place in common, along an axis. */
+/* True if the intervals a-b and c-d overlap along axis k. */
 static bool intervals_meet(int k, const place *a, const place *b, const place *c, const place *d)
 {
     return fix_smaller(a->c[k], b->c[k]) <= fix_larger(c->c[k], d->c[k]) &&
@@ -67,13 +67,13 @@ static bool segments_meet(struct seen s, const place *a, const place *b, const p
            intervals_meet(s.i, a, b, c, d) && intervals_meet(s.j, a, b, c, d);
 }
 
-/* Whether none, or all, of three signs are of one kind: no two are opposite. */
+/* True if no two of three signs are opposite. */
 static bool agree(int x, int y, int z)
 {
     return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
 }
 
-/* An edge in the plane of a triangle. */
+/* True if an edge in the plane of a triangle meets it. */
 static bool edge_meets_in_plane(const place t[3], const place *a, const place *b)
 {
     const place e = minus(&t[1], &t[0]), f = minus(&t[2], &t[0]);
@@ -85,7 +85,7 @@ static bool edge_meets_in_plane(const place t[3], const place *a, const place *b
     most = carom_abs(n[1]) > carom_abs(n[0]) ? 1 : 0;
     most = carom_abs(n[2]) > carom_abs(n[most]) ? 2 : most;
     if (n[most] == 0) {
-        return false; /* rounded to a line: its edges are those of other faces */
+        return false; /* rounded to a line: its edges belong to other faces, too */
     }
     s.i = fix_next(most);
     s.j = fix_next(s.i);
@@ -97,7 +97,7 @@ static bool edge_meets_in_plane(const place t[3], const place *a, const place *b
 
 /* -------------------------------------------------------------------- triangles */
 
-/* An edge whose ends are on the given sides of a triangle's plane. */
+/* True if an edge meets a triangle, given the sides of its ends to the triangle's plane. */
 static bool edge_meets(const place t[3], const place *a, const place *b, int side_a, int side_b)
 {
     if (side_a * side_b > 0) {
@@ -110,7 +110,7 @@ static bool edge_meets(const place t[3], const place *a, const place *b, int sid
                  side_of_plane(a, &t[2], &t[0], b));
 }
 
-/* Whether an edge of p meets q. False at once when p is on one side of q. */
+/* True if an edge of p meets q, given the sides of p's corners to q's plane. */
 static bool edges_meet(const place p[3], const place q[3], const int side[3])
 {
     return edge_meets(q, &p[0], &p[1], side[0], side[1]) ||
@@ -134,15 +134,15 @@ bool cross_triangles(const struct interfere_vec p[3], const struct interfere_vec
     if (of_q[0] != 0 && of_q[1] == of_q[0] && of_q[2] == of_q[0]) {
         return false;
     }
-    /* where two triangles meet, an edge of one of them meets the other */
+    /* if two triangles meet an edge of one meets the other */
     return edges_meet(p, q, of_p) || edges_meet(q, p, of_q);
 }
 
 /* ----------------------------------------------------------------------- places */
 
 /*
- * A vertex of a in b's axes, from b's origin. Bounds: faces that are asked about have boxes that meet; farther
- * places are cut off.
+ * A vertex of a in b's axes, from b's origin. Bounds: faces are only tested if their boxes meet;
+ * farther places are clamped.
  */
 static place carried(const struct cross *c, uint32_t vertex)
 {
@@ -186,7 +186,7 @@ static bool sure_cross(struct interfere_sure *self, uint16_t face_a, uint16_t fa
     return cross_triangles(p, q);
 }
 
-/* Bits of a unit, so that b and what a may reach of it fit. */
+/* Fractional bits of places, such that b and all that a can reach of it fit. */
 static int bits_for(const struct cross *c)
 {
     const struct carom_mesh *mesh = c->b.body->mesh;
@@ -216,7 +216,7 @@ void cross_begin(struct cross *c, struct interfere_placed a, struct interfere_pl
     }
     fix_rotate_back(at_q32, &r_b, at_q32);
     for (int k = 0; k < 3; k++) {
-        /* bodies that are farther apart do not meet */
+        /* bodies farther apart do not meet */
         int64_t far = (int64_t)1 << 41,
                 x = at_q32[k] + carom_shl(b.body->mesh->mass.centre.c[k], 10);
 
@@ -226,7 +226,10 @@ void cross_begin(struct cross *c, struct interfere_placed a, struct interfere_pl
 
 /* ------------------------------------------------------------------ containment */
 
-/* One that is on the line of an edge counts as moved a little along x, and far less along y, for all alike. */
+/*
+ * The side of the line from-to, seen from above, on which p lies. A p on the line counts as moved a
+ * little along x, and far less along y, the same for all edges.
+ */
 static int beside(const place *from, const place *to, const place *p)
 {
     int side = side_of_line((struct seen){0, 1}, from, to, p);
@@ -237,7 +240,7 @@ static int beside(const place *from, const place *to, const place *p)
     return side != 0 ? side : sign_of((int64_t)to->c[0] - from->c[0]);
 }
 
-/* 1 for a triangle over a place that looks up, -1 for one that looks down, 0 for one elsewhere. */
+/* For a triangle above p: 1 if it looks up, -1 if it looks down. 0 for any other. */
 static int is_over(const place t[3], const place *p)
 {
     int side = beside(&t[0], &t[1], p);
@@ -248,7 +251,7 @@ static int is_over(const place t[3], const place *p)
     return side_of_plane(&t[0], &t[1], &t[2], p) == -side ? side : 0;
 }
 
-/* How often more faces over a place look up than down, of all faces of a or b. */
+/* Winding number: upward minus downward faces above p, over all faces of a or b. */
 static int winding(const struct cross *c, bool of_a, const place *p)
 {
     const uint32_t faces = (of_a ? c->a : c->b).body->mesh->raw.face_count;
@@ -263,7 +266,7 @@ static int winding(const struct cross *c, bool of_a, const place *p)
     return sum;
 }
 
-/* The same of b by the z-list of a cell. */
+/* winding of b, by the z-list of a cell. */
 static int winding_in_cell(const struct cross *c, const place *p)
 {
     const struct carom_mesh *mesh = c->b.body->mesh;
@@ -289,7 +292,7 @@ bool cross_inside(const struct cross *c)
     const int32_t one = (int32_t)1 << (c->bits - mesh->raw.quantum_bits);
 
     for (int k = 0; k < 3; k++) {
-        /* under a surface is in it, however deep */
+        /* under a surface counts as inside, however deep */
         bool deep = k == 2 && mesh->raw.kind == CAROM_SURFACE;
 
         if (p.c[k] > mesh->box[1][k] * one || (!deep && p.c[k] < mesh->box[0][k] * one)) {

@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The faces of a mesh near a ray, by the cells of its grid: column by column along x or y, whichever the
- * ray goes farther along, in the order in which it passes them. What a cell's z-list names is asked exactly
- * (strike.c); so the march need only miss nothing. Places on the ray are off by less than half a
- * quantum here, and a quantum is added on all sides.
+ * March along a ray through the cells of a mesh's grid, column by column along x or y, whichever
+ * the ray goes farther along, in the ray's order. Each face that a cell's z-list names gets the
+ * exact test (strike.c), so the march must only miss none. Places on the ray are off by less than
+ * half a quantum here; a quantum is added on all sides.
  */
 #include "query.h"
 
-/* Places in quanta have 12 bits more: below 2^29. */
+/* Places in quanta have 12 fractional bits: below 2^29. */
 #define PLACE_BITS 12
 #define MARGIN     (1 << PLACE_BITS)
 
-/* The part of the ray in the mesh's box: both ends, 2^-12 quanta. */
+/* The part of the ray in the mesh's box: start and displacement, 2^-12 quanta. */
 struct part {
     int32_t at[3], way[3];
 };
 
-/* Where the ray is at a place along its main axis, both in 2^-12 quanta. */
+/* The ray's place along axis i at the height z along its main axis, both in 2^-12 quanta. */
 static int32_t beside(const struct query_ray *ray, int i, int32_t z)
 {
     return (int32_t)((ray->at_q30[i] + ((int64_t)ray->slope_q30[i] * z >> PLACE_BITS)) >>
                      (30 - PLACE_BITS));
 }
 
-/* From units along the main axis, cut to what the box may hold. */
+/* From units along the main axis to 2^-12 quanta, clamped to what a box can hold. */
 static int32_t place_on_axis(const struct query_ray *ray, int64_t z_q32)
 {
     const int shift = 32 - ray->mesh->raw.quantum_bits - PLACE_BITS; /* 0 .. 13 */
@@ -34,8 +34,8 @@ static int32_t place_on_axis(const struct query_ray *ray, int64_t z_q32)
 }
 
 /*
- * Narrow [*low, *high] to where the ray is between two places along axis i; false when that is nowhere.
- * at is below 2^51 where the ray passes the mesh's sphere, so what is divided is below 2^63.
+ * Narrow [*low, *high] to where the ray is inside the box along axis i. Returns false if nowhere.
+ * Bounds: `at` is below 2^51 if the ray passes the mesh's sphere, so the dividend is below 2^63.
  */
 static bool clip(const struct query_ray *ray, int i, int32_t *low, int32_t *high)
 {
@@ -63,7 +63,10 @@ static bool clip(const struct query_ray *ray, int i, int32_t *low, int32_t *high
     return true;
 }
 
-/* The part of the ray in the box, and a little more; in its own direction. */
+/*
+ * Set the part of the ray in the box, with a margin, in the ray's direction. Returns false if there
+ * is none.
+ */
 static bool cut_to_box(const struct query_ray *ray, struct part *part)
 {
     const int16_t(*box)[3] = ray->mesh->box;
@@ -94,17 +97,17 @@ struct march {
     struct query_ray *ray;
     struct query_struck *visitor;
     struct part part;
-    int along, across; /* x or y: the axis of columns, the other one */
+    int along, across; /* axes: the columns follow each other along x or y; the other one */
     int32_t origin[2], count[2];
     int shift;
 };
 
-/* An interval of quanta, lowest and highest. */
+/* An interval in quanta. */
 struct interval {
     int32_t low, high;
 };
 
-/* Of a coordinate between two parts of the way; a quantum more on both sides. */
+/* A coordinate's interval between two parts of the way, with a quantum more on both sides. */
 static inline struct interval between(const struct part *part, int k, int32_t u0_q30,
                                       int32_t u1_q30)
 {
@@ -131,7 +134,7 @@ static void ask(struct march *m, uint16_t face)
     }
 }
 
-/* The faces of a cell within an interval of z. */
+/* Visit the faces of a cell within an interval of z. */
 static inline void visit_cell(struct march *m, int32_t cell, struct interval z)
 {
     const struct carom_mesh *mesh = m->ray->mesh;
@@ -145,7 +148,7 @@ static inline void visit_cell(struct march *m, int32_t cell, struct interval z)
     }
 }
 
-/* What the ray passes of a column, between two parts of its way. */
+/* Visit the cells of a column that the ray passes between two parts of its way. */
 static void visit_column(struct march *m, int32_t column, int32_t u0_q30, int32_t u1_q30)
 {
     struct interval over = between(&m->part, m->across, u0_q30, u1_q30);
@@ -159,15 +162,15 @@ static void visit_column(struct march *m, int32_t column, int32_t u0_q30, int32_
     }
 }
 
-/* Where on the way a place of a column's border is, cut to the way. */
+/* Clamp a part of the way to 0 .. 1. */
 static inline int32_t cut_q30(int64_t u_q30)
 {
     return u_q30 < 0 ? 0 : u_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)u_q30;
 }
 
 /*
- * Which column is the last, now that the ray is shorter; that at hand when the rest of the ray is not in the
- * box any more.
+ * The last column of a ray that a hit has shortened; the present column if the rest of the ray is
+ * outside the box.
  */
 static int32_t shorter_last(const struct march *m, int32_t column, int sign)
 {
@@ -183,12 +186,13 @@ static int32_t shorter_last(const struct march *m, int32_t column, int sign)
 }
 
 /*
- * The columns from one end of the part to the other. The border of two is passed at the part `border` of the
- * way, later by `step` for each; a steep ray may pass it a quantum sooner or later, by `slack`. A ray that a
- * hit has shortened ends with the column in which its new end lies.
+ * Visit the columns from one end of the part to the other. The ray passes the border of two columns
+ * at the part `border` of its way, and each further border `step` later. A steep ray may pass a
+ * border a quantum sooner or later: `slack`. A ray that a hit has shortened ends in the column of
+ * its new end.
  *
- * Bounds: places are below 2^29 and sides below 2^29, so what is divided is below 2^60. There are steps only over
- * a way of more than a quantum, so they are below 2^47.
+ * Bounds: places and sides are below 2^29, so dividends are below 2^60. There are steps only if the
+ * way is longer than a quantum, so they are below 2^47.
  */
 static void visit_columns(struct march *m)
 {
@@ -233,7 +237,7 @@ void query_march(struct query_ray *ray, struct query_struck *visitor)
     if (!cut_to_box(ray, &m.part)) {
         return;
     }
-    if (mesh->surface && !mesh->surface->own_lists) { /* its lists are those of another shape */
+    if (mesh->surface && !mesh->surface->own_lists) { /* its own z-lists are out of date */
         for (uint32_t face = 0; face < mesh->raw.face_count; face++) {
             ask(&m, (uint16_t)face);
         }

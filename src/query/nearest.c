@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The closest points of two bodies that are apart: of a vertex over a face, or of two edges. All is in b's
- * axes about its centre of mass. Leaves whose spheres are farther apart than the best so far are left out,
- * then faces whose boxes are.
+ * The closest points of two bodies that are apart: a vertex over a face, or two edges. All places
+ * are in b's axes, from b's centre of mass. Pairs of leaves whose spheres, and pairs of faces whose
+ * boxes, are farther apart than the best distance so far are skipped.
  */
 #include "query.h"
 #include "../interfere/narrow.h"
 
-/* Bodies may be so far apart along an axis of b that places fit 2^33 in q22. */
+/* Bodies may be this far apart along an axis of b, so that places fit 2^33 in q22. */
 #define FAR_Q32 ((int64_t)500 << 32)
-/* Edges of a sine squared below this one, q30, are parallel. */
+/* Edges count as parallel if the sine squared is below this, q30. */
 #define PARALLEL_Q30 (1 << 8)
 
 struct place {
@@ -18,13 +18,13 @@ struct place {
 
 struct nearest {
     const struct body *body[2];
-    carom_m3_q30 axes; /* a's in b's */
-    int64_t at_q22[3]; /* a's centre */
+    carom_m3_q30 axes; /* from a's axes to b's */
+    int64_t at_q22[3]; /* a's centre of mass */
 
-    /* the leaves at hand */
+    /* vertices of a's leaf at hand */
     struct place p[CAROM_LEAF_VERTICES];
 
-    uint64_t best_q40; /* square of the distance */
+    uint64_t best_q40; /* square of the best distance */
     struct place point[2];
     uint16_t face[2];
 };
@@ -60,7 +60,7 @@ static uint64_t square_q40(const struct place *p, const struct place *q)
     return sum;
 }
 
-/* a . b of a place's difference and a direction, q22. */
+/* The displacement from one place to another along a direction, q22. */
 static int64_t along_q22(const struct place *from, const struct place *to, const int32_t n_q30[3])
 {
     int64_t d[3];
@@ -81,7 +81,7 @@ static struct place moved(const struct place *p, int64_t by_q22, const int32_t n
     return to;
 }
 
-/* Two points that are closer than what was known. */
+/* Keep two points if they are the closest so far. */
 static void offer(struct nearest *n, const struct place *a, const struct place *b, uint16_t face_a,
                   uint16_t face_b)
 {
@@ -98,7 +98,10 @@ static void offer(struct nearest *n, const struct place *a, const struct place *
 
 /* ------------------------------------------------------------------- features */
 
-/* A face in b's axes: its corners, its normal, and its edges' directions, which run from corner to corner. */
+/*
+ * A face in b's axes: corners, normal, and the directions of its edges, running from corner to
+ * corner.
+ */
 struct facet {
     uint16_t number;
     struct place p[3];
@@ -106,7 +109,7 @@ struct facet {
     int64_t low[3], high[3];
 };
 
-/* A direction of a mesh in b's axes. */
+/* Turn a direction of a's (side 0) or b's mesh into b's axes. */
 static void turned(const struct nearest *n, int side, int32_t out[3], const int32_t d[3])
 {
     if (side == 0) {
@@ -144,7 +147,7 @@ static void set_directions(const struct nearest *n, int side, struct facet *f)
     }
 }
 
-/* A corner of one face over the other: inside of all three edges. */
+/* Offer a corner of one face and its foot on the other face, if that is inside all three edges. */
 static void try_corner(struct nearest *n, const struct place *p, const struct facet *on, int side,
                        uint16_t face)
 {
@@ -172,9 +175,9 @@ static int64_t clamped(int64_t s, int64_t length)
 }
 
 /*
- * Two edges p + s e, q + t f: s = (b g - c) / (1 - b^2) with b = e.f, c = e.r, g = f.r and r = p - q, then t by
- * s, and s again by a t that was cut. Bounds: c and g are below 2^34, so what is divided is below 2^62 by
- * leaving out 4 bits.
+ * Offer the closest points of two edges p + s e and q + t f. s = (b g - c) / (1 - b^2) with b =
+ * e.f, c = e.r, g = f.r, r = p - q; then t from s, clamped, and s again from t. Bounds: c and g are
+ * below 2^34, so with 4 bits dropped the dividend is below 2^62.
  */
 static void try_edges(struct nearest *n, const struct facet *a, int i, const struct facet *b, int j)
 {
@@ -196,7 +199,7 @@ static void try_edges(struct nearest *n, const struct facet *a, int i, const str
     offer(n, &on[0], &on[1], a->number, b->number);
 }
 
-/* Whether the boxes of two faces are farther apart than the best so far. */
+/* True if the boxes of two faces are farther apart than the best distance so far. */
 static bool boxes_far(const struct nearest *n, const struct facet *a, const struct facet *b)
 {
     uint64_t sum = 0;
@@ -225,7 +228,7 @@ static void try_faces(struct nearest *n, struct facet *a, struct facet *b)
 
 /* --------------------------------------------------------------------- leaves */
 
-/* Between the centres of two leaves, square q24; and how much of it their spheres take. */
+/* Square of the distance between the centres of two leaves, q24. */
 static int64_t apart_q24(const struct nearest *n, const int64_t centre[3],
                          const struct carom_leaf *b)
 {
@@ -279,7 +282,7 @@ static void place_leaf(struct nearest *n, const struct carom_leaf *a)
     }
 }
 
-/* The two leaves whose centres are nearest: most likely near the answer. */
+/* Try the two leaves whose centres are closest, for a good first distance. */
 static void begin_nearest(struct nearest *n)
 {
     const struct carom_mesh *ma = n->body[0]->mesh, *mb = n->body[1]->mesh;
@@ -302,7 +305,7 @@ static void begin_nearest(struct nearest *n)
     try_leaves(n, best[0], best[1]);
 }
 
-/* All leaves whose spheres are not farther apart than the best so far. */
+/* Try all pairs of leaves whose spheres are within the best distance so far. */
 static void search(struct nearest *n)
 {
     const struct carom_mesh *ma = n->body[0]->mesh, *mb = n->body[1]->mesh;
@@ -330,7 +333,7 @@ static void search(struct nearest *n)
     }
 }
 
-/* From b's axes to the world. */
+/* Turn the result from b's axes to the world's. */
 static void complete(const struct nearest *n, const struct body_state *b, struct carom_closest *out)
 {
     carom_m3_q30 r;

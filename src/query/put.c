@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A mesh that is in no world: a body of it in a pose, and what that overlaps. */
+/* A mesh that belongs to no world: a body of it in a pose, and the bodies it overlaps. */
 #include "query.h"
 #include "cross.h"
 
@@ -23,7 +23,7 @@ int query_put(const struct carom_query_mesh *mesh, struct body *body, struct bod
     return CAROM_OK;
 }
 
-/* Whether the boxes around two spheres are apart. */
+/* True if the boxes around two spheres are apart. */
 static bool spheres_apart(const struct body *a, const struct body_state *at_a, const struct body *b,
                           const struct body_state *at_b)
 {
@@ -44,7 +44,7 @@ bool query_overlaps(struct carom_world *w, const struct body *body, const struct
     const struct interfere_placed b = {&w->bodies[other], &world_now(w)->bodies[other]};
     struct cross c;
 
-    /* under a surface is in it, however deep */
+    /* under a surface counts as inside, however deep */
     if (b.body->mesh->raw.kind == CAROM_SOLID && spheres_apart(body, state, b.body, b.state)) {
         return false;
     }

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Whether a ray meets a face. Seen along the ray's main axis and sheared so that the ray stands
- * upright, it is the point (0, 0), and a corner v is at the whole numbers
+ * Does a ray meet a face? Seen along the ray's main axis, and sheared so that the ray stands
+ * upright, the ray is the point (0, 0) and a corner v has the integer coordinates
  *
  *   X_i = 2^30 v_i - at_i - slope_i v_z
  *
- * which are the same for all faces that have the corner. The ray is on one side of the edge from corner a to b by the
- * sign of X_a Y_b - X_b Y_a. Both faces of the edge get the same number with opposite signs, so the ray cannot
- * slip through between them.
+ * These are the same for all faces that have the corner. The sign of X_a Y_b - X_b Y_a is the side
+ * of the edge from a to b on which the ray lies. Both faces of an edge get the same number with
+ * opposite signs, so the ray cannot slip through between them.
  *
- * Nearly always the upper bits of X and Y decide; the rest is for the few that they leave open.
+ * Nearly always the upper bits of X and Y decide; the full numbers are for the rest.
  */
 #include "query.h"
 
-/* A corner as the ray sees it: the upper bits of X and Y, cut off. */
+/* A corner as the ray sees it: the upper bits of X and Y. */
 struct seen {
     const int16_t *v;
     int32_t x, y;
 };
 
-/* X_i in full. Bounds: |v| <= 2^15, |at| < 2^60 and the slope is at most 2^30. */
+/* X_i in full. Bounds: |v| <= 2^15, |at| < 2^60, and the slope is at most 2^30. */
 static int64_t whole(const struct query_ray *ray, const int16_t *v, int i)
 {
     return v[ray->axis[i]] * (int64_t)CAROM_ONE_Q30 - ray->at_q30[i] -
@@ -27,9 +27,9 @@ static int64_t whole(const struct query_ray *ray, const int16_t *v, int i)
 }
 
 /*
- * The same less the bits that early tests do not look at. A ray that is marched passes through the
- * mesh's box, or within a quantum of it: x is within 2^16 + 1 quanta of any corner along each axis,
- * so |X| < 2^48 and x is below 2^31.
+ * X_i without the bits that the early test ignores. A ray that is marched passes through the mesh's
+ * box, or within a quantum of it: it is within 2^16 + 1 quanta of any corner along each axis, so
+ * |X| < 2^48, and the result is below 2^31.
  */
 static inline int32_t early(const struct query_ray *ray, const int16_t *v, int i)
 {
@@ -37,9 +37,9 @@ static inline int32_t early(const struct query_ray *ray, const int16_t *v, int i
 }
 
 /*
- * The side of an edge in full. On the line of the edge the ray counts as moved a little along X, and
- * far less along Y, for all edges alike. 0 for an edge that the ray runs along.
- * Bounds: |X|, |Y| < 2^48: the products take 96 bits.
+ * The side of an edge in full. A ray on the edge's line counts as moved a little along X, and far
+ * less along Y, the same for all edges. 0 for an edge that the ray runs along. Bounds: |X|, |Y| <
+ * 2^48, so products take 96 bits.
  */
 static int exact_side(const struct query_ray *ray, const int16_t *a, const int16_t *b)
 {
@@ -57,8 +57,8 @@ static int exact_side(const struct query_ray *ray, const int16_t *a, const int16
 }
 
 /*
- * What was cut off x and y is less than one each, so the side is off by less than the sum of them, and 2:
- * below 2^33. |x|, |y| <= 2^31: two products are below 2^63.
+ * The side of an edge. The bits cut off x and y are worth less than one each, so the side is off by
+ * less than their sum plus 2: below 2^33. |x|, |y| <= 2^31, so two products are below 2^63.
  */
 static inline int side_of(const struct query_ray *ray, const struct seen *a, const struct seen *b)
 {
@@ -71,7 +71,7 @@ static inline int side_of(const struct query_ray *ray, const struct seen *a, con
     return exact_side(ray, a->v, b->v);
 }
 
-/* The three sides that a ray through a face has on its edges: 0 when they are not the same. */
+/* The side that a ray through the face has on all three edges; 0 if they differ. */
 static inline int crossing(const struct query_ray *ray, const struct seen p[3])
 {
     int side = side_of(ray, &p[0], &p[1]);
@@ -83,8 +83,8 @@ static inline int crossing(const struct query_ray *ray, const struct seen p[3])
 }
 
 /*
- * floor(n / d) for 0 <= n < 2^62 d, d > 0 of 70 bits or fewer: a bit at a time. n is below 2^116, and what
- * is compared with d is below 2 d.
+ * floor(n / d), bit by bit, for 0 <= n < 2^62 d and d > 0 of at most 70 bits. n is below 2^116, and
+ * the remainder is below 2 d.
  */
 static int64_t divide(const struct fix_wide *n, const struct fix_wide *d)
 {
@@ -114,14 +114,14 @@ static int64_t divide(const struct fix_wide *n, const struct fix_wide *d)
 }
 
 /*
- * Where the ray meets the plane of a face, along its main axis in units q32, rounded down. With n the cross
- * product of the sides, n . (p - corner 0) is 0 at
+ * Where the ray meets a face's plane, along its main axis, in units q32, rounded down. With n the
+ * cross product of two sides, n . (p - corner 0) is 0 at
  *
  *   z = (2^30 n . corner - n_0 at_0 - n_1 at_1) / (2^30 n_z + n_0 slope_0 + n_1 slope_1)
  *
- * Bounds: sides are below 2^16, n below 2^34, n . corner below 2^51. at is below 2^49 where the ray passes
- * through the box; the numerator is below 2^86 and the denominator below 2^66. Counted from 2^16 quanta under the
- * origin z is positive, below 2^17 quanta and 2^42 in q32 at most.
+ * Bounds: sides are below 2^16, n below 2^34, n . corner below 2^51. `at` is below 2^49 if the ray
+ * passes through the box; the numerator is below 2^86 and the denominator below 2^66. Counted from
+ * 2^16 quanta below the origin z is positive and below 2^17 quanta, at most 2^42 in q32.
  */
 static int64_t meeting(const struct query_ray *ray, const struct seen p[3])
 {
@@ -171,7 +171,7 @@ bool query_strike(const struct query_ray *ray, uint16_t face, struct query_strik
         p[k].v = mesh->raw.vertices[corner[k]];
         p[k].x = early(ray, p[k].v, 0);
     }
-    /* the ray is at 0: x below 0 is X below 0, x above 0 is X above 0 */
+    /* the ray is at 0: all corners on one side of it, along X or along Y, rule the face out */
     if ((p[0].x & p[1].x & p[2].x) < 0 || (p[0].x > 0 && p[1].x > 0 && p[2].x > 0)) {
         return false;
     }
@@ -182,7 +182,7 @@ bool query_strike(const struct query_ray *ray, uint16_t face, struct query_strik
         return false;
     }
     side = crossing(ray, p);
-    /* counter-clockwise seen from where the axis points to is a face that looks there */
+    /* corners counter-clockwise seen from the axis's upper end: the face looks up */
     if (side == 0 || (!ray->back && (side > 0) == ray->up)) {
         return false;
     }

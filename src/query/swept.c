@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first hit of a mesh on a way: by the candidates and the collision test of a step, in parts of the
- * way of about a radius each. Bodies of a world are asked by copies of what the test needs, and
- * candidates go into a few places of the stack: nothing that a step has kept is touched, but the list of
- * a surface that moves.
+ * The first hit of a mesh on a way, by the candidates and the collision test of a step, in parts of
+ * the way of half a radius each. The bodies of the world are copied as far as the test needs them,
+ * and candidates go to the stack: so nothing that a step keeps is touched, except the made z-lists
+ * of a moving surface.
  */
 #include "query.h"
 #include "ahead.h"
 #include "../contact/contact.h"
 
 #define CANDIDATES 32
-/* Lists for a part, and how long the first window of a list is. */
+/* Lists for each part; length of a list's first window. */
 #define LISTS  16
 #define WINDOW 512
-/* A way is at most so many radii long, and cut into parts of a half of one. */
+/* A way is at most this many radii long; parts of it are half a radius. */
 #define WAY_RADII    512
 #define TURN_MAX_Q30 (CAROM_ONE_Q30 / 4)
 
@@ -21,14 +21,14 @@ struct swept {
     struct candidate_visitor base;
     struct carom_world *w;
     const struct carom_mesh_way *way;
-    struct body bodies[2]; /* the mesh on a part of its way, and the body at hand */
+    struct body bodies[2]; /* the mesh on a part of its way; the body at hand */
     struct body_state state;
-    bool straight;            /* it does not turn */
-    int32_t length_q30;       /* of a part */
+    bool straight;            /* the mesh does not turn */
+    int32_t length_q30;       /* part of the way that each part takes */
     int32_t from_q30, to_q30; /* the part at hand */
-    bool set;                 /* the pair of the scratch is that of both on that part */
+    bool set;                 /* the scratch's pair holds both bodies on that part */
 
-    /* the first hit, and the part of the way that it is in */
+    /* the first hit, and where the part of the way begins that holds it */
     bool found;
     uint16_t body;
     struct boyse_hit hit;
@@ -37,7 +37,7 @@ struct swept {
 
 /* ---------------------------------------------------------------------- ways */
 
-/* The path of the mesh over a part of its way. */
+/* Set the mesh's path over a part of its way. */
 static void set_path(struct swept *s, int32_t from_q30, int32_t to_q30)
 {
     struct body *a = &s->bodies[0];
@@ -55,7 +55,7 @@ static void set_path(struct swept *s, int32_t from_q30, int32_t to_q30)
     }
 }
 
-/* In no part does the mesh go farther than half of its radius. */
+/* Check the way's range, and set the length of parts: at most half a radius. */
 static int check_way(struct swept *s)
 {
     int64_t length_q32 = fix_length(s->way->way.c);
@@ -72,7 +72,7 @@ static int check_way(struct swept *s)
     return CAROM_OK;
 }
 
-/* Whether the spheres of both, and some skins, stay apart between two places of the way. */
+/* True if both spheres, and some skins, stay apart between two places of the way. */
 static bool stays_apart(const struct swept *s, const struct body *b, const struct body_state *at,
                         int32_t from_q30, int32_t to_q30)
 {
@@ -108,7 +108,7 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
 {
     struct swept *s = (struct swept *)self;
     struct boyse_pair *pair = world_pair(s->w);
-    uint16_t body = s->bodies[1].island; /* its number in the world */
+    uint16_t body = s->bodies[1].island; /* its number in the world, see copy_body */
     uint32_t roots = 0;
 
     if (n > 0 && !s->set) {
@@ -132,7 +132,7 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
     }
 }
 
-/* A body of the world, as the collision test needs it. */
+/* Copy what the collision test needs of a body of the world. */
 static void copy_body(struct swept *s, uint32_t i)
 {
     const struct body *from = &s->w->bodies[i];
@@ -156,13 +156,13 @@ static void begin_part(struct swept *s, int32_t from_q30)
     s->set = false;
 }
 
-/* Whether the part at hand is behind the hit that is known. */
+/* True if that part lies beyond the hit that is known. */
 static bool is_behind(const struct swept *s, int32_t from_q30)
 {
     return s->found && from_q30 > s->hit_from_q30;
 }
 
-/* The part at hand against one body: all that is near on it. */
+/* Test the part at hand against the body: gather all candidates near it. */
 static int ask_part(struct swept *s)
 {
     static const struct pair pair = {0, 1};
@@ -193,8 +193,8 @@ static int ask_part(struct swept *s)
 }
 
 /*
- * Where what is still of interest of the part at hand ends: at the known hit, and a little more for others that are as
- * early, when it is on that part.
+ * End of what still matters of the part: if the known hit is in this part, the hit plus a little,
+ * for equally early ones.
  */
 static int32_t end_of_part(const struct swept *s)
 {
@@ -208,7 +208,7 @@ static int32_t end_of_part(const struct swept *s)
     return hit_q30 < s->to_q30 ? hit_q30 : s->to_q30;
 }
 
-/* The windows of a stretch of the part at hand, up to its first hit. */
+/* Test the windows of a stretch, up to its first hit. */
 static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int32_t to_q30)
 {
     int32_t window = WINDOW;
@@ -225,7 +225,10 @@ static void ask_windows(struct swept *s, struct ahead *h, int32_t from_q30, int3
     }
 }
 
-/* The part at hand against one body: what is ahead on it, as far as lists go; all that is near when they are many. */
+/*
+ * Test the part at hand against the body by the faces ahead, list by list; if those are too many
+ * gather the whole part.
+ */
 static int ask_ahead(struct swept *s, struct ahead *h)
 {
     int32_t from = s->from_q30;
@@ -248,7 +251,7 @@ static int ask_ahead(struct swept *s, struct ahead *h)
     return ask_part(s);
 }
 
-/* The mesh on its way against one body. */
+/* Test the mesh on its way against one body. */
 static int ask_body(struct swept *s, uint32_t i)
 {
     const struct body_state *at = &world_now(s->w)->bodies[i];
@@ -274,7 +277,7 @@ static int ask_body(struct swept *s, uint32_t i)
 
 /* -------------------------------------------------------------------- results */
 
-/* The face at a feature that looks most along a direction of the world. */
+/* The face at a feature that looks most along a world direction. */
 static uint16_t face_of(const struct body *b, bool vertex, uint32_t feature,
                         const carom_v3_q30 *along)
 {
@@ -321,7 +324,10 @@ static void set_faces(const struct swept *s, struct carom_mesh_hit *out)
     }
 }
 
-/* All about the hit: the pair is set up again, on the path for the normal, then where it is. */
+/*
+ * Fill in the hit. The pair is set up twice: on the path for the normal, then at the hit's pose for
+ * the point.
+ */
 static void complete(struct swept *s, struct carom_mesh_hit *out)
 {
     struct boyse_pair *pair = world_pair(s->w);
@@ -368,7 +374,7 @@ static bool begins_in_overlap(struct swept *s, const struct carom_query_filter *
     return false;
 }
 
-/* All bodies that the mesh comes near. */
+/* Test all bodies that the mesh comes near. */
 static int ask_bodies(struct swept *s, const struct carom_query_filter *filter)
 {
     const struct carom_world *w = s->w;

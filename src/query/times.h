@@ -8,12 +8,12 @@
 
 #define TIMES_BITS 12
 
-/* When an interval may touch another one: from 0 to 2^TIMES_BITS, in a stretch of a way. */
+/* The times at which an interval may touch another one, from 0 to 2^TIMES_BITS of a stretch. */
 struct times {
     int32_t enter, leave;
 };
 
-/* Bits of a divisor, so that what is divided fits 31. */
+/* Bits of a divisor, such that the dividend fits 31 bits. */
 #define DIVISOR_BITS (30 - TIMES_BITS)
 
 static inline int times_shift(int32_t d)
@@ -24,8 +24,10 @@ static inline int times_shift(int32_t d)
 }
 
 /*
- * Narrow the times to those at which [low, high], which is so at the start and moves up by `way`, is within
- * `near` of [to_low, to_high]. False when that is never. Divided are 0 <= n <= way, way > 0, less `shift` bits.
+ * Narrow the times to those at which [low, high] is within `near` of [to_low, to_high]; low and
+ * high are places at the start, and both grow by `way` over the stretch. Returns false if no time
+ * is left. Both dividends are 0 .. way, way > 0; `shift` bits of both sides are dropped, rounding
+ * outwards.
  */
 static inline bool times_narrow(struct times *t, int32_t low, int32_t high, int32_t way, int shift,
                                 int32_t to_low, int32_t to_high, int32_t near)
