@@ -150,7 +150,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -279,8 +279,15 @@ else
 	    $(COMPARE_SCENES)
 endif
 
+docs: ## the API reference of the public headers, by Doxygen, to out/docs/html
+	@tools/need doxygen
+	@rm -rf out/docs && mkdir -p out/docs
+	@CAROM_VERSION=$$(sed -n 's/^#define CAROM_VERSION_[A-Z]* \([0-9]*\)$$/\1/p' include/carom_version.h | paste -sd.) \
+	    doxygen docs/Doxyfile
+	@echo out/docs/html/index.html
+
 check: ## the gates: format, layers, symbols, sizes, stack, licences
-	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format reuse
+	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format doxygen reuse
 	@mkdir -p build
 	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
 	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status

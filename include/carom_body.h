@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * carom_body.h - what can be asked of a body and done to it beyond carom.h: who it is, where its points
- * are, what it is made of, and what acts on it.
+/**
+ * @file
+ * More about bodies: who a body is, where its points are, its materials, and the forces on it.
  *
- * The rules at the top of carom.h hold. A body is named by its number or by its id. A property that few bodies have
- * takes one of the world's extras, the first time that it is set: CAROM_ERR_EXTRAS_FULL when there is none left. The
- * extra is the body's until carom_body_remove.
+ * A property that few bodies have takes one of the world's extras (carom_caps.extras) when it is first set:
+ * CAROM_ERR_EXTRAS_FULL if none is left. The body keeps the extra until carom_body_remove(). @ref rules hold.
  */
 #ifndef CAROM_BODY_H
 #define CAROM_BODY_H
@@ -16,170 +15,294 @@
 extern "C" {
 #endif
 
-/* ----------------------------------------------------------------- identity */
+/**
+ * @defgroup identity Identity of a body
+ * Ids that never name another body, and a pointer of the caller's.
+ * @{
+ */
 
-/*
- * The id of a body: its number, and above that how many bodies have had this number. Every function
- * that takes the number of a body takes its id as well, and returns CAROM_ERR_BODY for the id of a body that
- * was removed, whoever has its number by now. The 65536th body of a number has the id of the first.
- * Returns  the id, above 4095; CAROM_ERR_BODY
+/**
+ * Returns the id of a body: its number, and above that the count of bodies that have had this number.
+ *
+ * Every function that takes a body's number takes its id as well. It answers the id of a removed body with
+ * CAROM_ERR_BODY, whoever has the number by then. The 65536th body of a number has the id of the first.
+ *
+ * @return the id, above 4095; CAROM_ERR_BODY
  */
 int carom_body_id(const struct carom_world *world, int body);
-/* The number in an id, or the number itself: where arrays of yours have the body. Negative stays. */
+
+/** Returns the number in an id, or the number itself: an index for arrays of yours. A negative id stays. */
 int carom_body_number(int id);
 
-/* A pointer that Carom keeps for you and never follows; not a part of a snapshot. NULL: no such body. */
+/**
+ * Keep a pointer for the caller. Carom never follows it, and it is not part of a snapshot.
+ *
+ * @param user   may be NULL
+ * @return CAROM_OK; CAROM_ERR_BODY
+ */
 int carom_body_set_user(struct carom_world *world, int body, void *user);
+
+/** Returns the pointer of carom_body_set_user() or carom_body_def.user; NULL if there is no such body. */
 void *carom_body_user(const struct carom_world *world, int body);
 
-/* ------------------------------------------------------------------- places */
+/** @} */
+/**
+ * @defgroup places Places and directions
+ * Convert between the coordinates of a mesh and those of the world.
+ * @{
+ */
 
-/*
- * From the mesh's axes to those of the world: a place p of the mesh is at r p + origin. To have numbers
- * of type `float` for a renderer: CAROM_AS(float, m.r.c[i][k], 30), CAROM_AS(float, m.origin.c[i], 32).
+/**
+ * A body's transform: the place p of its mesh is at r p + origin in the world.
+ *
+ * As `float` for a renderer: CAROM_AS(float, m.r.c[i][k], 30), CAROM_AS(float, m.origin.c[i], 32).
  */
 struct carom_matrix {
-    carom_m3_q30 r;
-    carom_v3_q32 origin; /* of the mesh's coordinates */
+    carom_m3_q30 r;      /**< from the mesh's axes to the world's */
+    carom_v3_q32 origin; /**< place of the mesh's origin, units */
 };
-/* CAROM_OK, CAROM_ERR_NULL or CAROM_ERR_BODY. */
+
+/**
+ * Read the transform of a body.
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY
+ */
 int carom_body_matrix(const struct carom_world *world, int body, struct carom_matrix *matrix);
 
-/*
- * A place of the mesh, in the coordinates of its vertices, as one of the world; and back.
- * CAROM_ERR_RANGE for a component beyond +-8192.
+/**
+ * Convert a place of the mesh to a place in the world.
+ *
+ * @param local       coordinates of the mesh, units, each component within +-8192
+ * @param[out] point  place in the world; may be `local` itself
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_RANGE
  */
 int carom_body_world_point(const struct carom_world *world, int body, const carom_v3_q32 *local,
                            carom_v3_q32 *point);
+
+/**
+ * Convert a place in the world to a place of the mesh.
+ *
+ * @param point       place in the world, units, each component within +-8192
+ * @param[out] local  coordinates of the mesh; may be `point` itself
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_RANGE
+ */
 int carom_body_local_point(const struct carom_world *world, int body, const carom_v3_q32 *point,
                            carom_v3_q32 *local);
-/*
- * A direction or a velocity along the mesh's axes as one along the world's, and back. In any format: that
- * of what goes in. CAROM_ERR_RANGE for a component of 2^60 or more. out may be the vector itself.
+
+/**
+ * Turn a direction or a velocity from the mesh's axes to the world's.
+ *
+ * @param vector    in any format, each component below 2^60
+ * @param[out] out  in the same format; may be `vector` itself
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_RANGE
  */
 int carom_body_world_vector(const struct carom_world *world, int body, const int64_t vector[3],
                             int64_t out[3]);
+
+/**
+ * Turn a direction or a velocity from the world's axes to the mesh's. As carom_body_world_vector().
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_RANGE
+ */
 int carom_body_local_vector(const struct carom_world *world, int body, const int64_t vector[3],
                             int64_t out[3]);
-/*
- * v + w x (point - centre), units / frame; surfaces that move by themselves apart.
- *   point  of the world, each component within +-4096
+
+/**
+ * Read the velocity of a body at a place: v + w x (point - centre). The motion of a surface's own vertices is not in it.
+ *
+ * @param point          place in the world, units, each component within +-4096
+ * @param[out] velocity  units / frame
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_RANGE
  */
 int carom_body_velocity_at(const struct carom_world *world, int body, const carom_v3_q32 *point,
                            carom_v3_q40 *velocity);
 
-/* ---------------------------------------------------------------- materials */
+/** @} */
+/**
+ * @defgroup materials Materials and mass
+ * Restitution, friction, rolling friction and conveyors, by body or by face.
+ * @{
+ */
 
-#define CAROM_ROLLING_Q16 (1 << 10) /* 1/64: a body's that is not told */
+/** Rolling friction of a body that nobody set: 1/64. */
+#define CAROM_ROLLING_Q16 (1 << 10)
 
-/* The material of a surface. */
+/** The material of a surface. */
 struct carom_material {
-    int32_t restitution_q30; /* e, 0 .. 1 */
-    uint32_t friction_q16;   /* mu, 0 .. 4 */
-    /*
-     * Rolling friction, 0 .. 1: the normal force acts so much of the radius off. A pair has
-     * 64 times the product of both, so that CAROM_ROLLING_Q16 leaves the other as it is; at most 1.
-     */
-    uint32_t rolling_q16;
-    /*
-     * The surface moves along itself by this while the body stays where it is, as a conveyor does:
-     * units / frame in the mesh's axes, each component within +-16. The part that points out of a face does nothing.
-     */
-    carom_v3_q40 surface_velocity;
+    int32_t restitution_q30; /**< restitution e, 0 to 1 */
+    uint32_t friction_q16;   /**< coefficient of friction mu, 0 to 4 */
+    uint32_t
+        rolling_q16; /**< rolling friction, 0 to 1: the arm of the normal force, in radii. A pair has 64 times
+                                  the product of both, at most 1, so #CAROM_ROLLING_Q16 leaves the other as it is */
+    carom_v3_q40
+        surface_velocity; /**< velocity of the surface along itself while the body stays in place, as of a
+                                        conveyor belt: units / frame, mesh axes, each component within +-16. The part
+                                        along a face's normal has no effect */
 };
 
-/*
- * Make a body of another material; wakes it and what touches it, if it is another one. A body with another
- * rolling friction than CAROM_ROLLING_Q16 or with a surface velocity takes an extra.
- * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a value out of its range
+/**
+ * Change the material of a body. A different one wakes the body and whatever touches it.
+ *
+ * A rolling friction other than #CAROM_ROLLING_Q16 and a surface velocity take an extra.
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a value out of range; CAROM_ERR_EXTRAS_FULL
  */
 int carom_body_set_material(struct carom_world *world, int body,
                             const struct carom_material *material);
+
+/**
+ * Read the material of a body.
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY
+ */
 int carom_body_material(const struct carom_world *world, int body, struct carom_material *material);
 
-/*
- * Let the faces of a body be of several materials, in place of the body's own; takes an extra. Edges and
- * vertices are of the face at them that looks most towards what touches them.
+/**
+ * Give the faces of a body materials of their own. Takes an extra.
  *
- *   materials  `count` of them, 1 .. 256; NULL: all faces are of the body's own again
- *   of_face    the place of each face's material in that array, one for each face of the mesh
+ * An edge or a vertex has the material of its face that looks most at what touches it. Rolling friction stays that
+ * of the body.
  *
- * Both arrays are yours, and stay where and as they are while the body has them. Their rolling friction is
- * not looked at: the body has one.
- * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a value out of its range
+ * @param materials  `count` materials; NULL: all faces have the body's own again. The array stays the caller's, and
+ *                   stays as it is while the body uses it
+ * @param count      1 to 256
+ * @param of_face    for each face of the mesh, the index of its material; kept like `materials`
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a value out of range; CAROM_ERR_EXTRAS_FULL
  */
 int carom_body_set_face_materials(struct carom_world *world, int body,
                                   const struct carom_material *materials, uint32_t count,
                                   const uint8_t *of_face);
 
-/* How e, or mu, of a pair comes from that of both. */
+/** How the e, or the mu, of a pair follows from those of its two bodies. */
 enum carom_combine {
-    CAROM_SMALLER = 0, /* at first */
-    CAROM_LARGER = 1,
-    CAROM_PRODUCT = 2, /* mu: at most 4 */
-    CAROM_MEAN = 3     /* e: (a + b) / 2; mu: the root of a b */
+    CAROM_SMALLER = 0, /**< the smaller one; the default */
+    CAROM_LARGER = 1,  /**< the larger one */
+    CAROM_PRODUCT = 2, /**< the product; mu: at most 4 */
+    CAROM_MEAN = 3     /**< e: (a + b) / 2; mu: the root of a b */
 };
-/* Choose for a world, at any time: what rests stays at rest until something wakes it. */
+
+/**
+ * Choose how materials combine in this world. Bodies at rest stay at rest until something wakes them.
+ *
+ * @return CAROM_OK; CAROM_ERR_ARGUMENT
+ */
 int carom_world_set_combine(struct carom_world *world, enum carom_combine restitution,
                             enum carom_combine friction);
 
-/*
- * Give a moving body another mass, and keep how it moves; wakes it and what is connected with it by touching,
- * if it is another.
- *   mass_q20  2^-10 .. 2^10; 0: the mesh's volume, density 1
- * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a stationary body or a mass out of range;
- *          CAROM_ERR_RANGE when its force or torque is too much for that mass
+/**
+ * Change the mass of a moving body, and keep its velocity and spin.
+ *
+ * A different mass wakes the body and all that is connected with it by touching.
+ *
+ * @param body      a moving body
+ * @param mass_q20  2^-10 to 2^10; 0: the volume of the mesh, at density 1
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body that does not move freely or a mass out of range;
+ *         CAROM_ERR_RANGE if its force or torque is too much for this mass, or the volume is outside 2^-10 to 2^10
  */
 int carom_body_set_mass(struct carom_world *world, int body, uint32_t mass_q20);
-/* Its mass, to nearest; 0 of a stationary body. */
+
+/**
+ * Read the mass of a body, to nearest; 0 for a body that does not move freely.
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY
+ */
 int carom_body_mass(const struct carom_world *world, int body, uint32_t *mass_q20);
 
-/* ---------------------------------------------------------- forces, impulses */
+/** @} */
+/**
+ * @defgroup forces Forces and impulses
+ * What acts on a body until it is changed, and what acts at once. See also carom_body_set_force() and
+ * carom_body_push().
+ *
+ * Damping acts first, where a frame begins: p - p d, each component rounded to nearest. Then torque adds to the
+ * angular momentum as much as a frame of it does, so the body turns through the frame at the spin that it ends with.
+ * Gravity and force act over the frame. Neither torque nor damping acts on a body that sleeps or is out.
+ *
+ * A different value wakes the body and all that is connected with it by touching. A torque, a gravity scale other
+ * than 1, and damping take an extra.
+ * @{
+ */
 
-/* Everything that acts on a body until it is changed: a part of the state, hashed and saved. */
+/** What acts on a body until it is changed. It is part of the state: hashed and saved. */
 struct carom_forces {
-    carom_v3_q40 force;          /* through the centre of mass; carom_body_set_force */
-    carom_v3_q40 torque;         /* about it, world axes: mass x units^2 / frame^2 */
-    int32_t gravity_scale_q16;   /* gravity acts so many times, -16 .. 16; 1 at first */
-    int32_t linear_damping_q30;  /* the part of its momentum that a frame takes, 0 .. 1 */
-    int32_t angular_damping_q30; /* and of its angular momentum */
+    carom_v3_q40 force;  /**< through the centre of mass, mass x units / frame^2 */
+    carom_v3_q40 torque; /**< about the centre of mass, world axes, mass x units^2 / frame^2 */
+    int32_t gravity_scale_q16;   /**< factor on gravity, -16 to 16; 1 at first */
+    int32_t linear_damping_q30;  /**< part of the momentum lost in a frame, 0 to 1 */
+    int32_t angular_damping_q30; /**< part of the angular momentum lost in a frame, 0 to 1 */
 };
-/* Everything that acts on a body now. */
+
+/**
+ * Read what acts on a body.
+ *
+ * @return CAROM_OK; CAROM_ERR_BODY
+ */
 int carom_body_forces(const struct carom_world *world, int body, struct carom_forces *forces);
 
-/*
- * Set one of them; wakes the body and what is connected with it by touching, if it is another. All but the
- * first take an extra, unless the value is the one that a body has at first.
+/**
+ * Set the force, and the torque that it has about the centre of mass when it acts at a place.
  *
- * Torque adds to the angular momentum once, where a frame begins, as much as a frame of it does; so a body
- * turns through the frame at the spin that it will end with. Damping comes before that, at the same
- * place: p - p d, each component rounded to nearest, and gravity and force act over the frame. A body that
- * sleeps or is out takes neither.
+ * The place is used once, with the body where it is now; it does not move with the body.
  *
- *   set_force_at       the force, and the torque that it has about the centre from a point of the world, where the
- *                      body is now; it does not go with the body
- *   set_torque         each component at most what stops the fastest spin in a frame: 64 mass x radius
- *   set_gravity_scale  within +-16
- *   set_damping        each 0 .. CAROM_ONE_Q30
- *
- * Returns  CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a stationary body, a scale or a damping out of
- *          range; CAROM_ERR_RANGE for a torque out of range, or when a component of
- *          scale x gravity + force / mass is beyond +-1
+ * @param body   a moving body
+ * @param force  mass x units / frame^2
+ * @param point  place in the world, units, each component within +-4096
+ * @return as carom_body_set_torque()
  */
 int carom_body_set_force_at(struct carom_world *world, int body, const carom_v3_q40 *force,
                             const carom_v3_q32 *point);
+
+/**
+ * Set the torque on a moving body.
+ *
+ * @param body    a moving body
+ * @param torque  world axes, mass x units^2 / frame^2; each component at most what stops the fastest spin in a frame,
+ *                64 mass x radius
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body that does not move freely; CAROM_ERR_RANGE for a
+ *         torque out of range, or a component of scale x gravity + force / mass beyond +-1; CAROM_ERR_EXTRAS_FULL
+ */
 int carom_body_set_torque(struct carom_world *world, int body, const carom_v3_q40 *torque);
+
+/**
+ * Set how strongly gravity acts on a moving body.
+ *
+ * @param body       a moving body
+ * @param scale_q16  factor on gravity, within +-16
+ * @return as carom_body_set_torque(), and CAROM_ERR_ARGUMENT for a scale out of range
+ */
 int carom_body_set_gravity_scale(struct carom_world *world, int body, int32_t scale_q16);
+
+/**
+ * Set the damping of a moving body.
+ *
+ * @param body         a moving body
+ * @param linear_q30   part of the momentum lost in a frame, 0 to CAROM_ONE_Q30
+ * @param angular_q30  part of the angular momentum lost in a frame, 0 to CAROM_ONE_Q30
+ * @return CAROM_OK; CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body that does not move freely or a damping out of range;
+ *         CAROM_ERR_EXTRAS_FULL
+ */
 int carom_body_set_damping(struct carom_world *world, int body, int32_t linear_q30,
                            int32_t angular_q30);
 
-/* carom_body_push through the centre of mass: the spin stays. */
+/**
+ * Give a moving body an impulse through its centre of mass at once: the spin stays.
+ *
+ * @param body     a moving body
+ * @param impulse  mass x units / frame
+ * @return as carom_body_push()
+ */
 int carom_body_push_centre(struct carom_world *world, int body, const carom_v3_q40 *impulse);
-/*
- * Give a moving body an angular impulse at once: mass x units^2 / frame, world axes. Returns as
- * carom_body_push.
+
+/**
+ * Give a moving body an angular impulse at once: the velocity stays.
+ *
+ * @param body     a moving body
+ * @param angular  world axes, mass x units^2 / frame
+ * @return as carom_body_push()
  */
 int carom_body_twist(struct carom_world *world, int body, const carom_v3_q40 *angular);
+
+/** @} */
 
 #ifdef __cplusplus
 }

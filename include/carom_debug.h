@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * carom_debug.h - a world as triangles and lines, for a renderer of the program's own; the lines may go into
- * Carom's pictures. A part of the library that draws, over carom.h, whose rules hold here too.
+/**
+ * @file
+ * A world as triangles and lines, for a renderer of the program's own, or for the lines of Carom's pictures. @ref rules
+ * hold.
+ *
+ * It is part of the library that draws.
  */
 #ifndef CAROM_DEBUG_H
 #define CAROM_DEBUG_H
@@ -12,59 +15,80 @@
 extern "C" {
 #endif
 
-/* Kinds of things that are handed over, in this order; a sum of these. */
+/**
+ * @defgroup debug Debug geometry
+ * Hand the bodies of a world, and what the engine found, to a renderer.
+ * @{
+ */
+
+/** What carom_debug_draw() hands over, in this order. Flags are a sum of these. */
 enum carom_debug_flag {
-    CAROM_DEBUG_FACES = 1, /* triangles: the faces of the bodies */
+    CAROM_DEBUG_FACES = 1, /**< triangles: the faces of the bodies */
     CAROM_DEBUG_INTERFERING =
-        2,                 /* those that interfere have their colour; without FACES, only those */
-    CAROM_DEBUG_EDGES = 4, /* lines: each edge of the meshes once */
-    CAROM_DEBUG_BOXES = 8, /* the box of each mesh along the mesh's axes, 12 lines */
+        2, /**< interfering faces have their own colour; without FACES, only those */
+    CAROM_DEBUG_EDGES = 4, /**< lines: each edge of the meshes once */
+    CAROM_DEBUG_BOXES = 8, /**< 12 lines: the box of each mesh, along the mesh's axes */
     CAROM_DEBUG_AXES =
-        16, /* x, y and z of each body in red, green and blue, from its centre of mass */
-    CAROM_DEBUG_VELOCITIES = 32, /* from there to where the body would be 16 frames later: cyan */
-    CAROM_DEBUG_CONTACTS = 64,   /* the contacts: a point, and a line along the normal: yellow */
-    CAROM_DEBUG_JOINTS = 128     /* kept for joints */
+        16, /**< lines: x, y, z of each body in red, green, blue, from its centre of mass */
+    CAROM_DEBUG_VELOCITIES =
+        32, /**< cyan lines: from the centre of mass to where the body would be in 16 frames */
+    CAROM_DEBUG_CONTACTS = 64, /**< yellow: a point for each contact, and a line along its normal */
+    CAROM_DEBUG_JOINTS = 128   /**< reserved for joints */
 };
 
-/*
- * Where things go. A function that is NULL is not called. Colours are entries of the palette: it has each as
- * 0x00RRGGBB. Places are of the world.
+/**
+ * Where the geometry goes. A function that is NULL is not called.
+ *
+ * Places are of the world. A colour is an entry of the palette, which has it as 0x00RRGGBB.
  */
 struct carom_debug {
-    /* Corners are counter-clockwise from outside; the normal is that of the mesh's face. */
+    /** Takes a triangle: corners counter-clockwise from outside, and the normal of the mesh's face. */
     void (*triangle)(void *context, const carom_v3_q32 corner[3], const carom_v3_q30 *normal,
                      uint32_t colour);
+    /** Takes a line. */
     void (*line)(void *context, const carom_v3_q32 *from, const carom_v3_q32 *to, uint32_t colour);
+    /** Takes a point. */
     void (*point)(void *context, const carom_v3_q32 *at, uint32_t colour);
-    void *context; /* the functions' first argument */
-
-    const struct carom_paint *paint; /* the colours of bodies; NULL: the usual ones */
-    int64_t size_q32; /* length of axes and normals, 0 .. 256 units; 0: as the bodies are large */
-
-    struct carom_contact *contacts; /* room for CONTACTS; what finds none is not handed over */
-    int contact_room;
+    void *context;                   /**< first argument of these functions; may be NULL */
+    const struct carom_paint *paint; /**< colours of the bodies; NULL: the usual ones */
+    int64_t
+        size_q32; /**< length of axes and normals, 0 to 256 units; 0: by the size of the bodies */
+    struct carom_contact
+        *contacts;    /**< room that CONTACTS works in; contacts beyond it are left out */
+    int contact_room; /**< how many contacts fit */
 };
 
-/*
+/**
  * Hand a world over as it is after its last step. Nothing changes.
  *
- * Returns  CAROM_OK; CAROM_ERR_NULL, for contacts, too, when there is room for some; CAROM_ERR_ARGUMENT for
- *          unknown flags, a size or room out of range, or a number of ramps that a paint must not have
+ * @param flags  a sum of #carom_debug_flag
+ * @param debug  where the geometry goes
+ * @return CAROM_OK; CAROM_ERR_NULL, also for `contacts` if `contact_room` is not 0; CAROM_ERR_ARGUMENT for unknown
+ *         flags, a size or room out of range, or a #carom_paint that carom_draw() would refuse
  */
 int carom_debug_draw(const struct carom_world *world, uint32_t flags,
                      const struct carom_debug *debug);
 
-/* Lines that are kept, for the paint of a picture: bodies hide them there. */
+/** Lines that are kept for a #carom_paint, so that bodies in a picture hide them. */
 struct carom_debug_lines {
-    struct carom_paint_line *lines; /* the caller's */
-    uint32_t room;                  /* so many */
-    uint32_t count;                 /* so many are there */
-    uint32_t lost; /* and so many found no room, or were out of the world's range */
+    struct carom_paint_line *lines; /**< the caller's array */
+    uint32_t room;                  /**< how many lines fit */
+    uint32_t count;                 /**< how many lines it holds */
+    uint32_t lost; /**< lines for which there was no room, or that were out of the world's range */
 };
 
-/* A `line` of carom_debug: its context is a struct carom_debug_lines, which it adds the line to. */
+/**
+ * Keep a line: a function for carom_debug.line, with a #carom_debug_lines as its context.
+ *
+ * @param lines   a struct carom_debug_lines, which the line is added to
+ * @param from    start
+ * @param to      end
+ * @param colour  an entry of the palette
+ */
 void carom_debug_keep_line(void *lines, const carom_v3_q32 *from, const carom_v3_q32 *to,
                            uint32_t colour);
+
+/** @} */
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * carom_mesh.h - meshes: the triangles that a caller has, and what is built of them. carom.h includes it, and the
- * rules at its top hold.
+/**
+ * @file
+ * Meshes: the triangles of the caller, and the index that is built from them. carom.h includes this header. @ref rules
+ * hold.
  */
 #ifndef CAROM_MESH_H
 #define CAROM_MESH_H
@@ -12,111 +13,155 @@
 extern "C" {
 #endif
 
-enum carom_mesh_kind {
-    CAROM_SOLID = 0,  /* closed, oriented outwards */
-    CAROM_SURFACE = 1 /* a height field: open, one z over each x, y, solid below; stationary */
-};
-
-/*
- * A mesh as it comes from a converter: triangles over int16 vertices. One quantum, the step of a
- * vertex coordinate, is 2^-quantum_bits world units.
+/**
+ * @defgroup meshes Meshes
+ * Build a mesh from triangles, or read one that the converter wrote.
+ *
+ * carom_shapes.h makes boxes, spheres and the like; build/tools/carom-mesh converts files. A built mesh serves bodies
+ * of any number of worlds.
+ * @{
  */
+
+/** What a mesh is. */
+enum carom_mesh_kind {
+    CAROM_SOLID = 0, /**< closed and oriented outwards */
+    CAROM_SURFACE =
+        1 /**< a height field: open, one z over each x, y, solid below; for stationary bodies */
+};
+
+/** Triangles over int16 vertices, as the converter or the caller makes them. */
 struct carom_mesh_raw {
-    const int16_t (*vertices)[3]; /* quanta */
-    const uint16_t (*faces)[3];   /* vertex numbers, counter-clockwise from outside */
-    uint32_t vertex_count;        /* 3 .. 65535 */
-    uint32_t face_count;          /* 1 .. 65535 */
-    uint8_t quantum_bits;         /* 7 .. 20 */
-    uint8_t kind;                 /* enum carom_mesh_kind */
+    const int16_t (*vertices)[3]; /**< coordinates, quanta */
+    const uint16_t (*faces)[3];   /**< vertex numbers, counter-clockwise from outside */
+    uint32_t vertex_count;        /**< 3 to 65535 */
+    uint32_t face_count;          /**< 1 to 65535 */
+    uint8_t quantum_bits;         /**< a quantum is 2^-quantum_bits world units; 7 to 20 */
+    uint8_t kind;                 /**< #carom_mesh_kind */
 };
 
-/* A symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx, each times 2^-e. */
+/** @} */
+/**
+ * @defgroup mesh_index The index of a mesh
+ * What carom_mesh_build() makes. It is Carom's own: visible so that the caller can reserve room for it.
+ * @{
+ */
+
+/** A symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx, each times 2^-e. */
 struct carom_sym3 {
-    int32_t m[6];
-    int32_t e;
+    int32_t m[6]; /**< xx, yy, zz, xy, yz, zx */
+    int32_t e;    /**< exponent of them all */
 };
 
-/* Mass properties of a SOLID at density 1. */
+/** Mass properties of a SOLID at density 1. */
 struct carom_mass {
-    int64_t volume_q32;        /* cubic units */
-    carom_v3_q22 centre;       /* of mass, in the mesh's coordinates */
-    struct carom_sym3 inertia; /* divided by the mass, about the centre of mass; square units */
+    int64_t volume_q32;        /**< cubic units */
+    carom_v3_q22 centre;       /**< centre of mass, in the mesh's coordinates, units */
+    struct carom_sym3 inertia; /**< inertia about the centre of mass, over the mass, square units */
 };
 
-/*
- * H with H H^T = J^-1, J being the inertia over the mass: three columns, each times its 2^-e, in 1 / units.
- * No place of the mesh, nor one within some skins of it, has a component of H_k x place above 2^reach_bits.
+/**
+ * H with H H^T = J^-1, where J is the inertia over the mass.
+ *
+ * No place of the mesh, nor within some skins of it, has a component of H_k x place above 2^reach_bits.
  */
 struct carom_spread {
-    int32_t column[3][3];
-    int8_t e[3], reach_bits;
+    int32_t column[3][3]; /**< the three columns of H, 1 / units; column k times 2^-e[k] */
+    int8_t e[3];          /**< exponent of each column */
+    int8_t reach_bits;    /**< bound of H_k x place */
 };
 
-/* All up to carom_mesh is Carom's own: visible so that you can reserve room for it. */
+/** An edge of a mesh. */
 struct carom_edge {
-    uint16_t vertex[2];
-    uint16_t face[2];       /* face[0] runs with the edge; face[1] is CAROM_NO_FACE at a border */
-    carom_v3_q30 direction; /* from vertex[0] to vertex[1] */
-    int32_t length_q22;
+    uint16_t vertex[2]; /**< first and last vertex */
+    uint16_t
+        face[2]; /**< face[0] runs with the edge; face[1] against it, #CAROM_NO_FACE at a border */
+    carom_v3_q30 direction; /**< unit vector from vertex[0] to vertex[1] */
+    int32_t length_q22;     /**< units */
 };
+/** In place of a face: an edge at a border has no second one. */
 #define CAROM_NO_FACE 0xffffu
 
+/** A face of a mesh. */
 struct carom_face {
-    carom_v3_q30 normal;
-    int32_t offset_q22; /* of its plane along the normal, from the centre of mass */
-    uint32_t edge[3];   /* edge k joins corners k and k+1 */
-    uint8_t own;        /* bits 0-2: corner k is tested for this face; bits 3-5: edge k is */
+    carom_v3_q30 normal; /**< unit normal, outwards */
+    int32_t offset_q22;  /**< of its plane along the normal, from the centre of mass, units */
+    uint32_t edge[3];    /**< edge k joins corners k and k+1 */
+    uint8_t
+        own; /**< bits 0-2: the face owns corner k; bits 3-5: edge k. The owner emits its candidates */
 };
 
-/* A cluster of neighbouring faces: what interference detection culls first. */
-#define CAROM_LEAF_FACES    14
+/** Most faces of a leaf. */
+#define CAROM_LEAF_FACES 14
+/** Most vertices of a leaf. */
 #define CAROM_LEAF_VERTICES 32
+/** A leaf: a cluster of neighbouring faces, the first that interference detection culls. */
 struct carom_leaf {
-    carom_v3_q22 centre; /* of a sphere around the leaf, about the centre of mass */
-    int32_t radius_q22;
-    carom_v3_q30 axis;         /* the mean normal of its faces, and how far it reaches */
-    int32_t low_q22, high_q22; /* along that from the centre of mass */
-    uint32_t owned;            /* its vertices that are tested for one of its faces, a bit each */
-    uint32_t first_face;       /* into leaf_faces */
-    uint32_t first_vertex;     /* into leaf_vertices */
-    uint8_t face_count, vertex_count;
+    carom_v3_q22 centre; /**< centre of a sphere around the leaf, from the centre of mass, units */
+    int32_t radius_q22;  /**< radius of that sphere, units */
+    carom_v3_q30 axis;   /**< mean normal of the faces */
+    int32_t
+        low_q22; /**< least coordinate of the leaf along the axis, from the centre of mass, units */
+    int32_t high_q22;      /**< largest one */
+    uint32_t owned;        /**< a bit for each vertex that one of the leaf's faces owns */
+    uint32_t first_face;   /**< index into leaf_faces */
+    uint32_t first_vertex; /**< index into leaf_vertices */
+    uint8_t face_count;    /**< 1 to #CAROM_LEAF_FACES */
+    uint8_t vertex_count;  /**< 3 to #CAROM_LEAF_VERTICES */
 };
 
-/* An entry of a mesh's own z-lists. */
+/** An entry of a mesh's z-lists: a face over a cell. */
 struct carom_zref {
-    int16_t z0, z1; /* quanta */
-    uint16_t face;
+    int16_t z0;    /**< lowest z of the face, quanta */
+    int16_t z1;    /**< highest z of the face, quanta */
+    uint16_t face; /**< face number */
 };
 
 struct carom_surface;
 
-/* An indexed mesh, ready to be used by bodies of any world. Read only after the build. */
+/** An indexed mesh. Nothing writes to it after the build, except carom_surface_move(). */
 struct carom_mesh {
-    struct carom_mesh_raw raw;
-    struct carom_mass mass;                  /* SOLID; zero for a SURFACE */
-    struct carom_sym3 inverse, inverse_rest; /* their sum: of mass.inertia; zero if it has none */
-    struct carom_spread spread;              /* zero as well then */
-    uint32_t edge_count, leaf_count, zref_count;
-    int32_t radius_q22;       /* of the sphere around the centre of mass (SURFACE: the origin) */
-    int16_t box[2][3];        /* quanta: lowest and highest corner */
-    int32_t grid_x0, grid_y0; /* quanta: corner of the cell grid over x, y */
-    uint8_t grid_shift, grid_nx, grid_ny; /* cells of 2^shift quanta */
-    const struct carom_face *faces;
-    const struct carom_edge *edges;
-    const uint32_t *ring_start; /* vertex v's edges are ring[ring_start[v] .. ring_start[v+1]) */
-    const uint32_t *ring; /* edge number * 2 + 1 when the edge ends at v, + 0 when it starts */
-    const struct carom_leaf *leaves;
-    const uint16_t *leaf_faces;
-    const uint16_t *leaf_vertices;
-    const uint8_t (*leaf_corners)[3]; /* a leaf face's corners as places in its leaf's vertices */
-    const uint32_t *cell_start; /* cell c's entries are zrefs[cell_start[c] .. cell_start[c+1]) */
-    const struct carom_zref *zrefs; /* sorted by z1, highest first */
-    struct carom_surface *surface;  /* of carom_surface_build; else NULL */
+    struct carom_mesh_raw raw;      /**< the triangles */
+    struct carom_mass mass;         /**< mass properties of a SOLID; zero for a SURFACE */
+    struct carom_sym3 inverse;      /**< inverse of mass.inertia; zero if it has none */
+    struct carom_sym3 inverse_rest; /**< what `inverse` lacks of the exact inverse */
+    struct carom_spread spread;     /**< root of the inverse; zero if it has none */
+    uint32_t edge_count;            /**< edges */
+    uint32_t leaf_count;            /**< leaves */
+    uint32_t zref_count;            /**< entries of all z-lists */
+    int32_t radius_q22; /**< of a sphere around the centre of mass (SURFACE: the origin), units */
+    int16_t box[2][3];  /**< lowest and highest corner, quanta */
+    int32_t grid_x0;    /**< corner of the cell grid over x and y, quanta */
+    int32_t grid_y0;    /**< the same in y */
+    uint8_t grid_shift; /**< a cell is 2^grid_shift quanta wide */
+    uint8_t grid_nx;    /**< cells along x */
+    uint8_t grid_ny;    /**< cells along y */
+    const struct carom_face *faces; /**< faces */
+    const struct carom_edge *edges; /**< edges */
+    const uint32_t
+        *ring_start;      /**< the edges of vertex v are ring[ring_start[v] to ring_start[v+1]) */
+    const uint32_t *ring; /**< edge number * 2, + 1 if the edge ends at the vertex */
+    const struct carom_leaf *leaves; /**< leaves */
+    const uint16_t *leaf_faces;      /**< face numbers, leaf by leaf */
+    const uint16_t *leaf_vertices;   /**< vertex numbers, leaf by leaf */
+    const uint8_t (
+        *leaf_corners)[3]; /**< corners of a leaf's faces, as indices into the leaf's vertices */
+    const uint32_t
+        *cell_start; /**< the entries of cell c are zrefs[cell_start[c] to cell_start[c+1]) */
+    const struct carom_zref *zrefs; /**< entries, each list sorted by z1, highest first */
+    struct carom_surface *surface;  /**< of carom_surface_build(); otherwise NULL */
 };
 
-/*
- * Memory that carom_mesh_build needs for any mesh of so many vertices and faces; a constant
- * expression and a multiple of 8, so that blocks can lie end to end. Derived in SPEC.md.
+/** @} */
+
+/**
+ * @addtogroup meshes
+ * @{
+ */
+
+/**
+ * Bytes that carom_mesh_build() needs for any mesh of so many vertices and faces.
+ *
+ * A constant expression and a multiple of 8, so blocks can lie end to end. SPEC.md derives it.
  */
 #define CAROM_MESH_BYTES(vertices, faces) CAROM_MESH_BYTES_((size_t)(vertices), (size_t)(faces))
 #define CAROM_MESH_BYTES_(v, f)                                                                    \
@@ -127,7 +172,7 @@ struct carom_mesh {
      CAROM_ARRAY_(uint16_t, CAROM_MESH_LEAF_VERTICES_(v, f)) + CAROM_ARRAY_(uint8_t, 3 * (f)) +    \
      CAROM_ARRAY_(uint32_t, CAROM_MESH_CELLS_(f) + 1) +                                            \
      CAROM_ARRAY_(struct carom_zref, CAROM_MESH_ENTRIES_(f)))
-/* The most there may be of edges, of leaves and their vertices, of cells and of their entries. */
+/* Upper bounds: edges, leaves and their vertices, cells and their entries. */
 #define CAROM_MESH_EDGES_(v, f)                                                                    \
     CAROM_MORE_(3 * (f) / 2, CAROM_LESS_(3 * (f), 3 * (v)-6)) /* v is 3 or more */
 #define CAROM_MESH_LEAVES_(v, f)                                                                   \
@@ -139,55 +184,68 @@ struct carom_mesh {
 #define CAROM_LESS_(a, b)               ((a) < (b) ? (a) : (b))
 #define CAROM_MORE_(a, b)               ((a) > (b) ? (a) : (b))
 
-/* The same where the counts are known only at run time. */
+/** As #CAROM_MESH_BYTES, for counts known only at run time. */
 size_t carom_mesh_bytes(uint32_t vertices, uint32_t faces);
 
-/*
- * Whether a raw mesh can be built: what carom_mesh_build would return.
- *   scratch  CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
+/**
+ * Check if a mesh can be built.
+ *
+ * @param raw      the mesh
+ * @param scratch  aligned to 8; overwritten
+ * @param bytes    size of `scratch`, at least #CAROM_MESH_BYTES of the mesh
+ * @return what carom_mesh_build() would return
  */
 int carom_mesh_check(const struct carom_mesh_raw *raw, void *scratch, size_t bytes);
 
-/*
- * Check and index a mesh: edges, planes, bounds, clusters, mass and its own z-lists.
+/**
+ * Check and index a mesh: edges, planes, bounds, leaves, mass and z-lists.
  *
- *   mesh   out  ready to use; refers to raw's arrays and to mem
- *   raw    in   its arrays must outlive the mesh
- *   mem    in   CAROM_MESH_BYTES(vertices, faces) bytes, aligned to 8; overwritten
- *
- * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for kind or quantum_bits; CAROM_ERR_MEMORY;
- *          CAROM_ERR_RANGE for a box with a side over 256 or a diagonal over 384 units, or one that
- *          winds around itself so often that its volume does not fit;
- *          or the first CAROM_ERR_MESH_... that holds. mesh is written only for CAROM_OK.
+ * @param[out] mesh  ready to use; refers to the arrays of `raw` and to `mem`, which outlive it
+ * @param raw        the triangles
+ * @param mem        aligned to 8; holds the index
+ * @param bytes      size of `mem`, at least #CAROM_MESH_BYTES of the mesh
+ * @return CAROM_OK; CAROM_ERR_ARGUMENT for `kind` or `quantum_bits`; CAROM_ERR_MEMORY;
+ *         CAROM_ERR_RANGE for a box with a side over 256 or a diagonal over 384 units, or a mesh that winds around
+ *         itself so often that its volume does not fit;
+ *         or the first CAROM_ERR_MESH_... that holds. `mem` is overwritten even then.
  */
 int carom_mesh_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
                      size_t bytes);
 
-/*
- * A SURFACE whose vertices may be moved while it is in a world, by carom_surface_move. As
- * carom_mesh_build, but
- *
- *   mesh   must stay where it is; for one body of one world
- *   raw    its vertices are copied and not needed any more; its faces must outlive the mesh
- *   mem    CAROM_SURFACE_BYTES(vertices, faces) bytes of RAM: what is built and two copies of the
- *          vertices live in it
- *
- * Returns  CAROM_ERR_ARGUMENT for a SOLID as well.
- */
+/** Bytes that carom_surface_build() needs. A constant expression and a multiple of 8. */
 #define CAROM_SURFACE_BYTES(vertices, faces)                                                       \
     (CAROM_MESH_BYTES(vertices, faces) + ((size_t)12 * (size_t)(vertices) + 80 + 7) / 8 * 8)
+
+/**
+ * Build a SURFACE whose vertices may move while it is in a world: carom_surface_move().
+ *
+ * @param[out] mesh  must stay where it is; for one body of one world
+ * @param raw        its vertices are copied; its faces must outlive the mesh
+ * @param mem        aligned to 8, in RAM: holds the index and two copies of the vertices
+ * @param bytes      size of `mem`, at least #CAROM_SURFACE_BYTES of the mesh
+ * @return as carom_mesh_build(); CAROM_ERR_ARGUMENT for a SOLID too
+ */
 int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
                         size_t bytes);
 
-/*
- * Read a mesh from the binary blob that the mesh converter writes (layout: SPEC.md).
- *   mem  receives vertices and faces: CAROM_BLOB_BYTES(vertices, faces) bytes, aligned to 8
- * Returns CAROM_OK; CAROM_ERR_FORMAT for a blob that is truncated or altered; CAROM_ERR_MEMORY.
- */
+/** Bytes that carom_mesh_read() needs. */
 #define CAROM_BLOB_BYTES(vertices, faces)                                                          \
     ((size_t)6 * (size_t)(vertices) + (size_t)6 * (size_t)(faces) + 16)
+
+/**
+ * Read a mesh from the binary blob that the mesh converter writes. SPEC.md has the layout.
+ *
+ * @param[out] raw    the mesh; refers to `mem`
+ * @param blob        the blob; not needed after the call
+ * @param blob_bytes  its size
+ * @param mem         aligned to 8; receives vertices and faces
+ * @param bytes       size of `mem`, at least #CAROM_BLOB_BYTES of the mesh
+ * @return CAROM_OK; CAROM_ERR_FORMAT for a blob that is cut or altered; CAROM_ERR_MEMORY
+ */
 int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_bytes, void *mem,
                     size_t bytes);
+
+/** @} */
 
 #ifdef __cplusplus
 }

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * carom_query.h - questions about a world between its steps: rays, meshes that are swept or put
- * somewhere, closest points. A library of its own over carom.h, whose rules hold here too. A program
- * that asks nothing of this links nothing of it.
+/**
+ * @file
+ * Questions about a world between its steps: rays, meshes that are swept or placed, closest points. @ref rules hold.
  *
- * No question wakes a body or changes what a step computes. Bodies that are asleep are found; those
- * that left the world are not.
+ * This is a library of its own over carom.h: a program that asks nothing links nothing of it.
  */
 #ifndef CAROM_QUERY_H
 #define CAROM_QUERY_H
@@ -16,146 +14,177 @@
 extern "C" {
 #endif
 
+/**
+ * @defgroup queries Questions
+ * Rays, swept and placed meshes, closest points.
+ *
+ * No question wakes a body or changes what a step computes. Bodies that are asleep are found; bodies that left the
+ * world are not.
+ * @{
+ */
+
+/** Options of a #carom_query_filter. */
 enum carom_query_flags {
-    CAROM_QUERY_BACK = 1,   /* rays also hit faces from behind */
-    CAROM_QUERY_SENSORS = 2 /* bodies that only sense are found, too */
+    CAROM_QUERY_BACK = 1,   /**< rays also hit faces from behind */
+    CAROM_QUERY_SENSORS = 2 /**< sensors are found, too */
 };
 
-/* Which bodies a question is about. NULL in place of one, or all zero, means all that are no sensors. */
+/** Which bodies a question is about. NULL in place of a filter, or all zero: all bodies except sensors. */
 struct carom_query_filter {
-    uint16_t mask;  /* bodies that have a bit of it in their category; 0: all */
-    uint16_t flags; /* a sum of enum carom_query_flags */
-    bool (*wants)(void *context, int body); /* NULL: all; must ask or change nothing of the world */
-    void *context;
+    uint16_t mask;  /**< bodies with a category in it; 0: all */
+    uint16_t flags; /**< a sum of #carom_query_flags */
+    bool (*wants)(void *context,
+                  int body); /**< true for a body to be found; NULL: all. It must not ask or change
+                                                 anything of the world */
+    void *context;           /**< first argument of `wants`; may be NULL */
 };
 
-/* ---------------------------------------------------------------------- rays */
-
+/** A ray: the places from + t way, with t in 0 to 1. */
 struct carom_ray {
-    carom_v3_q32 from; /* each component within +-32768 units */
-    carom_v3_q32 way;  /* the same range; one component of 2^-20 units or more */
+    carom_v3_q32 from; /**< place in the world, each component within +-32768 units */
+    carom_v3_q32 way;  /**< each component within +-32768 units, one of them at least 2^-20 units */
 };
 
+/** A face that a ray meets. */
 struct carom_ray_hit {
-    uint16_t body, face;
-    int32_t t_q30;       /* the part of the way, rounded down, 0 .. 1 */
-    uint32_t t_rest;     /* and its next 18 bits, which order hits that are close to each other */
-    carom_v3_q32 point;  /* of the world */
-    carom_v3_q30 normal; /* of the face, outwards */
+    uint16_t body;   /**< body number */
+    uint16_t face;   /**< face number in its mesh */
+    int32_t t_q30;   /**< part of the way, rounded down, 0 to 1 */
+    uint32_t t_rest; /**< the next 18 bits of it, which order hits that are close to each other */
+    carom_v3_q32 point;  /**< place in the world */
+    carom_v3_q30 normal; /**< unit normal of the face, outwards */
 };
 
-/*
- * The first face that a ray meets: the one of the least t, of equal ones the lowest body and face.
+/**
+ * Find the first face that a ray meets: the least t, then the lowest body, then the lowest face.
  *
- * Faces are met from outside only, unless CAROM_QUERY_BACK is set: a ray that begins inside a body
- * does not see it. A face that the ray begins on is met at 0.
+ * A ray meets faces from outside only, unless #CAROM_QUERY_BACK is set: a ray that begins inside a body does not meet
+ * that body. A face that the ray begins on is met at 0.
  *
- * Each body's mesh is asked exactly: the ray is carried into its axes once, off by less than 2^-25 of a unit
- * where its way and the body's radius are 8 units together, in proportion where they are more. What the carried
- * ray meets, and in which order, is decided in whole numbers without error. One that goes through an edge or
- * a vertex meets those faces that it would meet moved aside by less than any number, the same for all
- * faces: none slips through between two, and no two are met at one edge.
+ * A ray through an edge or a vertex meets the faces that it would meet if it were moved aside by an infinitely small
+ * distance, the same for all faces. So it never slips between two faces, and never meets two at one edge.
  *
- *   filter  may be NULL
- *   hit     out; written when there is one
+ * @param ray       the ray
+ * @param filter    which bodies; may be NULL
+ * @param[out] hit  written if there is one
+ * @return 1 or 0; CAROM_ERR_RANGE for a ray out of range; CAROM_ERR_ARGUMENT for one too short
  *
- * Returns 1 or 0; CAROM_ERR_RANGE for a place or way out of range, CAROM_ERR_ARGUMENT for one too short.
+ * @error The ray is carried into the axes of each body once, off by less than 2^-25 units if its way and the radius
+ * of the body are 8 units together, and in proportion if they are more. Which faces the carried ray meets, and in
+ * which order, is decided in whole numbers without error.
  */
 int carom_cast_ray(const struct carom_world *world, const struct carom_ray *ray,
                    const struct carom_query_filter *filter, struct carom_ray_hit *hit);
 
-/*
- * All faces that a ray meets, by t, then body, then face.
+/**
+ * Find all faces that a ray meets, by t, then body, then face.
  *
- *   hits  out; may be NULL when room is 0
- *
- * Returns how many; CAROM_ERR_FACES_FULL when there are more than `room`: `hits` then holds the first
- *         ones; else as carom_cast_ray.
+ * @param ray        the ray
+ * @param filter     which bodies; may be NULL
+ * @param[out] hits  may be NULL if `room` is 0
+ * @param room       how many hits `hits` can hold
+ * @return how many there are; CAROM_ERR_FACES_FULL if there are more than `room`: `hits` then holds the first ones;
+ *         errors as carom_cast_ray()
  */
 int carom_cast_ray_all(const struct carom_world *world, const struct carom_ray *ray,
                        const struct carom_query_filter *filter, struct carom_ray_hit *hits,
                        uint32_t room);
 
-/* -------------------------------------------------------------------- meshes */
-
-/* A SOLID that is in no world, in a pose. */
+/** A SOLID in a pose, which is in no world. */
 struct carom_query_mesh {
-    const struct carom_mesh *mesh; /* of a radius that a moving body may have */
-    carom_v3_q32 position;         /* of its centre of mass, within +-4096 */
-    carom_quat_q30 rotation;       /* of length 1 within 2^-10; all zero means none */
+    const struct carom_mesh *mesh; /**< of a radius that a moving body may have */
+    carom_v3_q32 position;         /**< its centre of mass, units, within +-4096 */
+    carom_quat_q30 rotation;       /**< of length 1 within 2^-10; all zero: none */
 };
 
-/*
- * The bodies that a mesh has a point in common with where it is, that it is inside of or that are inside of it: in
- * rising order.
+/**
+ * Find the bodies that a mesh overlaps: a common point, or one inside the other.
  *
- * How near is contact: the mesh's vertices are carried into the axes of a body once and rounded there, each
- * coordinate off by less than 2^-26 of the largest coordinate of the body's mesh and twice the mesh's radius together.
- * From then on all is decided in whole numbers without error: what touches overlaps, and what does not is free,
- * however near.
+ * @param world        the world; its state does not change
+ * @param mesh         the mesh, where it is
+ * @param filter       which bodies; may be NULL
+ * @param[out] bodies  body numbers in rising order; may be NULL if `room` is 0
+ * @param room         how many numbers `bodies` can hold
+ * @return how many there are; CAROM_ERR_BODIES_FULL if there are more than `room`: `bodies` then holds the first ones;
+ *         CAROM_ERR_ARGUMENT for a SURFACE or a rotation; CAROM_ERR_RANGE for a position or a radius
  *
- *   bodies  out; may be NULL when room is 0
- *
- * Returns how many; CAROM_ERR_BODIES_FULL when there are more than `room`: `bodies` then holds the first ones;
- *         CAROM_ERR_ARGUMENT for a SURFACE or a rotation, CAROM_ERR_RANGE for a place or a radius.
+ * @error The vertices of the mesh are carried into the axes of a body once and rounded: each coordinate is off by less
+ * than 2^-26 of the sum of the largest coordinate of the body's mesh and twice the radius of this mesh. From there on
+ * all is decided in whole numbers without error: what touches overlaps, and what does not touch is free.
  */
 int carom_overlap_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,
                        const struct carom_query_filter *filter, uint16_t *bodies, uint32_t room);
 
-/*
- * How a mesh is to go: the centre straight along `way`, and the mesh turns about it by the Cayley map of t `turn`,
- * as a body does in a step: at part t of the way by twice the angle whose tangent is t |turn|.
+/**
+ * The motion of a swept mesh: its centre moves straight along `way`, and the mesh turns about its centre.
+ *
+ * It turns as a body does in a step, by the Cayley map of t `turn`: at the part t of the way by twice the angle whose
+ * tangent is t |turn|.
  */
 struct carom_mesh_way {
-    carom_v3_q32 way;  /* each component within +-4096 units, the length up to 512 radii */
-    carom_v3_q30 turn; /* in the mesh's axes; of length up to 1/4, half a radian; 0: none */
+    carom_v3_q32 way; /**< units, each component within +-4096, the length at most 512 radii */
+    carom_v3_q30
+        turn; /**< Cayley vector, in the mesh's axes, of length at most 1/4 (half a radian); 0: none */
 };
 
+/** What a swept mesh meets first. */
 struct carom_mesh_hit {
-    uint16_t body, face;   /* what is met */
-    uint16_t own_face;     /* of the mesh */
-    int32_t t_q30;         /* the mesh may go so far: a part of the way */
-    carom_v3_q32 position; /* and is there then */
-    carom_quat_q30 rotation;
-    carom_v3_q32 point;  /* where they meet */
-    carom_v3_q30 normal; /* from the body into the mesh */
+    uint16_t body;           /**< body number */
+    uint16_t face;           /**< face number in its mesh */
+    uint16_t own_face;       /**< face number in the swept mesh */
+    int32_t t_q30;           /**< part of the way that the mesh may go, 0 to 1 */
+    carom_v3_q32 position;   /**< centre of the mesh there, units */
+    carom_quat_q30 rotation; /**< rotation of the mesh there */
+    carom_v3_q32 point;      /**< place in the world where they meet */
+    carom_v3_q30 normal;     /**< unit normal, from the body into the mesh */
 };
 
-/*
- * The first body that a mesh meets on its way, by the collision test of a step (Boyse's) against all bodies where
- * they are. The mesh stops short of it by half of a skin, 2^-12 of the larger radius of those of both that move,
- * as bodies of a step do; at 0 where it is nearer than that already and goes nearer. What it moves away
- * from or along does not stop it.
+/**
+ * Find the first body that a mesh meets on its way, by the collision test of a step, with all bodies where they are.
  *
- *   filter  may be NULL
- *   hit     out; written when there is one
+ * The mesh stops an event gap short of the body: half a skin, 2^-12 of the larger radius of those that move. It stops
+ * at 0 if it is nearer than that and comes nearer. A body that it moves away from, or along, does not stop it.
  *
- * Returns 1 or 0; CAROM_ERR_OVERLAP when carom_overlap_mesh finds a body where it begins; as that for the mesh,
- *         CAROM_ERR_RANGE for a way or turn out of range.
+ * @param world     the world; its state does not change
+ * @param mesh      the mesh, where it begins
+ * @param way       its motion
+ * @param filter    which bodies; may be NULL
+ * @param[out] hit  written if there is one
+ * @return 1 or 0; CAROM_ERR_OVERLAP if carom_overlap_mesh() finds a body where the mesh begins; CAROM_ERR_RANGE for a
+ *         `way` or `turn` out of range; errors for the mesh as carom_overlap_mesh()
+ *
+ * @source paper, the collision test after Boyse
  */
 int carom_cast_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,
                     const struct carom_mesh_way *way, const struct carom_query_filter *filter,
                     struct carom_mesh_hit *hit);
 
-/* ------------------------------------------------------------ closest points */
-
+/** The closest points of two bodies. */
 struct carom_closest {
-    int64_t distance_q32;  /* of both points */
-    carom_v3_q32 point[2]; /* of the world: on a, on b */
-    carom_v3_q30 normal;   /* from b's point to a's */
-    uint16_t face[2];      /* of a and b, on which they are */
+    int64_t distance_q32;  /**< distance of the points, units */
+    carom_v3_q32 point[2]; /**< places in the world: on a, on b */
+    carom_v3_q30 normal;   /**< unit vector from the point of b to that of a */
+    uint16_t face[2];      /**< faces on which the points lie: of a, of b */
 };
 
-/*
- * The points of two bodies that are closest to each other. No two points are closer by more than 2^-18 of a
- * unit and 2^-20 of the distance. Every leaf of a is held against every leaf of b, so this
- * costs more than the other questions.
+/**
+ * Find the points of two bodies that are closest to each other.
  *
- * Returns  CAROM_OK; CAROM_ERR_OVERLAP when carom_query_faces has pairs of theirs, or one is inside the other;
- *          CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body and itself; CAROM_ERR_RANGE for bodies whose centres are
- *          more than 500 units apart along an axis of b.
+ * Every leaf of a is compared with every leaf of b, so this costs more than the other questions.
+ *
+ * @param world     the world; its state does not change
+ * @param a         a body
+ * @param b         another body
+ * @param[out] out  the points
+ * @return CAROM_OK; CAROM_ERR_OVERLAP if carom_query_faces() finds pairs of theirs, or one is inside the other;
+ *         CAROM_ERR_BODY; CAROM_ERR_ARGUMENT for a body and itself; CAROM_ERR_RANGE if the centres are more than 500
+ *         units apart along an axis of b
+ *
+ * @error No two points are closer by more than 2^-18 units and 2^-20 of the distance.
  */
 int carom_closest_points(struct carom_world *world, int a, int b, struct carom_closest *out);
+
+/** @} */
 
 #ifdef __cplusplus
 }

@@ -119,6 +119,12 @@ def public_functions():
     return found
 
 
+def version():
+    """The version that carom_version.h states, as in 0.9.0."""
+    with open("include/carom_version.h") as file:
+        return ".".join(re.findall(r"^#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", file.read(), re.M))
+
+
 def finish(failures, verdict):
     """Say what was found and end the gate; its last line begins with "pass:" when it holds."""
     for failure in failures:
