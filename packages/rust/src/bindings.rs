@@ -190,17 +190,6 @@ extern "C" {
         bytes: usize,
     ) -> c::c_int;
 }
-pub const CAROM_POOL_bodies: carom_pool = 0;
-pub const CAROM_POOL_pairs: carom_pool = 1;
-pub const CAROM_POOL_contacts: carom_pool = 2;
-pub const CAROM_POOL_faces: carom_pool = 3;
-pub const CAROM_POOL_entries: carom_pool = 4;
-pub const CAROM_POOL_candidates: carom_pool = 5;
-pub const CAROM_POOL_joints: carom_pool = 6;
-pub const CAROM_POOL_extras: carom_pool = 7;
-pub const CAROM_POOL_hits: carom_pool = 8;
-pub const CAROM_POOL_COUNT: carom_pool = 9;
-pub type carom_pool = c::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct carom_caps {
@@ -214,6 +203,17 @@ pub struct carom_caps {
     pub extras: u32,
     pub hits: u32,
 }
+pub const CAROM_POOL_bodies: carom_pool = 0;
+pub const CAROM_POOL_pairs: carom_pool = 1;
+pub const CAROM_POOL_contacts: carom_pool = 2;
+pub const CAROM_POOL_faces: carom_pool = 3;
+pub const CAROM_POOL_entries: carom_pool = 4;
+pub const CAROM_POOL_candidates: carom_pool = 5;
+pub const CAROM_POOL_joints: carom_pool = 6;
+pub const CAROM_POOL_extras: carom_pool = 7;
+pub const CAROM_POOL_hits: carom_pool = 8;
+pub const CAROM_POOL_COUNT: carom_pool = 9;
+pub type carom_pool = c::c_uint;
 extern "C" {
     pub fn carom_world_bytes(caps: *const carom_caps) -> usize;
 }
@@ -289,6 +289,12 @@ extern "C" {
         bytes: usize,
         config: *const carom_config,
         world: *mut *mut carom_world,
+    ) -> c::c_int;
+}
+extern "C" {
+    pub fn carom_world_set_gravity(
+        world: *mut carom_world,
+        gravity: *const carom_v3_q40,
     ) -> c::c_int;
 }
 #[repr(C)]
@@ -406,12 +412,6 @@ extern "C" {
         world: *const carom_world,
         body: c::c_int,
         filter: *mut carom_filter,
-    ) -> c::c_int;
-}
-extern "C" {
-    pub fn carom_world_set_gravity(
-        world: *mut carom_world,
-        gravity: *const carom_v3_q40,
     ) -> c::c_int;
 }
 extern "C" {
