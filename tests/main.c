@@ -44,6 +44,8 @@ static void check_values(bool ok, int64_t a, int64_t b, const char *file, int li
     ((order) == TEST_LESS      ? (a) < (b)                                                         \
      : (order) == TEST_AT_MOST ? (a) <= (b)                                                        \
      : (order) == TEST_MORE    ? (a) > (b)                                                         \
+     : (order) == TEST_EQUAL   ? (a) == (b)                                                        \
+     : (order) == TEST_DIFFER  ? (a) != (b)                                                        \
                                : (a) >= (b))
 
 void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,

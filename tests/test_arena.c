@@ -17,11 +17,11 @@ static void test_carve(void)
 
     fill(0xa5);
     arena_init(&a, block, sizeof block);
-    CHECK(arena_carve(&a, 1) == block);
-    CHECK(arena_carve(&a, 8) == block + 8);
-    CHECK(arena_carve(&a, 0) == block + 16);
+    CHECK_SAME(arena_carve(&a, 1), block);
+    CHECK_SAME(arena_carve(&a, 8), block + 8);
+    CHECK_SAME(arena_carve(&a, 0), block + 16);
     p = arena_carve(&a, 9);
-    CHECK(p == block + 16);
+    CHECK_SAME(p, block + 16);
     CHECK_EQ(a.used, 32);
     for (int i = 0; i < 64; i++) {
         CHECK_EQ(block[i], i < 32 ? 0 : 0xa5);
@@ -34,16 +34,16 @@ static void test_exact_fit(void)
 
     fill(0xa5);
     arena_init(&a, block, 24);
-    CHECK(arena_carve(&a, 16) == block);
-    CHECK(arena_carve(&a, 8) == block + 16);
+    CHECK_SAME(arena_carve(&a, 16), block);
+    CHECK_SAME(arena_carve(&a, 8), block + 16);
     CHECK_EQ(a.used, 24);
-    CHECK(arena_carve(&a, 1) == NULL);
+    CHECK_SAME(arena_carve(&a, 1), NULL);
 
     /* one byte short */
     fill(0xa5);
     arena_init(&a, block, 23);
-    CHECK(arena_carve(&a, 16) == block);
-    CHECK(arena_carve(&a, 8) == NULL);
+    CHECK_SAME(arena_carve(&a, 16), block);
+    CHECK_SAME(arena_carve(&a, 8), NULL);
     CHECK_EQ(block[16], 0xa5);
     CHECK_EQ(a.used, 24); /* what would have been needed */
 }
@@ -54,17 +54,17 @@ static void test_sticky(void)
     struct arena a;
 
     arena_init(&a, block, 16);
-    CHECK(arena_carve(&a, 24) == NULL);
-    CHECK(arena_carve(&a, 8) == NULL);
+    CHECK_SAME(arena_carve(&a, 24), NULL);
+    CHECK_SAME(arena_carve(&a, 8), NULL);
     CHECK_EQ(a.used, 32);
 
     /* sizes whose sum or rounding overflows */
     for (size_t less = 0; less < 40; less += 13) {
         arena_init(&a, block, sizeof block);
-        CHECK(arena_carve(&a, 8) == block);
-        CHECK(arena_carve(&a, SIZE_MAX - less) == NULL);
-        CHECK(arena_carve(&a, 8) == NULL);
-        CHECK(arena_carve(&a, 1) == NULL);
+        CHECK_SAME(arena_carve(&a, 8), block);
+        CHECK_SAME(arena_carve(&a, SIZE_MAX - less), NULL);
+        CHECK_SAME(arena_carve(&a, 8), NULL);
+        CHECK_SAME(arena_carve(&a, 1), NULL);
     }
 }
 
@@ -79,7 +79,9 @@ static void test_pool(void)
         }
         CHECK_EQ(pool_take(&p), -1);
         CHECK_EQ(pool_take(&p), -1);
-        CHECK(p.used == 3 && p.peak == 3 && p.size == 3);
+        CHECK_EQ(p.used, 3);
+        CHECK_EQ(p.peak, 3);
+        CHECK_EQ(p.size, 3);
         CHECK_EQ(p.refused, 2 * (round + 1));
         pool_clear(&p);
     }
@@ -89,7 +91,9 @@ static void test_pool(void)
 
     p = (struct pool){0, 0, 0, 0};
     CHECK_EQ(pool_take(&p), -1);
-    CHECK(p.used == 0 && p.peak == 0 && p.refused == 1);
+    CHECK_EQ(p.used, 0);
+    CHECK_EQ(p.peak, 0);
+    CHECK_EQ(p.refused, 1);
 }
 
 const struct test tests_arena[] = {

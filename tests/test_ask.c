@@ -75,8 +75,8 @@ static void test_told(void)
     CHECK_EQ(said.first.normal.c[2], CAROM_ONE_Q30);
     CHECK_NEAR(said.first.point.c[2], BOXES_Q32(128), BOXES_Q32(1));
     /* it gains g within the frame at most */
-    CHECK(said.first.speed_q40 >= fall_q40 &&
-          said.first.speed_q40 <= fall_q40 - boxes_config.gravity.c[2] + 1000);
+    CHECK_AT_LEAST(said.first.speed_q40, fall_q40);
+    CHECK_AT_MOST(said.first.speed_q40, fall_q40 - boxes_config.gravity.c[2] + 1000);
     /* boxes.c: the faces at the top are 6 and 7 or such; each corner of them is up there */
     for (int k = 0; k < 3; k++) {
         const struct carom_mesh_raw *plate = &boxes_mesh[PLATE].raw, *box = &boxes_mesh[BOX].raw;

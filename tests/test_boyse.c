@@ -175,7 +175,8 @@ static void test_turning_vertex(void)
     CHECK(first_of_all(CANDIDATE_VERTEX_FACE, &hit));
     /* turning about +y takes +x down */
     t = circle_time(x, z, h, u);
-    CHECK(t > 0 && t < 1);
+    CHECK_MORE(t, 0);
+    CHECK_LESS(t, 1);
     check_time(&hit, t, 0.2);
 }
 
@@ -201,9 +202,11 @@ static void test_turning_face(void)
     /* seen from the box the tip turns back, up to the face at -600/4096 */
     t = circle_time(-x, z, 600. / 4096 + real(duo.pair.skin_q22 / 2, 22),
                     real_length(duo.motion[0].u));
-    CHECK(t > 0 && t < 1);
+    CHECK_MORE(t, 0);
+    CHECK_LESS(t, 1);
     check_time(&hit, t, 0.15);
-    CHECK(hit.touch.normal.c[2] > 0 && hit.touch.normal.c[0] > 0);
+    CHECK_MORE(hit.touch.normal.c[2], 0);
+    CHECK_MORE(hit.touch.normal.c[0], 0);
 }
 
 /* Figure 3b: the box turns about z until an upright edge of it meets a ridge along x. */
@@ -222,7 +225,8 @@ static void test_turning_edge(void)
     CHECK(first_of_all(CANDIDATE_EDGE_EDGE, &hit));
     /* y' = y cos - x sin, as above with y for z */
     t = circle_time(x, y, wall - real(duo.pair.skin_q22 / 2, 22), real_length(duo.motion[0].u));
-    CHECK(t > 0 && t < 1);
+    CHECK_MORE(t, 0);
+    CHECK_LESS(t, 1);
     check_time(&hit, t, 0.2);
     CHECK_NEAR(hit.touch.normal.c[1], CAROM_ONE_Q30, 1 << 10);
     CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit));
@@ -260,9 +264,11 @@ static void test_flat_ridges(void)
         c.j = edge_between(&duo.shape[1], 1, 4);
         duo.state[0].position.c[1] = -((int64_t)2 << 32); /* over the middle of that edge */
         duo_set_paths((double[3]){0, 0, -0.125}, still, NULL);
-        CHECK(shape_owns_edge(&duo.shape[0], c.i) && shape_owns_edge(&duo.shape[1], c.j));
+        CHECK(shape_owns_edge(&duo.shape[0], c.i));
+        CHECK(shape_owns_edge(&duo.shape[1], c.j));
         boyse_touch(&duo.pair, &c, 0, &touch);
-        CHECK(touch.valid && touch.normal.c[2] > CAROM_ONE_Q30 / 10 * 9);
+        CHECK(touch.valid);
+        CHECK_MORE(touch.normal.c[2], CAROM_ONE_Q30 / 10 * 9);
         CHECK_MORE(touch.gap_q22, 0);
         CHECK(boyse_first(&duo.pair, &c, &hit, &roots));
     }
@@ -294,8 +300,12 @@ static void test_at_start(void)
     CHECK(start_at(skin / 4, -0.125, &hit));
     CHECK_AT_MOST(real(hit.t_q30, 30) * 0.125, 4 * DUO_UNIT);
     /* touching or overlapping: at once while it approaches, never while it leaves */
-    CHECK(start_at(0, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == 0);
-    CHECK(start_at(-skin / 4, -0.125, &hit) && hit.t_q30 == 0 && hit.touch.gap_q22 == -skin / 4);
+    CHECK(start_at(0, -0.125, &hit));
+    CHECK_EQ(hit.t_q30, 0);
+    CHECK_EQ(hit.touch.gap_q22, 0);
+    CHECK(start_at(-skin / 4, -0.125, &hit));
+    CHECK_EQ(hit.t_q30, 0);
+    CHECK_EQ(hit.touch.gap_q22, -skin / 4);
     CHECK(!start_at(0, 0.125, &hit));
     CHECK(!start_at(-skin / 4, 0.125, &hit));
     CHECK(!start_at(skin / 4, 0.125, &hit));

@@ -253,11 +253,13 @@ static bool check_case(const struct candidate *c)
                 gap = real_abs(duo_gap_at(c, (double)k / 4096));
                 least = gap < least ? gap : least;
             }
-            CHECK(a.refused == 0 && least < 2e-5);
+            CHECK_EQ(a.refused, 0);
+            CHECK_LESS(least, 2e-5);
         }
         return false;
     }
-    CHECK(is_hit && roots == 1);
+    CHECK(is_hit);
+    CHECK_EQ(roots, 1);
     if (!is_hit) {
         return true;
     }
@@ -265,9 +267,11 @@ static bool check_case(const struct candidate *c)
     t = real(hit.t_q30, 30);
     duo_features_at(&f, c, t);
     gap = a.sign * f.gap;
-    CHECK(hit.t_q30 >= 0 && t <= a.t);
+    CHECK_AT_LEAST(hit.t_q30, 0);
+    CHECK_AT_MOST(t, a.t);
     CHECK_AT_LEAST(gap, 0); /* never past the surface */
-    CHECK(hit.touch.valid && hit.touch.sign == a.sign);
+    CHECK(hit.touch.valid);
+    CHECK_EQ(hit.touch.sign, a.sign);
     if (a.open > 1.1 * event) {
         /*
          * the event gap within four units and the rounding of places, in w.d for edges; |w| is that
@@ -373,7 +377,8 @@ static void test_quotient(void)
         if (found == UINT32_MAX) {
             CHECK_AT_LEAST(exact, (uint64_t)1 << 31);
         } else {
-            CHECK(found <= exact && exact - found <= (exact >> 14) + 1);
+            CHECK_AT_MOST(found, exact);
+            CHECK_AT_MOST(exact - found, (exact >> 14) + 1);
         }
     }
     CHECK_EQ(curve_quotient_q30(0, 5), 0);

@@ -75,7 +75,8 @@ static void test_left_out(void)
     states[2].asleep = 1;
     CHECK_EQ(find(BODIES), CAROM_OK);
     CHECK(!found(2, 0));
-    CHECK(found(2, 1) && found(3, 2)); /* what is awake may run into what sleeps */
+    CHECK(found(2, 1));
+    CHECK(found(3, 2)); /* what is awake may run into what sleeps */
     CHECK_EQ(pool.used, 5);
     states[1].asleep = states[3].asleep = 1;
     CHECK_EQ(find(BODIES), CAROM_OK);
@@ -84,17 +85,26 @@ static void test_left_out(void)
     begin();
     states[2].out = 1;
     CHECK_EQ(find(BODIES), CAROM_OK);
-    CHECK(pool.used == 3 && found(1, 0) && found(3, 0) && found(3, 1));
+    CHECK_EQ(pool.used, 3);
+    CHECK(found(1, 0));
+    CHECK(found(3, 0));
+    CHECK(found(3, 1));
 
     begin();
     bodies[1].moving = bodies[3].moving = bodies[1].goes = bodies[3].goes = false;
     CHECK_EQ(find(BODIES), CAROM_OK);
-    CHECK(pool.used == 3 && found(2, 0) && found(2, 1) && found(2, 3));
+    CHECK_EQ(pool.used, 3);
+    CHECK(found(2, 0));
+    CHECK(found(2, 1));
+    CHECK(found(2, 3));
 
     begin();
     bodies[1].mesh = NULL; /* a free place */
     CHECK_EQ(find(BODIES), CAROM_OK);
-    CHECK(pool.used == 3 && found(2, 0) && found(3, 0) && found(3, 2));
+    CHECK_EQ(pool.used, 3);
+    CHECK(found(2, 0));
+    CHECK(found(3, 0));
+    CHECK(found(3, 2));
 }
 
 /* Boxes side by side: a pair as soon as the gap is within the sum of both reaches. */
@@ -183,7 +193,8 @@ static void test_poses(void)
             far++;
         }
     }
-    CHECK(near > CASES / 10 && far > CASES / 10);
+    CHECK_MORE(near, CASES / 10);
+    CHECK_MORE(far, CASES / 10);
 }
 
 static void test_full(void)
@@ -191,7 +202,8 @@ static void test_full(void)
     begin();
     pool.size = 6;
     CHECK_EQ(find(BODIES), CAROM_OK);
-    CHECK(pool.peak == 6 && pool.refused == 0);
+    CHECK_EQ(pool.peak, 6);
+    CHECK_EQ(pool.refused, 0);
     pool.size = 5;
     CHECK_EQ(find(BODIES), CAROM_ERR_PAIRS_FULL);
     CHECK_EQ(pool.refused, 1);

@@ -88,12 +88,15 @@ static void check_four_corners(int32_t gap_q22)
         const struct contact *c = &contacts[i];
         uint32_t v = c->key.i;
 
-        CHECK(c->key.kind == CANDIDATE_VERTEX_FACE && c->key.pair == 0);
-        CHECK(c->normal.c[0] == 0 && c->normal.c[1] == 0);
+        CHECK_EQ(c->key.kind, CANDIDATE_VERTEX_FACE);
+        CHECK_EQ(c->key.pair, 0);
+        CHECK_EQ(c->normal.c[0], 0);
+        CHECK_EQ(c->normal.c[1], 0);
         CHECK_EQ(c->normal.c[2], CAROM_ONE_Q30);
         CHECK_EQ(c->gap_q22, gap_q22);
         CHECK_EQ(c->skin_q22, bodies[0].skin_q22);
-        CHECK(c->side[0].body == &bodies[0] && c->side[1].body == NULL);
+        CHECK_SAME(c->side[0].body, &bodies[0]);
+        CHECK_SAME(c->side[1].body, NULL);
         CHECK_LESS(v, 4); /* the lower ones, and each once */
         CHECK(!(seen >> v & 1));
         seen |= (uint8_t)(1 << v);
@@ -317,10 +320,12 @@ static void test_doubt(void)
             CHECK(contact_add(&list, &pair, &candidates[(start + n) % candidate_count], 700,
                               &clear_q22));
         }
-        CHECK(contact_has_pair(&list, 0) && !contact_has_pair(&list, 1));
+        CHECK(contact_has_pair(&list, 0));
+        CHECK(!contact_has_pair(&list, 1));
         contact_drop_doubted(&list);
         CHECK_EQ(pool.used, count);
-        CHECK(in_order() && same_contacts(count));
+        CHECK(in_order());
+        CHECK(same_contacts(count));
     }
     contact_doubt_pair(&list, 0);
     CHECK(contact_add(&list, &pair, &first[1].key, 700, &clear_q22));
@@ -393,7 +398,8 @@ static void test_clear(void)
             }
         }
     }
-    CHECK(clear > CLEAR_CASES && hit > 0);
+    CHECK_MORE(clear, CLEAR_CASES);
+    CHECK_MORE(hit, 0);
 }
 
 /* A corner on a vertex of the ground meets six faces there: one contact, of the smallest gap. */
@@ -416,7 +422,8 @@ static void test_merge(void)
     CHECK_EQ(pool.used, 4);
     CHECK(in_order());
     for (uint32_t i = 0; i < 4; i++) {
-        CHECK(contacts[i].gap_q22 >= 300 && contacts[i].gap_q22 <= 304);
+        CHECK_AT_LEAST(contacts[i].gap_q22, 300);
+        CHECK_AT_MOST(contacts[i].gap_q22, 304);
         least = contacts[i].gap_q22 == least ? -1 : least;
     }
     CHECK_EQ(least, -1);
@@ -476,7 +483,8 @@ static void test_thin(void)
         found = pool.used;
         memcpy(first, contacts, found * sizeof *contacts);
         left = found > 0 ? contact_thin(contacts, found) : 0;
-        CHECK(left <= found && left >= (found < 4 ? found : 4));
+        CHECK_AT_MOST(left, found);
+        CHECK_AT_LEAST(left, (found < 4 ? found : 4));
         most = left > most ? left : most;
         kept += left;
         for (uint32_t i = 0; i < found; i++) {
@@ -491,7 +499,9 @@ static void test_thin(void)
         }
         CHECK_EQ(at, left);
     }
-    CHECK(dropped > CLEAR_CASES && kept > dropped && most > 4);
+    CHECK_MORE(dropped, CLEAR_CASES);
+    CHECK_MORE(kept, dropped);
+    CHECK_MORE(most, 4);
 }
 
 /* Four corners of a square, and a crossing in the middle of a side. */
@@ -547,10 +557,12 @@ static void test_full(void)
     box_over_plane(300);
     pool.size = 4;
     CHECK(find(700, 0));
-    CHECK(pool.used == 4 && pool.refused == 0);
+    CHECK_EQ(pool.used, 4);
+    CHECK_EQ(pool.refused, 0);
     pool.size = 3;
     CHECK(!find(700, 0));
-    CHECK(pool.used == 3 && pool.refused >= 1);
+    CHECK_EQ(pool.used, 3);
+    CHECK_AT_LEAST(pool.refused, 1);
     CHECK(in_order());
     /* what is no contact needs no place */
     pool.size = 0;

@@ -115,7 +115,8 @@ static void test_triangles(void)
         differ += cross_triangles(p, q) != expected;
     }
     CHECK_EQ(differ, 0);
-    CHECK(meet > PAIRS / 10 && meet < PAIRS * 9 / 10);
+    CHECK_MORE(meet, PAIRS / 10);
+    CHECK_LESS(meet, PAIRS * 9 / 10);
 }
 
 /* ---------------------------------------------------------------------- poses */
@@ -262,7 +263,8 @@ static void test_near(void)
         close[meets] += real_abs(gap) > open && real_abs(gap) < 1e-3;
     }
     CHECK_EQ(wrong, 0);
-    CHECK(close[0] > POSES / 16 && close[1] > POSES / 16);
+    CHECK_MORE(close[0], POSES / 16);
+    CHECK_MORE(close[1], POSES / 16);
 }
 
 /* One in another, under a surface, beside it: no faces meet. */

@@ -28,7 +28,8 @@ static void take_triangle(void *context, const carom_v3_q32 corner[3], const car
     int32_t at[3][3];
     int64_t cross[3], length2 = 0;
 
-    CHECK(context == &record && colour < 256);
+    CHECK_SAME(context, &record);
+    CHECK_LESS(colour, 256);
     record.triangles++;
     record.of_colour[colour & 255]++;
     for (int i = 0; i < 3; i++) {
@@ -49,7 +50,8 @@ static void take_triangle(void *context, const carom_v3_q32 corner[3], const car
 static void take_line(void *context, const carom_v3_q32 *from, const carom_v3_q32 *to,
                       uint32_t colour)
 {
-    CHECK(context == &record && colour < 256);
+    CHECK_SAME(context, &record);
+    CHECK_LESS(colour, 256);
     if (record.lines < ROOM) {
         record.from[record.lines] = *from;
         record.to[record.lines] = *to;
@@ -60,7 +62,8 @@ static void take_line(void *context, const carom_v3_q32 *from, const carom_v3_q3
 
 static void take_point(void *context, const carom_v3_q32 *at_point, uint32_t colour)
 {
-    CHECK(context == &record && colour < 256);
+    CHECK_SAME(context, &record);
+    CHECK_LESS(colour, 256);
     if (record.points < ROOM) {
         record.point[record.points] = *at_point;
     }
@@ -126,7 +129,8 @@ static void one_body(void)
         sides += side;
         diagonals += !side;
     }
-    CHECK(sides == 12 && diagonals == 6);
+    CHECK_EQ(sides, 12);
+    CHECK_EQ(diagonals, 6);
     debug = all_of();
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_BOXES, &debug), CAROM_OK);
     CHECK_EQ(record.lines, 12);
@@ -193,16 +197,19 @@ static void touching(void)
     add(world, &cube, at(0, 0, Q32(501, 1000)), upright, true);
     CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
     for (int i = 0; i < 30; i++) {
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
     centre = state.position;
     n = carom_contacts(world, contacts, 32);
-    CHECK(n >= 3 && n <= 32);
+    CHECK_AT_LEAST(n, 3);
+    CHECK_AT_MOST(n, 32);
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_CONTACTS, &debug), CAROM_OK);
-    CHECK(record.points == n && record.lines == n && record.of_colour[CAROM_COLOUR_YELLOW] == n);
+    CHECK_EQ(record.points, n);
+    CHECK_EQ(record.lines, n);
+    CHECK_EQ(record.of_colour[CAROM_COLOUR_YELLOW], n);
     for (int i = 0; i < n; i++) {
-        CHECK(memcmp(&record.point[i], &contacts[i].point, sizeof record.point[i]) == 0);
+        CHECK_EQ(memcmp(&record.point[i], &contacts[i].point, sizeof record.point[i]), 0);
         /* half of the cube's radius: its square is 3 / 16 */
         CHECK_NEAR(length2_q20(i), 3 << 16, 64);
     }
@@ -216,7 +223,8 @@ static void touching(void)
     for (int i = 0; i < hot; i++) {
         cube_hot += refs[i].body == 1;
     }
-    CHECK(hot > 0 && cube_hot > 0);
+    CHECK_MORE(hot, 0);
+    CHECK_MORE(cube_hot, 0);
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK); /* does not look away from the middle */
     debug = all_of();
     debug.paint = &paint;
@@ -246,13 +254,16 @@ static void kept(void)
     carom_v3_q32 out = at(Q32(16384, 1) + 1, 0, 0);
 
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_AXES | CAROM_DEBUG_FACES, &debug), CAROM_OK);
-    CHECK(lines.count == 3 && lines.lost == 0);
+    CHECK_EQ(lines.count, 3);
+    CHECK_EQ(lines.lost, 0);
     CHECK_EQ(room[2].colour, CAROM_COLOUR_BLUE);
-    CHECK(memcmp(&room[0].from, &centre, sizeof centre) == 0);
+    CHECK_EQ(memcmp(&room[0].from, &centre, sizeof centre), 0);
     carom_debug_keep_line(&lines, &centre, &out, 0);
-    CHECK(lines.count == 3 && lines.lost == 1);
+    CHECK_EQ(lines.count, 3);
+    CHECK_EQ(lines.lost, 1);
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_BOXES, &debug), CAROM_OK);
-    CHECK(lines.count == 10 && lines.lost == 1 + 3 + 12 - 10);
+    CHECK_EQ(lines.count, 10);
+    CHECK_EQ(lines.lost, 1 + 3 + 12 - 10);
 }
 
 static void errors(void)

@@ -115,7 +115,8 @@ static void crossing_faces(void)
         for (int y = 32 - views[k].half; y < 32 + views[k].half; y++) {
             for (int x = 32 - views[k].half; x < 32 + views[k].half; x++) {
                 if (x < 32) { /* turned about +y, the side of -x comes up */
-                    CHECK(pixels[y][x] != level && ramp_at(x, y) == DRAW_STATIONARY);
+                    CHECK_DIFFER(pixels[y][x], level);
+                    CHECK_EQ(ramp_at(x, y), DRAW_STATIONARY);
                 } else {
                     CHECK_EQ(pixels[y][x], level);
                 }
@@ -141,14 +142,14 @@ static void nothing_to_see(void)
             add(world, &cube, at(Q32(places[i][0], 1), Q32(places[i][1], 1), Q32(places[i][2], 1)),
                 upright, true);
             draw_8(world, &above, style);
-            CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+            CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
         }
         {
             struct carom_world *world = new_world();
 
             add(world, &square, at(0, 0, 0), upside_down, false);
             draw_8(world, &above, style);
-            CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+            CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
         }
     }
 }
@@ -230,10 +231,11 @@ static void far_away(void)
 
     add(world, &cube, at(Q32(4000, 1), Q32(-4000, 1), Q32(-4000, 1)), upright, true);
     draw_8(world, &camera, CAROM_DRAW_FLAT);
-    CHECK(count_ramp(DRAW_MOVING) <= 1);
+    CHECK_AT_MOST(count_ramp(DRAW_MOVING), 1);
     /* in wire style it is the pixel that holds the middle, at most with its neighbours */
     draw_8(world, &camera, CAROM_DRAW_WIRE);
-    CHECK(count_ramp(DRAW_MOVING) >= 1 && count_ramp(DRAW_MOVING) <= 4);
+    CHECK_AT_LEAST(count_ramp(DRAW_MOVING), 1);
+    CHECK_AT_MOST(count_ramp(DRAW_MOVING), 4);
 }
 
 /* ---------------------------------------------------------------------- wire */
@@ -307,9 +309,9 @@ static void interfering(void)
 
     add(world, &square, at(0, 0, 0), upright, false);
     add(world, &cube, at(Q32(1, 2), Q32(-1, 4), Q32(502, 1000)), upright, true);
-    CHECK(carom_world_step(world) >= 0);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
     count = carom_interfering_faces(world, &refs);
-    CHECK(count > 0);
+    CHECK_MORE(count, 0);
     for (int i = 0; i < count; i++) {
         if (refs[i].body == 0) {
             listed[refs[i].face] = true;
@@ -321,9 +323,11 @@ static void interfering(void)
     /* face 0 is the lower right half of the page; the cube leaves the lower left corner free */
     CHECK_EQ(ramp_at(18, 46), listed[0] ? DRAW_STATIONARY_HOT : DRAW_STATIONARY);
     CHECK_EQ(ramp_at(17, 18), listed[1] ? DRAW_STATIONARY_HOT : DRAW_STATIONARY);
-    CHECK(listed[0] && cube_hot > 0);
+    CHECK(listed[0]);
+    CHECK_MORE(cube_hot, 0);
     draw_8(world, &above, CAROM_DRAW_WIRE);
-    CHECK(count_ramp(DRAW_MOVING_HOT) > 0 && count_ramp(DRAW_STATIONARY_HOT) > 0);
+    CHECK_MORE(count_ramp(DRAW_MOVING_HOT), 0);
+    CHECK_MORE(count_ramp(DRAW_STATIONARY_HOT), 0);
 }
 
 const struct test tests_draw[] = {

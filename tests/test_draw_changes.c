@@ -67,20 +67,23 @@ static void compare_scene(const char *name, uint8_t format, enum carom_draw_styl
         struct carom_picture picture = picture_of(full, format, sizeof scene_workspace);
         int k = frame % 2;
 
-        CHECK(scene_before(&scene, world, frame) >= 0);
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(scene_before(&scene, world, frame), 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
         picture.paint = paint;
         memset(full, 0, sizeof full);
         CHECK_EQ(carom_draw(world, scene.camera, &picture, style), CAROM_OK);
         picture = picture_of(buffers[k], format, bytes);
         picture.paint = paint;
         CHECK_EQ(carom_draw_changes(world, scene.camera, &picture, style, &drawn[k]), CAROM_OK);
-        CHECK(memcmp(full, buffers[k], sizeof full) == 0);
+        CHECK_EQ(memcmp(full, buffers[k], sizeof full), 0);
         changed += drawn[k].changed_count > 0;
         for (int i = 0; i < drawn[k].changed_count; i++) {
             const struct carom_rect *r = &drawn[k].changed[i];
 
-            CHECK(r->x0 >= 0 && r->y0 >= 0 && r->x1 <= WIDTH && r->y1 <= HEIGHT);
+            CHECK_AT_LEAST(r->x0, 0);
+            CHECK_AT_LEAST(r->y0, 0);
+            CHECK_AT_MOST(r->x1, WIDTH);
+            CHECK_AT_MOST(r->y1, HEIGHT);
             less += drawn[k].changed_count == 1 &&
                     (r->x1 - r->x0) * (r->y1 - r->y0) < WIDTH * HEIGHT / 2;
         }
@@ -129,7 +132,7 @@ static int32_t draw_again(const struct carom_camera *camera, struct carom_pictur
         const uint8_t *a = (const uint8_t *)full + y * picture->stride;
         const uint8_t *b = (const uint8_t *)picture->pixels + y * picture->stride;
 
-        CHECK(memcmp(a, b, (size_t)(picture->width * bits[picture->format] / 8)) == 0);
+        CHECK_EQ(memcmp(a, b, (size_t)(picture->width * bits[picture->format] / 8)), 0);
     }
     for (int i = 0; i < drawn[0].changed_count; i++) {
         const struct carom_rect *r = &drawn[0].changed[i];
@@ -250,21 +253,21 @@ static void shapes_and_faces(void)
     add(world_now_drawn, &sheet, at(0, 0, 0), upright, false);
     add(world_now_drawn, &cube, at(Q32(1, 2), Q32(-1, 4), Q32(502, 1000)), upright, true);
     draw_again(&above, &picture, CAROM_DRAW_FLAT);
-    CHECK(carom_world_step(world_now_drawn) >= 0);
-    CHECK(carom_interfering_faces(world_now_drawn, &refs) > 0);
-    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_AT_LEAST(carom_world_step(world_now_drawn), 0);
+    CHECK_MORE(carom_interfering_faces(world_now_drawn, &refs), 0);
+    CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     /* nothing moves, but faces interfere: they are drawn again, and when they do no more */
-    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     CHECK_EQ(carom_body_get(world_now_drawn, 1, &state), CAROM_OK);
     state.position.c[2] = Q32(2, 1);
     CHECK_EQ(carom_body_set(world_now_drawn, 1, &state), CAROM_OK);
-    CHECK(carom_world_step(world_now_drawn) >= 0);
-    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_AT_LEAST(carom_world_step(world_now_drawn), 0);
+    CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     CHECK_EQ(carom_interfering_faces(world_now_drawn, &refs), 0);
     draw_again(&above, &picture, CAROM_DRAW_FLAT);
     CHECK_EQ(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     CHECK_EQ(carom_surface_move(world_now_drawn, 0, lower), CAROM_OK);
-    CHECK(draw_again(&above, &picture, CAROM_DRAW_FLAT) > 0);
+    CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     CHECK_EQ(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
 }
 
@@ -319,7 +322,7 @@ static void errors(void)
     camera.target = camera.eye;
     EXPECT_ERROR(CAROM_ERR_ARGUMENT, &drawn[0]);
     camera = above;
-    CHECK(draw_again(&camera, &picture, style) > 0);
+    CHECK_MORE(draw_again(&camera, &picture, style), 0);
     /* a picture that could not be drawn is drawn from nothing after that */
     move(2, Q32(1, 16), 0);
     picture.workspace_bytes = 100;

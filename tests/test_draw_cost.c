@@ -73,7 +73,7 @@ static void head(void)
             small = a > small ? a : small;
             large = b > large ? b : large;
         }
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     report("320 x 240, at most", small);
     report("512 x 512, at most", large);
@@ -93,7 +93,7 @@ static void out_of_sight(void)
     }
     spent = cost(world, &away, WIDTH, HEIGHT, sizeof workspace);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        CHECK(pixels[i] < DRAW_SHADES);
+        CHECK_LESS(pixels[i], DRAW_SHADES);
     }
     for (int body = 0; body < scene.other_count + 2; body++) {
         CHECK_EQ(carom_body_remove(world, body), CAROM_OK);
@@ -113,7 +113,7 @@ static void parts(void)
     struct carom_world *world = new_scene("head");
 
     for (int frame = 0; frame < 50; frame++) {
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     cost(world, scene.camera, WIDTH, HEIGHT, sizeof workspace);
     memcpy(reference, pixels, sizeof reference);
@@ -121,7 +121,7 @@ static void parts(void)
         memset(pixels, 0xee, sizeof pixels);
         memset(workspace, 0x5a, sizeof workspace);
         report("in parts", cost(world, scene.camera, WIDTH, HEIGHT, sizes[i]));
-        CHECK(memcmp(reference, pixels, sizeof reference) == 0);
+        CHECK_EQ(memcmp(reference, pixels, sizeof reference), 0);
         CHECK_EQ(workspace[sizes[i]], 0x5a);
     }
 }
@@ -140,7 +140,7 @@ static void no_gaps(void)
         camera.eye.c[2] = (int64_t)5 << 31;
         cost(world, &camera, WIDTH, HEIGHT, sizeof workspace);
         for (int i = 0; i < WIDTH * HEIGHT; i++) {
-            CHECK(pixels[i] / DRAW_SHADES == DRAW_STATIONARY);
+            CHECK_EQ(pixels[i] / DRAW_SHADES, DRAW_STATIONARY);
         }
     }
 }

@@ -57,9 +57,9 @@ static void expect_line(const int64_t from[2], const int64_t to[2])
             least = off < least ? off : least;
             if (in && is_red((int)place[0], (int)place[1])) {
                 found++;
-                CHECK(off * 32 <= n * 17); /* half a pixel and what steps are rounded by */
+                CHECK_AT_MOST(off * 32, n * 17); /* half a pixel and what steps are rounded by */
             } else if (in) {
-                CHECK(off * 32 >= n * 15);
+                CHECK_AT_LEAST(off * 32, n * 15);
             }
         }
     }
@@ -168,11 +168,11 @@ static void expect_anywhere(int style, int count)
         /* well inside of the picture, and before the near plane: z runs from the eye down */
         if (middle[2] < -16 && 5 * carom_abs(middle[0]) < -2 * middle[2] &&
             5 * carom_abs(middle[1]) < -2 * middle[2]) {
-            CHECK(reds > 0);
+            CHECK_MORE(reds, 0);
             shown++;
         }
     }
-    CHECK(shown > count / 40);
+    CHECK_MORE(shown, count / 40);
 }
 
 static void over_anywhere(void)
@@ -261,9 +261,11 @@ static void in_at_random(void)
                 int64_t off = carom_abs((a[!major] - middle[!major]) * n + along * size[!major]);
 
                 if (is_red(x, y)) {
-                    CHECK(off <= 9 * n + 16 && along >= -10 && along <= n + 10);
+                    CHECK_AT_MOST(off, 9 * n + 16);
+                    CHECK_AT_LEAST(along, -10);
+                    CHECK_AT_MOST(along, n + 10);
                 } else if (n > 32 && along > -6 && along < n + 6) {
-                    CHECK(off >= 7 * n - 16);
+                    CHECK_AT_LEAST(off, 7 * n - 16);
                 }
             }
         }
@@ -301,7 +303,10 @@ static void hidden(void)
         (struct carom_paint_line){on_page(8 * 16, 24 * 16 + 8), on_page(56 * 16, 24 * 16 + 8), RED};
     draw_line_in(world, &paint);
     CHECK_NEAR(count_red(), 49, 1);
-    CHECK(is_red(8, 24) && is_red(16, 24) && is_red(47, 24) && is_red(55, 24));
+    CHECK(is_red(8, 24));
+    CHECK(is_red(16, 24));
+    CHECK(is_red(47, 24));
+    CHECK(is_red(55, 24));
     /* a unit higher: 64 / 3 pixels a unit */
     lines[0].from.c[2] = lines[0].to.c[2] = Q32(1, 1);
     draw_line_in(world, &paint);
@@ -310,7 +315,8 @@ static void hidden(void)
     lines[0].from.c[2] = lines[0].to.c[2] = Q32(-1, 4);
     draw_line_in(world, &paint);
     CHECK_NEAR(count_red(), 14, 1);
-    CHECK(!is_red(16, 24) && !is_red(47, 24));
+    CHECK(!is_red(16, 24));
+    CHECK(!is_red(47, 24));
     /* rising from left to right through the square: hidden up to the middle */
     lines[0].from = at(Q32(-1, 2), Q32(1, 32), Q32(-1, 2));
     lines[0].to = at(Q32(1, 2), Q32(1, 32), Q32(1, 2));
@@ -327,7 +333,8 @@ static void hidden(void)
 
         picture.paint = &paint;
         CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_WIRE), CAROM_OK);
-        CHECK(is_red(26, 31) && is_red(38, 31));
+        CHECK(is_red(26, 31));
+        CHECK(is_red(38, 31));
     }
 }
 
@@ -336,7 +343,11 @@ static uint8_t sent[SIZE][SIZE];
 
 static void *row_of(void *context, int32_t x0, int32_t x1, int32_t y)
 {
-    CHECK(context == sent && x0 >= 0 && x1 <= SIZE && y >= 0 && y < SIZE);
+    CHECK_SAME(context, sent);
+    CHECK_AT_LEAST(x0, 0);
+    CHECK_AT_MOST(x1, SIZE);
+    CHECK_AT_LEAST(y, 0);
+    CHECK_LESS(y, SIZE);
     return sent[y];
 }
 
@@ -371,7 +382,7 @@ static void by_rows(void)
         memset(sent, 0xee, sizeof sent);
         picture.workspace_bytes = i % 2 ? sizeof workspace : CAROM_DRAW_BYTES_LEAST(8, 12);
         CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
-        CHECK(memcmp(sent, pixels, sizeof pixels) == 0);
+        CHECK_EQ(memcmp(sent, pixels, sizeof pixels), 0);
     }
 }
 
@@ -401,7 +412,7 @@ static void changes(void)
             CHECK(again == 0 || drawn.changed_count == 0);
             picture.pixels = pixels;
             CHECK_EQ(carom_draw(world, &above, &picture, style), CAROM_OK);
-            CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+            CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
             picture.pixels = reference;
         }
         if (i % 4 == 0) {

@@ -30,7 +30,7 @@ static struct carom_world *touching(void)
 
     add(world, &square, at(0, 0, 0), upright, false);
     add(world, &cube, at(Q32(1, 2), Q32(-1, 4), Q32(502, 1000)), upright, true);
-    CHECK(carom_world_step(world) >= 0);
+    CHECK_AT_LEAST(carom_world_step(world), 0);
     return world;
 }
 
@@ -41,9 +41,9 @@ static void nothing_is_usual(void)
 
     for (int k = 0; k < 2; k++) {
         keep_usual(world, styles[k]);
-        CHECK(count_ramp(DRAW_STATIONARY_HOT) > 0);
+        CHECK_MORE(count_ramp(DRAW_STATIONARY_HOT), 0);
         draw_painted(world, &paint, styles[k]);
-        CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+        CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
     }
 }
 
@@ -71,7 +71,7 @@ static void bodies(void)
     add_scene(world);
     for (int k = 0; k < 2; k++) {
         keep_usual(world, styles[k]);
-        CHECK(count_ramp(DRAW_MOVING) > 50);
+        CHECK_MORE(count_ramp(DRAW_MOVING), 50);
         paint.body_count = 2;
         draw_painted(world, &paint, styles[k]);
         expect_ramps(only_second);
@@ -95,7 +95,8 @@ static void faces(void)
     six = count_ramp(6);
     five = count_ramp(5);
     CHECK_EQ(six + five, 18 * 18);
-    CHECK(six >= 9 * 17 && six <= 9 * 19); /* the diagonal's pixels go to one of them */
+    CHECK_AT_LEAST(six, 9 * 17);
+    CHECK_AT_MOST(six, 9 * 19); /* the diagonal's pixels go to one of them */
     /* face 2 is 4, 5, 7: the lower right half, and face 3 the upper left one */
     CHECK_EQ(ramp_at(38, 39), 6);
     CHECK_EQ(ramp_at(25, 24), 5);
@@ -109,7 +110,7 @@ static void interfering(void)
 
     for (int k = 0; k < 2; k++) {
         keep_usual(world, styles[k]);
-        CHECK(count_ramp(DRAW_MOVING_HOT) + count_ramp(DRAW_STATIONARY_HOT) > 100);
+        CHECK_MORE(count_ramp(DRAW_MOVING_HOT) + count_ramp(DRAW_STATIONARY_HOT), 100);
         paint.hide_interfering = true;
         draw_painted(world, &paint, styles[k]);
         if (styles[k] == CAROM_DRAW_FLAT) {
@@ -152,7 +153,8 @@ static void light(void)
                 CHECK_EQ(ramp_at(40, 40), DRAW_STATIONARY);
                 shade = pixels[40][40] % DRAW_SHADES;
                 /* rounded down, and a hair short of 32 */
-                CHECK(shade * n <= times_n && (shade + 1) * n >= times_n);
+                CHECK_AT_MOST(shade * n, times_n);
+                CHECK_AT_LEAST((shade + 1) * n, times_n);
             }
         }
     }
@@ -255,7 +257,7 @@ static void formats(void)
             }
         }
     }
-    CHECK(high > 1000);
+    CHECK_MORE(high, 1000);
 }
 
 static void ramps(void)
@@ -269,7 +271,7 @@ static void ramps(void)
     CHECK_EQ(ramp[31], 0x9fbfff); /* 0x40 + (255 - 0x40) / 2 = 0x9f */
     for (int i = 1; i < DRAW_SHADES; i++) {
         for (int shift = 0; shift < 24; shift += 8) {
-            CHECK((ramp[i] >> shift & 255) >= (ramp[i - 1] >> shift & 255));
+            CHECK_AT_LEAST((ramp[i] >> shift & 255), (ramp[i - 1] >> shift & 255));
         }
     }
     CHECK_EQ(carom_draw_palette[CAROM_COLOUR_WHITE], 0xffffff);
@@ -308,7 +310,7 @@ static void changes(void)
               : step == 0 || step == 4 || step == 8 || step == 10 ? area == SIZE * SIZE
                                                                   : area == 0);
         draw_painted(world, picture.paint, CAROM_DRAW_FLAT);
-        CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+        CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
     }
 }
 
@@ -387,7 +389,7 @@ static void horizon(void)
             seen += y > 0 && (before < 16) != (pixels[y][0] < 16);
         }
     }
-    CHECK(seen > 20); /* the horizon is in some of the pictures */
+    CHECK_MORE(seen, 20); /* the horizon is in some of the pictures */
 }
 
 const struct test tests_draw_paint[] = {

@@ -72,7 +72,8 @@ static void greys_agree(void)
                 } else {
                     int off = (grey - low[ramp]) * 31 - gain[ramp] * shade;
 
-                    CHECK(2 * off <= 31 && -2 * off <= 31);
+                    CHECK_AT_MOST(2 * off, 31);
+                    CHECK_AT_MOST(-2 * off, 31);
                 }
             }
         }
@@ -108,7 +109,7 @@ static void workspace_size(void)
     add_scene(world);
     draw_8(world, &above, CAROM_DRAW_FLAT);
     memcpy(reference, pixels, sizeof pixels);
-    CHECK(count_ramp(DRAW_MOVING) > 200); /* the cube covers about 16 x 16 pixels or more */
+    CHECK_MORE(count_ramp(DRAW_MOVING), 200); /* the cube covers about 16 x 16 pixels or more */
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         struct carom_picture picture = picture_8();
 
@@ -116,7 +117,7 @@ static void workspace_size(void)
         memset(workspace, 0x5a, sizeof workspace);
         memset(pixels, 0xee, sizeof pixels);
         CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
-        CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+        CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
         CHECK_EQ(workspace[sizes[i]], 0x5a);
     }
 }

@@ -265,7 +265,7 @@ static void cubes(void)
         memcpy(bright, pixels, sizeof bright);
         compare_rays(&counts, &random, &v, 24, 0.2);
     }
-    CHECK(counts.all > 10 * ORACLE_SCENES);
+    CHECK_MORE(counts.all, 10 * ORACLE_SCENES);
     CHECK_EQ(counts.wrong, 0);
 }
 
@@ -294,8 +294,8 @@ static void shadows(void)
         compare_rays(&counts, &random, &v, 240, 1);
     }
     /* corners are rounded to a 16th of a pixel, which now and then shows where light or eye graze a face */
-    CHECK(counts.dark > ORACLE_SCENES);
-    CHECK(counts.wrong <= counts.all / 10000);
+    CHECK_MORE(counts.dark, ORACLE_SCENES);
+    CHECK_AT_MOST(counts.wrong, counts.all / 10000);
 }
 
 const struct test tests_draw_rays[] = {

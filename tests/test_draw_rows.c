@@ -46,8 +46,12 @@ static void take_row(void)
 
 static void *next_row(void *context, int32_t x0, int32_t x1, int32_t y)
 {
-    CHECK(context == &panel);
-    CHECK(x0 >= 0 && x0 < x1 && x1 <= WIDTH && y >= 0 && y < HEIGHT);
+    CHECK_SAME(context, &panel);
+    CHECK_AT_LEAST(x0, 0);
+    CHECK_LESS(x0, x1);
+    CHECK_AT_MOST(x1, WIDTH);
+    CHECK_AT_LEAST(y, 0);
+    CHECK_LESS(y, HEIGHT);
     if (panel.now >= 0) {
         take_row();
     }
@@ -92,7 +96,7 @@ static struct carom_picture by_rows(uint8_t format, size_t bytes)
 static void compare(const struct carom_picture *picture)
 {
     take_row();
-    CHECK(memcmp(panel.pixels, full, (size_t)(WIDTH * HEIGHT * bytes_each[picture->format])) == 0);
+    CHECK_EQ(memcmp(panel.pixels, full, (size_t)(WIDTH * HEIGHT * bytes_each[picture->format])), 0);
 }
 
 static const struct carom_paint smooth = {.smooth = &carom_smooth};
@@ -114,11 +118,11 @@ static void compare_scene(const char *name, uint8_t format, size_t bytes,
         struct carom_picture whole = in_memory(format), rows = by_rows(format, bytes);
 
         whole.paint = rows.paint = paint;
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
         CHECK_EQ(carom_draw(world, scene.camera, &whole, CAROM_DRAW_FLAT), CAROM_OK);
         if (frame % 2) {
             CHECK_EQ(carom_draw(world, scene.camera, &rows, CAROM_DRAW_FLAT), CAROM_OK);
-            CHECK(panel.area >= WIDTH * HEIGHT);
+            CHECK_AT_LEAST(panel.area, WIDTH * HEIGHT);
             compare(&whole);
             rows = by_rows(format, bytes);
             rows.paint = paint;

@@ -326,7 +326,7 @@ static void oracle(void)
             }
         }
     }
-    CHECK(seen > 200 * LUMPS);
+    CHECK_MORE(seen, 200 * LUMPS);
     /* thin faces are tilted by more */
     CHECK_NEAR(wrong[0], 0, seen / 1000);
     CHECK_NEAR(wrong[1], 0, seen / 1000);
@@ -391,7 +391,7 @@ static void boxes(void)
         picture.paint = &paint;
         picture.pixels = smooth_pixels;
         CHECK_EQ(carom_draw(world, &near, &picture, CAROM_DRAW_FLAT), CAROM_OK);
-        CHECK(memcmp(plain_pixels, smooth_pixels, sizeof plain_pixels) == 0);
+        CHECK_EQ(memcmp(plain_pixels, smooth_pixels, sizeof plain_pixels), 0);
     }
 }
 
@@ -410,7 +410,7 @@ static void room(void)
     picture.pixels = parts;
     picture.workspace_bytes = least;
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
-    CHECK(memcmp(parts, pixels, sizeof pixels) == 0);
+    CHECK_EQ(memcmp(parts, pixels, sizeof pixels), 0);
     picture.workspace_bytes = 8000;
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_ERR_MEMORY);
     picture = picture_8();

@@ -72,7 +72,7 @@ static void font(void)
         }
         CHECK_EQ(ink == 0, i == 0);
         for (int j = 0; j < i; j++) {
-            CHECK(memcmp(draw_font[i], draw_font[j], DRAW_GLYPH_WIDTH) != 0);
+            CHECK_DIFFER(memcmp(draw_font[i], draw_font[j], DRAW_GLYPH_WIDTH), 0);
         }
     }
 }
@@ -172,7 +172,7 @@ static void at_random(void)
         picture.width = SIZE - i % 3;
         picture.height = SIZE - 2;
         memset(deep, 0x99, sizeof deep);
-        CHECK(carom_draw_text(&picture, &where, text, &touched) >= 0);
+        CHECK_AT_LEAST(carom_draw_text(&picture, &where, text, &touched), 0);
         for (int y = -1; y < SIZE - 1; y++) {
             const uint8_t *row = (const uint8_t *)&deep[y + 1][1];
 
@@ -200,7 +200,12 @@ static int32_t next_row, rows_sent;
 
 static void *row_of(void *context, int32_t x0, int32_t x1, int32_t y)
 {
-    CHECK(context == sent && x0 >= 0 && x0 < x1 && x1 <= SIZE && y >= next_row && y < SIZE);
+    CHECK_SAME(context, sent);
+    CHECK_AT_LEAST(x0, 0);
+    CHECK_LESS(x0, x1);
+    CHECK_AT_MOST(x1, SIZE);
+    CHECK_AT_LEAST(y, next_row);
+    CHECK_LESS(y, SIZE);
     next_row = y + 1;
     rows_sent++;
     return sent[y];
@@ -220,16 +225,16 @@ static void by_rows(void)
         where.opaque = true;
         memset(pixels, 0x99, sizeof pixels);
         memset(sent, 0x99, sizeof sent);
-        CHECK(carom_draw_text(&picture, &where, text, NULL) >= 0);
+        CHECK_AT_LEAST(carom_draw_text(&picture, &where, text, NULL), 0);
         picture.row = row_of;
         picture.context = sent;
         picture.pixels = NULL;
         next_row = 0;
-        CHECK(carom_draw_text(&picture, &where, text, NULL) >= 0);
-        CHECK(memcmp(sent, pixels, sizeof pixels) == 0);
+        CHECK_AT_LEAST(carom_draw_text(&picture, &where, text, NULL), 0);
+        CHECK_EQ(memcmp(sent, pixels, sizeof pixels), 0);
         drawn += rows_sent > 0;
     }
-    CHECK(drawn > 10);
+    CHECK_MORE(drawn, 10);
 }
 
 /* A text that was noted is gone in the next picture of what changed. */
@@ -246,9 +251,9 @@ static void goes_away(void)
     CHECK_EQ(carom_draw_changes(world, &above, &picture, CAROM_DRAW_FLAT, &drawn), CAROM_OK);
     memcpy(reference, pixels, sizeof pixels);
     CHECK_EQ(carom_draw_text(&picture, &where, "A\nlong", &drawn.touched), 4);
-    CHECK(memcmp(reference, pixels, sizeof pixels) != 0);
+    CHECK_DIFFER(memcmp(reference, pixels, sizeof pixels), 0);
     CHECK_EQ(carom_draw_changes(world, &above, &picture, CAROM_DRAW_FLAT, &drawn), CAROM_OK);
-    CHECK(memcmp(reference, pixels, sizeof pixels) == 0);
+    CHECK_EQ(memcmp(reference, pixels, sizeof pixels), 0);
     CHECK_EQ(drawn.changed_count, 1);
     area =
         (drawn.changed[0].x1 - drawn.changed[0].x0) * (drawn.changed[0].y1 - drawn.changed[0].y0);

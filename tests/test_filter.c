@@ -85,7 +85,8 @@ static void test_rule(void)
         CHECK_EQ(broad_may_meet(&b[0], &b[1]), may_touch(&f[0], &f[1]));
         CHECK_EQ(broad_may_meet(&b[1], &b[0]), may_touch(&f[0], &f[1]));
     }
-    CHECK(touch > 1000 && touch < 3000);
+    CHECK_MORE(touch, 1000);
+    CHECK_LESS(touch, 3000);
 }
 
 /* What may not touch moves as it does alone, and is no pair. */
@@ -142,7 +143,9 @@ static void test_change(void)
     CHECK_EQ(carom_body_set_filter(w, 1, &off), CAROM_OK);
     CHECK(!boxes_state(w, 1).asleep);
     CHECK_EQ(carom_body_get_filter(w, 1, &now), CAROM_OK);
-    CHECK(now.category == 2 && now.mask == 2 && now.group == 0);
+    CHECK_EQ(now.category, 2);
+    CHECK_EQ(now.mask, 2);
+    CHECK_EQ(now.group, 0);
     alone = make_free(1);
     {
         struct carom_body_state state = boxes_state(w, 1);
@@ -158,7 +161,8 @@ static void test_change(void)
         if (frame == 16) { /* the pair that passes is in a snapshot */
             int size = carom_snapshot_size(w);
 
-            CHECK(size > 0 && boxes_overlap(w, 1, 0));
+            CHECK_MORE(size, 0);
+            CHECK(boxes_overlap(w, 1, 0));
             CHECK_EQ(carom_snapshot_save(w, saved, sizeof saved), size);
             boxes_step(w, 2);
             CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
@@ -186,14 +190,16 @@ static void test_snapshot(void)
     plain = carom_snapshot_size(w);
     CHECK_EQ(carom_body_set_filter(w, 1, &off), CAROM_OK);
     hash[1] = carom_world_hash(w);
-    CHECK(hash[0] != hash[1]);
+    CHECK_DIFFER(hash[0], hash[1]);
     size = carom_snapshot_save(w, saved, sizeof saved);
     CHECK_EQ(size, plain + 4 + 2 * 6); /* a tag, two bodies */
     CHECK_EQ(carom_body_set_filter(w, 1, &on), CAROM_OK);
     CHECK_EQ(carom_world_hash(w), hash[0]);
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
     CHECK_EQ(carom_body_get_filter(w, 1, &now), CAROM_OK);
-    CHECK(now.category == 2 && now.mask == 2 && now.group == -7);
+    CHECK_EQ(now.category, 2);
+    CHECK_EQ(now.mask, 2);
+    CHECK_EQ(now.group, -7);
     CHECK_EQ(carom_world_hash(w), hash[1]);
     for (int cut = 0; cut < size; cut++) {
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)cut), CAROM_ERR_FORMAT);
@@ -223,7 +229,9 @@ static void test_errors(void)
     CHECK_EQ(carom_body_set_filter(w, -1, &on), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_get_filter(w, 2, &now), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_get_filter(w, 0, &now), CAROM_OK);
-    CHECK(now.category == 1 && now.mask == 0xffff && now.group == 0);
+    CHECK_EQ(now.category, 1);
+    CHECK_EQ(now.mask, 0xffff);
+    CHECK_EQ(now.group, 0);
 }
 
 const struct test tests_filter[] = {

@@ -106,13 +106,13 @@ static void test_product(void)
     }
 }
 
-/* What a quotient is: q d + r = n, r smaller than d and of n's sign. */
+/* A quotient holds q d + r = n; r is smaller than d and has n's sign. */
 static void check_quotient(uint64_t n, uint64_t d)
 {
     uint64_t q = n / d, r = n % d;
     int64_t signed_n = (int64_t)n, signed_d = (int64_t)d, signed_r;
 
-    CHECK(r < d);
+    CHECK_EQ(r < d, true); /* both may be above INT64_MAX */
     CHECK_EQ(q * d + r, n);
     if (signed_n == INT64_MIN && signed_d == -1) {
         return;
@@ -120,8 +120,8 @@ static void check_quotient(uint64_t n, uint64_t d)
     signed_r = signed_n % signed_d;
     CHECK_EQ((uint64_t)(signed_n / signed_d) * d + (uint64_t)signed_r, n);
     CHECK(signed_r == 0 || (signed_r < 0) == (signed_n < 0));
-    CHECK((signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r) <
-          (signed_d < 0 ? 0 - d : d));
+    r = signed_r < 0 ? 0 - (uint64_t)signed_r : (uint64_t)signed_r;
+    CHECK_EQ(r < (signed_d < 0 ? 0 - d : d), true);
 }
 
 static void check_small_quotient(uint32_t n, uint32_t d)
@@ -205,11 +205,14 @@ static void test_vectors(void)
     CHECK_EQ(carom_mul_q30(-3, CAROM_ONE_Q30 / 2), -1);
     CHECK_EQ(carom_dot(a, b), (14 - 33 - 65) * ((int64_t)1 << 40));
     carom_cross(v, a, b, 20);
-    CHECK(v[0] == (39 - 55) * one && v[1] == (35 + 26) * one);
+    CHECK_EQ(v[0], (39 - 55) * one);
+    CHECK_EQ(v[1], (35 + 26) * one);
     CHECK_EQ(v[2], (22 + 21) * one);
     memcpy(v, a, sizeof v);
     carom_rotate(v, &quarter, v); /* x to y, y to -x; in place */
-    CHECK(v[0] == 3 * one && v[1] == 2 * one && v[2] == 5 * one);
+    CHECK_EQ(v[0], 3 * one);
+    CHECK_EQ(v[1], 2 * one);
+    CHECK_EQ(v[2], 5 * one);
     carom_rotate_back(v, &quarter, v);
     CHECK_EQ(memcmp(v, a, sizeof v), 0);
     carom_cross(v, a, a, 1);
@@ -242,7 +245,8 @@ static void test_sqrt(void)
         CHECK_EQ(fix_sqrt(k * k - 1), k - 1);
         CHECK_EQ(fix_sqrt(k * k + 1), k);
         CHECK_EQ(fix_sqrt(k * k + 2 * k), k); /* the last one before (k + 1)^2 */
-        CHECK(root * root <= v && v - root * root <= 2 * root);
+        CHECK_AT_MOST(root * root, v);
+        CHECK_AT_MOST(v - root * root, 2 * root);
     }
 }
 
@@ -374,7 +378,8 @@ static void test_ratio(void)
 
     CHECK_EQ(q.m, 0);
     q = wide_ratio(fix_wide_mul(INT64_MIN, INT64_MIN), one);
-    CHECK(q.m == 1 << 29 && q.e == 29 - 126);
+    CHECK_EQ(q.m, 1 << 29);
+    CHECK_EQ(q.e, 29 - 126);
     for (int n = 0; n < CASES; n++) {
         struct fix_wide a = fix_wide_mul(random_size(&r, 63) | 1, random_size(&r, 63) | 1);
         struct fix_wide b = fix_wide_mul(random_size(&r, 63) | 1, random_size(&r, 63) | 1);
@@ -393,13 +398,17 @@ static void test_scale(void)
 
     CHECK_EQ(s.m, 0);
     s = fix_scale(1, 0);
-    CHECK(s.m == 1 << 29 && s.e == 29);
+    CHECK_EQ(s.m, 1 << 29);
+    CHECK_EQ(s.e, 29);
     s = fix_scale(INT64_MAX, 10); /* rounds up to 2^63 */
-    CHECK(s.m == 1 << 29 && s.e == 10 + 29 - 63);
+    CHECK_EQ(s.m, 1 << 29);
+    CHECK_EQ(s.e, 10 + 29 - 63);
     s = fix_scale(INT64_MIN, 10);
-    CHECK(s.m == -(1 << 29) && s.e == 10 + 29 - 63);
+    CHECK_EQ(s.m, -(1 << 29));
+    CHECK_EQ(s.e, 10 + 29 - 63);
     s = fix_scale(((int64_t)1 << 30) + 1, 0); /* a tie */
-    CHECK(s.m == (1 << 29) + 1 && s.e == -1);
+    CHECK_EQ(s.m, (1 << 29) + 1);
+    CHECK_EQ(s.e, -1);
     for (int n = 0; n < CASES; n++) {
         int64_t v = random_size(&r, 62) | 1;
         int q = (int)test_random_range(&r, -40, 40), shift;
@@ -513,9 +522,13 @@ static void test_normalise(void)
     carom_v3_q30 n = {{1, 2, 3}};
 
     CHECK(!fix_normalise(&n, zero));
-    CHECK(n.c[0] == 1 && n.c[1] == 2 && n.c[2] == 3);
+    CHECK_EQ(n.c[0], 1);
+    CHECK_EQ(n.c[1], 2);
+    CHECK_EQ(n.c[2], 3);
     CHECK(fix_normalise(&n, tiny));
-    CHECK(n.c[0] == 0 && n.c[1] == -CAROM_ONE_Q30 && n.c[2] == 0);
+    CHECK_EQ(n.c[0], 0);
+    CHECK_EQ(n.c[1], -CAROM_ONE_Q30);
+    CHECK_EQ(n.c[2], 0);
     CHECK(fix_normalise(&n, cube));
     for (int k = 0; k < 3; k++) {
         CHECK_NEAR(n.c[k] * cube[k], 619925131, 1); /* 2^30 / sqrt 3 = 619925131.2 */

@@ -37,7 +37,7 @@ static void begin(const char *name)
 static void step(void)
 {
     frame++;
-    CHECK(scene_before(&scene, world, frame) >= 0);
+    CHECK_AT_LEAST(scene_before(&scene, world, frame), 0);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
 }
 
@@ -113,7 +113,7 @@ static void test_chain(void)
         }
     }
     /* the free end began 6.1 units beside the anchor and has come by below it, or nearly */
-    CHECK(low_q32 < CAROM_POSITION_MM(7500 - 5000));
+    CHECK_LESS(low_q32, CAROM_POSITION_MM(7500 - 5000));
 }
 
 /* The block comes down on the box, stops and says so; it crosses nothing, and goes up again. */
@@ -127,9 +127,9 @@ static void test_crusher(void)
         blocked += happened(CAROM_EVENT_BLOCKED, CRUSHER_BLOCK);
         CHECK_EQ(carom_query_faces(world, CRUSHER_BLOCK, CRUSHER_BOX, NULL, 0), 0);
         /* half of the block and all of the box, 1/2 high each */
-        CHECK(state_of(CRUSHER_BLOCK).position.c[2] > CAROM_POSITION_MM(750));
+        CHECK_MORE(state_of(CRUSHER_BLOCK).position.c[2], CAROM_POSITION_MM(750));
     }
-    CHECK(blocked > 0);
+    CHECK_MORE(blocked, 0);
     CHECK_EQ(state_of(CRUSHER_BLOCK).position.c[2],
              CAROM_POSITION_MM(CRUSHER_HIGH_MM) -
                  CAROM_POSITION_MM(CRUSHER_WAY_MM) / (CRUSHER_FRAMES / 2));
@@ -157,7 +157,7 @@ static void test_conveyor(void)
 static void step_with(uint32_t keys)
 {
     frame++;
-    CHECK(scene_game_before(scene.game, world, frame, keys) >= 0);
+    CHECK_AT_LEAST(scene_game_before(scene.game, world, frame, keys), 0);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
 }
 
@@ -231,16 +231,16 @@ static void test_car(void)
         near += square < 6300 * 6300;
         far += square > 6500 * 6500 && square < 6700 * 6700;
     }
-    CHECK(far > CAR_FRAMES * 4 / 5);
+    CHECK_MORE(far, CAR_FRAMES * 4 / 5);
     CHECK(carom_body_mesh(world, CAR_PICKUP + CAR_PICKUPS - 1) != NULL);
     if (CAR_FRAMES < 5 * SECOND) {
         return;
     }
-    CHECK(near > 5);
+    CHECK_MORE(near, 5);
     /* the ramp is 350 mm high, the chassis as high above what it drives on */
-    CHECK(high_q32 > CAROM_POSITION_MM(350 + 670));
-    CHECK(carom_body_mesh(world, CAR_PICKUP) == NULL);
-    CHECK(carom_body_mesh(world, CAR_PICKUP + 1) == NULL);
+    CHECK_MORE(high_q32, CAROM_POSITION_MM(350 + 670));
+    CHECK_SAME(carom_body_mesh(world, CAR_PICKUP), NULL);
+    CHECK_SAME(carom_body_mesh(world, CAR_PICKUP + 1), NULL);
 }
 
 /* The pad: on and to the left, or to the right; it brakes when nothing is held, and goes back. */
@@ -250,12 +250,12 @@ static void drive(uint32_t side, int sign)
     while (frame < SECOND / 2) {
         step_with(PORT_PAD_UP);
     }
-    CHECK(state_of(CAR_CHASSIS).velocity.c[0] > CAROM_VELOCITY_MM_S(500, FPS));
+    CHECK_MORE(state_of(CAR_CHASSIS).velocity.c[0], CAROM_VELOCITY_MM_S(500, FPS));
     CHECK_NEAR(heading(CAR_CHASSIS, 1), 0, CAROM_ONE_Q30 / 100);
     while (frame < 5 * SECOND / 4) {
         step_with(PORT_PAD_UP | side);
     }
-    CHECK(sign * heading(CAR_CHASSIS, 1) > CAROM_ONE_Q30 / 16);
+    CHECK_MORE(sign * heading(CAR_CHASSIS, 1), CAROM_ONE_Q30 / 16);
     while (frame < 4 * SECOND) {
         step_with(0);
     }
@@ -263,7 +263,7 @@ static void drive(uint32_t side, int sign)
     while (frame < 5 * SECOND) {
         step_with(PORT_PAD_DOWN);
     }
-    CHECK(state_of(CAR_CHASSIS).velocity.c[0] < -CAROM_VELOCITY_MM_S(300, FPS));
+    CHECK_LESS(state_of(CAR_CHASSIS).velocity.c[0], -CAROM_VELOCITY_MM_S(300, FPS));
     check_upright(CAR_CHASSIS);
 }
 
@@ -277,7 +277,7 @@ static void test_car_pad(void)
     for (int i = 0; i < SECOND / 2; i++) {
         step_with(PORT_PAD_UP);
     }
-    CHECK(state_of(CAR_CHASSIS).velocity.c[0] > CAROM_VELOCITY_MM_S(500, FPS));
+    CHECK_MORE(state_of(CAR_CHASSIS).velocity.c[0], CAROM_VELOCITY_MM_S(500, FPS));
     (void)drive;
 #endif
 }
@@ -306,21 +306,21 @@ static void test_walker(void)
         step();
         CHECK_EQ(carom_query_faces(world, WALKER, WALKER_PLATFORM, NULL, 0), 0);
     }
-    CHECK(state_of(WALKER_PLATFORM).position.c[0] > platform_q32 + CAROM_POSITION_M(2));
+    CHECK_MORE(state_of(WALKER_PLATFORM).position.c[0], platform_q32 + CAROM_POSITION_M(2));
     CHECK_NEAR(state_of(WALKER).position.c[0], state_of(WALKER_PLATFORM).position.c[0],
                CAROM_POSITION_MM(100));
     while (frame < 680) {
         step();
         CHECK_EQ(carom_query_faces(world, WALKER, WALKER_DOOR, NULL, 0), 0);
     }
-    CHECK(state_of(WALKER).position.c[0] > CAROM_POSITION_M(6));
+    CHECK_MORE(state_of(WALKER).position.c[0], CAROM_POSITION_M(6));
     CHECK_NEAR(height_mm(), 875, 1);
     while (frame < 1540) {
         step();
         CHECK_EQ(carom_query_faces(world, WALKER, WALKER_BLOCK, NULL, 0), 0);
         high_mm = frame > 1000 && height_mm() > high_mm ? height_mm() : high_mm;
     }
-    CHECK(high_mm > 500 + 875);
+    CHECK_MORE(high_mm, 500 + 875);
     CHECK_NEAR(state_of(WALKER).position.c[0], CAROM_POSITION_MM(-5500), CAROM_POSITION_MM(100));
 }
 
@@ -424,7 +424,7 @@ static void test_walker_pushes(void)
         step_with(PORT_PAD_UP);
         CHECK_EQ(carom_query_faces(world, WALKER, WALKER_CRATE, NULL, 0), 0);
     }
-    CHECK(state_of(WALKER_CRATE).position.c[0] > x_q32 + CAROM_POSITION_MM(500));
+    CHECK_MORE(state_of(WALKER_CRATE).position.c[0], x_q32 + CAROM_POSITION_MM(500));
 }
 
 const struct test tests_games[] = {

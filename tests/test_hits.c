@@ -170,7 +170,8 @@ static void test_room(void)
             with += kept;
             hits += now;
         }
-        CHECK(hits > 1 && (with > 0) == (room > 0));
+        CHECK_MORE(hits, 1);
+        CHECK_EQ((with > 0), (room > 0));
     }
 }
 

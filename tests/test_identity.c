@@ -62,7 +62,7 @@ static void test_come_and_go(void)
             CHECK_EQ(carom_body_get(world, ids[i], &s), there ? CAROM_OK : CAROM_ERR_BODY);
             CHECK_EQ(carom_body_id(world, ids[i]), there ? ids[i] : CAROM_ERR_BODY);
             for (int k = 0; there && k < i; k++) {
-                CHECK(ids[k] != ids[i]);
+                CHECK_DIFFER(ids[k], ids[i]);
             }
             if (there) {
                 CHECK_EQ(s.position.c[0], (int64_t)10 * i << 32);
@@ -187,7 +187,7 @@ static void test_every_call(void)
         CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
         CHECK_EQ(add(0), 0);
         now = carom_body_id(world, 0);
-        CHECK(old != now);
+        CHECK_DIFFER(old, now);
         (void)call(0, 0);
         CHECK_EQ(call(which, old), CAROM_ERR_BODY);
         CHECK_EQ(call(which, -1), CAROM_ERR_BODY);
@@ -212,16 +212,16 @@ static void test_user(void)
     setup();
     def.user = &things[0];
     CHECK_EQ(add(0), 0);
-    CHECK(carom_body_user(world, 0) == &things[0]);
+    CHECK_SAME(carom_body_user(world, 0), &things[0]);
     CHECK_EQ(carom_body_set_user(world, 0, &things[1]), CAROM_OK);
-    CHECK(carom_body_user(world, 0) == &things[1]);
+    CHECK_SAME(carom_body_user(world, 0), &things[1]);
     CHECK_EQ(carom_body_set_user(NULL, 0, &things[1]), CAROM_ERR_NULL);
-    CHECK(carom_body_user(NULL, 0) == NULL);
+    CHECK_SAME(carom_body_user(NULL, 0), NULL);
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
-    CHECK(carom_body_user(world, 0) == NULL);
+    CHECK_SAME(carom_body_user(world, 0), NULL);
     def.user = NULL;
     CHECK_EQ(add(0), 0);
-    CHECK(carom_body_user(world, 0) == NULL);
+    CHECK_SAME(carom_body_user(world, 0), NULL);
     CHECK_EQ(carom_body_id(NULL, 0), CAROM_ERR_NULL);
     CHECK_EQ(carom_body_number(-3), -3);
 }

@@ -372,7 +372,8 @@ static void check_recall(uint64_t seed)
             check_faces();
         }
     }
-    CHECK(vertices >= POSES / 4 && 20 * edges + 20 >= POSES); /* the oracle is not idle */
+    CHECK_AT_LEAST(vertices, POSES / 4);
+    CHECK_AT_LEAST(20 * edges + 20, POSES); /* the oracle is not idle */
     /* and not everything is a candidate */
     CHECK_LESS(handed, 10 * (vertices + edges) + 40 * POSES);
 }
@@ -506,7 +507,8 @@ static void check_motion(uint64_t seed, bool small_b)
             }
         }
     }
-    CHECK(8 * vertices >= POSES && 8 * edges + 8 >= POSES); /* the oracle is not idle */
+    CHECK_AT_LEAST(8 * vertices, POSES);
+    CHECK_AT_LEAST(8 * edges + 8, POSES); /* the oracle is not idle */
     CHECK_LESS(handed, 10 * (vertices + edges) + 60 * POSES);
     CHECK(small_b ? swapped >= POSES / 8 : swapped < POSES);
 }
@@ -571,7 +573,9 @@ static void test_chunks(void)
 
         start(&r, n % 2);
         CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &all), CAROM_OK);
-        CHECK(work.whole && entry_pool.refused == 0 && candidate_pool.refused == 0);
+        CHECK(work.whole);
+        CHECK_EQ(entry_pool.refused, 0);
+        CHECK_EQ(candidate_pool.refused, 0);
         CHECK_EQ(work.candidate_count, all.count);
         face_count = face_pool.used;
         memcpy(listed, faces, sizeof listed);
@@ -646,11 +650,13 @@ static void test_nothing(void)
     place(0);
     place(1);
     CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
-    CHECK(to.count == 0 && face_pool.used == 0);
+    CHECK_EQ(to.count, 0);
+    CHECK_EQ(face_pool.used, 0);
     states[0].position.c[2] = (int64_t)4000 << 32;
     place(0);
     CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);
-    CHECK(to.count == 0 && face_pool.used == 0);
+    CHECK_EQ(to.count, 0);
+    CHECK_EQ(face_pool.used, 0);
 }
 
 const struct test tests_interfere[] = {

@@ -320,10 +320,12 @@ static void test_spring(void)
         step(1);
         at = joint_of(number).coordinate_q32 + UNIT / 4;
         turns += (at > 0) != (last > 0) && i > 0;
-        CHECK(at < UNIT / 4 + UNIT / 64 && at > -UNIT / 4 - UNIT / 64);
+        CHECK_LESS(at, UNIT / 4 + UNIT / 64);
+        CHECK_MORE(at, -UNIT / 4 - UNIT / 64);
         last = at;
     }
-    CHECK(turns >= 19 && turns <= 21); /* two a period, ten periods */
+    CHECK_AT_LEAST(turns, 19);
+    CHECK_AT_MOST(turns, 21); /* two a period, ten periods */
 }
 
 static int hits_in(int frames)

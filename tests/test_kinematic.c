@@ -338,9 +338,12 @@ static void test_crushes(void)
         CHECK_AT_LEAST(carom_world_step(world), 0);
         blocked += events_of(CAROM_EVENT_BLOCKED, led, crushed);
         /* half of both plates and the box */
-        CHECK(at(led, 2) > 0.5 && at(crushed, 2) > 0.25 && at(led, 2) - at(crushed, 2) > 0.25);
+        CHECK_MORE(at(led, 2), 0.5);
+        CHECK_MORE(at(crushed, 2), 0.25);
+        CHECK_MORE(at(led, 2) - at(crushed, 2), 0.25);
     }
-    CHECK(blocked >= 30 && at(led, 2) < 0.502);
+    CHECK_AT_LEAST(blocked, 30);
+    CHECK_LESS(at(led, 2), 0.502);
     lowest = at(led, 2);
     CHECK_EQ(lead(led, 0, 0.02), CAROM_OK);
     CHECK_AT_LEAST(carom_world_step(world), 0);

@@ -47,18 +47,19 @@ static void play_truth(void)
 {
     struct carom_world *world;
 
-    CHECK(rink_world(&scene, blocks[NET_PLAYERS], sizeof blocks[0], &world) >= 0);
+    CHECK_AT_LEAST(rink_world(&scene, blocks[NET_PLAYERS], sizeof blocks[0], &world), 0);
     truth[0] = carom_world_hash(world);
     for (int frame = 1; frame <= FRAMES; frame++) {
-        CHECK(rink_act(world, keys[frame]) >= 0);
-        CHECK(carom_world_step(world) >= 0);
+        CHECK_AT_LEAST(rink_act(world, keys[frame]), 0);
+        CHECK_AT_LEAST(carom_world_step(world), 0);
         truth[frame] = carom_world_hash(world);
     }
 }
 
 static void begin(struct test_random *r, int loss, int least, int most)
 {
-    CHECK(scene_load(&scene, "lockstep", NULL, shape_scene_block, sizeof shape_scene_block) >= 0);
+    CHECK_AT_LEAST(
+        scene_load(&scene, "lockstep", NULL, shape_scene_block, sizeof shape_scene_block), 0);
     press(r);
     play_truth();
     compared = foretold = undone = 0;
@@ -70,8 +71,8 @@ static void begin(struct test_random *r, int loss, int least, int most)
         links[i].loss = (uint8_t)loss;
         links[i].delay_least = (uint8_t)least;
         links[i].delay_most = (uint8_t)most;
-        CHECK(rink_world(&scene, blocks[i], sizeof blocks[i], &world) >= 0);
-        CHECK(net_begin(&sides[i], i, world, rink_act, saved[i], sizeof saved[i]) >= 0);
+        CHECK_AT_LEAST(rink_world(&scene, blocks[i], sizeof blocks[i], &world), 0);
+        CHECK_AT_LEAST(net_begin(&sides[i], i, world, rink_act, saved[i], sizeof saved[i]), 0);
     }
 }
 
@@ -86,7 +87,7 @@ static bool tick_side(int i, int32_t tick)
     net_take(side, &links[!i], tick);
     if (side->frame < FRAMES || side->agreed < FRAMES) {
         /* who has no more frames to play agrees to those that there are */
-        CHECK(net_frame(side, press_now) >= 0);
+        CHECK_AT_LEAST(net_frame(side, press_now), 0);
     }
     net_send(side, &links[i], tick);
     for (int32_t frame = before + 1; frame <= side->agreed && frame <= FRAMES; frame++) {
@@ -124,15 +125,15 @@ static void test_links(void)
         }
         CHECK(same);
         CHECK(done());
-        CHECK(compared >= NET_PLAYERS * FRAMES);
+        CHECK_AT_LEAST(compared, NET_PLAYERS * FRAMES);
         CHECK_EQ(sides[0].apart, 0);
         CHECK_EQ(sides[1].apart, 0);
         all_foretold += foretold;
         all_undone += undone;
     }
     /* the links were bad enough: worlds were foretold otherwise than they came, and taken back */
-    CHECK(all_foretold > LINKS);
-    CHECK(all_undone > LINKS * FRAMES);
+    CHECK_MORE(all_foretold, LINKS);
+    CHECK_MORE(all_undone, LINKS * FRAMES);
 }
 
 /* One bit of one key in one packet, which arrives: both sides see other hashes from that frame on. */
@@ -158,8 +159,8 @@ static void test_changed_key(void)
         }
     }
     CHECK(!same);
-    CHECK(net_hash(&sides[0], changed - 1) == net_hash(&sides[1], changed - 1));
-    CHECK(net_hash(&sides[0], changed) != net_hash(&sides[1], changed));
+    CHECK_EQ(net_hash(&sides[0], changed - 1), net_hash(&sides[1], changed - 1));
+    CHECK_DIFFER(net_hash(&sides[0], changed), net_hash(&sides[1], changed));
     /* packets say so; each names the first frame that it was told of */
     CHECK(sides[0].apart >= changed || sides[1].apart >= changed);
     CHECK(sides[0].apart == 0 || sides[0].apart >= changed);

@@ -449,7 +449,9 @@ static void test_invert_exact(void)
     CHECK_EQ(b.m[0], (int64_t)1 << (b.e - 1));
     CHECK_EQ(b.m[1], (int64_t)1 << (b.e - 2));
     CHECK_EQ(b.m[2], (int64_t)1 << (b.e - 3));
-    CHECK(b.m[3] == 0 && b.m[4] == 0 && b.m[5] == 0);
+    CHECK_EQ(b.m[3], 0);
+    CHECK_EQ(b.m[4], 0);
+    CHECK_EQ(b.m[5], 0);
     for (int n = 0; n < 6; n++) {
         CHECK_EQ(rest.m[n], 0);
     }

@@ -311,7 +311,8 @@ static void check_edges(void)
             const struct carom_edge *e = &mesh.edges[number];
             int side = e->face[0] == f ? 0 : 1;
 
-            CHECK(number < mesh.edge_count && e->face[side] == f);
+            CHECK_LESS(number, mesh.edge_count);
+            CHECK_EQ(e->face[side], f);
             CHECK_EQ(e->vertex[side], raw.faces[f][k]);
             CHECK_EQ(e->vertex[1 - side], raw.faces[f][(k + 1) % 3]);
         }
@@ -324,13 +325,15 @@ static void check_edges(void)
         between(d, e->vertex[0], e->vertex[1]);
         /* a quantum is 4096 units of q22; rounded up */
         length2_q44 = dot64(d, d) << 24;
-        CHECK(length * length >= length2_q44 && (length - 1) * (length - 1) < length2_q44);
+        CHECK_AT_LEAST(length * length, length2_q44);
+        CHECK_LESS((length - 1) * (length - 1), length2_q44);
         for (int k = 0; k < 3; k++) {
             CHECK_NEAR(carom_round(e->direction.c[k] * length, 30), d[k] * 4096, 2);
         }
     }
     CHECK_EQ(sides, 3 * raw.face_count);
-    CHECK(mesh.ring_start[0] == 0 && mesh.ring_start[raw.vertex_count] == 2 * mesh.edge_count);
+    CHECK_EQ(mesh.ring_start[0], 0);
+    CHECK_EQ(mesh.ring_start[raw.vertex_count], 2 * mesh.edge_count);
     for (uint32_t v = 0; v < raw.vertex_count; v++) {
         for (uint32_t i = mesh.ring_start[v]; i < mesh.ring_start[v + 1]; i++) {
             CHECK_EQ(mesh.edges[mesh.ring[i] / 2].vertex[mesh.ring[i] % 2], v);
@@ -482,7 +485,8 @@ static void check_radius(void)
 
         most2 = d2 > most2 ? d2 : most2;
     }
-    CHECK(radius * radius >= most2 && (radius - 2) * (radius - 2) < most2);
+    CHECK_AT_LEAST(radius * radius, most2);
+    CHECK_LESS((radius - 2) * (radius - 2), most2);
 }
 
 static void test_bumpy(void)
@@ -499,7 +503,8 @@ static void test_bumpy(void)
         check_edges();
         check_owned();
         check_radius();
-        CHECK(mesh.mass.volume_q32 == 0 && mesh.mass.centre.c[0] == 0);
+        CHECK_EQ(mesh.mass.volume_q32, 0);
+        CHECK_EQ(mesh.mass.centre.c[0], 0);
     }
 }
 

@@ -57,7 +57,9 @@ static void test_read(void)
     vertices[3][1] = -1;
     bytes = write_blob();
     CHECK_EQ(carom_mesh_read(&read, blob, bytes, mem, sizeof mem), CAROM_OK);
-    CHECK(read.vertex_count == 8 && read.face_count == 12 && read.quantum_bits == 10);
+    CHECK_EQ(read.vertex_count, 8);
+    CHECK_EQ(read.face_count, 12);
+    CHECK_EQ(read.quantum_bits, 10);
     CHECK_EQ(read.kind, CAROM_SOLID);
     CHECK_EQ(memcmp(read.vertices, vertices, 8 * sizeof vertices[0]), 0);
     CHECK_EQ(memcmp(read.faces, faces, 12 * sizeof faces[0]), 0);

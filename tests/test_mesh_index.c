@@ -23,9 +23,12 @@ static void check_leaves(void)
         double radius2 = (double)leaf->radius_q22 * leaf->radius_q22;
         double most2 = 0;
 
-        CHECK(leaf->first_face == face && leaf->first_vertex == vertex);
-        CHECK(leaf->face_count >= 1 && leaf->face_count <= CAROM_LEAF_FACES);
-        CHECK(leaf->vertex_count >= 3 && leaf->vertex_count <= CAROM_LEAF_VERTICES);
+        CHECK_EQ(leaf->first_face, face);
+        CHECK_EQ(leaf->first_vertex, vertex);
+        CHECK_AT_LEAST(leaf->face_count, 1);
+        CHECK_AT_MOST(leaf->face_count, CAROM_LEAF_FACES);
+        CHECK_AT_LEAST(leaf->vertex_count, 3);
+        CHECK_AT_MOST(leaf->vertex_count, CAROM_LEAF_VERTICES);
         for (int i = 0; i < leaf->face_count; i++, face++) {
             seen[mesh.leaf_faces[face]]++;
             for (int k = 0; k < 3; k++) {
@@ -45,10 +48,11 @@ static void check_leaves(void)
             }
             most2 = d2 > most2 ? d2 : most2;
             for (int j = 0; j < i; j++) {
-                CHECK(leaf_vertices[j] != leaf_vertices[i]);
+                CHECK_DIFFER(leaf_vertices[j], leaf_vertices[i]);
             }
         }
-        CHECK(most2 <= radius2 && radius2 <= most2 * 1.001 + 1e4);
+        CHECK_AT_MOST(most2, radius2);
+        CHECK_AT_MOST(radius2, most2 * 1.001 + 1e4);
     }
     CHECK_EQ(face, raw.face_count);
     for (uint32_t f = 0; f < raw.face_count; f++) {
@@ -108,7 +112,10 @@ static void check_point(uint32_t f, int a, int b, const struct scan_grid *g)
     /* a point on the far side of the last cell belongs to it */
     cell[0] -= cell[0] == g->nx && p[0] == 8 * (g->x0 + (g->nx << g->shift));
     cell[1] -= cell[1] == g->ny && p[1] == 8 * (g->y0 + (g->ny << g->shift));
-    CHECK(cell[0] >= 0 && cell[0] < g->nx && cell[1] >= 0 && cell[1] < g->ny);
+    CHECK_AT_LEAST(cell[0], 0);
+    CHECK_LESS(cell[0], g->nx);
+    CHECK_AT_LEAST(cell[1], 0);
+    CHECK_LESS(cell[1], g->ny);
     if (cell[0] >= 0 && cell[0] < g->nx && cell[1] >= 0 && cell[1] < g->ny) {
         uint32_t c = (uint32_t)(cell[1] * g->nx + cell[0]);
         bool found = false;
@@ -127,12 +134,16 @@ static void check_zlists(void)
     struct scan_grid g = mesh_grid(&mesh);
     uint32_t cells = (uint32_t)g.nx * g.ny;
 
-    CHECK(cells <= ZLIST_CELLS_MAX && mesh.zref_count <= 8 * raw.face_count);
-    CHECK((const uint8_t *)(mesh.zrefs + mesh.zref_count) <=
-          block + CAROM_MESH_BYTES(raw.vertex_count, raw.face_count));
-    CHECK(g.x0 <= mesh.box[0][0] && g.x0 + (g.nx << g.shift) >= mesh.box[1][0]);
-    CHECK(g.y0 <= mesh.box[0][1] && g.y0 + (g.ny << g.shift) >= mesh.box[1][1]);
-    CHECK(mesh.cell_start[0] == 0 && mesh.cell_start[cells] == mesh.zref_count);
+    CHECK_AT_MOST(cells, ZLIST_CELLS_MAX);
+    CHECK_AT_MOST(mesh.zref_count, 8 * raw.face_count);
+    CHECK_AT_MOST((const uint8_t *)(mesh.zrefs + mesh.zref_count) - block,
+                  CAROM_MESH_BYTES(raw.vertex_count, raw.face_count));
+    CHECK_AT_MOST(g.x0, mesh.box[0][0]);
+    CHECK_AT_LEAST(g.x0 + (g.nx << g.shift), mesh.box[1][0]);
+    CHECK_AT_MOST(g.y0, mesh.box[0][1]);
+    CHECK_AT_LEAST(g.y0 + (g.ny << g.shift), mesh.box[1][1]);
+    CHECK_EQ(mesh.cell_start[0], 0);
+    CHECK_EQ(mesh.cell_start[cells], mesh.zref_count);
     for (uint32_t c = 0; c < cells; c++) {
         CHECK_AT_MOST(mesh.cell_start[c], mesh.cell_start[c + 1]);
         for (uint32_t i = mesh.cell_start[c] + 1; i < mesh.cell_start[c + 1]; i++) {
@@ -165,7 +176,8 @@ static void test_zlists(void)
     /* a regular field on a power of two, as wide as 32 cells */
     make_field(32, 64, 100, 7);
     CHECK_EQ(build(), CAROM_OK);
-    CHECK(mesh.grid_nx == 32 && mesh.grid_ny == 32);
+    CHECK_EQ(mesh.grid_nx, 32);
+    CHECK_EQ(mesh.grid_ny, 32);
     check_zlists();
 #endif
 
@@ -200,7 +212,7 @@ static void test_memory(void)
         memcpy(block + bytes, guard, sizeof guard);
         CHECK_EQ(build(), CAROM_OK);
         CHECK_EQ(memcmp(block + bytes, guard, sizeof guard), 0);
-        CHECK((const uint8_t *)(mesh.zrefs + mesh.zref_count) <= block + bytes);
+        CHECK_AT_MOST((const uint8_t *)(mesh.zrefs + mesh.zref_count) - block, bytes);
         for (const uint8_t *p = block; p < (const uint8_t *)(mesh.zrefs + mesh.zref_count); p++) {
             hash[pass] = hash[pass] * 31 + *p;
         }

@@ -196,8 +196,10 @@ static void test_random(void)
             double expected = distance_of(world, ma, mb),
                    found = (double)c.distance_q32 / 4294967296.0;
 
-            CHECK(found > expected - 4e-6 && found < expected + 4e-6 + expected * 1e-6);
-            CHECK(c.face[0] < ma->raw.face_count && c.face[1] < mb->raw.face_count);
+            CHECK_MORE(found, expected - 4e-6);
+            CHECK_LESS(found, expected + 4e-6 + expected * 1e-6);
+            CHECK_LESS(c.face[0], ma->raw.face_count);
+            CHECK_LESS(c.face[1], mb->raw.face_count);
             asked++;
         } else {
             CHECK_EQ(result, CAROM_ERR_OVERLAP);

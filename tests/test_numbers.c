@@ -239,17 +239,17 @@ static void test_texts(void)
     const char *count = carom_result_text(4);
 
     for (int i = 1; i <= -CAROM_ERR_EXTRAS_FULL; i++) {
-        CHECK(strcmp(carom_result_text(-i), carom_result_text(-1000)) != 0);
+        CHECK_DIFFER(strcmp(carom_result_text(-i), carom_result_text(-1000)), 0);
         for (int k = 1; k < i; k++) {
-            CHECK(strcmp(carom_result_text(-i), carom_result_text(-k)) != 0);
+            CHECK_DIFFER(strcmp(carom_result_text(-i), carom_result_text(-k)), 0);
         }
     }
     for (int i = 4; i < 100; i++) {
-        CHECK(carom_result_text(i) == count);
+        CHECK_SAME(carom_result_text(i), count);
     }
-    CHECK(carom_result_text(INT32_MAX) == count);
+    CHECK_SAME(carom_result_text(INT32_MAX), count);
     for (int i = 0; i < 4; i++) {
-        CHECK(strcmp(carom_result_text(i), count) != 0);
+        CHECK_DIFFER(strcmp(carom_result_text(i), count), 0);
     }
 }
 

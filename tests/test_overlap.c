@@ -161,7 +161,8 @@ static void test_blocked(void)
     CHECK_EQ(boxes_add(w, &def), 2);
     state = boxes_state(w, 2);
     CHECK_NEAR(state.position.c[2], BOXES_Q32(500 + 278), BOXES_Q32(2));
-    CHECK(!boxes_overlap(w, 2, 0) && !boxes_overlap(w, 2, 1));
+    CHECK(!boxes_overlap(w, 2, 0));
+    CHECK(!boxes_overlap(w, 2, 1));
     CHECK_EQ(carom_body_remove(w, 2), CAROM_OK);
     CHECK_EQ(carom_body_remove(w, 1), CAROM_OK);
     for (int i = 0; i < 8; i++) {

@@ -22,7 +22,9 @@ static void test_by_hand(void)
     world = new_world();
     CHECK_EQ(carom_view_ray(&above, SIZE, SIZE, 32 * 256, 32 * 256, &ray), CAROM_OK);
     CHECK_EQ(ray.from.c[2], Q32(4, 1) - Q32(1, 32));
-    CHECK(ray.from.c[0] == 0 && ray.way.c[0] == 0 && ray.way.c[2] < -Q32(16384, 1) + 65536);
+    CHECK_EQ(ray.from.c[0], 0);
+    CHECK_EQ(ray.way.c[0], 0);
+    CHECK_LESS(ray.way.c[2], -Q32(16384, 1) + 65536);
     CHECK_EQ(carom_view_ray(&above, SIZE, SIZE, 64 * 256, 0, &ray), CAROM_OK);
     CHECK_NEAR(ray.way.c[0], -ray.way.c[2] / 2, 1 << 17); /* 53 degrees high */
     CHECK_NEAR(ray.way.c[1], -ray.way.c[2] / 2, 1 << 17);
@@ -127,7 +129,9 @@ static void test_drawn(void)
             }
         }
     }
-    CHECK(shown[DRAW_BACKGROUND] > 0 && shown[DRAW_STATIONARY] > 0 && shown[DRAW_MOVING] > 0);
+    CHECK_MORE(shown[DRAW_BACKGROUND], 0);
+    CHECK_MORE(shown[DRAW_STATIONARY], 0);
+    CHECK_MORE(shown[DRAW_MOVING], 0);
 }
 
 const struct test tests_pick[] = {

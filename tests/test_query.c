@@ -71,11 +71,13 @@ static int query(void)
     crossing_place(&exact_a, &states[0].position, &states[0].rotation, &states[1].position);
     crossing_place(&exact_b, &states[1].position, &states[1].rotation, &states[1].position);
     crossing_compare(&exact_b, &exact_a, found, (uint32_t)count, bits, &back);
-    CHECK(back.missed == 0 && back.repeated == 0);
+    CHECK_EQ(back.missed, 0);
+    CHECK_EQ(back.repeated, 0);
     count = interfere_query(&work, placed(0), placed(1), found, ROOM);
     CHECK_AT_LEAST(count, 0);
     crossing_compare(&exact_a, &exact_b, found, (uint32_t)count, bits, &tally);
-    CHECK(tally.missed == 0 && tally.repeated == 0);
+    CHECK_EQ(tally.missed, 0);
+    CHECK_EQ(tally.repeated, 0);
     return count;
 }
 
@@ -260,7 +262,8 @@ static void test_large(void)
                 interfere_query(&work, placed(0), placed(1), large ? found : small, ROOM);
             CHECK(!interfere_inside(placed(0), placed(1)) || count[large] != 0);
         }
-        CHECK(count[0] >= 0 && count[0] == count[1]);
+        CHECK_AT_LEAST(count[0], 0);
+        CHECK_EQ(count[0], count[1]);
         CHECK_EQ(memcmp(small, found, (size_t)count[0] * sizeof small[0]), 0);
         touching += count[0] > 0;
     }
@@ -371,7 +374,8 @@ static void test_inside_surface(void)
 
         put(0, x, y, -500);
         CHECK_EQ(query(), 0);
-        CHECK(interfere_inside(placed(0), placed(1)) && !interfere_inside(placed(1), placed(0)));
+        CHECK(interfere_inside(placed(0), placed(1)));
+        CHECK(!interfere_inside(placed(1), placed(0)));
         put(0, x, y, -500000);
         CHECK(interfere_inside(placed(0), placed(1)));
         put(0, x, y, 1001);
@@ -410,7 +414,8 @@ static void test_touching(void)
             at[i] = (n % 3) * (size_a[i] + size_b[i]) / 4;
             at[j] = (n / 3) * (size_a[j] + size_b[j]) / 4;
             put(0, at[0], at[1], at[2]);
-            CHECK(query() > 0 && tally.crossing > before);
+            CHECK_MORE(query(), 0);
+            CHECK_MORE(tally.crossing, before);
             CHECK_MORE(step(), 0);
             /* a little apart: nothing */
             at[axis] += sign;
@@ -490,7 +495,8 @@ static void test_edge_on(void)
         query();
         step();
     }
-    CHECK(tally.touching > 24 && tally.crossing > 400);
+    CHECK_MORE(tally.touching, 24);
+    CHECK_MORE(tally.crossing, 400);
 }
 
 /*
@@ -522,7 +528,8 @@ static void check_cells(int64_t z)
             step();
         }
     }
-    CHECK(tally.touching > mesh->grid_nx && tally.crossing > 10u * mesh->grid_nx);
+    CHECK_MORE(tally.touching, mesh->grid_nx);
+    CHECK_MORE(tally.crossing, 10u * mesh->grid_nx);
 }
 
 static void test_cells(void)

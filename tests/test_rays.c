@@ -63,7 +63,9 @@ static void test_by_hand(void)
     /* down, past the boxes and through one */
     ray = ray_of(0, 3 * UNIT / 4, 8 * UNIT, 0, 0, -20 * UNIT);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 1);
-    CHECK(hit.body == 0 && hit.t_q30 == CAROM_ONE_Q30 / 2 && hit.normal.c[2] == CAROM_ONE_Q30);
+    CHECK_EQ(hit.body, 0);
+    CHECK_EQ(hit.t_q30, CAROM_ONE_Q30 / 2);
+    CHECK_EQ(hit.normal.c[2], CAROM_ONE_Q30);
     /* from below a surface is not there, from inside a body is not */
     ray = ray_of(0, 3 * UNIT / 4, -8 * UNIT, 0, 0, 20 * UNIT);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 0);
@@ -344,7 +346,8 @@ static void test_no_change(void)
             CHECK_AT_LEAST(carom_cast_ray_all(world[0], &ray, NULL, hits, ROOM), 0);
             CHECK_EQ(carom_world_hash(world[0]), hash);
         }
-        CHECK(carom_world_step(world[0]) >= 0 && carom_world_step(world[1]) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world[0]), 0);
+        CHECK_AT_LEAST(carom_world_step(world[1]), 0);
         CHECK_EQ(carom_world_hash(world[0]), carom_world_hash(world[1]));
     }
     CHECK_MORE(met, 15);

@@ -106,10 +106,12 @@ static void check_recall(uint64_t seed, int poses, bool turn_b)
         count = interfere_query(&work, a, b, found, ROOM);
         CHECK_AT_LEAST(count, 0);
         crossing_compare(&exact_a, &exact_b, found, count < 0 ? 0 : (uint32_t)count, bits, &tally);
-        CHECK(tally.missed == 0 && tally.repeated == 0);
+        CHECK_EQ(tally.missed, 0);
+        CHECK_EQ(tally.repeated, 0);
     }
     /* the oracle is not idle, and hardly anything else is found */
-    CHECK(2 * tally.touching > tally.poses && tally.crossing > tally.poses);
+    CHECK_MORE(2 * tally.touching, tally.poses);
+    CHECK_MORE(tally.crossing, tally.poses);
     CHECK_AT_MOST(tally.found - tally.crossing, 2 + tally.crossing / 50);
 }
 

@@ -190,7 +190,8 @@ static void test_same(void)
         CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
         CHECK_EQ(player.frames, FRAMES);
         CHECK_EQ(carom_world_hash(player.world), hash);
-        CHECK(player.note_bytes == 4 && memcmp(player.note, "test", 4) == 0);
+        CHECK_EQ(player.note_bytes, 4);
+        CHECK_EQ(memcmp(player.note, "test", 4), 0);
     }
 }
 

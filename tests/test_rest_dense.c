@@ -275,7 +275,8 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     across_normal(before);
     out->fast = real_length(before) / speed;
     CHECK_EQ(rest_solve(&rest, CAROM_ONE_Q30, false), CAROM_OK);
-    CHECK(rest.impacts == 1 && rest.sweeps == 0);
+    CHECK_EQ(rest.impacts, 1);
+    CHECK_EQ(rest.sweeps, 0);
     impulse(dense);
     velocity(&contacts[0], after);
     across_normal(after);
@@ -471,7 +472,9 @@ static void two(void)
         coarse += error > 4e-6 * length + real_power2(-39);
         CHECK_AT_MOST(error, 1e-5 * length + real_power2(-39));
     }
-    CHECK(compared > CASES / 16 && one > compared / 100 && one < compared);
+    CHECK_MORE(compared, CASES / 16);
+    CHECK_MORE(one, compared / 100);
+    CHECK_LESS(one, compared);
     CHECK_AT_MOST(coarse, compared / 1000);
 }
 

@@ -36,7 +36,8 @@ static void test_sleep(void)
         hand_set_motion(1, (double[3]){n == 0 ? 1. / 367 / 7 : 0, 0, 0},
                         (double[3]){0, 0, n == 1 ? 1. / 367 / 6 : 0});
         frame_of_sleep(hand_pairs, 1);
-        CHECK(hand.states[1].quiet == 0 && !hand.states[1].asleep);
+        CHECK_EQ(hand.states[1].quiet, 0);
+        CHECK(!hand.states[1].asleep);
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
         hand.bodies[1].in_contact = true;
     }
@@ -61,7 +62,8 @@ static void test_islands(void)
         for (int frame = 0; frame < 30; frame++) {
             rest_sleep(&hand.rest, island, 3);
         }
-        CHECK(hand.states[1].asleep == !touching && hand.states[2].asleep == !touching);
+        CHECK_EQ(hand.states[1].asleep, !touching);
+        CHECK_EQ(hand.states[2].asleep, !touching);
         CHECK(!hand.states[3].asleep);
         hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 19; frame++) {
@@ -71,7 +73,9 @@ static void test_islands(void)
         for (int frame = 0; frame < 2; frame++) {
             rest_sleep(&hand.rest, island, 3);
         }
-        CHECK(hand.states[1].asleep && hand.states[2].asleep && hand.states[3].asleep);
+        CHECK(hand.states[1].asleep);
+        CHECK(hand.states[2].asleep);
+        CHECK(hand.states[3].asleep);
     }
 }
 
@@ -118,12 +122,16 @@ static void test_apart(void)
     begin_apart(ONE);
     memcpy(at_first, hand.states, sizeof at_first);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
-    CHECK(!same_state(3, &at_first[3]) && !same_state(1, &alone[1]) && !same_state(2, &alone[2]));
+    CHECK(!same_state(3, &at_first[3]));
+    CHECK(!same_state(1, &alone[1]));
+    CHECK(!same_state(2, &alone[2]));
     alone[3] = hand.states[3];
     begin_apart(TWO | ONE);
     CHECK_EQ(hand.pool.used, 13);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
-    CHECK(same_state(1, &alone[1]) && same_state(2, &alone[2]) && same_state(3, &alone[3]));
+    CHECK(same_state(1, &alone[1]));
+    CHECK(same_state(2, &alone[2]));
+    CHECK(same_state(3, &alone[3]));
 }
 
 /* Only the islands of bodies that newly took gravity are left to solve. */
@@ -137,9 +145,12 @@ static void test_enter_apart(void)
     hand.bodies[3].in_contact = true;
     memcpy(before, hand.states, sizeof before);
     CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
-    CHECK(hand.bodies[1].in_contact && hand.bodies[2].in_contact);
+    CHECK(hand.bodies[1].in_contact);
+    CHECK(hand.bodies[2].in_contact);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
-    CHECK(!same_state(1, &before[1]) && !same_state(2, &before[2]) && same_state(3, &before[3]));
+    CHECK(!same_state(1, &before[1]));
+    CHECK(!same_state(2, &before[2]));
+    CHECK(same_state(3, &before[3]));
     CHECK_EQ(hand.rest.warm_count, 9); /* of what was solved */
 }
 

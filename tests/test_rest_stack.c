@@ -90,7 +90,8 @@ static void test_unsettled(void)
         CHECK(rest_unite(&hand.rest, 1, true));
         CHECK_EQ(slowest(), 0);
     }
-    CHECK(settled > CASES / 4 && unsettled > 0);
+    CHECK_MORE(settled, CASES / 4);
+    CHECK_MORE(unsettled, 0);
 }
 
 /* The upper cube's lower corners, with a normal that leans along x. */

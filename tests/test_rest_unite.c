@@ -74,7 +74,8 @@ static void check_kept(const struct sums *before, uint32_t count)
         int64_t off_q72 = (int64_t)(after.angular[k] - before->angular[k]);
 
         CHECK_EQ(after.linear[k], before->linear[k]);
-        CHECK(off_q72 <= (int64_t)1 << 31 && off_q72 >= -((int64_t)1 << 31));
+        CHECK_AT_MOST(off_q72, (int64_t)1 << 31);
+        CHECK_AT_LEAST(off_q72, -((int64_t)1 << 31));
     }
 }
 
@@ -127,9 +128,12 @@ static void test_pair(void)
     check_kept(&before, 2);
     for (int i = 1; i <= 2; i++) {
         hand_velocity_of(i, v, w);
-        CHECK(real_abs(v[0]) < 1e-9 && real_abs(v[2] - 0.0625) < 1e-9);
+        CHECK_LESS(real_abs(v[0]), 1e-9);
+        CHECK_LESS(real_abs(v[2] - 0.0625), 1e-9);
         CHECK_LESS(real_abs(v[1] - (i == 1 ? -0.075 : 0.075)), 1e-9); /* 1/2 w */
-        CHECK(real_abs(w[0]) < 1e-9 && real_abs(w[1]) < 1e-9 && real_abs(w[2] - 0.15) < 1e-9);
+        CHECK_LESS(real_abs(w[0]), 1e-9);
+        CHECK_LESS(real_abs(w[1]), 1e-9);
+        CHECK_LESS(real_abs(w[2] - 0.15), 1e-9);
     }
 }
 
@@ -150,7 +154,8 @@ static void test_grounded(void)
         if (grounded) {
             for (int i = 1; i <= 2; i++) {
                 for (int k = 0; k < 3; k++) {
-                    CHECK(hand.states[i].momentum.c[k] == 0 && hand.states[i].angular.c[k] == 0);
+                    CHECK_EQ(hand.states[i].momentum.c[k], 0);
+                    CHECK_EQ(hand.states[i].angular.c[k], 0);
                 }
             }
         } else {

@@ -241,16 +241,31 @@ static void test_cells_by_hand(void)
     struct scan_run run;
 
     scan_cells_begin(&s, &g, corners(&p), p.n, 0);
-    CHECK(scan_cells_next(&s, &run) && run.y == 0 && run.x0 == 0 && run.x1 == 3);
+    CHECK(scan_cells_next(&s, &run));
+    CHECK_EQ(run.y, 0);
+    CHECK_EQ(run.x0, 0);
+    CHECK_EQ(run.x1, 3);
     /* the long side passes (6, 4): the second row reaches the second cell */
-    CHECK(scan_cells_next(&s, &run) && run.y == 1 && run.x0 == 0 && run.x1 == 2);
+    CHECK(scan_cells_next(&s, &run));
+    CHECK_EQ(run.y, 1);
+    CHECK_EQ(run.x0, 0);
+    CHECK_EQ(run.x1, 2);
     CHECK(!scan_cells_next(&s, &run));
 
     /* grown by 1 it touches the sides at x = 12 and y = 8, and so the cells behind them */
     scan_cells_begin(&s, &g, corners(&p), p.n, 1);
-    CHECK(scan_cells_next(&s, &run) && run.y == 0 && run.x0 == 0 && run.x1 == 4);
-    CHECK(scan_cells_next(&s, &run) && run.y == 1 && run.x0 == 0 && run.x1 == 3);
-    CHECK(scan_cells_next(&s, &run) && run.y == 2 && run.x0 == 0 && run.x1 == 1);
+    CHECK(scan_cells_next(&s, &run));
+    CHECK_EQ(run.y, 0);
+    CHECK_EQ(run.x0, 0);
+    CHECK_EQ(run.x1, 4);
+    CHECK(scan_cells_next(&s, &run));
+    CHECK_EQ(run.y, 1);
+    CHECK_EQ(run.x0, 0);
+    CHECK_EQ(run.x1, 3);
+    CHECK(scan_cells_next(&s, &run));
+    CHECK_EQ(run.y, 2);
+    CHECK_EQ(run.x0, 0);
+    CHECK_EQ(run.x1, 1);
     CHECK(!scan_cells_next(&s, &run));
 
     /* outside */

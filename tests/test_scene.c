@@ -58,7 +58,7 @@ static int add_box(int64_t x_q32, int64_t z_q32, int64_t speed_q40, int mass, in
     def.restitution_q30 = e_q30;
     def.friction_q16 = mu_q16;
     body = carom_body_add(world, &def);
-    CHECK(body >= 0);
+    CHECK_AT_LEAST(body, 0);
     return body;
 }
 
@@ -84,7 +84,7 @@ static int settle(int boxes)
 
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         for (int body = 1; body <= boxes; body++) {
-            CHECK((find(CAROM_EVENT_REST, body) != NULL) <= state_of(body).asleep);
+            CHECK_AT_MOST((find(CAROM_EVENT_REST, body) != NULL), state_of(body).asleep);
             asleep += state_of(body).asleep;
         }
         if (asleep == boxes) {
@@ -120,7 +120,7 @@ static void meet(int quarters)
         CHECK_NEAR(s[0].velocity.c[0] + 4 * s[1].velocity.c[0], v1 + 4 * v2, 8);
         if (hit) {
             CHECK_NEAR(hit->speed_q40, v1 - v2, (v1 - v2) >> 24);
-            CHECK(hit->impulse_q40 > 0);
+            CHECK_MORE(hit->impulse_q40, 0);
             break;
         }
     }
@@ -157,7 +157,7 @@ static void test_slide(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         s = state_of(1);
         CHECK_NEAR(s.velocity.c[0], first - brake * frame, brake / 100);
-        CHECK(s.position.c[2] > HALF);
+        CHECK_MORE(s.position.c[2], HALF);
     }
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     s = state_of(1);
@@ -165,7 +165,7 @@ static void test_slide(void)
     /* the way is the sum of the velocities: last first - brake (1 + ... + last) */
     CHECK_NEAR(s.position.c[0] + CAROM_RATIO(1, 1, 32),
                (last * first - brake * (last * (last + 1) / 2)) >> 8, (last * first) >> 8 >> 8);
-    CHECK(settle(1) < 60);
+    CHECK_LESS(settle(1), 60);
 }
 
 /* ---------------------------------------------------------------- rest, wake */
@@ -194,19 +194,20 @@ static void test_stack(void)
 
     begin(true, CAROM_ONE_Q30 / 4, 1 << 15);
     add_box(0, HALF + CAROM_RATIO(1, 8, 32), 0, 1, CAROM_ONE_Q30 / 4, 1 << 15);
-    CHECK(settle(1) < 120);
+    CHECK_LESS(settle(1), 120);
     check_stack(1);
     add_box(0, 3 * HALF + CAROM_RATIO(1, 8, 32), 0, 1, CAROM_ONE_Q30 / 4, 1 << 15);
     CHECK(state_of(1).asleep);
     for (int frame = 0; frame < 30 && !woke; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         woke = find(CAROM_EVENT_HIT, 2) != NULL;
-        CHECK((find(CAROM_EVENT_WAKE, 1) != NULL) == woke);
-        CHECK(state_of(1).asleep == !woke);
+        CHECK_EQ((find(CAROM_EVENT_WAKE, 1) != NULL), woke);
+        CHECK_EQ(state_of(1).asleep, !woke);
     }
     CHECK(woke);
-    CHECK(settle(2) < 120);
-    CHECK(find(CAROM_EVENT_REST, 1) && find(CAROM_EVENT_REST, 2));
+    CHECK_LESS(settle(2), 120);
+    CHECK(find(CAROM_EVENT_REST, 1));
+    CHECK(find(CAROM_EVENT_REST, 2));
     check_stack(2);
 }
 
@@ -220,20 +221,21 @@ static void test_push(void)
     begin(true, 0, 1 << 14);
     add_box(0, HALF + SKIN, 0, 2, 0, 1 << 14);
     add_box(-CAROM_RATIO(2, 1, 32), HALF + SKIN, 0, 2, 0, 1 << 14);
-    CHECK(settle(2) < 60);
+    CHECK_LESS(settle(2), 60);
     check_stack(1);
     hash = carom_world_hash(world);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(carom_world_hash(world) == hash);
+    CHECK_EQ(carom_world_hash(world), hash);
     s = state_of(1);
     CHECK_EQ(carom_body_push(world, 1, &impulse, &s.position), CAROM_OK);
     CHECK_NEAR(state_of(1).velocity.c[0], SPEED(1000), 2);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
-    CHECK(find(CAROM_EVENT_WAKE, 1) && !find(CAROM_EVENT_WAKE, 2));
+    CHECK(find(CAROM_EVENT_WAKE, 1));
+    CHECK(!find(CAROM_EVENT_WAKE, 2));
     CHECK_NEAR(state_of(1).velocity.c[0], SPEED(1000) - WEIGHT / 4, WEIGHT / 400);
     CHECK(state_of(2).asleep);
-    CHECK(settle(1) < 90);
-    CHECK(state_of(1).position.c[0] > s.position.c[0]);
+    CHECK_LESS(settle(1), 90);
+    CHECK_MORE(state_of(1).position.c[0], s.position.c[0]);
 }
 
 /* A force of twice its weight wakes a sleeping box and lifts it by g n^2 / 2 in n frames. */
@@ -245,12 +247,12 @@ static void test_lift(void)
 
     begin(true, 0, 1 << 14);
     add_box(0, HALF + SKIN, 0, 1, 0, 1 << 14);
-    CHECK(settle(1) < 60);
+    CHECK_LESS(settle(1), 60);
     s = state_of(1);
     CHECK_EQ(carom_body_set_force(world, 1, &force), CAROM_OK);
     for (int frame = 1; frame <= n; frame++) {
         CHECK_EQ(carom_world_step(world), CAROM_OK);
-        CHECK((find(CAROM_EVENT_WAKE, 1) != NULL) == (frame == 1));
+        CHECK_EQ((find(CAROM_EVENT_WAKE, 1) != NULL), (frame == 1));
     }
     /* while it still touches, it moves as it does after the frame's gravity, not half of it */
     CHECK_NEAR(state_of(1).position.c[2] - s.position.c[2], (WEIGHT >> 9) * n * n,

@@ -92,7 +92,8 @@ static void test_through(void)
         through += hits;
         beside += !hits;
     }
-    CHECK(through > 10 && beside > 5);
+    CHECK_MORE(through, 10);
+    CHECK_MORE(beside, 5);
 }
 
 /* Bodies that fall, hit, lie and sleep do all of that bit for bit as without sensors. */

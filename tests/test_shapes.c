@@ -67,7 +67,8 @@ static void check_shape(int result, uint32_t v_count, uint32_t f_count)
     CHECK_EQ(result, CAROM_OK);
     CHECK_EQ(raw.vertex_count, v_count);
     CHECK_EQ(raw.face_count, f_count);
-    CHECK(raw.vertices == (const int16_t(*)[3])vertices && raw.quantum_bits == 10);
+    CHECK_SAME(raw.vertices, (const int16_t(*)[3])vertices);
+    CHECK_EQ(raw.quantum_bits, 10);
     CHECK_EQ(carom_mesh_build(&mesh, &raw, block, sizeof block), CAROM_OK);
     CHECK_EQ(raw.vertex_count + raw.face_count, mesh.edge_count + 2);
     CHECK(is_convex());

@@ -147,7 +147,8 @@ static void test_rise(void)
         moved[v][0] = (int16_t)(moved[v][0] - 64);
     }
     CHECK_EQ(move(&rise_q22), CAROM_OK);
-    CHECK(rise_q22 >= 32 << 12 && rise_q22 <= 80 << 12); /* 64 / 2, and not much above 64 / n.z */
+    CHECK_AT_LEAST(rise_q22, 32 << 12);
+    CHECK_AT_MOST(rise_q22, 80 << 12); /* 64 / 2, and not much above 64 / n.z */
 }
 
 /* What is refused leaves all as it was. */
@@ -180,7 +181,7 @@ static void test_refused(void)
     CHECK_EQ(carom_surface_build(&other, NULL, block[1], BYTES), CAROM_ERR_NULL);
     CHECK_EQ(carom_surface_build(&other, &flat.raw, NULL, BYTES), CAROM_ERR_NULL);
     CHECK_EQ(carom_mesh_build(&other, &flat.raw, block[1], BYTES), CAROM_OK);
-    CHECK(other.surface == NULL);
+    CHECK_SAME(other.surface, NULL);
 
     moved[middle][0] = (int16_t)(moved[middle][0] + 1500); /* past the next vertex */
     check_refused(CAROM_ERR_MESH_SURFACE);

@@ -50,7 +50,8 @@ static void test_overlap(void)
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 1);
     mesh = put(&shape[0].mesh, 3 * UNIT / 4, UNIT / 16, 2 * UNIT);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 2);
-    CHECK(bodies[0] == 1 && bodies[1] == 2);
+    CHECK_EQ(bodies[0], 1);
+    CHECK_EQ(bodies[1], 2);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 1), CAROM_ERR_BODIES_FULL);
     CHECK_EQ(bodies[0], 1);
     mesh = put(&shape[0].mesh, UNIT, UNIT / 16, -7 * UNIT); /* under the plane */
@@ -84,7 +85,8 @@ static void test_by_hand(void)
     mesh = put(&shape[1].mesh, 2 * UNIT, UNIT / 32, 6 * UNIT);
     gap = (int64_t)(shape[1].mesh.radius_q22 >> 11) << 9; /* half a skin */
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
-    CHECK(hit.body == 0 && hit.normal.c[2] > CAROM_ONE_Q30 - 1000);
+    CHECK_EQ(hit.body, 0);
+    CHECK_MORE(hit.normal.c[2], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[2], UNIT / 16 + gap, gap / 2);
     CHECK_NEAR(hit.t_q30, CAROM_ONE_Q30 / 128 * 95, CAROM_ONE_Q30 >> 12);
     CHECK_NEAR(hit.point.c[2], 0, gap);
@@ -93,7 +95,8 @@ static void test_by_hand(void)
     mesh.position.c[2] = UNIT;
     way.way = (carom_v3_q32){{-4 * UNIT, 0, 0}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
-    CHECK(hit.body == 1 && hit.normal.c[0] > CAROM_ONE_Q30 - 1000);
+    CHECK_EQ(hit.body, 1);
+    CHECK_MORE(hit.normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[0], 3 * UNIT / 4, UNIT >> 10);
     CHECK_NEAR(hit.point.c[0], UNIT / 2, UNIT >> 10);
@@ -109,7 +112,9 @@ static void test_by_hand(void)
     mesh.position = (carom_v3_q32){{UNIT / 2 + UNIT / 7, UNIT / 50, UNIT}};
     way = (struct carom_mesh_way){{{0, 0, 0}}, {{0, 0, CAROM_ONE_Q30 / 4}}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
-    CHECK(hit.body == 1 && hit.t_q30 > 0 && hit.rotation.c[3] > mesh.rotation.c[3]);
+    CHECK_EQ(hit.body, 1);
+    CHECK_MORE(hit.t_q30, 0);
+    CHECK_MORE(hit.rotation.c[3], mesh.rotation.c[3]);
     mesh.position.c[0] = UNIT / 2;
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), CAROM_ERR_OVERLAP);
     CHECK_EQ(carom_cast_mesh(NULL, &mesh, &way, NULL, &hit), CAROM_ERR_NULL);
@@ -216,7 +221,8 @@ static void test_random_ways(void)
             met++;
         }
     }
-    CHECK(met > WAYS / 8 && began <= WAYS * 3 / 4);
+    CHECK_MORE(met, WAYS / 8);
+    CHECK_AT_MOST(began, WAYS * 3 / 4);
     CHECK_AT_MOST(late * 10, met + 10); /* those that graze */
 }
 
@@ -380,7 +386,8 @@ static void test_no_change(void)
         CHECK_EQ(carom_usage(world[0], usage[0]), CAROM_OK);
         CHECK_EQ(carom_usage(world[1], usage[1]), CAROM_OK);
         CHECK_EQ(memcmp(usage[0], usage[1], sizeof usage[0]), 0);
-        CHECK(carom_world_step(world[0]) >= 0 && carom_world_step(world[1]) >= 0);
+        CHECK_AT_LEAST(carom_world_step(world[0]), 0);
+        CHECK_AT_LEAST(carom_world_step(world[1]), 0);
         CHECK_EQ(carom_world_hash(world[0]), carom_world_hash(world[1]));
     }
     CHECK_MORE(met, 5);

@@ -155,7 +155,7 @@ static void refuse_init(void *mem, size_t bytes, int error)
 
     memset(block, 0xa5, sizeof block);
     CHECK_EQ(carom_world_init(mem, bytes, &config, &w), error);
-    CHECK(w == nobody);
+    CHECK_SAME(w, nobody);
     for (size_t i = 0; i < sizeof block; i++) {
         clean = clean && block[i] == 0xa5;
     }
@@ -179,7 +179,7 @@ static void test_init_memory(void)
     /* exactly enough; what stands behind the block stays, whatever the world does */
     memset(block, 0xa5, sizeof block);
     CHECK_EQ(carom_world_init(block, need, &config, &world), CAROM_OK);
-    CHECK((void *)world == (void *)block);
+    CHECK_SAME((void *)world, (void *)block);
     CHECK_EQ(carom_body_add(world, &floor_def), 0);
     CHECK_EQ(carom_body_add(world, &box_def), 1);
     def.stationary = true;
@@ -254,7 +254,8 @@ static void test_fast_spin(void)
         CHECK_EQ(carom_body_add(world, &def), 1);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK_EQ(carom_stats(world, &stats), CAROM_OK);
-        CHECK(stats.substeps >= 120 && stats.substeps <= 122);
+        CHECK_AT_LEAST(stats.substeps, 120);
+        CHECK_AT_MOST(stats.substeps, 122);
         CHECK_EQ(stats.cut_islands, 0);
     }
 }
@@ -547,7 +548,8 @@ static void check_get_set(uint32_t mass_q20, struct test_random *r)
         in.asleep = in.out = true; /* ignored */
         CHECK_EQ(carom_body_set(world, 0, &in), CAROM_OK);
         out = state_of(0);
-        CHECK(!out.asleep && !out.out);
+        CHECK(!out.asleep);
+        CHECK(!out.out);
         for (int k = 0; k < 3; k++) {
             CHECK_EQ(out.position.c[k], in.position.c[k]);
             /* the mass and its inverse are right to 2^-29 each */
@@ -655,7 +657,9 @@ static void test_usage(void)
     for (int i = 0; i < CAROM_POOL_COUNT; i++) {
         CHECK_EQ(strcmp(usage[i].name, names[i]), 0);
         CHECK_EQ(usage[i].size, sizes[i]);
-        CHECK(usage[i].used == 0 && usage[i].peak == 0 && usage[i].refused == 0);
+        CHECK_EQ(usage[i].used, 0);
+        CHECK_EQ(usage[i].peak, 0);
+        CHECK_EQ(usage[i].refused, 0);
     }
     CHECK_EQ(carom_body_add(world, &floor_def), 0);
     CHECK_EQ(carom_body_add(world, &box_def), 1);
@@ -669,7 +673,8 @@ static void test_usage(void)
         CHECK(usage[CAROM_POOL_pairs].used == 1 || usage[CAROM_POOL_contacts].used == 0);
         CHECK_EQ(usage[CAROM_POOL_faces].used, carom_interfering_faces(world, &faces));
         for (int i = 0; i < CAROM_POOL_COUNT; i++) {
-            CHECK(usage[i].used <= usage[i].peak && usage[i].peak <= usage[i].size);
+            CHECK_AT_MOST(usage[i].used, usage[i].peak);
+            CHECK_AT_MOST(usage[i].peak, usage[i].size);
             CHECK_AT_LEAST(usage[i].peak, last[i].peak);
         }
         most_contacts = usage[CAROM_POOL_contacts].used > most_contacts
@@ -679,8 +684,10 @@ static void test_usage(void)
             usage[CAROM_POOL_faces].used > most_faces ? usage[CAROM_POOL_faces].used : most_faces;
         memcpy(last, usage, sizeof last);
     }
-    CHECK(most_contacts > 0 && usage[CAROM_POOL_contacts].peak >= most_contacts);
-    CHECK(most_faces > 0 && usage[CAROM_POOL_faces].peak >= most_faces);
+    CHECK_MORE(most_contacts, 0);
+    CHECK_AT_LEAST(usage[CAROM_POOL_contacts].peak, most_contacts);
+    CHECK_MORE(most_faces, 0);
+    CHECK_AT_LEAST(usage[CAROM_POOL_faces].peak, most_faces);
     CHECK_EQ(carom_body_remove(world, 1), CAROM_OK);
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
     CHECK_EQ(usage[CAROM_POOL_bodies].used, 1);
@@ -701,7 +708,9 @@ static void test_texts(void)
         CHECK(text[i] != NULL);
         CHECK(text[i] && text[i][0] != '\0');
         for (int k = 0; k < i; k++) {
-            CHECK(text[i] && text[k] && strcmp(text[i], text[k]) != 0);
+            CHECK(text[i]);
+            CHECK(text[k]);
+            CHECK_DIFFER(strcmp(text[i], text[k]), 0);
         }
     }
     CHECK(carom_result_text(INT32_MIN) != NULL);

@@ -121,7 +121,8 @@ static void test_free(void)
     memcpy(before, step.next->bodies, sizeof before);
     angular(turn_before);
     step_limit_energy(&step); /* nobody touched anything */
-    CHECK(unchanged(LOW, &before[LOW]) && unchanged(HIGH, &before[HIGH]));
+    CHECK(unchanged(LOW, &before[LOW]));
+    CHECK(unchanged(HIGH, &before[HIGH]));
     touch(HIGH, LOW);
     step_limit_energy(&step); /* though neither is in contact */
     for (int k = 0; k < 3; k++) {
@@ -134,7 +135,8 @@ static void test_free(void)
     }
     now = kinetic(step.next, LOW) + kinetic(step.next, HIGH);
     now /= kinetic(world_now(world), LOW) + kinetic(world_now(world), HIGH);
-    CHECK(now < 1 + 1e-7 && now > 1 - 1e-7);
+    CHECK_LESS(now, 1 + 1e-7);
+    CHECK_MORE(now, 1 - 1e-7);
     CHECK(unchanged(APART, &before[APART])); /* touches nothing */
 }
 
@@ -155,7 +157,8 @@ static void test_grounded(void)
     now = kinetic(step.next, LOW) + kinetic(step.next, HIGH);
     now -= kinetic(world_now(world), LOW) + kinetic(world_now(world), HIGH);
     /* up to what lifting by a part of the skin may cost: 0.15 m g skin */
-    CHECK(now > -1e-9 && now < 0.15 * real(cube.mesh.radius_q22, 22) / 2048 / 256 + 1e-9);
+    CHECK_MORE(now, -1e-9);
+    CHECK_LESS(now, 0.15 * real(cube.mesh.radius_q22, 22) / 2048 / 256 + 1e-9);
     factor = real(step.next->bodies[LOW].momentum.c[0], 40) / real(before[LOW].momentum.c[0], 40);
     CHECK_LESS(factor, 1);
     for (int i = LOW; i <= HIGH; i++) {
@@ -212,7 +215,7 @@ static void test_climbed(void)
             CHECK_EQ(s->momentum.c[k], 0);
             CHECK_EQ(s->angular.c[k], 0);
         }
-        CHECK(other->momentum.c[0] != 0);
+        CHECK_DIFFER(other->momentum.c[0], 0);
         CHECK_EQ(other->momentum.c[0], other_was->momentum.c[0] / (taken == 1 ? 4 : 1));
         CHECK_EQ(memcmp(&other->position, &other_was->position, sizeof other->position) == 0,
                  taken != 2);

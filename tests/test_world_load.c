@@ -235,7 +235,8 @@ static void check_world(bool stack)
         asleep += s.asleep;
     }
     CHECK_EQ(asleep, stack ? BODIES - 1 : 0);
-    CHECK(taken > CHANGES * STATES / 10 && refused > CHANGES * STATES / 10);
+    CHECK_MORE(taken, CHANGES * STATES / 10);
+    CHECK_MORE(refused, CHANGES * STATES / 10);
 }
 
 static void test_stack(void)

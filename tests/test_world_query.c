@@ -78,16 +78,19 @@ static void test_errors(void)
         memset(pairs, 0x5a, sizeof pairs);
         CHECK_EQ(carom_query_faces(world, wrong[i].a, wrong[i].b, pairs, ROOM), wrong[i].error);
         CHECK_EQ(carom_query_inside(world, wrong[i].a, wrong[i].b), wrong[i].error);
-        CHECK(pairs[0].a == 0x5a5a && pairs[0].b == 0x5a5a);
+        CHECK_EQ(pairs[0].a, 0x5a5a);
+        CHECK_EQ(pairs[0].b, 0x5a5a);
     }
     count = carom_query_faces(world, 1, 0, pairs, ROOM);
-    CHECK(count > 2 && count < ROOM);
+    CHECK_MORE(count, 2);
+    CHECK_LESS(count, ROOM);
     CHECK_EQ(carom_query_faces(world, 1, 0, pairs, UINT32_MAX), count);
     CHECK_EQ(carom_query_faces(world, 1, 0, pairs, (uint32_t)count), count);
     CHECK_EQ(carom_query_faces(world, 1, 0, pairs, (uint32_t)count - 1), CAROM_ERR_FACES_FULL);
     CHECK_EQ(carom_query_faces(world, 0, 1, NULL, 0), CAROM_ERR_FACES_FULL);
     for (int i = 0; i < count; i++) {
-        CHECK(pairs[i].a < box.raw.face_count && pairs[i].b < ground.raw.face_count);
+        CHECK_LESS(pairs[i].a, box.raw.face_count);
+        CHECK_LESS(pairs[i].b, ground.raw.face_count);
     }
 }
 
@@ -132,7 +135,8 @@ static void test_no_change(void)
         CHECK_EQ(carom_usage(asked, usage[0]), CAROM_OK);
         CHECK_EQ(carom_usage(other, usage[1]), CAROM_OK);
         CHECK_EQ(memcmp(usage[0], usage[1], sizeof usage[0]), 0);
-        CHECK(carom_world_step(asked) >= 0 && carom_world_step(other) >= 0);
+        CHECK_AT_LEAST(carom_world_step(asked), 0);
+        CHECK_AT_LEAST(carom_world_step(other), 0);
         CHECK_EQ(carom_world_hash(asked), carom_world_hash(other));
     }
     CHECK_MORE(carom_contacts(asked, NULL, 0), 0); /* it has come down */
@@ -157,7 +161,8 @@ static void test_contacts(void)
             struct carom_body_state state;
             int status = carom_world_step(world), n = carom_contacts(world, contacts, 32);
 
-            CHECK(status >= 0 && n <= 32);
+            CHECK_AT_LEAST(status, 0);
+            CHECK_AT_MOST(n, 32);
             CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
             for (int i = 0; i < n; i++) {
                 int64_t arm[3];
@@ -173,7 +178,8 @@ static void test_contacts(void)
             }
             seen += n;
         }
-        CHECK(seen > 0 && (cut > 0) == (cap > 0));
+        CHECK_MORE(seen, 0);
+        CHECK_EQ((cut > 0), (cap > 0));
     }
 }
 
@@ -192,23 +198,28 @@ static void test_look(void)
     CHECK_EQ(carom_body_look(world, -1, &look), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_look(world, 2, &look), CAROM_ERR_BODY);
     CHECK_EQ(carom_body_count(world), 2);
-    CHECK(carom_body_mesh(NULL, 1) == NULL && carom_body_mesh(world, -1) == NULL);
-    CHECK(carom_body_mesh(world, 2) == NULL && carom_body_mesh(world, 1) == &box.mesh);
+    CHECK_SAME(carom_body_mesh(NULL, 1), NULL);
+    CHECK_SAME(carom_body_mesh(world, -1), NULL);
+    CHECK_SAME(carom_body_mesh(world, 2), NULL);
+    CHECK_SAME(carom_body_mesh(world, 1), &box.mesh);
     CHECK_EQ(carom_body_look(world, 0, &look), CAROM_OK);
-    CHECK(look.mesh == &ground.mesh && !look.moving);
+    CHECK_SAME(look.mesh, &ground.mesh);
+    CHECK(!look.moving);
     set_height(world, (int64_t)3 << 30);
     for (int frame = 0; frame < 4; frame++) {
         CHECK_AT_LEAST(carom_world_step(world), 0);
         CHECK_EQ(carom_body_look(world, 1, &look), CAROM_OK);
         CHECK_EQ(carom_body_get(world, 1, &state), CAROM_OK);
-        CHECK(look.mesh == &box.mesh && look.moving);
+        CHECK_SAME(look.mesh, &box.mesh);
+        CHECK(look.moving);
         CHECK_EQ(memcmp(&look.position, &state.position, sizeof look.position), 0);
         CHECK_EQ(memcmp(&look.rotation, &state.rotation, sizeof look.rotation), 0);
     }
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
     CHECK_EQ(carom_body_count(world), 2);
     CHECK_EQ(carom_body_look(world, 0, &look), CAROM_ERR_BODY);
-    CHECK(look.mesh == &box.mesh && carom_body_mesh(world, 0) == NULL);
+    CHECK_SAME(look.mesh, &box.mesh);
+    CHECK_SAME(carom_body_mesh(world, 0), NULL);
 }
 
 const struct test tests_world_query[] = {

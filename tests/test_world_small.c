@@ -118,7 +118,8 @@ static void check_heights(const struct carom_world *world)
         double gap = real(state_of(world, i).position.c[2], 32) - lie[i];
 
         /* a skin, 1/2048 of the radius: and what a body may lean */
-        CHECK(gap > 0 && gap < 2 * real(meshes[i].radius_q22, 22) / 2048);
+        CHECK_MORE(gap, 0);
+        CHECK_LESS(gap, 2 * real(meshes[i].radius_q22, 22) / 2048);
     }
 }
 
@@ -138,7 +139,8 @@ static void comes_to_rest(void)
         met += hits(world);
         frames++;
     }
-    CHECK(asleep(world) && met > 0);
+    CHECK(asleep(world));
+    CHECK_MORE(met, 0);
     check_heights(world);
     CHECK_EQ(carom_usage(world, usage), CAROM_OK);
     for (int i = 0; i < CAROM_POOL_COUNT; i++) {

@@ -183,7 +183,8 @@ static void check_same_events(const struct carom_world *a, const struct carom_wo
     CHECK_EQ(carom_events(b, &f), n);
     for (int i = 0; i < n; i++) {
         CHECK_EQ(e[i].kind, f[i].kind);
-        CHECK(e[i].a == f[i].a && e[i].b == f[i].b);
+        CHECK_EQ(e[i].a, f[i].a);
+        CHECK_EQ(e[i].b, f[i].b);
         CHECK_EQ(e[i].speed_q40, f[i].speed_q40);
         CHECK_EQ(e[i].impulse_q40, f[i].impulse_q40);
     }
@@ -210,7 +211,7 @@ static void check_future(enum phase phase)
     run_to(a, phase);
     size = save(a, saved);
     b = make_elsewhere(1);
-    CHECK(carom_world_hash(a) != carom_world_hash(b));
+    CHECK_DIFFER(carom_world_hash(a), carom_world_hash(b));
     CHECK_EQ(carom_snapshot_load(b, saved, (size_t)size), CAROM_OK);
     CHECK_EQ(carom_world_hash(a), carom_world_hash(b));
     CHECK_EQ(save(b, other), size);
@@ -268,7 +269,7 @@ static void test_rewind(void)
         end[run] = carom_world_hash(w);
     }
     CHECK_EQ(end[0], end[1]);
-    CHECK(end[0] != fnv(saved, size));
+    CHECK_DIFFER(end[0], fnv(saved, size));
 }
 
 /* -------------------------------------------------------------------- refusal */
@@ -284,7 +285,8 @@ static void refuse(struct carom_world *w, const uint8_t *bytes, int n)
 /* Every part of the snapshot, every byte altered, and some bytes too many. */
 static void check_altered(struct carom_world *w, int size, int stride)
 {
-    CHECK(size > 0 && size + 8 <= (int)sizeof saved);
+    CHECK_MORE(size, 0);
+    CHECK_AT_MOST(size + 8, (int)sizeof saved);
     memcpy(other, saved, sizeof other);
     for (int n = 0; n < size; n += stride) {
         refuse(w, saved, n);
@@ -567,7 +569,8 @@ static void test_layout_contact(void)
     size = save(w, saved);
     count = (int)number_at(saved + AT_WARM, 4);
     touching = AT_WARM + 4 + WARM_BYTES * count;
-    CHECK(count >= 3 && count <= 16); /* it lies on a face */
+    CHECK_AT_LEAST(count, 3);
+    CHECK_AT_MOST(count, 16); /* it lies on a face */
     CHECK_EQ(size, touching + 4 + 4 + 8);
     CHECK_EQ(number_at(saved + touching, 4), 1);
     CHECK_EQ(saved[touching + 4] + saved[touching + 6], 1);

@@ -185,7 +185,8 @@ static void test_energy(void)
 
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         change = energy(world) / before - 1;
-        CHECK(change < 300e-9 && change > -300e-9);
+        CHECK_LESS(change, 300e-9);
+        CHECK_MORE(change, -300e-9);
         CHECK_MORE(lowest(world), 0);
         hits += find_event(world, CAROM_EVENT_HIT) >= 0;
     }
@@ -353,7 +354,8 @@ static void test_cap(void)
         before = now;
         cut += status == CAROM_SUBSTEP_CAP;
     }
-    CHECK(cut > 2 && cut < 60);
+    CHECK_MORE(cut, 2);
+    CHECK_LESS(cut, 60);
 }
 
 /*
@@ -387,7 +389,8 @@ static void test_sweep_cap(void)
             most = stats.sweeps > most ? stats.sweeps : most;
         }
         rested += state_of(world).asleep;
-        CHECK(lowest(world) > 0 && lowest(world) < 2 * SKIN);
+        CHECK_MORE(lowest(world), 0);
+        CHECK_LESS(lowest(world), 2 * SKIN);
     }
     CHECK_AT_LEAST(most, 8); /* the cap was reached */
     CHECK_EQ(rested, 3);
@@ -448,7 +451,8 @@ static void test_budget(void)
             sum += stats.ticks[stage];
             CHECK_AT_MOST(stats.ticks[stage], stats.ticks[stats.over_stage]);
         }
-        CHECK(sum > 0 && sum <= stats.total_ticks);
+        CHECK_MORE(sum, 0);
+        CHECK_AT_MOST(sum, stats.total_ticks);
     }
 }
 

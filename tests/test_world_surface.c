@@ -528,7 +528,8 @@ static void test_queries(void)
             inside += carom_query_inside(world, BOX, FLOOR);
         }
     }
-    CHECK(met > 20 && inside > 20);
+    CHECK_MORE(met, 20);
+    CHECK_MORE(inside, 20);
 }
 
 /* A snapshot goes back once the surface is where it was, and not before. */

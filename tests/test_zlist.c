@@ -38,12 +38,15 @@ static void test_order(void)
         for (uint16_t e = head[c]; e != ZLIST_NONE; e = entry[e].next) {
             uint16_t next = entry[e].next;
 
-            CHECK(c < 4 && e < POOL && listed < POOL);
+            CHECK_LESS(c, 4);
+            CHECK_LESS(e, POOL);
+            CHECK_LESS(listed, POOL);
             CHECK(next == ZLIST_NONE || entry[next].z1 < entry[e].z1 ||
                   (entry[next].z1 == entry[e].z1 && entry[next].face > entry[e].face));
             for (int i = 0; i < POOL; i++) {
                 if (i * 77 % POOL == entry[e].face) {
-                    CHECK(cell_of[i] == c && entry[e].z0 == entry[e].z1 - i);
+                    CHECK_EQ(cell_of[i], c);
+                    CHECK_EQ(entry[e].z0, entry[e].z1 - i);
                 }
             }
             listed++;
@@ -67,11 +70,19 @@ static void test_full(void)
     CHECK(!zlist_enter(&z, 1023, 0, 6, 3));
     CHECK(!zlist_enter(&z, 0, 0, 6, 3));
     CHECK_EQ(memcmp(before, entry, sizeof before), 0);
-    CHECK(head[1023] == 1 && head[5] == 2 && head[0] == ZLIST_NONE);
-    CHECK(pool.used == 3 && pool.refused == 2 && pool.peak == 3);
+    CHECK_EQ(head[1023], 1);
+    CHECK_EQ(head[5], 2);
+    CHECK_EQ(head[0], ZLIST_NONE);
+    CHECK_EQ(pool.used, 3);
+    CHECK_EQ(pool.refused, 2);
+    CHECK_EQ(pool.peak, 3);
     zlist_clear(&z);
-    CHECK(head[1023] == ZLIST_NONE && head[5] == ZLIST_NONE && pool.used == 0);
-    CHECK(zlist_enter(&z, 0, -1, 6, 3) && head[0] == 0 && entry[0].next == ZLIST_NONE);
+    CHECK_EQ(head[1023], ZLIST_NONE);
+    CHECK_EQ(head[5], ZLIST_NONE);
+    CHECK_EQ(pool.used, 0);
+    CHECK(zlist_enter(&z, 0, -1, 6, 3));
+    CHECK_EQ(head[0], 0);
+    CHECK_EQ(entry[0].next, ZLIST_NONE);
 }
 
 /* ----------------------------------------------------------------- intervals */
@@ -135,7 +146,9 @@ static void test_interval_holds(void)
                 int16_t z0, z1;
 
                 zface_interval(&f, &g, col, run.y, &z0, &z1);
-                CHECK(z0 <= z1 && z0 >= low - f.grow && z1 <= high + f.grow);
+                CHECK_AT_MOST(z0, z1);
+                CHECK_AT_LEAST(z0, low - f.grow);
+                CHECK_AT_MOST(z1, high + f.grow);
                 CHECK_EQ(missed_points(&f, &g, col, run.y, z0, z1), 0);
             }
         }
@@ -154,13 +167,16 @@ static void test_interval_by_hand(void)
 
     /* x 96 .. 128, y 32 .. 64: from (96 - 128) / 4 to (128 - 64) / 4 */
     zface_interval(&up, &g, 3, 1, &z0, &z1);
-    CHECK(z0 == -8 && z1 == 16);
+    CHECK_EQ(z0, -8);
+    CHECK_EQ(z1, 16);
     zface_interval(&down, &g, 3, 1, &z0, &z1);
-    CHECK(z0 == -8 && z1 == 16);
+    CHECK_EQ(z0, -8);
+    CHECK_EQ(z1, 16);
     /* grown by 3: x 93 .. 131, y 29 .. 67 give -10.25 and 18.25, and 3 more both ways */
     up.grow = 3;
     zface_interval(&up, &g, 3, 1, &z0, &z1);
-    CHECK(z0 == -14 && z1 == 22);
+    CHECK_EQ(z0, -14);
+    CHECK_EQ(z1, 22);
 }
 
 /* Faces beyond the exact range and z beyond int16 still give a safe interval. */
@@ -177,13 +193,17 @@ static void test_interval_far(void)
     int16_t z0, z1;
 
     zface_interval(&wide, &g, 0, 0, &z0, &z1);
-    CHECK(z0 == -5 && z1 == 7);
+    CHECK_EQ(z0, -5);
+    CHECK_EQ(z1, 7);
     zface_interval(&huge, &g, 7, 0, &z0, &z1);
-    CHECK(z0 == INT16_MIN && z1 == INT16_MAX);
+    CHECK_EQ(z0, INT16_MIN);
+    CHECK_EQ(z1, INT16_MAX);
     zface_interval(&high, &g, 0, 0, &z0, &z1);
-    CHECK(z0 == INT16_MIN && z1 == INT16_MAX);
+    CHECK_EQ(z0, INT16_MIN);
+    CHECK_EQ(z1, INT16_MAX);
     zface_interval(&above, &g, 0, 0, &z0, &z1);
-    CHECK(z0 == INT16_MAX && z1 == INT16_MAX);
+    CHECK_EQ(z0, INT16_MAX);
+    CHECK_EQ(z1, INT16_MAX);
 }
 
 const struct test tests_zlist[] = {

@@ -50,7 +50,7 @@ int boxes_add(struct carom_world *world, const struct carom_body_def *def)
 {
     int body = carom_body_add(world, def);
 
-    CHECK(body >= 0);
+    CHECK_AT_LEAST(body, 0);
     return body;
 }
 
@@ -122,7 +122,7 @@ void boxes_held_down(struct carom_world *world, int speed)
     state.velocity = (carom_v3_q40){{0, 0, BOXES_Q40(speed)}};
     CHECK_EQ(carom_body_set(world, 1, &state), CAROM_OK);
     boxes_step(world, 30);
-    CHECK(boxes_state(world, 1).position.c[2] < BOXES_Q32(-128));
+    CHECK_LESS(boxes_state(world, 1).position.c[2], BOXES_Q32(-128));
 }
 
 uint32_t boxes_pairs(const struct carom_world *world)

@@ -32,7 +32,7 @@ static inline void steps(int frames)
     do {                                                                                           \
         const uint64_t hash = carom_world_hash(world);                                             \
         CHECK_EQ(call, error);                                                                     \
-        CHECK(carom_world_hash(world) == hash);                                                    \
+        CHECK_EQ(carom_world_hash(world), hash);                                                   \
     } while (0)
 
 #endif

@@ -17,7 +17,7 @@ struct test {
 };
 
 void test_check(bool ok, const char *file, int line, const char *text);
-enum test_order { TEST_LESS, TEST_AT_MOST, TEST_MORE, TEST_AT_LEAST };
+enum test_order { TEST_LESS, TEST_AT_MOST, TEST_MORE, TEST_AT_LEAST, TEST_EQUAL, TEST_DIFFER };
 void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
                       const char *text);
 void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
@@ -34,12 +34,16 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
              : CHECK_REAL_ORDER_(a, order, b, text), long double                                   \
              : CHECK_REAL_ORDER_(a, order, b, text), default                                       \
              : test_check_order((int64_t)(a), order, (int64_t)(b), __FILE__, __LINE__, text))
+#define CHECK_EQ(a, b)       CHECK_ORDER_(a, TEST_EQUAL, b, #a " == " #b)
+#define CHECK_DIFFER(a, b)   CHECK_ORDER_(a, TEST_DIFFER, b, #a " != " #b)
 #define CHECK_LESS(a, b)     CHECK_ORDER_(a, TEST_LESS, b, #a " < " #b)
 #define CHECK_AT_MOST(a, b)  CHECK_ORDER_(a, TEST_AT_MOST, b, #a " <= " #b)
 #define CHECK_MORE(a, b)     CHECK_ORDER_(a, TEST_MORE, b, #a " > " #b)
 #define CHECK_AT_LEAST(a, b) CHECK_ORDER_(a, TEST_AT_LEAST, b, #a " >= " #b)
-#define CHECK_EQ(a, b)                                                                             \
-    test_check_near((int64_t)(a), (int64_t)(b), 0, __FILE__, __LINE__, #a " == " #b)
+/* Two pointers. */
+#define CHECK_SAME(a, b)                                                                           \
+    test_check_near((int64_t)(intptr_t)(const void *)(a), (int64_t)(intptr_t)(const void *)(b), 0, \
+                    __FILE__, __LINE__, #a " == " #b)
 #define CHECK_NEAR(a, b, tolerance)                                                                \
     test_check_near((int64_t)(a), (int64_t)(b), (int64_t)(tolerance), __FILE__, __LINE__,          \
                     #a " ~ " #b)
