@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's figure 6: a body where it first meets the ground, just before the impact is solved, with the faces
- * coloured that the collision test was given. Three pictures: the scene, near by, from below.
+ * The paper's figure 6: a body where it first meets the ground, just before the solve of the impact, with the faces that the
+ * collision test was given in colour. Three pictures: the scene, a close view, and a view from below.
  *
  * Options: scene=NAME (of scene.h)  pictures=DIRECTORY
  */
@@ -28,10 +28,10 @@ static int expect(int result, const char *what)
     return result;
 }
 
-/* By body: the ramp of each face, 0 being the usual one. */
+/* By body number: the ramp of each face; 0 is the usual one. */
 static uint8_t ramps[2][SCENE_FIELD_FACES];
 
-/* Whether the body hits something in one more step. */
+/* True if the body hits something in one more step. */
 static bool hits(struct carom_world *world)
 {
     struct carom_stats stats;
@@ -41,7 +41,7 @@ static bool hits(struct carom_world *world)
     return stats.hits > 0;
 }
 
-/* Go on to the end of the frame of the first hit; `before` is how the body was when it began. */
+/* Step to the end of the frame of the first hit; `before` gets the state of the body where that frame began. */
 static void find_hit(struct carom_world *world, struct carom_body_state *before)
 {
     int frame = 0;
@@ -57,7 +57,7 @@ static void find_hit(struct carom_world *world, struct carom_body_state *before)
     port_print("first %d\n", frame);
 }
 
-/* Note the ramps of the faces that interfered in the last step, and print how many of either body did. */
+/* Note the ramps of the faces that interfered in the last step, and print how many each body has. */
 static void note_faces(const struct carom_world *world)
 {
     const struct carom_face_ref *faces;
@@ -74,7 +74,7 @@ static void note_faces(const struct carom_world *world)
     port_print("interfering %d %d\n", count[SCENE_BODY], count[SCENE_GROUND]);
 }
 
-/* Whether the body hits something on the first part of its way through a frame. */
+/* True if the body hits something on the first part of its way through a frame. */
 static bool hits_within(struct carom_world *world, const struct carom_body_state *before,
                         int64_t part_q16)
 {
@@ -88,7 +88,7 @@ static bool hits_within(struct carom_world *world, const struct carom_body_state
     return hits(world);
 }
 
-/* Let the body go as far as it comes without a hit: that is the last step of the world then. */
+/* Move the body as far as it comes without a hit. That is the world's last step. */
 static void stop_before_hit(struct carom_world *world, const struct carom_body_state *before)
 {
     const carom_v3_q40 none = {{0, 0, 0}};
@@ -102,8 +102,8 @@ static void stop_before_hit(struct carom_world *world, const struct carom_body_s
 }
 
 /*
- * As the scene looks, with two ramps of its palette for the faces that interfere. A game has a use for each ramp: its faces
- * keep their own.
+ * The scene's own paint, with two ramps of its palette for interfering faces. A game uses every ramp, so its faces keep
+ * theirs.
  */
 static const struct carom_paint *paint_of(const struct show *show)
 {
@@ -141,7 +141,7 @@ static void picture(const struct carom_world *world, const struct carom_camera *
     port_present();
 }
 
-/* Near to where the body touches: from the side to which it stands over, or from under a ground that hides nothing. */
+/* A close view of where the body touches: from the side it leans to, or from below if the ground there hides nothing. */
 static struct carom_camera close_by(const struct carom_camera *camera, const carom_v3_q32 *body,
                                     const carom_v3_q32 *point, bool under)
 {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A scene of scene.h, frame by frame: step, draw, show, and a row of figures to the console.
+ * Play a scene of scene.h: each frame steps, draws, shows, and prints a row of figures to the console.
  *
  * Options: scene=NAME (of scene.h)  frames=600  mesh=file (scene user)  awake=1 (no sleep)
- *          budget=N (what a step may take, counted as its stages are; "over" names the dearest
- *          stage of one that takes more)
- *          only=N: only frame N is drawn and shown
- *          scenes=1: names and lines of the scenes that scene.h knows, and no more
- *          play=1: the pad plays with it (scene_play.h), and so without any arguments, without end
+ *          budget=N: ticks that a step may take, counted as its stages are; column "over" names the costliest stage of a
+ *          step that takes more
+ *          only=N: draw and show frame N only
+ *          scenes=1: print the names of the scenes that scene.h knows, with a line about each, and end
+ *          play=1: the pad plays (scene_play.h). Without arguments it runs as a game, without end
  *
- * A game of scene_games.h goes by the keys of the pad with and without play=1.
+ * A game of scene_games.h obeys the pad's keys with and without play=1.
  */
 #include "carom_draw.h"
 #include "port.h"
@@ -19,14 +19,14 @@
 #include "show.h"
 
 #ifdef SCENE_ROM
-/* A board with meshes in ROM has no memory for others, nor for one that moves. */
+/* A board with meshes in ROM has memory for no other mesh, and for none that moves. */
 static uint8_t mesh_block[1];
-#define BOARD_MOVES   SCENE_GAMES /* something happens before a frame */
+#define BOARD_MOVES   SCENE_GAMES /* something runs before each frame */
 #define USER_VERTICES SCENE_HEAD_VERTICES
 #define USER_FACES    SCENE_HEAD_FACES
 #else
 #define BOARD_MOVES 1
-/* The largest mesh that `mesh=` may bring. */
+/* Size of the largest mesh that `mesh=` may name. */
 #ifndef USER_VERTICES
 #define USER_VERTICES 24000
 #endif
@@ -39,7 +39,7 @@ static _Alignas(8) uint8_t user_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES
 static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #endif
 
-/* The scene when none is asked for, and what a tick is where the port knows no instructions. */
+/* The scene if none is asked for, and what a tick counts on a port that counts no instructions. */
 #ifndef BOARD_SCENE
 #define BOARD_SCENE head
 #endif
@@ -49,13 +49,13 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 #define TEXT_OF(name) #name
 #define TEXT(macro)   TEXT_OF(macro)
 
-/* Enough for any scene to be drawn at once, or what the board has; 0: it shows nothing. */
+/* Enough to draw any scene at once, or what the board has; 0: the board shows nothing. */
 #ifndef BOARD_DRAW_BYTES
 #define BOARD_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(USER_VERTICES + SCENE_FIELD_VERTICES, USER_FACES + SCENE_FIELD_FACES)
 #endif
 
-/* How many bodies the largest world holds: the first of its capacities. */
+/* Bodies of the largest world: the first of its capacities. */
 #define FIRST_OF(first, ...) first
 #define BODIES_OF(...)       FIRST_OF(__VA_ARGS__)
 #define BODIES_MOST          SCENE_MORE_(BODIES_OF(SCENE_LARGE_CAPS), BODIES_OF(SCENE_GAME_CAPS))
@@ -65,7 +65,7 @@ static uint8_t file_block[CAROM_BLOB_BYTES(USER_VERTICES, USER_FACES) + 64];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
 static _Alignas(8) uint8_t draw_block[BOARD_DRAWS ? BOARD_DRAW_BYTES : 1];
 
-/* Go on with a result that is not an error; say what is wrong and leave with any other. */
+/* Return a result that is not an error. An error is printed and ends the program. */
 static int expect(int result, const char *what)
 {
     if (result < 0) {
@@ -75,13 +75,13 @@ static int expect(int result, const char *what)
     return result;
 }
 
-/* Instructions where the port knows them, else ticks. */
+/* Instructions if the port counts them; otherwise ticks. */
 static unsigned long cost(uint32_t ticks)
 {
     return (unsigned long)(port_instructions(port_ticks_hz) ? port_instructions(ticks) : ticks);
 }
 
-/* The most ticks that cost no more than so much. */
+/* The most ticks that amount to at most so many instructions. */
 static uint32_t ticks_of(unsigned long most)
 {
     uint32_t ticks = 0;
@@ -98,11 +98,11 @@ static void print_hash(const struct carom_world *world)
 {
     uint64_t hash = carom_world_hash(world);
 
-    /* in two halves: the small printf of newlib has no 64-bit formats */
+    /* in two halves: newlib's small printf has no 64-bit formats */
     port_print("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffff));
 }
 
-/* The mesh that the option mesh=file names; whether there is the option. */
+/* Read the mesh that the option mesh=file names. True if the option is given. */
 static bool read_mesh(struct carom_mesh_raw *user)
 {
     const char *file = port_option("mesh");
@@ -190,7 +190,7 @@ static void print_usage(const struct carom_world *world)
     }
 }
 
-/* A game's line of text, at the top; the next picture is drawn over it. */
+/* Draw a game's line of text at the top; the next picture overwrites it. */
 static void say(const struct show *show, const struct carom_world *world,
                 const struct carom_picture *picture, struct carom_drawn *drawn)
 {
@@ -208,10 +208,7 @@ static void say(const struct show *show, const struct carom_world *world,
     }
 }
 
-/*
- * Draw what changed in the upper `height` rows of a framebuffer, if there is one; returns the ticks
- * that took.
- */
+/* Draw what changed in the upper `height` rows of a framebuffer, if there is one. Returns the ticks that it took. */
 static uint32_t draw(const struct carom_world *world, const struct show *show,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
 {
@@ -236,7 +233,7 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
     return port_ticks() - start;
 }
 
-/* The display, with the colours of a scene if it can have them. */
+/* The display, with the scene's own palette if it can have one. */
 static struct port_fb display(const struct show *show)
 {
     struct port_fb fb = port_fb();
@@ -276,7 +273,7 @@ static struct carom_world *start(struct show *show)
     return world;
 }
 
-/* Keys that are held; until the first one is, nobody plays. */
+/* Keys that are held. Until the first key goes down, nobody plays. */
 static uint32_t keys_held(void)
 {
     static bool played;
@@ -286,7 +283,7 @@ static uint32_t keys_held(void)
     return played ? keys : SCENE_NOBODY;
 }
 
-/* A row of figures a frame. */
+/* Print a row of figures for a frame. */
 static void report(int frames)
 {
     struct show show;
@@ -295,7 +292,7 @@ static void report(int frames)
     const int only = (int)port_number("only", 0);
     uint32_t first;
 
-    /* all of the picture, so that a frame has but what it changes to draw */
+    /* draw all of the picture now, so that a frame draws only what it changes */
     first = only ? 0 : draw(world, &show, &fb, fb.height, CAROM_DRAW_FLAT);
     port_print("first picture %lu\n", cost(first));
     print_columns();
@@ -322,11 +319,12 @@ static void report(int frames)
     print_hash(world);
 }
 
-/* With the pad; frames 0: without end. */
+/* Play with the pad; frames == 0: without end. */
 static void play(int frames)
 {
 #if SCENE_GAMES
-    static struct scene scene; /* not on the stack, of which a game needs more */
+    static struct scene
+        scene; /* static: the stack of a small board has no room for a game's scene */
 #else
     struct scene scene;
 #endif
@@ -345,7 +343,7 @@ static void play(int frames)
     for (int frame = 1; frames == 0 || frame <= frames; frame++) {
         uint32_t keys = keys_held();
 
-        /* what the hands did to it may be too much for the pools */
+        /* the player may have done more than the pools hold */
         age++;
         if (!scene_play_keys(&play, &scene, world, keys == SCENE_NOBODY ? 0 : keys) ||
             show_before(&show, world, age, keys) < 0 || carom_world_step(world) < 0) {

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* A tetrahedron falls on a triangle and comes to rest: a first program. */
 #include <stdio.h>
 #include "carom.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * models.h - raw meshes for games' scenes, as tools/gen_shapes makes them: z up, a unit being a metre,
- * 1024 quanta to a unit or fewer. A model that a program does not name is not linked.
+ * models.h - raw meshes for the scenes of games, made by tools/gen_shapes: z up, a unit is a metre, at most 1024 quanta
+ * to a unit. A model that a program does not name is not linked.
  *
  *   static _Alignas(8) uint8_t wheel_block[CAROM_MESH_BYTES(WHEEL_VERTICES, WHEEL_FACES)];
  *   struct carom_mesh wheel;

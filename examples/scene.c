@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The scenes: which meshes each has, how its bodies start, and a world of them. */
 #include "scene.h"
 
 #include <string.h>
@@ -26,7 +27,7 @@ static const struct carom_body_def spin_starts[] = {
     THROW(-2600, 1300, 2400, 3200, -2400, 0, 4800, -6400, 0),
     THROW(900, -600, 2700, -1600, 1200, -3464, 0, 0, 8000),
 };
-/* Some 3 mm over the fields of 512, 3034, 12012 and 49928 faces. */
+/* About 3 mm above the fields of 512, 3034, 12012 and 49928 faces. */
 #define PUT(z)                                                                                     \
     {                                                                                              \
         .position = POSITION(-600, 200, z), .velocity = VELOCITY(300, -100, 0),                    \
@@ -47,7 +48,7 @@ static const struct carom_body_def dull_start = {
     .friction_q16 = 1u << 16,
 };
 #if SCENE_GAMES
-static const struct carom_body_def still; /* a game puts its bodies in */
+static const struct carom_body_def still; /* a game adds its own bodies */
 #endif
 static const struct carom_body_def ground_start = {
     .stationary = true,
@@ -71,7 +72,7 @@ struct carom_config scene_config(void)
     return config;
 }
 
-/* Layers of side x side bodies, each turned and shifted against the one below, close together. */
+/* Layers of side x side bodies, close together; each layer is turned and shifted against the one below. */
 static void pour(int i, int side, int z_mm, int up_mm_s, struct carom_body_def *def)
 {
     int cell = i % (side * side), layer = i / (side * side), column = i % 4;
@@ -97,7 +98,7 @@ static void wide_pile(int i, struct carom_body_def *def)
     pour(i, 3, 1900, 0, def);
 }
 
-/* Side by side, the second so high that it lands when the first lies still. */
+/* Side by side, the second so high that it lands after the first has come to rest. */
 static void in_turn(int i, struct carom_body_def *def)
 {
     def->position.c[0] = CAROM_POSITION_MM(-1500 + 1000 * i);
@@ -111,7 +112,7 @@ static void in_turn(int i, struct carom_body_def *def)
     def->spin.c[2] = CAROM_SPIN_MRAD_S(400 * i, FPS);
 }
 
-/* Side by side and far above each other: each lies still before the next one lands. */
+/* Side by side and far above each other: each comes to rest before the next one lands. */
 static void one_by_one(int i, struct carom_body_def *def)
 {
     static const int16_t height_mm[] = {600, 7000, 19000};
@@ -141,7 +142,7 @@ static void lay(int i, struct carom_body_def *def)
     def->velocity = def->spin;
 }
 
-/* On each other on the plane, each a little aside of the one below. */
+/* On top of each other on the plane, each a little to the side of the one below. */
 static void stack(int i, struct carom_body_def *def)
 {
     lay(0, def);
@@ -150,15 +151,15 @@ static void stack(int i, struct carom_body_def *def)
     def->position.c[2] = CAROM_POSITION_MM(252 + 502 * i);
 }
 
-/* How a scene's bodies start; their meshes are scene_meshes' business. */
+/* How a scene's bodies start. scene_meshes has their meshes. */
 static const struct scene_recipe {
     const char *name, *text;
     const struct carom_body_def *start;
     void (*arrange)(int i, struct carom_body_def *def); /* NULL: one body, at start */
-    uint8_t others;                                     /* bodies but the first */
-    /* what bounds a frame on a small board; 0: as the engine chooses */
+    uint8_t others;                                     /* bodies besides the first */
+    /* bounds that keep a frame short on a small board; 0: as the engine chooses */
     uint8_t substep_cap, sweep_cap;
-    const struct scene_game *game; /* puts the bodies in */
+    const struct scene_game *game; /* adds the bodies */
 } recipes[] = {
     {"head", "a head of 1876 faces falls on a height field of 3034", &head_start, NULL, 0, 0, 0,
      NULL},
@@ -222,7 +223,7 @@ static const struct scene_recipe {
      NULL, 0, 0, 0, &scene_espresso},
     {"espresso-fine", "the espresso machine on a Mandelbrot field of 3200 faces", &still, NULL, 0,
      0, 0, &scene_espresso_fine},
-#ifndef SCENE_ROM /* which has no memory for three worlds */
+#ifndef SCENE_ROM /* there is no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
      NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},
 #endif
@@ -258,7 +259,7 @@ void scene_body(const struct scene *scene, int i, struct carom_body_def *def)
     }
 }
 
-/* The capacities that suffice for any scene of its kind. */
+/* Capacities that suffice for any scene of a kind. */
 static struct carom_caps caps_of(const struct scene *scene)
 {
     return scene->game               ? scene->game->caps

@@ -57,7 +57,7 @@
 
 #include "carom_draw.h"
 
-/* Numbers of the bodies. */
+/* Body numbers. */
 enum { SCENE_GROUND, SCENE_BODY };
 
 #define SCENE_MESHES 6 /* of bodies, in one scene */
@@ -71,26 +71,26 @@ struct scene_sheet {
     uint16_t faces[SCENE_SHEET_FACES][3];
 };
 
-struct scene_game; /* scene_games.h */
-/* In the place of keys: nobody plays, so a game's script does. */
+struct scene_game; /* see scene_games.h */
+/* In place of keys: nobody plays, so a game's script does. */
 #define SCENE_NOBODY UINT32_MAX
-#define SCENE_TEXT   40 /* characters of what a game says, the last one 0 */
+#define SCENE_TEXT   40 /* characters of a game's text, the last one 0 */
 
 struct scene {
     struct carom_body_def ground, body;
-    int other_count;                             /* bodies but these two */
-    const struct carom_mesh *mesh[SCENE_MESHES]; /* the moving bodies take them in turn */
+    int other_count;                             /* bodies besides these two */
+    const struct carom_mesh *mesh[SCENE_MESHES]; /* the moving bodies use them in turn */
     int mesh_count;
     const struct scene_recipe *recipe;
     const struct carom_camera *camera;
     struct carom_caps caps;
-    struct scene_sheet *sheet;     /* the ground, when it waves; else NULL */
-    const struct scene_game *game; /* what is more than bodies; else NULL */
+    struct scene_sheet *sheet;     /* the ground, if it waves; otherwise NULL */
+    const struct scene_game *game; /* the rules of a game; otherwise NULL */
 };
 
 /*
- * Memory for the meshes of any scene but `user` and the growth of the field, and for those too; for
- * a world of any scene.
+ * Bytes for the meshes of any scene but `user` and the growth of the field; for those as well; and for a world of any
+ * scene.
  */
 #define SCENE_MESH_BYTES                                                                           \
     (SCENE_MESH(SCENE_HEAD_VERTICES, SCENE_HEAD_FACES) +                                           \
@@ -109,8 +109,8 @@ struct scene {
 #define SCENE_LARGE_FACES    49928
 
 /*
- * bodies, pairs, contacts, faces, entries, candidates: of one body, of a pile, of 32, of the sheet. A
- * board with little memory has some of its own for all of its scenes (board.mk).
+ * Capacities of worlds (bodies, pairs, contacts, faces, entries, candidates): of one body, of a pile, of 32, of the
+ * sheet. A board with little memory has its own for all of its scenes (board.mk).
  */
 #ifdef BOARD_CAPS
 #define SCENE_CAPS       BOARD_CAPS
@@ -123,7 +123,7 @@ struct scene {
 #define SCENE_LARGE_CAPS 33, 256, 768, 4096, 1, 4096
 #define SCENE_SHEET_CAPS 2, 1, 64, 1024, 512, 1024
 #endif
-/* Whether there are games, and the capacities of the one with the most bodies, the dominoes. */
+/* If there are games, and the capacities of the one with the most bodies, the dominoes. */
 #if defined SCENE_ROM && !defined SCENE_ROM_GAMES
 #define SCENE_GAMES     0
 #define SCENE_GAME_CAPS SCENE_LARGE_CAPS
@@ -139,27 +139,26 @@ struct scene {
 #define SCENE_WORLD_BYTES                                                                          \
     SCENE_MORE_(CAROM_WORLD_BYTES(SCENE_LARGE_CAPS), CAROM_WORLD_BYTES(SCENE_GAME_CAPS))
 
-/* The raw meshes, generated; a number is that of the faces. */
+/* The generated raw meshes; a number in a name is that of the faces. */
 extern const struct carom_mesh_raw head_mesh, head48_mesh, head80_mesh, head100_mesh, head450_mesh,
     head836_mesh, field_mesh, field128_mesh, field386_mesh, field512_mesh, field12012_mesh,
     field49928_mesh;
 
-/* SCENE_CAPS, gravity, sleep on, no timing; scene_make takes a pile's own. */
+/* SCENE_CAPS, gravity, sleep, no timing. scene_make uses the capacities of a pile where it needs them. */
 struct carom_config scene_config(void);
 
 /*
- * Build the meshes of a scene, or find them in ROM, and say where its bodies start.
+ * Build the meshes of a scene, or find them in ROM, and define where its bodies start.
  *   user  the mesh of scene `user`, scaled by a power of two to about the size of the head; else NULL
- *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, SCENE_MESH of its counts and of the field; for
- *         meshes in ROM, not used
+ *   mem   aligned to 8: SCENE_MESH_BYTES; for `user`, SCENE_MESH of its counts and of the field; unused for meshes in ROM
  *
- * Returns  CAROM_OK, CAROM_ERR_ARGUMENT for a name that is none of these or is not in ROM, or what
- *          carom_mesh_build returned.
+ * Returns  CAROM_OK; CAROM_ERR_ARGUMENT for an unknown name, or one that is not in ROM; or what carom_mesh_build
+ *          returned.
  */
 int scene_load(struct scene *scene, const char *name, const struct carom_mesh_raw *user, void *mem,
                size_t bytes);
 
-/* Make a world in a block of its own and put the bodies in. Returns CAROM_OK or an error. */
+/* Make a world in its own block and add the bodies. Returns CAROM_OK or an error. */
 int scene_make(const struct scene *scene, const struct carom_config *config, void *block,
                size_t bytes, struct carom_world **world);
 
@@ -167,17 +166,17 @@ int scene_make(const struct scene *scene, const struct carom_config *config, voi
 const char *scene_name(int n);
 const char *scene_text(int n);
 
-/* The i-th moving body as it starts, 0 being scene->body. */
+/* The i-th moving body as it starts; 0 is scene->body. */
 void scene_body(const struct scene *scene, int i, struct carom_body_def *def);
 
-/* Prepare a frame, 1 being the first: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
+/* Prepare a frame, from 1 on: the sheet moves, a game goes on. Returns CAROM_OK or an error. */
 int scene_before(struct scene *scene, struct carom_world *world, int frame);
-/* The same for scene->sheet, all that it needs of a scene. */
+/* The same for scene->sheet; it needs nothing else of the scene. */
 int scene_sheet_move(struct scene_sheet *sheet, struct carom_world *world, int frame);
 
 /*
- * The part of scene_load that is about meshes: scene->ground.mesh, mesh, mesh_count and sheet. One of
- * two files defines it: scene_built.c builds them in mem, scene_rom.c has them.
+ * The meshes of a scene, for scene_load: it sets scene->ground.mesh, mesh, mesh_count and sheet. Either scene_built.c
+ * defines it, which builds them in mem, or scene_rom.c, which has them in ROM.
  */
 int scene_meshes(struct scene *scene, const char *name, const struct carom_mesh_raw *user,
                  void *mem, size_t bytes);

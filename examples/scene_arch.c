@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A round arch of 13 stones on two plinths, without mortar: each stone is held by its neighbours alone. It stands until A
- * throws a heavy ball at it.
+ * Scene arch: a round arch of 13 stones on two plinths, without mortar. Each stone is held only by its neighbours. The arch
+ * stands until A throws a heavy ball at it.
  */
 #include <string.h>
 
@@ -11,7 +11,7 @@
 enum { MESH_STONE, MESH_PLINTH, MESH_BALL };
 
 #define FRICTION_Q16 52429 /* 0.8 */
-#define RADIUS_MM    2000  /* of the stones' middles */
+#define RADIUS_MM    2000  /* to the middle of a stone */
 #define PLINTH_MM    800
 
 static const struct carom_body_def ball = {.position = POSITION(-4200, 0, 270),
@@ -23,11 +23,11 @@ static const carom_v3_q40 ball_velocity = VELOCITY(5000, 0, 6200);
 /* The keystone, then pairs to its right and left, down to the plinths. */
 static int fill(const struct scene *scene, struct carom_world *world)
 {
-    /* half of the turn from stone to stone: of pi / 26 */
+    /* half the turn from stone to stone: pi / 26 */
     const int64_t cosine_q30 = 1065913037, sine_q30 = 129425275;
     struct carom_body_def stone = {.friction_q16 = FRICTION_Q16}, plinth = stone;
     struct scene_parts parts = {scene, world, CAROM_OK};
-    int64_t c = CAROM_ONE_Q30, s = 0; /* of half of a stone's turn */
+    int64_t c = CAROM_ONE_Q30, s = 0; /* half the turn of a stone */
 
     for (int i = 0; i < ARCH_STONES; i++) {
         const int64_t side = i % 2 ? 1 : -1;
@@ -38,7 +38,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
         stone.position.c[0] += side * out_q30 * RADIUS_MM / 1000 * 4;
         stone.position.c[2] += up_q30 * RADIUS_MM / 1000 * 4;
         scene_part(&parts, MESH_STONE, &stone);
-        if (i % 2 == 0) { /* both of a pair are there: on to the next */
+        if (i % 2 == 0) { /* both stones of a pair are placed: on to the next pair */
             const int64_t last_q30 = c;
 
             c = (c * cosine_q30 - s * sine_q30) / CAROM_ONE_Q30;

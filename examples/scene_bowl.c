@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Cups and balls fall into a bowl: hollow bodies in a hollow one, by their faces, inside and out. A tosses up what has come
- * to rest.
+ * Scene bowl: cups and balls fall into a bowl. Hollow bodies touch by their faces, inside and out. A tosses up the bodies
+ * that have come to rest.
  */
 #include <string.h>
 
@@ -12,7 +12,7 @@ enum { MESH_BOWL, MESH_CUP, MESH_BALL };
 
 #define FRICTION_Q16 (1u << 14)
 
-/* How they start: places in mm, spins in mrad/s. */
+/* Where they start: places in mm, spins in mrad/s. */
 static const struct {
     int16_t mesh, x_mm, y_mm, z_mm, spin;
 } start[BOWL_PIECES] = {

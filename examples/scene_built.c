@@ -12,7 +12,7 @@ static const struct carom_mesh_raw box_mesh = {
     box_vertices, scene_box_faces, 8, 12, 12, CAROM_SOLID,
 };
 
-/* A tetrahedron and an L of three cubes, for piles; all smaller by half than the box. */
+/* A tetrahedron and an L of three cubes, for piles; half the size of the box. */
 #define PILE_BITS 13
 #define TIP       1900
 static const int16_t tetrahedron_vertices[4][3] = {
@@ -78,8 +78,8 @@ static const struct carom_mesh_raw belt_mesh = {
 };
 
 /*
- * The same mesh with the quantum that makes its largest side 1.25 to 2.5 units; the head is 2.1
- * wide. Powers of two only, so that the vertices stay as they are.
+ * The same mesh with the quantum at which its largest side is 1.25 to 2.5 units; the head is 2.1 wide. Quanta are powers of
+ * two, so the vertices stay as they are.
  */
 static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
 {
@@ -102,7 +102,7 @@ static struct carom_mesh_raw scaled(const struct carom_mesh_raw *user)
     return mesh;
 }
 
-/* Room in the caller's memory, from its start; NULL when there is too little. */
+/* Take room from the start of the caller's memory; NULL if there is too little. */
 static void *take(uint8_t **mem, size_t *left, size_t bytes)
 {
     void *taken = *mem;
@@ -115,7 +115,7 @@ static void *take(uint8_t **mem, size_t *left, size_t bytes)
     return taken;
 }
 
-/* The next mesh in the caller's memory, and behind it what it refers to. */
+/* Build the next mesh in the caller's memory, with its index behind it. */
 static int build(const struct carom_mesh **built, const struct carom_mesh_raw *raw, uint8_t **mem,
                  size_t *left)
 {
@@ -129,7 +129,7 @@ static int build(const struct carom_mesh **built, const struct carom_mesh_raw *r
     return carom_mesh_build(mesh, raw, *mem - index_bytes, index_bytes);
 }
 
-/* The same for the sheet, which is going to move, and its vertices before that. */
+/* The same for the sheet, which moves, with its vertices in front. */
 static int build_sheet(struct scene *scene, uint8_t **mem, size_t *left)
 {
     size_t index_bytes = CAROM_SURFACE_BYTES(SCENE_SHEET_VERTICES, SCENE_SHEET_FACES);
@@ -147,12 +147,12 @@ static int build_sheet(struct scene *scene, uint8_t **mem, size_t *left)
     return carom_surface_build(mesh, &raw, index, index_bytes);
 }
 
-/* What a scene's meshes are. */
+/* The meshes of a scene. */
 static const struct materials {
     const char *name;
     const struct carom_mesh_raw *ground; /* NULL: the sheet */
     const struct carom_mesh_raw *bodies[SCENE_MESHES];
-    uint8_t quantum_bits; /* of the bodies; 0: as they have */
+    uint8_t quantum_bits; /* of the bodies; 0: their own */
 } materials[] = {
     {"head", &field_mesh, {&head_mesh}, 0},
     {"head-spin", &field_mesh, {&head_mesh}, 0},

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A car: a chassis, and at each corner a hub and a wheel. A wheel turns on its hub by a hinge; the front
- * hubs turn on the chassis by hinges whose springs steer, the rear ones go up and down by sliders whose springs carry.
- * The rear hinges have the motors. It drives on a yard with hills, a rim, ramps and towers, and what it drives
- * into of the balls is picked up.
+ * Scene car: a chassis, and a hub and a wheel at each corner. A wheel turns on its hub by a hinge. The front hubs turn on the
+ * chassis by hinges whose springs steer; the rear hubs go up and down by sliders whose springs carry. Motors drive the rear
+ * hinges. The car drives on a yard with hills, a rim, ramps and towers, and picks up the balls that it hits.
  */
 #include "carom_body.h"
 #include "carom_query.h"
@@ -15,14 +14,14 @@
 
 enum { MESH_CAR, MESH_WHEEL, MESH_JUMP, MESH_BALL, MESH_TOWER };
 
-/* Masses in units of 100 kg: then forces are 100 N. */
+/* Masses in units of 100 kg, so forces are in 100 N. */
 #define CHASSIS_KG 8
 #define START_X_MM (-5500)
 #define START_Y_MM (-12000)
-#define RAISED_MM  670 /* the chassis's origin above the ground */
+#define RAISED_MM  670 /* height of the chassis's origin above the ground */
 #define FRONT_MM   1150
 #define REAR_MM    (-1050)
-#define ASIDE_MM   900 /* the middle of a wheel */
+#define ASIDE_MM   900 /* to the middle of a wheel */
 #define AXLE_MM    360 /* above the ground */
 
 #define SPEED_MRAD_S 16000 /* 5.6 m/s at a radius of 0.35 m */
@@ -65,7 +64,7 @@ static void mount(struct scene_parts *parts, int wheel)
         drive->upper_q32 = CAROM_POSITION_MM(120);
         drive->stiffness_q40 = CAROM_FORCE_N(300, FPS);
         drive->damping_q40 = CAROM_IMPULSE_N_S(30, FPS);
-        drive->rest_q32 = CAROM_POSITION_MM(60); /* along the axis, which is down */
+        drive->rest_q32 = CAROM_POSITION_MM(60); /* along the axis, which points down */
     }
     scene_joint(parts, &def);
 }
@@ -84,7 +83,7 @@ static void axle(struct scene_parts *parts, int wheel)
     scene_joint(parts, &def);
 }
 
-/* A place, and cosine and sine of half of the turn about z of what stands there. */
+/* A place, and the cosine and sine of half the turn about z of what stands there. */
 struct place {
     int32_t x_mm, y_mm, cosine_q30, sine_q30;
 };
@@ -96,7 +95,7 @@ static void stand(struct scene_parts *parts, int mesh, const struct place *at, i
         .position = {{at->x_mm * CAROM_POSITION_MM(1), at->y_mm * CAROM_POSITION_MM(1),
                       z_mm * CAROM_POSITION_MM(1)}},
         .rotation = {{at->cosine_q30, 0, 0, at->sine_q30}},
-        /* between a rough tower and a ramp the car would be wedged */
+        /* the car would be wedged between a rough tower and a ramp */
         .friction_q16 = mesh == MESH_TOWER ? FRICTION_Q16 / 8 : FRICTION_Q16,
         .sensor = mesh == MESH_BALL};
 
@@ -109,13 +108,13 @@ static const struct place ramps[CAR_RAMPS] = {
     {10392, 6000, 536870912, 929887697},
     {-10392, 6000, -536870912, 929887697},
 };
-/* Towers outside of it, which come between the car and where the camera would be; away from the ramps. */
+/* Towers outside the round, away from the ramps; they come between the car and the camera. */
 static const struct place towers[CAR_TOWERS] = {
     {7000, -13000, 1025033084, 319763936},
     {2500, 14500, 976891013, 445664022},
     {-13500, -5500, 1064243069, 142497571},
 };
-/* Balls: six on the round, one aside of it, one in the middle. */
+/* Balls: six on the round, one beside it, one in the middle. */
 static const struct place balls[CAR_PICKUPS] = {
     {2000, -11800, CAROM_ONE_Q30, 0}, {8500, -8500, CAROM_ONE_Q30, 0},
     {12000, 0, CAROM_ONE_Q30, 0},     {6000, 10400, CAROM_ONE_Q30, 0},
@@ -160,7 +159,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
 
 /* ------------------------------------------------------------------------ balls */
 
-/* Whatever the car drove into in the last step is picked up. */
+/* Pick up the balls that the car hit in the last step. */
 static int pick_up(struct carom_world *world)
 {
     int taken[CAR_PICKUPS] = {0}, result = CAROM_OK;
@@ -203,7 +202,7 @@ static int drive(struct carom_world *world, uint32_t keys)
         struct carom_joint_state state;
 
         result = carom_joint_get(world, joint, &state);
-        if (is_front(wheel)) { /* its axis is down: what turns to the right is positive */
+        if (is_front(wheel)) { /* the axis points down: a turn to the right is positive */
             state.drive.rest_q32 = side * CAROM_RATIO(STEER_MRAD, 1000, 32);
         } else {
             state.drive.motor_speed_q40 = speed_q40;
@@ -216,8 +215,8 @@ static int drive(struct carom_world *world, uint32_t keys)
 }
 
 /*
- * Who is stuck, or lies on the roof, is lifted and, by up or down, moved along: to 2 m/s, and turned until the z axis
- * points up.
+ * Lift a car that is stuck or lies on its roof: turn it until its z axis points up and, with up or down, move it along, up
+ * to 2 m/s.
  */
 static int lift(struct carom_world *world, uint32_t keys)
 {
@@ -235,7 +234,7 @@ static int lift(struct carom_world *world, uint32_t keys)
         return result;
     }
     impulse.c[2] += CAROM_IMPULSE_N_S(CHASSIS_KG, FPS);
-    /* the cross product of its z axis and the world's */
+    /* the cross product of the car's z axis and the world's */
     twist = (carom_v3_q40){{z_q40[1], -z_q40[0], 0}};
     result = carom_body_push_centre(world, CAR_CHASSIS, &impulse);
     return result < 0 ? result : carom_body_twist(world, CAR_CHASSIS, &twist);
@@ -250,7 +249,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
     return result >= 0 && keys & PORT_PAD_A ? lift(world, keys) : result;
 }
 
-/* Places on the round that it drives by itself, to the left, a twelfth of a turn from one to the next. */
+/* Places on the round that the script drives, to the left, a twelfth of a turn apart. */
 #define ROUND_PLACES 12
 static const int16_t round_mm[ROUND_PLACES][2] = {
     {12000, 0},  {10392, 6000},   {6000, 10392},   {0, 12000},  {-6000, 10392}, {-10392, 6000},
@@ -275,8 +274,8 @@ static void way_on(const int64_t at_mm[2], int64_t way_mm[2])
 }
 
 /*
- * Steer to where the way is; when something stops the car it goes back for a while, the other way
- * round, and in the end is lifted.
+ * The script: steer along the way. If something stops the car, drive back for a while with the wheels turned the other way, and
+ * at last lift the car.
  */
 static uint32_t script(const struct carom_world *world, int frame)
 {
@@ -306,7 +305,7 @@ static uint32_t script(const struct carom_world *world, int frame)
 
 /* ---------------------------------------------------------------------- picture */
 
-/* Behind the car and above it, but not behind what stands there. */
+/* Place the camera behind and above the car, but in front of whatever stands there. */
 static void look(const struct carom_world *world, struct carom_camera *camera)
 {
     static const struct carom_query_filter others = {.mask = 0xffff & ~CATEGORY_CAR};
@@ -323,7 +322,7 @@ static void look(const struct carom_world *world, struct carom_camera *camera)
     ray.from = camera->target = car.position;
     ray.way = (carom_v3_q32){{way_q32[0], way_q32[1], CAROM_POSITION_MM(3000)}};
     if (carom_cast_ray(world, &ray, &others, &hit) == 1) {
-        part_q30 = hit.t_q30 - CAROM_ONE_Q30 / 32; /* and a little nearer */
+        part_q30 = hit.t_q30 - CAROM_ONE_Q30 / 32; /* a little nearer */
     }
     for (int k = 0; k < 3; k++) {
         camera->eye.c[k] = ray.from.c[k] + (ray.way.c[k] >> 15) * part_q30 / (1 << 15);
@@ -354,7 +353,7 @@ static void say(const struct carom_world *world, char text[SCENE_TEXT])
 #define GLASS     SCENE_DARK, SCENE_DARK
 #define TWO(ramp) ramp, ramp
 #define SIX(ramp) TWO(ramp), TWO(ramp), TWO(ramp)
-/* Two sides of 9 faces, and around the outline two an edge: windows in front of and behind the roof. */
+/* Two sides of 9 faces, and two faces for each edge of the outline: windows in front of and behind the roof. */
 static const uint8_t car_faces[40] = {
     SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED), SIX(SCENE_RED),
     TWO(SCENE_RED), GLASS,          TWO(SCENE_RED), GLASS,          TWO(SCENE_RED)};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A house of cards of three storeys: pairs that lean on each other, cards that lie across their tops, the next storey on
- * these. Nothing holds it but friction. It stands until A throws a ball at it.
+ * Scene cards: a house of cards of three storeys. Pairs lean on each other, cards lie across their tops, and the next storey
+ * stands on these. Only friction holds it. It stands until A throws a ball at it.
  */
 #include <string.h>
 
@@ -12,18 +12,19 @@ enum { MESH_CARD, MESH_COVER, MESH_BALL };
 
 #define FRICTION_Q16 52429 /* 0.8 */
 
-/* Micrometres; a gap is what is between cards at rest. Cards are 1000000 x 19531 and lean by 20 degrees. */
+/* Micrometres. GAP is the distance between cards at rest. Cards are 1000000 x 19531 and lean by 20 degrees. */
 #define UM(um)    (CAROM_POSITION_MM(um) / 1000)
 #define GAP       300
 #define THICK     19531
-#define HALF_SINE 171010                       /* of half a card */
-#define MIDDLE    (GAP + 469846 + 3340)        /* of one that leans, above what it stands on */
-#define ASIDE     (GAP / 2 + HALF_SINE + 9177) /* from its pair's top edge */
-#define TOP       (GAP + 939693 + 6680)
-#define STOREY    (TOP + GAP + THICK)
-#define PITCH     (2 * (2 * HALF_SINE + 18353) + 40000) /* from pair to pair */
-#define COVER     404297                                /* half of its length */
-#define APART     3000                                  /* half of what is between two of them */
+#define HALF_SINE 171010                /* half a card */
+#define MIDDLE    (GAP + 469846 + 3340) /* height of the middle of a leaning card above its floor */
+#define ASIDE                                                                                      \
+    (GAP / 2 + HALF_SINE + 9177) /* from the top edge of the pair to the middle of a card */
+#define TOP    (GAP + 939693 + 6680)
+#define STOREY (TOP + GAP + THICK)
+#define PITCH  (2 * (2 * HALF_SINE + 18353) + 40000) /* from pair to pair */
+#define COVER  404297                                /* half the length of a lying card */
+#define APART  3000                                  /* half the distance between two lying cards */
 
 static const struct carom_body_def ball = {.position = POSITION(-2600, 0, 270),
                                            .friction_q16 = FRICTION_Q16,
@@ -42,7 +43,7 @@ static void put(struct scene_parts *parts, int mesh, int64_t x_um, int64_t z_um,
     scene_part(parts, mesh, &def);
 }
 
-/* Storeys from below; the two that lean at the top come last. */
+/* Storeys from below; the two leaning cards at the top come last. */
 static int fill(const struct scene *scene, struct carom_world *world)
 {
     struct scene_parts parts = {scene, world, CAROM_OK};
@@ -56,7 +57,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
             put(&parts, MESH_CARD, first + i * PITCH + ASIDE, base + MIDDLE, -1);
         }
         for (int i = 0; i < pairs - 1; i++) {
-            /* one alone lies in the middle; of two, one's end is beside the other's over a top */
+            /* one card lies in the middle; the ends of two meet over a top */
             const int64_t x = pairs == 2 ? 0 : (i == 0 ? -1 : 1) * (int64_t)(APART + COVER);
 
             put(&parts, MESH_COVER, x, base + TOP + GAP + THICK / 2, 0);

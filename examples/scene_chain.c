@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* chain - links on ball joints: it hangs from its first one and swings. */
+/* Scene chain: links on ball joints. The chain hangs from its first link and swings. */
 #include "scene_games.h"
 
 #define FRICTION_Q16 (1u << 15)
 
-#define LINK_MM  320 /* from one to the next: a ring hangs in the other */
+#define LINK_MM  320 /* from a link to the next: a ring hangs in the other */
 #define CHAIN_MM 7500
 
-/* Every other link is turned by a quarter about the chain. Links of the same chain go through each other. */
+/* Every other link is turned by a quarter about the chain. Links of a chain go through each other. */
 static int fill(const struct scene *scene, struct carom_world *world)
 {
     struct carom_body_def link = {.position = POSITION(0, 0, CHAIN_MM),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* conveyor - boxes on a belt whose surface moves while it stays where it is. */
+/* Scene conveyor: boxes on a belt whose surface moves while the belt stays in place. */
 #include "carom_body.h"
 #include "scene_games.h"
 

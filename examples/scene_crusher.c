@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* crusher - a kinematic block that comes down on a box, stops there, and goes up again; a ball rides on it. */
+/* Scene crusher: a kinematic block comes down on a box, stops there, and goes up again; a ball rides on it. */
 #include "scene_games.h"
 
 #define HALF_Q30     (CAROM_ONE_Q30 / 2)
@@ -22,7 +22,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return scene_part(&parts, 1, &ball);
 }
 
-/* Down for half of the time and up again: what is in the way stops the block, until it goes up. */
+/* Down for half of the time, then up. Whatever is in the way stops the block until it goes up. */
 static int before(struct carom_world *world, int frame, uint32_t keys)
 {
     struct carom_pose pose = {.position = POSITION(0, 0, CRUSHER_HIGH_MM)};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A row of dominoes, which goes to and fro in two turns. A ball runs into the first one. Those that it has not come to
- * sleep; A throws the ball again.
+ * Scene dominoes: a row of dominoes with two turns. A ball runs into the first one. Those that it has not reached sleep. A
+ * throws the ball again.
  */
 #include "port.h"
 #include "scene_games.h"
@@ -13,7 +13,7 @@ enum { MESH_DOMINO, MESH_BALL };
 #define FIRST_X_MM   (-1100)
 #define FIRST_Y_MM   (-3000)
 
-/* Straight ahead, or along an arc: by 15 degrees from one to the next. */
+/* Straight ahead, or along an arc of 15 degrees from a domino to the next. */
 static const struct {
     uint8_t count;
     int8_t turn;
@@ -35,7 +35,7 @@ static void turn(int64_t h_q30[2], int64_t cosine_q30, int64_t sine_q30)
 
 static int fill(const struct scene *scene, struct carom_world *world)
 {
-    /* of half of the turn from one domino of an arc to the next, 15 degrees */
+    /* half the turn from a domino of an arc to the next, 15 degrees */
     const int64_t cosine_q30 = 1064555814, sine_q30 = 140151432;
     struct carom_body_def domino = {.position = POSITION(FIRST_X_MM, FIRST_Y_MM, 1),
                                     .restitution_q30 = CAROM_ONE_Q30 / 8,
@@ -72,7 +72,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
                              : CAROM_OK;
 }
 
-/* How many lean by more than 45 degrees. */
+/* Count the dominoes that lean by more than 45 degrees. */
 static void say(const struct carom_world *world, char text[SCENE_TEXT])
 {
     int down = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* door - a ball flies against a door on a hinge with limits, and opens it. */
+/* Scene door: a ball flies against a door on a hinge with limits, and opens it. */
 #include "scene_games.h"
 
 #define HALF_Q30     (CAROM_ONE_Q30 / 2)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * espresso - figure 8 of the paper: an espresso machine falls on a field whose heights are the escape counts of the
- * Mandelbrot set. The set is the floor of a basin, so that all impacts take place within the field.
+ * Scene espresso: figure 8 of the paper. An espresso machine falls on a field whose heights are the escape counts of the
+ * Mandelbrot set. The set is the floor of a basin, so all impacts take place within the field.
  */
 #include "models.h"
 #include "scene_games.h"
@@ -21,7 +21,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return parts.result;
 }
 
-/* The ramps that tools/gen_figure8 gives to faces: field, its slopes, enamel, china, steel, handles and the set. */
+/* Ramps that tools/gen_figure8 gives to faces: field, its slopes, enamel, china, steel, handles, the set. */
 static const uint32_t colours[SCENE_RAMPS] = {0,        0x3858a0, 0xe0b040, 0xc83030,
                                               0xf0ece0, 0x98a0a8, 0x30343c};
 static const struct carom_body_paint paints[] = {{mandelbrot512_ramps, SCENE_GREEN},

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * scene_games.h - scenes that are more than bodies: joints, bodies that are led, belts, sensors, rays. Each
- * is a function that puts the bodies and joints into a world and one that goes on before each frame, by the keys of
- * a pad. While nobody plays a script presses them, which goes by the world and the number of the frame alone.
+ * scene_games.h - scenes with more than bodies: joints, led bodies, belts, sensors, rays.
+ *
+ * Each scene is a function that adds bodies and joints to a world, and one that runs before each frame with the keys of a
+ * pad. While nobody plays, a script presses keys; it depends on the world and the number of the frame alone.
  */
 #ifndef CAROM_SCENE_GAMES_H
 #define CAROM_SCENE_GAMES_H
@@ -31,25 +32,25 @@
         }                                                                                          \
     }
 
-/* NULL in the place of a function: the game does not do that. */
+/* A function may be NULL: the game has none. */
 struct scene_game {
     struct carom_caps caps;
     struct carom_camera camera;
-    /* Add the bodies but the ground, and the joints. Returns >= 0 or an error. */
+    /* Add the bodies except the ground, and the joints. Returns >= 0 or an error. */
     int (*fill)(const struct scene *scene, struct carom_world *world);
-    /* The keys that it presses before a frame while nobody plays: a sum of enum port_pad. */
+    /* The keys that the script presses before a frame: a sum of enum port_pad. */
     uint32_t (*script)(const struct carom_world *world, int frame);
-    /* Prepares a frame, 1 being the first, with these keys held; NULL: nothing to do. Returns >= 0 or an error. */
+    /* Prepare a frame, from 1 on, with these keys held; NULL: nothing to do. Returns >= 0 or an error. */
     int (*before)(struct carom_world *world, int frame, uint32_t keys);
-    /* Take the camera along; NULL: it stays. */
+    /* Move the camera; NULL: it stays. */
     void (*look)(const struct carom_world *world, struct carom_camera *camera);
-    /* A line of text over the picture. */
+    /* Write a line of text for the picture. */
     void (*say)(const struct carom_world *world, char text[SCENE_TEXT]);
-    /* How bodies look, by their numbers: ramps of scene_paint's palette. NULL: as usual. */
+    /* How bodies look, by body number: ramps of scene_paint's palette. NULL: as usual. */
     const struct carom_body_paint *paints;
     uint32_t paint_count;
     const uint32_t
-        *rgb; /* SCENE_RAMPS colours, 0x00RRGGBB, the first not used; NULL: the usual ones */
+        *rgb; /* SCENE_RAMPS colours, 0x00RRGGBB, the first unused; NULL: the usual ones */
 };
 
 /* Prepare a frame of a game. Returns >= 0 or an error. */
@@ -57,8 +58,8 @@ int scene_game_before(const struct scene_game *game, struct carom_world *world, 
                       uint32_t keys);
 
 /*
- * Colours of games, by the ramps of carom_draw_palette that they stand in: a display with a palette of its own
- * shows those.
+ * Colours of games, named by the ramps of carom_draw_palette that they stand in: a display with a fixed palette shows
+ * those.
  */
 enum scene_ramp {
     SCENE_GREEN = CAROM_RAMP_STATIONARY,
@@ -72,11 +73,11 @@ enum scene_ramp {
 /* The squares of the yard, in two greens. */
 extern const uint8_t scene_yard_faces[YARD_FACES];
 /*
- * How a scene looks: that of a game by its paints; else (NULL, or without any) its bodies have colours in turn, and faces that
- * interfere are pink. It is there once, and good until the next call. scene_look.c
+ * How a scene looks. A game has its paints; without paints (or with NULL) bodies have colours in turn, and interfering faces
+ * are pink. There is one paint, good until the next call. scene_look.c
  */
 const struct carom_paint *scene_paint(const struct scene_game *game);
-/* Write a number and some words; returns where the text goes on. */
+/* Write a number and some words. Returns where the text goes on. */
 char *scene_say_number(char *text, int number, const char *words);
 
 extern const struct scene_game scene_door, scene_chain, scene_crusher, scene_conveyor, scene_car,
@@ -96,7 +97,7 @@ enum { CONVEYOR_BELT = SCENE_BODY, CONVEYOR_BOX };
 #define CRUSHER_WAY_MM  1400
 #define CRUSHER_HIGH_MM 2000
 
-/* The car: each wheel has a hub; the front ones turn about the upright, the rear ones go up and down. */
+/* The car: each wheel has a hub. Front hubs turn about the upright; rear hubs go up and down. */
 #define CAR_WHEELS  4
 #define CAR_RAMPS   3
 #define CAR_TOWERS  3
@@ -124,33 +125,33 @@ enum {
 
 /* Two rinks of as many bodies each, and packets that fly over them. */
 #define LOCKSTEP_RINK_BODIES 7
-#define LOCKSTEP_DELAY       9 /* ticks; the longest there is in the scene */
+#define LOCKSTEP_DELAY       9 /* longest delay of a packet in the scene, ticks */
 #define LOCKSTEP_BODIES      (1 + 2 * LOCKSTEP_RINK_BODIES + 2 * LOCKSTEP_DELAY)
 
-/* Wheels, each with a hinge of the same number less one; then the board behind them. */
+/* Wheels; wheel n is on hinge n - 1. Behind them stands the board. */
 #define GEARS 4
 enum { GEARS_FIRST = SCENE_BODY, GEARS_BOARD = GEARS_FIRST + GEARS };
 #define GEARS_TEETH                                                                                \
     {                                                                                              \
         10, 24, 16, 12                                                                             \
     }
-#define GEARS_TURNS_A_MINUTE 48 /* of the first */
+#define GEARS_TURNS_A_MINUTE 48 /* of the first wheel */
 
 /* Lengths as in tools/machines.py. */
 enum { SCREW_NUT = SCENE_BODY, SCREW_BOLT, SCREW_HEAD };
 #define SCREW_PITCH_MM 400
-#define SCREW_PLAY_MM  12   /* of the nut on the bolt, to either side */
-#define SCREW_WAY_MM   1750 /* down to the head */
+#define SCREW_PLAY_MM  12   /* play of the nut on the bolt, to either side */
+#define SCREW_WAY_MM   1750 /* way of the nut down to the head */
 
-/* The cradle: its frame is after the balls. The script lifts others after so many frames. */
+/* The cradle: the frame comes after the balls. The script lifts others after so many frames. */
 #define NEWTON_BALLS  5
 #define NEWTON_FRAMES 320
 enum { NEWTON_BALL = SCENE_BODY };
 /* The row of dominoes, and what runs into it. */
 #define DOMINOES       40
-#define DOMINOES_START 20 /* the frame in which the script throws */
+#define DOMINOES_START 20 /* frame in which the script throws */
 enum { DOMINOES_FIRST = SCENE_BODY, DOMINOES_BALL = DOMINOES_FIRST + DOMINOES };
-/* The house of cards: 12 that lean, 3 that lie. */
+/* The house of cards: 12 leaning, 3 lying. */
 #define CARDS_STOREYS 3
 #define CARDS         15
 #define CARDS_START   240
@@ -163,29 +164,29 @@ enum { ARCH_KEYSTONE = SCENE_BODY, ARCH_BALL = ARCH_KEYSTONE + ARCH_STONES + 2 }
 #define BOWL_PIECES 6
 #define BOWL_TOSS   540
 enum { BOWL = SCENE_BODY, BOWL_PIECE };
-/* Things of four shapes in turn, then what they are poured out of and into. */
+/* Things of four shapes in turn, then the bucket and the tray. */
 #define POUR_THINGS 32
 enum { POUR_THING = SCENE_BODY, POUR_BUCKET = POUR_THING + POUR_THINGS, POUR_TRAY };
-#define POUR_FRAMES 720 /* until all that was poured lies still and the bucket is up again */
+#define POUR_FRAMES 720 /* until all things lie still and the bucket is up again */
 
-/* A builder puts parts into a world: after the first error it adds nothing more. */
+/* A builder adds parts to a world. After the first error it adds nothing more. */
 struct scene_parts {
     const struct scene *scene;
     struct carom_world *world;
     int result;
 };
-/* A body of the scene's i-th mesh, whose origin is at def->position. Returns its number. */
+/* Add a body of the scene's i-th mesh, whose origin is at def->position. Returns its number. */
 int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def *def);
-/* A joint. Returns its number. */
+/* Add a joint. Returns its number. */
 int scene_joint(struct scene_parts *parts, const struct carom_joint_def *def);
 
 /*
- * Throw a body that is slow from a place, upright; one that is faster than 0.5 m/s goes on. So a key may be held. Returns
- * >= 0 or an error; that something is in the way is none.
+ * Throw a slow body from a place, upright. A body faster than 0.5 m/s goes on, so a key may be held. Returns >= 0 or an
+ * error; nothing is thrown if something is in the way.
  */
 int scene_throw(struct carom_world *world, int body, const carom_v3_q32 *from,
                 const carom_v3_q40 *velocity);
-/* How far a body's z axis points up: the cosine of its lean, q30. */
+/* Cosine of the angle between a body's z axis and the upright, q30. */
 int64_t scene_upright(const struct carom_world *world, int body);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * gears - toothed wheels on hinges before a board. A motor turns the first; the others are turned by their teeth
- * alone. Left and right turn the motor round.
+ * Scene gears: toothed wheels on hinges in front of a board. A motor turns the first wheel, and teeth turn the others.
+ * Left and right turn the motor.
  */
 #include "port.h"
 #include "scene_games.h"
 
-/* Where the axles are, as tools/machines.py has them: as far apart as the wheels that meet there roll on each other. */
+/* Where the axles are, as in tools/machines.py: wheels that meet roll on each other. */
 static const struct carom_body_def wheels[GEARS] = {{.position = POSITION(-1500, 0, 950)},
                                                     {.position = POSITION(0, 0, 1750)},
                                                     {.position = POSITION(1600, 0, 2950)},
@@ -39,7 +39,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return parts.result;
 }
 
-/* Six seconds one way, one of rest, and back. */
+/* Six seconds one way, one second of rest, and back. */
 static uint32_t script(const struct carom_world *world, int frame)
 {
     int phase = frame % (14 * FPS);
@@ -65,7 +65,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
     return result;
 }
 
-/* Turns a minute, to nearest. */
+/* Turns a minute, rounded to nearest. */
 static void say(const struct carom_world *world, char text[SCENE_TEXT])
 {
     for (int i = 0; i < GEARS; i++) {

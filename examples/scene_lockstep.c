@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two players on two machines shove a ball and boxes in a rink. Each machine has a world of its own (scene_net.h), and
- * the picture shows both: left that of the red player's, right that of the yellow one's. The balls in the air are
- * the packets between them, of which many are lost. The line says to which frame both have the same hash.
+ * Scene lockstep: two players on two machines push a ball and boxes in a rink. Each machine has its own world
+ * (scene_net.h), and the picture shows both: the red player's on the left, the yellow one's on the right. The balls in the
+ * air are packets between the machines, and many are lost. The line of text says up to which frame both hashes agree.
  */
 #include <string.h>
 
@@ -61,13 +61,13 @@ int rink_world(const struct scene *scene, void *block, size_t bytes, struct caro
     return parts.result;
 }
 
-/* Along an axis, unless the puck is fast enough. */
+/* Push along an axis, unless the puck is fast enough. */
 static int64_t push(int side, int64_t speed_q40)
 {
     return side * speed_q40 < FASTEST ? side * PUSH : 0;
 }
 
-/* Over the walls and gone: it falls in again over its place, as soon as there is room. */
+/* A puck that left over the walls falls in again above its start, as soon as there is room. */
 static int put_back(struct carom_world *world, int body)
 {
     struct carom_body_state state;
@@ -121,7 +121,7 @@ static struct net_link links[NET_PLAYERS]; /* from a player to the other one */
 static _Alignas(8) uint8_t blocks[NET_PLAYERS][CAROM_WORLD_BYTES(RINK_CAPS)];
 static uint8_t saved[NET_PLAYERS][RINK_SNAPSHOT_BYTES];
 
-/* A picture of a body is one that nothing meets. */
+/* A body of the picture touches nothing. */
 static void add_pictures(struct scene_parts *parts)
 {
     struct carom_body_def def = {.stationary = true, .filter = {1, 0, 0}};
@@ -160,7 +160,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return parts.result;
 }
 
-/* The picture of a body of a side's. */
+/* The body of the picture for a body of a side. */
 static int show_body(struct carom_world *world, int i, int body)
 {
     struct carom_body_state state;
@@ -173,7 +173,7 @@ static int show_body(struct carom_world *world, int i, int body)
     return result < 0 ? result : carom_body_set(world, 1 + i * RINK_BODIES + body, &state);
 }
 
-/* A packet goes over in an arc behind the rinks; one that is lost falls from the middle of it. */
+/* A packet flies in an arc behind the rinks; a lost one falls from the middle of the arc. */
 static int show_packet(struct carom_world *world, int i, int n, const struct net_packet *packet,
                        int32_t tick)
 {
@@ -182,7 +182,7 @@ static int show_packet(struct carom_world *world, int i, int n, const struct net
                                      .overlap = CAROM_OVERLAP_PASS};
 
     if (packet) {
-        /* a thousandth of the way */
+        /* thousandths of the way */
         const int32_t part = 1000 * (tick - packet->sent) / (packet->due - packet->sent);
         const int32_t way = packet->lost && part > 500 ? 500 : part;
         int32_t up_mm = 800 + 8 * way * (1000 - way) / 1000;
@@ -220,7 +220,7 @@ static int show(struct carom_world *world, int32_t tick)
 
 /* ------------------------------------------------------------------ the game */
 
-/* A player who is nobody goes by what the own machine shows: after the ball and each box in turn. */
+/* The script of a player: it follows the ball and each box in turn, as its own machine shows them. */
 static uint8_t chase(int i, int32_t tick)
 {
     const int goal = RINK_BALL + (tick / TURN_TICKS + i) % (RINK_BODIES - RINK_BALL);
@@ -242,7 +242,7 @@ static uint8_t chase(int i, int32_t tick)
                                               : 0));
 }
 
-/* No key of the pad says so: until one is pressed the red player goes by itself, as the yellow one always does. */
+/* Until a key is pressed, the red player follows its script; the yellow player always does. */
 #define BY_ITSELF SCENE_NOBODY
 
 static uint32_t script(const struct carom_world *world, int frame)
@@ -276,7 +276,7 @@ static char *say_hash(char *text, uint64_t hash)
     return text;
 }
 
-/* The last frame to which both have agreed, and the hashes after it. */
+/* Print the last frame on which both agree, and the hashes after it. */
 static void say(const struct carom_world *world, char text[SCENE_TEXT])
 {
     const int32_t agreed = sides[0].agreed < sides[1].agreed ? sides[0].agreed : sides[1].agreed;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* How scenes look: a light sky, calm ground, bodies in warm colours, each beside another one. */
+/* How scenes look: a light sky, calm ground, bodies in warm colours that alternate. */
 #include <string.h>
 
 #include "scene_games.h"
 
-/* Shades from corner to corner and shadows cost as much again as the rest: a board says for which it has the time. */
+/* Smooth shades and shadows double the cost of a picture. A board names the scenes for which it has the time. */
 #if defined BOARD_SHADOWS
 #define SHADOWS &carom_shadows
 #else
@@ -16,7 +16,7 @@
 #define SMOOTH NULL
 #endif
 
-/* From the left and in front, not high: shadows lie beside what throws them. */
+/* From the left and in front, not high, so that shadows lie beside the bodies. */
 #define LIGHT                                                                                      \
     {                                                                                              \
         {                                                                                          \
@@ -24,7 +24,7 @@
         }                                                                                          \
     }
 
-/* Of scenes without paints of their own: the ground, what moves, in four colours, and what interferes. */
+/* Colours of scenes without paints of their own: the ground, four colours for moving bodies, interfering faces. */
 enum { GROUND = CAROM_RAMP_STATIONARY, HOT = CAROM_RAMP_STATIONARY_HOT };
 static const uint32_t plain_rgb[] = {[GROUND] = 0x5f9858,
                                      [CAROM_RAMP_MOVING] = 0xb8683f,
@@ -45,8 +45,8 @@ static const struct carom_body_paint plain_paints[] = {{NULL, GROUND}, FOUR, FOU
                                                        FOUR,           FOUR, FOUR, FOUR};
 
 /*
- * The sky pales towards the horizon, and so does the ground far away. Steps are by 4 and 8, so that a display of 5 bits a
- * colour has no stripes of other hues.
+ * The sky pales towards the horizon, and so does the far ground. Steps are by 4 and 8, so that a display of 5 bits a colour
+ * shows no stripes of other hues.
  */
 static void fill_palette(uint32_t palette[256], const uint32_t rgb[])
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+/* Two machines play one game over a bad link: prediction, snapshots and rollback. */
 #include "scene_net.h"
 
 #include <string.h>
 
-/* Knuth's MMIX generator; its upper bits. */
+/* Knuth's MMIX generator; the upper bits are used. */
 static uint32_t chance(struct net_link *link, uint32_t below)
 {
     link->state = link->state * 6364136223846793005u + 1442695040888963407u;
@@ -38,7 +39,7 @@ uint64_t net_hash(const struct net_side *side, int32_t frame)
     return side->hash[frame % NET_KEPT];
 }
 
-/* Whether the other one came to the same world. It can only be asked of a frame that this side has, too. */
+/* Check that the other side came to the same world, for a frame that this side also has. */
 static void compare(struct net_side *side, const struct net_packet *packet)
 {
     if (packet->agreed <= side->agreed && packet->agreed > side->agreed - NET_KEPT &&
@@ -75,7 +76,7 @@ void net_take(struct net_side *side, struct net_link *link, int32_t tick)
     }
 }
 
-/* A frame with the keys that were pressed; of the other one's, the last that are known where these are not. */
+/* Step a frame with both players' keys; unknown keys of the other side are taken to be its last known ones. */
 static int step(struct net_side *side)
 {
     const int32_t frame = side->stepped + 1;
@@ -90,7 +91,7 @@ static int step(struct net_side *side)
     return result;
 }
 
-/* Back to the agreed frame, and on to the last one of which all keys are known. */
+/* Go back to the agreed frame, then step to the last frame whose keys are all known. */
 static int agree(struct net_side *side, int32_t last)
 {
     int result = CAROM_OK;
@@ -131,7 +132,7 @@ int net_frame(struct net_side *side, uint8_t keys)
     return result < 0 ? result : goes;
 }
 
-/* Some entry is free: a packet is there for NET_DELAY ticks at most. */
+/* Some entry is free, because a packet flies for NET_DELAY ticks at most. */
 static struct net_packet *room_for(struct net_link *link)
 {
     int i = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Newton's cradle: five balls, each rigid with its two rods, on hinges under two beams. Some are held up and let go:
- * by A one, by LEFT two, by UP three. As many swing out on the other side.
+ * Scene newton: Newton's cradle. Five balls, each rigid with its two rods, hang on hinges under two beams. Some are lifted and
+ * let go: A lifts one, LEFT two, UP three. As many swing out on the other side.
  */
 #include <string.h>
 
@@ -11,13 +11,13 @@
 enum { MESH_PENDULUM, MESH_BEAM, MESH_POST };
 
 /*
- * Balls that hang are 12 mm apart, so that they meet two at a time: what touches is solved at once, as one body would be.
- * A contact begins some skins away, and a skin goes by the radius of a body, with its rods.
+ * Hanging balls are 12 mm apart, so they meet two at a time: balls that touch would be solved at once, as one body. A
+ * contact begins some skins away, and a skin follows the radius of a body with its rods.
  */
 #define PITCH_MM 512
 #define HIGH_MM  2400
 #define ASIDE_MM 500
-/* A turn about y by 40 degrees: sine and cosine, and of half of it. */
+/* A turn about y by 40 degrees: sine and cosine, and those of half the angle. */
 #define SINE_Q30        690189683
 #define COSINE_Q30      822533957
 #define SINE_HALF_Q30   367241333
@@ -29,7 +29,7 @@ static carom_v3_q32 pivot(int ball)
         {(ball - NEWTON_BALLS / 2) * CAROM_POSITION_MM(PITCH_MM), 0, CAROM_POSITION_MM(HIGH_MM)}};
 }
 
-/* The first `count` are held up, the others hang. All are still. */
+/* Lift the first `count` balls; the others hang. All are still. */
 static int lift(struct carom_world *world, int count)
 {
     const int64_t below_q22 = carom_body_mesh(world, NEWTON_BALL)->mass.centre.c[2];
@@ -43,7 +43,7 @@ static int lift(struct carom_world *world, int count)
         state.rotation.c[2] = up ? SINE_HALF_Q30 : 0;
         state.position.c[0] += up ? SINE_Q30 * below_q22 / (1 << 20) : 0;
         state.position.c[2] += (up ? COSINE_Q30 : CAROM_ONE_Q30) * below_q22 / (1 << 20);
-        state.overlap = CAROM_OVERLAP_PASS; /* those that are still to be set */
+        state.overlap = CAROM_OVERLAP_PASS; /* over balls that are not set yet */
         result = carom_body_set(world, NEWTON_BALL + i, &state);
     }
     return result;

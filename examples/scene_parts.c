@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* What the scenes of games share: adding bodies and joints, throwing a body, text. */
 #include "scene_games.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ int scene_part(struct scene_parts *parts, int mesh, const struct carom_body_def 
 
     own.mesh = parts->scene->mesh[mesh];
     centre = &own.mesh->mass.centre;
-    /* parts whose centre is not in their origin start as they are, or turned about z */
+    /* parts whose centre is not at their origin start unturned, or turned about z */
     if (s != 0) {
         cosine_q30 = (c * c - s * s) / CAROM_ONE_Q30;
         sine_q30 = 2 * c * s / CAROM_ONE_Q30;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The pad of a board plays with a scene: keys, frame rate, figures. */
 #include "scene_play.h"
 
 #include <string.h>
@@ -6,7 +7,7 @@
 #define FPS         60
 #define UNDRAWN_MAX 3
 
-/* Up and a little off the centre, so that the body turns. */
+/* Upwards, a little off the centre, so that the body turns. */
 #define THROW_MM_S 3500
 #define THROW_X_MM 200
 #define THROW_Y_MM (-300)
@@ -26,7 +27,7 @@ static carom_v3_q40 gravity_of(uint32_t keys)
                            GRAVITY(x != 0 || y != 0 ? TILTED_UP : UPRIGHT)}};
 }
 
-/* The mass is the volume: the scenes give none. */
+/* The mass is the volume: scenes set none. */
 static void throw_up(const struct scene *scene, struct carom_world *world, carom_v3_q32 centre)
 {
     int64_t mass_q16 = scene->body.mesh->mass.volume_q32 >> 16;
@@ -35,7 +36,8 @@ static void throw_up(const struct scene *scene, struct carom_world *world, carom
 
     centre.c[0] += CAROM_POSITION_MM(THROW_X_MM);
     centre.c[1] += CAROM_POSITION_MM(THROW_Y_MM);
-    carom_body_push(world, SCENE_BODY, &impulse, &centre); /* one too fast stays as it is */
+    carom_body_push(world, SCENE_BODY, &impulse,
+                    &centre); /* a body that would become too fast stays as it is */
 }
 
 bool scene_play_keys(struct scene_play *play, const struct scene *scene, struct carom_world *world,
@@ -53,7 +55,7 @@ bool scene_play_keys(struct scene_play *play, const struct scene *scene, struct 
         return false;
     }
     if (scene->game) {
-        return true; /* the other keys are its own */
+        return true; /* a game reads the other keys itself */
     }
     if (pressed & PORT_PAD_A) {
         throw_up(scene, world, state.position);
@@ -73,7 +75,7 @@ bool scene_play_draws(struct scene_play *play)
     }
     while ((int32_t)(port_ticks() - play->due) < 0) {
     }
-    /* time that was lost is not made up for */
+    /* lost time is not made up for */
     play->due = (late ? port_ticks() : play->due) + port_ticks_hz / FPS;
     play->undrawn = 0;
     return true;
@@ -81,7 +83,7 @@ bool scene_play_draws(struct scene_play *play)
 
 /* ------------------------------------------------------------------ figures */
 
-/* Digits, 3 x 5 pixels: a row an octal digit, the top one first. */
+/* Digits of 3 x 5 pixels: an octal digit for each row, the top row first. */
 #define DIGIT_COLUMNS 3
 #define DIGIT_ROWS    5
 static const uint16_t digits[10] = {075557, 026227, 071747, 071717, 055711,
@@ -102,7 +104,7 @@ static void set_pixel(void *row, uint8_t format, int32_t x, bool white)
     }
 }
 
-/* A line of the digits of a number that ends left of column x. */
+/* Draw a number in one line of digits; it ends left of column x. */
 static void put_number(void *row, uint8_t format, int32_t x, int32_t line, uint32_t number)
 {
     do {

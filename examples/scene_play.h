@@ -8,9 +8,8 @@
  *   SELECT  faces or lines, which a display that is sent rows cannot show
  *   START   starts again; so does a body that fell off the ground
  *
- * In a game of scene_games.h A and the arrows are the game's: the car is steered by left and right, driven by
- * up and down and lifted by A; who walks turns by left and right, walks by up and down and jumps by A. Until the first key is pressed
- * they go by themselves.
+ * In a game of scene_games.h, A and the arrows belong to the game. Car: left and right steer, up and down drive, A
+ * lifts it. Walker: left and right turn, up and down walk, A jumps. Until the first key goes down a script plays.
  */
 #ifndef CAROM_SCENE_PLAY_H
 #define CAROM_SCENE_PLAY_H
@@ -20,19 +19,19 @@
 #include "scene.h"
 
 struct scene_play {
-    bool lines, plain; /* lines, not faces; no figures */
-    uint32_t held;     /* keys of the frame before */
-    uint32_t due;      /* ticks at which the frame ends */
-    int undrawn;       /* frames since the last that was drawn */
+    bool lines, plain; /* lines instead of faces; no figures */
+    uint32_t held;     /* keys of the previous frame */
+    uint32_t due;      /* tick at which the frame ends */
+    int undrawn;       /* frames since the last one drawn */
 };
 
-/* Do what the keys ask of the world before a frame; false when the scene is to start again. */
+/* Apply the keys to the world before a frame. False if the scene is to start again. */
 bool scene_play_keys(struct scene_play *play, const struct scene *scene, struct carom_world *world,
                      uint32_t keys);
 
 /*
- * Whether a frame is to be drawn: not when it is late, but for one in four. Waits for the end of a
- * frame that is early.
+ * True if a frame is to be drawn: a late frame is skipped, but never more than three in a row. Waits for the end of a frame
+ * that is early.
  */
 bool scene_play_draws(struct scene_play *play);
 

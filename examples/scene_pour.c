@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pour - a bucket full of things that are not convex is tipped over its lip, into a tray. Right and left tip it and set
- * it up again.
+ * Scene pour: a bucket full of non-convex things is tipped over its lip into a tray. Right and left tip it and set it up
+ * again.
  */
 #include "port.h"
 #include "scene_games.h"
@@ -11,17 +11,17 @@
 /* Meshes: the shapes first. */
 enum { SHAPES = 4, BUCKET = SHAPES, TRAY };
 
-/* mm: the bucket's inside, and the lip, which stays where it is. */
+/* mm: the inside of the bucket, and its lip, which stays in place */
 #define HALF_MM  680
 #define DEEP_MM  900
 #define WALL_MM  60
 #define LIP_X_MM 0
 #define LIP_Z_MM 1650
-#define CELL_MM  440 /* for each thing at first */
+#define CELL_MM  440 /* room for each thing at first */
 #define TRAY_MM  1230
 
 #define CAPS 35, 256, 512, 2048, 0, 4096, 0, 1
-#ifndef BOARD_GAME_CAPS /* a board that has less does not have this scene */
+#ifndef BOARD_GAME_CAPS /* a board that has less lacks this scene */
 _Static_assert(CAROM_WORLD_BYTES(CAPS) <= SCENE_WORLD_BYTES, "it fits where any scene does");
 #endif
 
@@ -36,7 +36,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
         .stationary = true, .position = POSITION(TRAY_MM, 0, 80), .friction_q16 = FRICTION_Q16};
     struct scene_parts parts = {scene, world, CAROM_OK};
 
-    /* layers of three by three, one above the other */
+    /* layers of three by three */
     for (int i = 0; i < POUR_THINGS; i++) {
         thing.position.c[0] = bucket.position.c[0] + CAROM_POSITION_MM(CELL_MM) * (i % 3 - 1);
         thing.position.c[1] = CAROM_POSITION_MM(CELL_MM) * (i / 3 % 3 - 1);
@@ -48,18 +48,18 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return scene_part(&parts, TRAY, &tray);
 }
 
-/* A quarter of the angle has this tangent at most, and goes on by so much a frame. */
+/* Largest tangent of a quarter of the angle, and its change in a frame. */
 #define MOST_Q30 (CAROM_ONE_Q30 / 10 * 7) /* 140 degrees */
 #define STEP_Q30 (MOST_Q30 / 300)
 
-/* It waits until all lie still, tips, waits, and comes back. */
+/* Wait until all lie still, tip, wait, and come back. */
 static uint32_t script(const struct carom_world *world, int frame)
 {
     (void)world;
     return frame > FPS && frame <= 6 * FPS ? PORT_PAD_RIGHT : frame > 7 * FPS ? PORT_PAD_LEFT : 0;
 }
 
-/* The bucket tipped about its lip, by the cosine and the sine of half of the angle. */
+/* The pose of the bucket tipped about its lip, by cosine and sine of half the angle. */
 static struct carom_pose tipped(const struct carom_world *world, int64_t cosine_q30,
                                 int64_t sine_q30)
 {
@@ -77,8 +77,8 @@ static struct carom_pose tipped(const struct carom_world *world, int64_t cosine_
 }
 
 /*
- * The tangent of a quarter of the angle goes on evenly, and so nearly does the angle. With this t, half the angle has
- * the cosine (1 - t^2) / (1 + t^2) and the sine 2 t / (1 + t^2).
+ * The tangent t of a quarter of the angle changes evenly, and so nearly does the angle. Half the angle has the cosine
+ * (1 - t^2) / (1 + t^2) and the sine 2 t / (1 + t^2).
  */
 static int before(struct carom_world *world, int frame, uint32_t keys)
 {
@@ -103,7 +103,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
     return way ? carom_body_move_to(world, POUR_BUCKET, &pose) : CAROM_OK;
 }
 
-/* How many things are over the tray and as low as its walls. */
+/* Count the things above the tray that are as low as its walls. */
 static void say(const struct carom_world *world, char text[SCENE_TEXT])
 {
     int count = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * screw - a nut on a bolt that stands on its head. No joint holds it: thread lies on thread. Its weight turns it down;
+ * Scene screw: a nut on a bolt that stands on its head. No joint holds it: thread lies on thread. Its weight turns it down;
  * up and down turn it as a hand would.
  */
 #include "carom_body.h"
@@ -9,8 +9,8 @@
 
 #define FRICTION_Q16 1300 /* 1/50: a bolt in oil */
 #define HEAD_MM      350
-#define LOW_MM       100                           /* the bolt's end, within its head */
-#define START_MM     (LOW_MM + 5 * SCREW_PITCH_MM) /* the nut, so that both threads fit */
+#define LOW_MM       100                           /* end of the bolt, within its head */
+#define START_MM     (LOW_MM + 5 * SCREW_PITCH_MM) /* height of the nut at which both threads fit */
 _Static_assert(START_MM == HEAD_MM + SCREW_WAY_MM, "what scene_games.h says");
 #define MIDDLE_MM ((HEAD_MM + START_MM) / 2)
 
@@ -28,14 +28,14 @@ static int fill(const struct scene *scene, struct carom_world *world)
     return scene_part(&parts, 2, &head);
 }
 
-/* How high the nut's lower end is. */
+/* Height of the lower end of the nut. */
 static int64_t height_mm(const struct carom_body_state *nut, const struct carom_world *world)
 {
     return CAROM_TO_MM(nut->position.c[2] -
                        carom_body_mesh(world, SCREW_NUT)->mass.centre.c[2] * 1024ll);
 }
 
-/* Nothing on the way down; from the head on it is turned up for half of the way, and goes on by itself. */
+/* The script: nothing on the way down; at the head it turns the nut up for half of the way, and lets go. */
 static uint32_t script(const struct carom_world *world, int frame)
 {
     struct carom_body_state nut;
@@ -50,7 +50,7 @@ static uint32_t script(const struct carom_world *world, int frame)
 static int before(struct carom_world *world, int frame, uint32_t keys)
 {
     const int way = !!(keys & PORT_PAD_UP) - !!(keys & PORT_PAD_DOWN);
-    /* of 1 kg the weight is worth 9.81 N x 0.4 m / 2 pi = 0.62 N m */
+    /* for 1 kg the weight amounts to 9.81 N x 0.4 m / 2 pi = 0.62 N m */
     const carom_v3_q40 torque = {{0, 0, way * CAROM_TORQUE_MN_M(1400, FPS)}};
 
     (void)frame;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The sheet: a shallow bowl that two waves run over, one along x, one along y. */
+/* The sheet: a shallow bowl with two waves, one along x, one along y. */
 #include "scene.h"
 
 /* Half its side, and the heights of rim and waves; a quantum is 1/4096 unit. */

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Someone walks: a kinematic body whose way is asked for before each frame by sweeps of its mesh. Who stands goes up
- * by a step's height, on along what is met, and down onto what is there, and is taken along by that; who does not
- * stand falls. What moves freely is pushed. The velocity of the body is all that it remembers. There are steps, a
- * platform that goes to and fro, a ramp, a mat that opens a door, a block to jump over and a crate.
+ * Scene walker: someone walks. The walker is a kinematic body; before each frame, sweeps of its mesh find its way.
+ *
+ * A walker that stands goes up by the height of a step, on along what it meets, down onto the ground there, and moves
+ * with that ground. One that does not stand falls. It pushes what moves freely. It remembers nothing but the velocity of the
+ * body. The scene has steps, a platform that goes to and fro, a ramp, a mat that opens a door, a block to jump over
+ * and a crate.
  */
 #include "carom_body.h"
 #include "carom_query.h"
@@ -12,7 +14,7 @@
 
 #define FRICTION_Q16 (1u << 15)
 #define CATEGORY_MAT 2
-#define ROOT_HALF    759250125 /* of 1/2, with 30 bits */
+#define ROOT_HALF    759250125 /* root of 1/2, q30 */
 
 enum { MESH_WALKER, MESH_STEPS, MESH_RAMP, MESH_DOOR, MESH_BOX, MESH_MAT };
 
@@ -20,10 +22,10 @@ enum { MESH_WALKER, MESH_STEPS, MESH_RAMP, MESH_DOOR, MESH_BOX, MESH_MAT };
 #define BACK_MM_S  (-800)
 #define JUMP_MM_S  3600
 #define TURN_DEG_S 120
-#define TURN_Q30   18742189                /* the tangent of half of what a frame has of it */
-#define STEP_MM    200                     /* higher than a step of the stairs */
-#define FEEL_MM    20                      /* what is so far below the feet is stood on */
-#define STEEP_Q30  (CAROM_ONE_Q30 / 5 * 4) /* nobody stands where the normal points up by less */
+#define TURN_Q30   18742189 /* tangent of half the turn of a frame */
+#define STEP_MM    200      /* higher than a step of the stairs */
+#define FEEL_MM    20       /* ground at most so far below the feet carries the walker */
+#define STEEP_Q30  (CAROM_ONE_Q30 / 5 * 4) /* cosine: nobody stands where the normal is steeper */
 #define PUSH_MN_S  150
 #define SLIDES     4 /* changes of direction in a frame */
 
@@ -32,7 +34,7 @@ enum { MESH_WALKER, MESH_STEPS, MESH_RAMP, MESH_DOOR, MESH_BOX, MESH_MAT };
 #define PLATFORM_RIGHT_MM 1500
 #define PLATFORM_MM_S     1500
 #define PLATFORM_FRAMES   600
-#define PLATFORM_LEAVES   240 /* the stairs, in that time; then the ramp */
+#define PLATFORM_LEAVES   240 /* frames of a round in which it is at the stairs; then at the ramp */
 #define PLATFORM_RETURNS  450
 /* The door opens by a quarter of a turn. */
 #define DOOR_AT_MM   5000
@@ -55,7 +57,7 @@ static bool is_other(void *context, int body)
 static const struct carom_query_filter only_walker = {.wants = is_walker};
 static const struct carom_query_filter others = {.wants = is_other};
 
-/* A body's mesh where it is. */
+/* The mesh of a body, where the body is. */
 static struct carom_query_mesh mesh_of(const struct carom_world *world, int body,
                                        const struct carom_body_state *state)
 {
@@ -65,7 +67,7 @@ static struct carom_query_mesh mesh_of(const struct carom_world *world, int body
 
 /* ---------------------------------------------------------------- platform, door */
 
-/* On to the end where it belongs at this time, unless the walker is in the way. Returns >= 0 or an error. */
+/* Lead the platform on to the end where it belongs at this time, unless the walker is in the way. Returns >= 0 or an error. */
 static int lead_platform(struct carom_world *world, int frame)
 {
     const int time = frame % PLATFORM_FRAMES;
@@ -93,10 +95,10 @@ static int lead_platform(struct carom_world *world, int frame)
     return carom_body_set(world, WALKER_PLATFORM, &state);
 }
 
-/* Shut it stands across the way, from its hinge at y = -DOOR_HALF_MM to the other side. */
+/* A shut door stands across the way, from its hinge at y = -DOOR_HALF_MM to the other side. */
 static const carom_v3_q32 door_position = POSITION(DOOR_AT_MM, -DOOR_HALF_MM, DOOR_UP_MM);
 
-/* Whether the walker stands on the mat, or an error. */
+/* Check if the walker stands on the mat. Returns 1, 0 or an error. */
 static int on_the_mat(struct carom_world *world)
 {
     static const struct carom_query_filter mats = {.mask = CATEGORY_MAT,
@@ -110,7 +112,7 @@ static int on_the_mat(struct carom_world *world)
     return result < 0 ? result : carom_overlap_mesh(world, &mesh, &mats, found, 1);
 }
 
-/* The door turned by 1.5 degrees, to the right when it opens, but not beyond where it is open or shut. */
+/* The door turned by 1.5 degrees, to the right if it opens, but not past open or shut. */
 static struct carom_pose door_after(const struct carom_world *world,
                                     const struct carom_body_state *state, bool opens)
 {
@@ -132,7 +134,7 @@ static struct carom_pose door_after(const struct carom_world *world,
     return pose;
 }
 
-/* It opens while someone stands on the mat, and shuts, unless the walker is in its way. */
+/* The door opens while someone stands on the mat, and then shuts, unless the walker is in its way. */
 static int lead_door(struct carom_world *world)
 {
     const int opens = on_the_mat(world);
@@ -165,10 +167,10 @@ static int lead_door(struct carom_world *world)
 struct walk {
     struct carom_world *world;
     struct carom_query_mesh mesh;
-    struct carom_mesh_hit hit; /* of the last sweep that met something */
+    struct carom_mesh_hit hit; /* the last sweep that met something */
 };
 
-/* Go along a way until something is met. Returns whether something was, or an error. */
+/* Go along a way until something is met. Returns 1 if something was, 0, or an error. */
 static int sweep(struct walk *walk, const carom_v3_q32 *way)
 {
     const struct carom_mesh_way go = {.way = *way};
@@ -183,7 +185,7 @@ static int sweep(struct walk *walk, const carom_v3_q32 *way)
     return met;
 }
 
-/* The rest of a way after the last hit goes along what was met. Returns whether it is worth going. */
+/* Turn the rest of a way along the face that was hit. True if enough of it is left. */
 static bool go_along(const struct walk *walk, carom_v3_q32 *way)
 {
     const carom_v3_q30 *n = &walk->hit.normal;
@@ -201,7 +203,7 @@ static bool go_along(const struct walk *walk, carom_v3_q32 *way)
     return far;
 }
 
-/* Push what was met, if it moves freely and is beside, not below or above. */
+/* Push what was hit, if it moves freely and is beside the walker, not below or above. */
 static int push(const struct walk *walk)
 {
     struct carom_body_look look;
@@ -219,7 +221,7 @@ static int push(const struct walk *walk)
     return carom_body_push(walk->world, walk->hit.body, &impulse, &walk->hit.point);
 }
 
-/* Go along a way, and along what is met in the plane of it. Returns >= 0 or an error. */
+/* Go along a way, sliding along what is met within the plane of the way. Returns >= 0 or an error. */
 static int slide(struct walk *walk, carom_v3_q32 way)
 {
     int met = 1;
@@ -237,13 +239,13 @@ static int slide(struct walk *walk, carom_v3_q32 way)
     return met;
 }
 
-/* Nobody stands on what was met. */
+/* True if nobody can stand on what was hit. */
 static bool is_steep(const struct walk *walk)
 {
     return walk->hit.normal.c[2] < STEEP_Q30;
 }
 
-/* Whether the walker stands, and the way that the ground takes it along; or an error. */
+/* Check if the walker stands, and how far the ground moves it. Returns 1, 0 or an error. */
 static int stands(struct walk *walk, carom_v3_q32 *way)
 {
     const struct carom_mesh_way down = {.way = POSITION(0, 0, -FEEL_MM)};
@@ -261,8 +263,8 @@ static int stands(struct walk *walk, carom_v3_q32 *way)
 }
 
 /*
- * Up by a step as far as there is room, on, and down onto what is there. Where there is nothing to stand on the way
- * is gone as it is, and a fall begins.
+ * Go up by a step as far as there is room, on, and down onto the ground there. If there is no ground to stand on, go straight
+ * on, and a fall begins.
  */
 static int walk_on(struct walk *walk, carom_v3_q32 way, int64_t fall_q32)
 {
@@ -284,7 +286,7 @@ static int walk_on(struct walk *walk, carom_v3_q32 way, int64_t fall_q32)
     return result;
 }
 
-/* Turn on the spot by what a frame has, unless something is in the way. Returns the spin or 0. */
+/* Turn on the spot by the turn of a frame, unless something is in the way. Returns the spin or 0. */
 static int64_t turn(struct walk *walk, uint32_t keys)
 {
     const int side = !!(keys & PORT_PAD_LEFT) - !!(keys & PORT_PAD_RIGHT);
@@ -296,7 +298,7 @@ static int64_t turn(struct walk *walk, uint32_t keys)
     return side * CAROM_SPIN_DEG_S(TURN_DEG_S, FPS);
 }
 
-/* The way of a frame by the keys: along the x axis of the body. */
+/* The way of a frame by the keys, along the x axis of the body. */
 static int step_of(const struct carom_world *world, uint32_t keys, carom_v3_q32 *way)
 {
     const int64_t pace[3] = {(keys & PORT_PAD_UP     ? CAROM_VELOCITY_MM_S(WALK_MM_S, FPS)
@@ -308,7 +310,7 @@ static int step_of(const struct carom_world *world, uint32_t keys, carom_v3_q32 
     return carom_body_world_vector(world, WALKER, pace, way->c);
 }
 
-/* Where the walker is to go in this frame: its velocity in `state`, in which it begins. Returns >= 0 or an error. */
+/* Set the velocity of the walker for this frame in `state`, which holds where it begins. Returns >= 0 or an error. */
 static int go(struct walk *walk, uint32_t keys, struct carom_body_state *state)
 {
     const carom_v3_q32 from = state->position;
@@ -324,7 +326,9 @@ static int go(struct walk *walk, uint32_t keys, struct carom_body_state *state)
     if (standing && !(keys & PORT_PAD_A)) {
         result = walk_on(walk, way, gravity_q32);
     } else {
-        if (!standing && !(keys & (PORT_PAD_UP | PORT_PAD_DOWN))) { /* as it went before */
+        if (!standing &&
+            !(keys &
+              (PORT_PAD_UP | PORT_PAD_DOWN))) { /* in the air without keys: as it went before */
             way.c[0] = state->velocity.c[0] >> 8;
             way.c[1] = state->velocity.c[1] >> 8;
         }
@@ -349,7 +353,7 @@ static int lead_walker(struct carom_world *world, uint32_t keys)
     }
     walk.mesh = mesh_of(world, WALKER, &state);
     result = go(&walk, keys, &state);
-    if (result == CAROM_ERR_OVERLAP) { /* something came upon the walker while it went there */
+    if (result == CAROM_ERR_OVERLAP) { /* something moved into the walker */
         state.position.c[2] += CAROM_POSITION_MM(5);
         state.velocity = state.spin = (carom_v3_q40){{0, 0, 0}};
         state.overlap = CAROM_OVERLAP_PUSH_OUT;
@@ -368,7 +372,7 @@ static int before(struct carom_world *world, int frame, uint32_t keys)
 
 /* ------------------------------------------------------------------------ script */
 
-/* Where to walk until when, in a round of some platform's; the platform does one part of it. */
+/* Where to walk until when, as part of a round of the platform. */
 #define ROUND_FRAMES (3 * PLATFORM_FRAMES)
 static const struct {
     int16_t until, x_mm, y_mm;
@@ -407,10 +411,10 @@ static uint32_t script(const struct carom_world *world, int frame)
     }
     along = x_q30[0] * way_mm[0] + x_q30[1] * way_mm[1];
     aside = x_q30[0] * way_mm[1] - x_q30[1] * way_mm[0];
-    /* turn at more than 2 degrees, walk at less than 27 */
+    /* turn if off by more than 2 degrees, walk if off by less than 27 */
     keys |= 32 * aside > along ? PORT_PAD_LEFT : -32 * aside > along ? PORT_PAD_RIGHT : 0;
     keys |= along > 2 * aside && along > -2 * aside ? PORT_PAD_UP : 0;
-    /* jump in front of the block */
+    /* jump before the block */
     keys |= at_mm[1] < BLOCK_Y_MM + 300 && at_mm[0] > 500 && at_mm[0] < 1000 ? PORT_PAD_A : 0;
     return keys;
 }
@@ -418,8 +422,8 @@ static uint32_t script(const struct carom_world *world, int frame)
 /* ------------------------------------------------------------------------- parts */
 
 /*
- * Beside the walker and a little behind. It goes along by steps, between which it stands still: then there is little to
- * draw in a frame.
+ * A camera beside the walker and a little behind. It moves in steps and stands still between them, so that a frame has
+ * little to draw.
  */
 static void look(const struct carom_world *world, struct carom_camera *camera)
 {
@@ -450,7 +454,7 @@ static int fill(const struct scene *scene, struct carom_world *world)
         {MESH_WALKER, {.kinematic = true, .position = POSITION(-5500, 0, 880)}},
         {MESH_STEPS, {.stationary = true, .position = POSITION(-4000, 0, 0)}},
         {MESH_BOX, {.kinematic = true, .position = POSITION(PLATFORM_LEFT_MM, 0, 300)}},
-        /* it leads down: half a turn */
+        /* a ramp that leads down: turned by half a turn */
         {MESH_RAMP,
          {.stationary = true,
           .position = POSITION(4050, 0, 0),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scene on show, its time, and its pictures. */
+/* The viewer: the scene on show, its time, and its pictures. */
 #include "view.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 
 /* ------------------------------------------------------------------- memory */
 
-/* The largest mesh that scene `user` may have. */
+/* Size of the largest mesh of scene `user`. */
 #define USER_VERTICES 24000
 #define USER_FACES    (2 * USER_VERTICES)
 #define USER_MESH_BYTES                                                                            \
@@ -30,11 +30,11 @@ static struct {
     struct carom_mesh_raw user; /* of scene `user` */
     struct scene scene;
     struct show show;
-    struct carom_world *world; /* NULL: no scene is open */
+    struct carom_world *world; /* NULL if no scene is open */
     int32_t steps;
-    int error; /* of the last step; CAROM_OK: it goes on */
+    int error; /* of the last step; CAROM_OK: the scene goes on */
     bool paused;
-    int32_t slow, calls; /* a step every so many calls, and those since the last one */
+    int32_t slow, calls; /* a step every `slow` calls; calls since the last step */
     uint32_t toggles;
     struct carom_stats stats;
     char says[SCENE_TEXT];
@@ -44,7 +44,7 @@ static struct {
 static struct carom_drawn_body drawn_bodies[BODIES_ROOM];
 static struct carom_drawn drawn;
 
-/* Nothing of the last picture is to be kept. */
+/* Forget the last picture. */
 static void forget_picture(void)
 {
     drawn = (struct carom_drawn){.bodies = drawn_bodies, .room = BODIES_ROOM};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is done to the world: each act has the frame before whose step it is done, so that it can be done again. */
+/* Acts: what the viewer does to the world. Each act keeps the frame before whose step it is done, so that it can be done again. */
 #include "carom_body.h"
 #include "scene.h"
 #include "view_parts.h"
@@ -16,7 +16,7 @@ const uint8_t view_act_numbers[VIEW_ACT_KINDS] = {
 
 static uint32_t keys_held = SCENE_NOBODY;
 static uint32_t keys_wanted;
-static bool hand_wanted; /* whether the acts that are noted leave the hand closed */
+static bool hand_wanted; /* the noted acts leave the hand closed */
 
 bool view_act_is_sound(const struct view_act *act)
 {
@@ -57,7 +57,7 @@ uint32_t view_acts_keys(void)
 
 /* ------------------------------------------------------------------- noting */
 
-/* The same kind of act twice before a frame is one. Returns whether there is room. */
+/* Note an act. The same kind of act twice before a frame is one. True if there is room. */
 static bool note(struct view_act act)
 {
     struct view_act *last =

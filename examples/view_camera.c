@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The camera: the scene's own until somebody turns it. From then on it is about the scene's target by an arm, two angles
- * and a length, so that it goes with a game's player; panning moves the target.
+ * The camera: the scene's own until somebody turns it. From then on an arm holds it, two angles and a length from the scene's
+ * target, so it goes with a game's player. Panning moves the target.
  */
 #include "view_parts.h"
 
@@ -11,7 +11,7 @@
 #define LENGTH_MOST     ((int64_t)2000 << 32)
 #define SHIFT_LIMIT     ((int64_t)2000 << 32)
 
-/* An angle, by cosine and sine. */
+/* An angle as cosine and sine. */
 struct angle {
     int64_t cosine_q30, sine_q30;
 };
@@ -37,7 +37,7 @@ static int64_t root(uint64_t v)
     return (int64_t)found;
 }
 
-/* The length of two sides, and the angle between their sum and the first one. |x|, |y| < 2^50. */
+/* Length of two sides, and the angle between their sum and the first one. |x|, |y| < 2^50. */
 static int64_t measure(int64_t x, int64_t y, struct angle *angle)
 {
     int shift = 0;
@@ -47,7 +47,7 @@ static int64_t measure(int64_t x, int64_t y, struct angle *angle)
         shift++;
     }
     while (shift <= 0 && most > 0 &&
-           most << -shift < 1 << 29) { /* small ones with all their digits */
+           most << -shift < 1 << 29) { /* keep all digits of small sides */
         shift--;
     }
     x = shift < 0 ? carom_shl(x, -shift) : x >> shift;
@@ -58,7 +58,7 @@ static int64_t measure(int64_t x, int64_t y, struct angle *angle)
     return shift < 0 ? length >> -shift : length << shift;
 }
 
-/* Turn by pixels, the tangent of half of the angle being `half`: (1 - t t) / (1 + t t), 2 t / (1 + t t). */
+/* Turn by pixels; `half` is the tangent of half the angle: (1 - t t) / (1 + t t), 2 t / (1 + t t). */
 static struct angle turned(struct angle a, int32_t pixels)
 {
     const int64_t limit = PIXELS_A_RADIAN;
@@ -68,7 +68,7 @@ static struct angle turned(struct angle a, int32_t pixels)
     const int64_t cosine = (CAROM_ONE_Q30 - square) * CAROM_ONE_Q30 / under;
     const int64_t sine = 2 * half * CAROM_ONE_Q30 / under;
 
-    /* and of length 1 again, which roundings change */
+    /* normalise, because roundings change the length */
     measure((a.cosine_q30 * cosine - a.sine_q30 * sine) >> 30,
             (a.sine_q30 * cosine + a.cosine_q30 * sine) >> 30, &a);
     return a;
@@ -87,7 +87,7 @@ void view_home(void)
     view_camera_reset();
 }
 
-/* The scene's camera becomes the arm. */
+/* Take the scene's camera as the arm. */
 static void take(void)
 {
     const struct carom_camera *scene = view_scene_camera();
@@ -127,7 +127,7 @@ void view_zoom(int32_t steps)
     }
 }
 
-/* Right in the picture is square to the arm and level; up is square to both. */
+/* Right in the picture is perpendicular to the arm and level; up is perpendicular to both. */
 void view_pan(int32_t x, int32_t y)
 {
     const int32_t focal_q16 = view_scene_camera()->focal_q16, height = view_picture()->height;
@@ -140,7 +140,7 @@ void view_pan(int32_t x, int32_t y)
     }
     turn = arm.turn;
     rise = arm.rise;
-    /* a pixel at the target: its distance over the focal length in pixels; in q16 moves are below 2^31 */
+    /* a pixel at the target: its distance over the focal length in pixels; in q16, moves are below 2^31 */
     pixel_q32 = arm.length_q32 / focal_q16 * (1 << 16) / height;
     right = -(int64_t)x * pixel_q32 >> 16;
     up = (int64_t)y * pixel_q32 >> 16;

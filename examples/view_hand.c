@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The hand: a spring, critically damped, between a place of a body and one of the world. It is an impulse before each
- * step, so that the place p of velocity v has the velocity v + d / 16 - 7 v / 16 after it, d being the way to the hand.
- * Then p nears the hand by a quarter of d a frame at last, and does not swing: 1 - 7/16 is the square of 3/4, and 1/16
- * that of 1/4. Gravity is borne on top of that; and a part of the spin is taken off, or what hangs would swing on.
+ * The hand: a critically damped spring between a place of a body and a place of the world.
+ *
+ * It is an impulse before each step that changes the velocity v of the place to v + d / 16 - 7 v / 16, where d is the way to
+ * the hand. Then the place nears the hand by a quarter of d a frame, and does not swing: 1 - 7/16 is the square of 3/4,
+ * and 1/16 that of 1/4. The hand also carries the weight, and takes off a part of the spin, or a hanging body would swing on.
  */
 #include "carom_body.h"
 #include "view_parts.h"
@@ -11,7 +12,7 @@
 #define PULL_SHIFT 4 /* 1/16 */
 #define DAMP_16    7
 #define SPIN_SHIFT 4                  /* 1/16 of it */
-#define WAY_LIMIT  ((int64_t)2 << 40) /* which bounds the speed at 2/7 units a frame, 17 a second */
+#define WAY_LIMIT  ((int64_t)2 << 40) /* bounds the speed at 2/7 units a frame, 17 a second */
 #define GAIN_LIMIT ((int64_t)2 << 40) /* units a frame */
 #define SUM_LIMIT  ((int64_t)1 << 33)
 
@@ -30,7 +31,7 @@ void view_hand_grab(const struct carom_world *world, int body, const carom_v3_q3
 
 /* ------------------------------------------------------------------- reach */
 
-/* Shift all three to the right by as much as leaves the largest one below 2^bits. */
+/* Shift all three to the right until the largest is below 2^bits. */
 static void shorten(int64_t v[3], int bits)
 {
     int64_t most = 0;
@@ -71,7 +72,7 @@ bool view_hand_reach(int32_t x, int32_t y)
         over += ahead[k] * ((view_hand_at.c[k] - ray.from.c[k]) >> 16);
         under += ahead[k] * way[k];
     }
-    /* a part of the way below 2^30: the product below 2^61 */
+    /* a part of the way, below 2^30: the product is below 2^61 */
     if (over <= 0 || under >> 21 == 0 || over >> 52) {
         return false;
     }
@@ -92,7 +93,7 @@ static int64_t limited(int64_t v, int64_t limit)
     return v < -limit ? -limit : v > limit ? limit : v;
 }
 
-/* out = m v; cut to SUM_LIMIT. |v| < 2^30, and what m has is below 2^30. */
+/* out = m v, cut to SUM_LIMIT. |v| < 2^30, and entries of m are below 2^30. */
 static void sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3])
 {
     static const uint8_t at[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -107,7 +108,7 @@ static void sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v
     }
 }
 
-/* What the place is to gain in velocity. */
+/* The velocity that the place is to gain. */
 static void wanted(const carom_v3_q32 *point, const carom_v3_q40 *velocity, int64_t gain_q40[3])
 {
     const struct carom_config config = scene_config();
@@ -126,8 +127,8 @@ static void wanted(const carom_v3_q32 *point, const carom_v3_q40 *velocity, int6
 }
 
 /*
- * How much lighter a body is for an impulse at a place than by itself: 1 + (r x u) J^-1 (r x u), with r from the centre to the
- * place, the unit vector u along the impulse and J the inertia over the mass. In q20.
+ * How much lighter a body is for an impulse at a place than at its centre: 1 + (r x u) J^-1 (r x u), in q20. r leads from the
+ * centre to the place, the unit vector u along the impulse, and J is the inertia over the mass.
  */
 static int64_t lightness_q20(const struct carom_mesh *mesh, const int64_t local_q32[3],
                              const int64_t along[3])
@@ -138,7 +139,7 @@ static int64_t lightness_q20(const struct carom_mesh *mesh, const int64_t local_
         r_q20[k] = (local_q32[k] >> 12) - (mesh->mass.centre.c[k] >> 2);
         u[k] = along[k];
     }
-    shorten(r_q20, 26); /* of a place on a body: nothing */
+    shorten(r_q20, 26); /* no effect for a place on a body */
     shorten(u, 20);
     for (int k = 0; k < 3; k++) { /* r x u below 2^27 */
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -153,7 +154,7 @@ static int64_t lightness_q20(const struct carom_mesh *mesh, const int64_t local_
     return (1 << 20) + (length2 >> 20 ? sum / (length2 >> 20) : 0);
 }
 
-/* An impulse that gives the place that velocity, along its own direction. */
+/* Push the place so that it gains that velocity, along its own direction. */
 static void pull(struct carom_world *world, const carom_v3_q32 *point, const int64_t gain_q40[3],
                  uint32_t mass_q20)
 {
@@ -166,10 +167,11 @@ static void pull(struct carom_world *world, const carom_v3_q32 *point, const int
     for (int k = 0; k < 3; k++) { /* a gain is up to 2^41, a mass up to 2^30 */
         impulse.c[k] = ((gain_q40[k] * (1 << 20) / light_q20) >> 12) * (int64_t)mass_q20 >> 8;
     }
-    carom_body_push(world, view_hand.body, &impulse, point); /* too fast: it stays as it is */
+    carom_body_push(world, view_hand.body, &impulse,
+                    point); /* a body that would become too fast stays as it is */
 }
 
-/* Take 1/16 of the angular momentum off. */
+/* Take off 1/16 of the angular momentum. */
 static void calm_spin(struct carom_world *world, const carom_v3_q40 *spin, uint32_t mass_q20)
 {
     const struct carom_mesh *mesh = carom_body_mesh(world, view_hand.body);

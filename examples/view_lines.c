@@ -10,14 +10,14 @@
 
 /* --------------------------------------------------------------------- cells */
 
-/* The z-lists of a body that are asked about another one. */
+/* The z-lists of a body that are searched for another one. */
 struct asked {
     const struct carom_world *world;
     int body;
     const struct carom_mesh *mesh;
     const struct carom_face_ref *hot; /* its interfering faces, in order */
     int hot_count;
-    int32_t low[3], high[3]; /* a box around the other one, quanta of the mesh */
+    int32_t low[3], high[3]; /* box around the other body, quanta of the mesh */
     struct carom_debug_lines *lines;
 };
 
@@ -37,7 +37,7 @@ static bool is_hot(const struct asked *q, uint16_t face)
     return low < q->hot_count && q->hot[low].face == face;
 }
 
-/* A square of the mesh's axes, at a height. */
+/* Draw a square in the mesh's axes, at a height. */
 static void draw_cell(const struct asked *q, int32_t x, int32_t y, int32_t z, uint32_t colour)
 {
     const int bits = 32 - q->mesh->raw.quantum_bits;
@@ -57,7 +57,7 @@ static void draw_cell(const struct asked *q, int32_t x, int32_t y, int32_t z, ui
     }
 }
 
-/* A cell at its highest entry near the other body, if it has one. */
+/* Draw a cell at its highest entry near the other body, if it has one. */
 static void show_cell(const struct asked *q, int32_t column, int32_t row)
 {
     const struct carom_mesh *mesh = q->mesh;
@@ -105,7 +105,7 @@ static void show_cells(const struct asked *q)
     }
 }
 
-/* The box around the sphere of body a in the axes of the mesh that is asked; a surface has everything below it. */
+/* The box around the sphere of body a, in the axes of the mesh that is searched; a surface includes everything below it. */
 static bool find_box(struct asked *q, const struct carom_body_look *a)
 {
     const int bits = 32 - q->mesh->raw.quantum_bits;
@@ -132,7 +132,7 @@ static bool find_box(struct asked *q, const struct carom_body_look *a)
     return true;
 }
 
-/* Of two bodies that move the one with the lower number is asked; else the one that does not. */
+/* Of two moving bodies the one with the lower number is searched; otherwise the stationary one. */
 void view_cells(const struct carom_world *world, struct carom_paint *paint)
 {
     static struct carom_paint_line room[VIEW_LINES_MAX];
@@ -182,7 +182,7 @@ static void line(const struct carom_picture *picture, const carom_v3_q32 *from,
     carom_draw_line(view_camera(), picture, from, &to, colour, touched);
 }
 
-/* A small cross, square to the normal. */
+/* A small cross, perpendicular to the normal. */
 static void cross(const struct carom_picture *picture, const struct carom_contact *c,
                   int64_t size_q32, struct carom_rect *touched)
 {
@@ -200,7 +200,7 @@ static void cross(const struct carom_picture *picture, const struct carom_contac
 }
 
 /*
- * The impulse as a length: a quarter of the body's radius where it is the body's weight over a frame, up to four radii.
+ * Length of the line for an impulse: a quarter of the body's radius for its weight over a frame, at most four radii.
  */
 static int64_t impulse_length(const struct carom_world *world, const struct carom_contact *c,
                               int64_t radius_q32)
@@ -214,7 +214,7 @@ static int64_t impulse_length(const struct carom_world *world, const struct caro
     if (weight_q40 < 1 << 8) {
         return 0;
     }
-    /* impulses are cut to 2^10 weights, so that 2^14 times that stays in range */
+    /* impulses are cut to 2^10 weights, so 2^14 times that stays in range */
     length = c->impulse_q40 >> 10 > weight_q40 ? 1 << 14 : c->impulse_q40 * 16 / weight_q40;
     length = (radius_q32 >> 6) * length;
     return length > 4 * radius_q32 ? 4 * radius_q32 : length;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Links: the scene's name, and where there are acts '~', their number and they themselves. A number is five bits a digit,
- * the lowest first, and a sixth bit while more follow; digits are those of base64 for addresses (RFC 4648). An act is
- * 4 times the frames since the last one and its kind, then its numbers, each as what differs from that of the last act of
- * the kind; signs are in the lowest bit.
+ * Links: the scene's name and, if there are acts, '~', their number and the acts. A number has five bits a digit, the lowest
+ * first, and a sixth bit while more follow; digits are those of base64 for addresses (RFC 4648). An act is 4 times the frames since
+ * the last act plus its kind, then its numbers, each as the difference to that of the last act of the kind. Signs are in the
+ * lowest bit.
  */
 #include <string.h>
 
@@ -15,7 +15,7 @@
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
-/* What the next act differs from. */
+/* The last act of each kind, for differences. */
 struct before {
     int32_t frame;
     int32_t n[VIEW_ACT_KINDS][4];
@@ -25,7 +25,7 @@ struct before {
 
 struct writer {
     char *text;
-    size_t room, length; /* a 0 is not counted; more than there is room for: it does not fit */
+    size_t room, length; /* the final 0 is not counted; a length above the room: it does not fit */
 };
 
 static void put(struct writer *w, char c)
@@ -91,7 +91,7 @@ struct reader {
     bool ok;
 };
 
-/* What a digit stands for; -1 for what is none. */
+/* The value of a digit; -1 for any other character. */
 static int digit_of(char c)
 {
     for (int i = 0; i < 64; i++) {
@@ -145,7 +145,7 @@ static void take_act(struct reader *r, struct before *before, struct view_act *a
     act->frame = before->frame = r->ok ? (int32_t)frame : 1;
 }
 
-/* The acts of a link, to `list` or, NULL, for a look; how many, or -1 for what is none. */
+/* Read the acts of a link, into `list` if it is not NULL. Returns how many, or -1 for a text that is no link. */
 static int64_t take_acts(const char *text, struct view_act *list)
 {
     struct reader r = {text, true};
@@ -162,7 +162,7 @@ static int64_t take_acts(const char *text, struct view_act *list)
     return r.ok && !*r.at ? (int64_t)count : -1;
 }
 
-/* Whether scene.h knows it, and it needs no mesh of the caller's. */
+/* True if scene.h knows the scene, and it needs no mesh of the caller's. */
 static bool is_scene(const char *name)
 {
     for (int i = 0; scene_name(i); i++) {

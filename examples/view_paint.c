@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the toggles change of how a scene looks: interfering faces, shadows, leaves. */
+/* How the toggles change the look of a scene: interfering faces, shadows, leaves. */
 #include <string.h>
 
 #include "view_parts.h"
@@ -10,7 +10,7 @@
 #define BODIES_MAX      1024
 #define RAMPS_MAX       64
 
-/* Faces of a mesh by the ramps of their leaves. */
+/* Faces of a mesh, by the ramps of their leaves. */
 struct leaf_faces {
     const struct carom_mesh *mesh;
     uint32_t first;
@@ -22,7 +22,7 @@ static uint32_t leaf_mesh_count, leaf_face_count;
 static struct carom_body_paint bodies[BODIES_MAX];
 static uint32_t palette[RAMPS_MAX * CAROM_RAMP_SHADES];
 
-/* The ramps of a mesh's faces, from `ramp` on; NULL when there is no room. */
+/* The ramps of a mesh's faces, from `ramp` on; NULL if there is no room. */
 static const uint8_t *faces_of(const struct carom_mesh *mesh, uint8_t ramp)
 {
     uint8_t *faces = &leaf_ramps[leaf_face_count];
@@ -47,7 +47,7 @@ static const uint8_t *faces_of(const struct carom_mesh *mesh, uint8_t ramp)
     return faces;
 }
 
-/* The scene's palette and behind it a ramp for every seventh leaf. */
+/* The scene's palette, and behind it a ramp for every seventh leaf. */
 static void paint_leaves(const struct carom_world *world, struct carom_paint *paint)
 {
     static const uint32_t rgb[LEAF_RAMPS] = {0x4c8bd0, 0xd8a03c, 0x58a868, 0xb46fb8,

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* Text over the picture, and bars: what each stage takes of the time that a frame has. */
+/* Text over the picture, and bars: the part of a frame's time that each stage takes. */
 #include <string.h>
 
 #include "scene_games.h"
 #include "view_parts.h"
 
-#define ROWS      (CAROM_STAGE_COUNT + 2) /* the stages, all of them, the picture */
-#define MEAN_BITS 4                       /* of about 16 steps */
+#define ROWS      (CAROM_STAGE_COUNT + 2) /* the stages, their sum, the picture */
+#define MEAN_BITS 4                       /* over about 16 steps */
 #define TICK_BITS 8
 #define MARGIN    4
 #define NAME_LINE 12 /* characters before a bar */
 #define BAR_CELLS 22
 #define LINE_TEXT 64
 
-static uint64_t took[ROWS]; /* ticks, with TICK_BITS more */
+static uint64_t took[ROWS]; /* ticks, with TICK_BITS more bits */
 static bool stepped, drew;
 static const char *note;
 
@@ -70,7 +70,7 @@ static void touch(struct carom_rect *all, int32_t x0, int32_t y0, int32_t x1, in
     all->y1 = (int16_t)(y1 > all->y1 ? y1 : all->y1);
 }
 
-/* Fill a rectangle; with colour 0 make it as dark as a third. */
+/* Fill a rectangle; colour 0 darkens it to a third. */
 static void fill(const struct pen *pen, int32_t x, int32_t y, int32_t width, int32_t height,
                  uint32_t rgb)
 {
@@ -111,7 +111,7 @@ static int32_t cells(const struct pen *pen, int32_t count)
 
 /* ---------------------------------------------------------------------- bars */
 
-/* A frame's time, or a part of it that holds all that was taken; says which. */
+/* A frame's time, or the least part of it that holds all that was taken. */
 static uint64_t scale_of(uint64_t most, int *part_bits)
 {
     uint64_t full = ((uint64_t)port_ticks_hz << TICK_BITS) / FPS;
@@ -138,7 +138,7 @@ static void say_head(char text[LINE_TEXT], uint64_t full, int part_bits)
     text = scene_say_number(text + 5, 1 << part_bits, " of a frame");
 }
 
-/* The picture, which is no part of a step, has no bar. */
+/* The picture has no bar: it is no part of a step. */
 static void draw_bar(const struct pen *pen, int row, int32_t y, uint64_t full)
 {
     const int32_t width = cells(pen, BAR_CELLS), x = MARGIN * 2 + cells(pen, NAME_LINE);
@@ -157,7 +157,7 @@ static void draw_bar(const struct pen *pen, int row, int32_t y, uint64_t full)
     write(pen, x + width + MARGIN, y, text);
 }
 
-/* At the bottom left. */
+/* Draw at the bottom left. */
 static void draw_bars(const struct pen *pen)
 {
     const int32_t top = pen->picture->height - lines(pen, ROWS + 1) - 3 * MARGIN;
@@ -214,7 +214,7 @@ static void draw_text(const struct pen *pen)
     write(pen, 2 * MARGIN, 2 * MARGIN, text);
 }
 
-/* A game's line, without the rest. */
+/* Draw a game's line alone. */
 static void draw_says(const struct pen *pen)
 {
     if (view_says()[0]) {

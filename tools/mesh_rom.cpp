@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Indexed meshes as C source, to lie in ROM. */
 #include "mesh_rom.hpp"
 
 #include <sstream>

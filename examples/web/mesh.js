@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes from files: corners as numbers, faces as triangles; what the engine is given is in int16.
+// Meshes from files: corners as numbers, faces as triangles, converted to int16 for the engine.
 "use strict";
 
 const MESH_REACH = 30000; // of int16, half of the largest side
@@ -48,7 +48,7 @@ function readStl(buffer) {
     return { corners, faces };
 }
 
-// The same in int16, corners of one place united, triangles without three corners left out.
+// The same in int16, with equal corners united and triangles without three corners left out.
 function quantize({ corners, faces }) {
     if (faces.length === 0) {
         throw new Error("There are no faces in this file.");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page does: lists, buttons, pointers and the clock. A link is the viewer's text, the frame and the hash.
+// The page: lists, buttons, pointers and the clock. A link is the viewer's text, the frame and the hash.
 const TOGGLES = [["Interfering faces", 1], ["Contacts", 2], ["Z-list cells", 4], ["Leaves", 8], ["Wireframe", 16], ["Shadows", 32],
     ["Bars", 64], ["Text", 128]];
 const KEYS = { ArrowRight: 16, ArrowLeft: 32, ArrowUp: 64, ArrowDown: 128, KeyX: 1, KeyZ: 2, KeyY: 2, Enter: 8, ShiftLeft: 4 };
@@ -53,7 +53,7 @@ function startPage(engine) {
         at("known").textContent = known ? `Boards end frame ${known.frame} of this scene in ${known.hash}.`
             : "The boards' tests have no state of this scene.";
         at("check").hidden = !known;
-        if (view.scene !== scene()) { // what the last scene showed goes on, but for what this one looks best with
+        if (view.scene !== scene()) { // toggles stay as they are, except those that suit the new scene
             toggle(its, view, (view.toggles & ~33) | its.view_usual());
             view.scene = scene();
         }
@@ -92,7 +92,7 @@ function startPage(engine) {
         began();
     });
 
-    // LINK/FRAME/HASH, or a scene's name alone.
+    // LINK/FRAME/HASH, or only a scene's name.
     const follow = guard((hash) => {
         const [link, count, state, more] = decodeURIComponent(hash).split("/");
         if (count === undefined && engine.scenes.some(({ name }) => name === link)) {
@@ -181,7 +181,7 @@ function startPage(engine) {
         });
     }
 
-    // A browser's clock is coarse: means of many frames say more than one.
+    // A browser's clock is coarse, so show means of many frames.
     function measure() {
         for (let i = 0; i < at("bars").children.length; i++) {
             view.took[i] = (view.took[i] || 0) * 0.95 + its.page_took(i) * 0.05;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* A clock of an Arm Cortex-M: SysTick, extended from 24 to 32 bits. */
 #include "arm/systick.h"
 
 #include "port.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Write the framebuffer to a picture file, through semihosting. */
 #include "picture.h"
 
 #include <stdio.h>

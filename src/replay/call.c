@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Calls as bytes: one description of each serves who writes and who reads it. */
+/* Calls as bytes: one description of each call serves the writer and the reader. */
 #include "call.h"
 
 /* ------------------------------------------------------------------- numbers */
@@ -16,7 +16,7 @@ static uint8_t code_byte(struct replay_coder *c, uint8_t byte)
     return c->out ? c->out[c->at++] : c->in[c->at++];
 }
 
-/* Seven bits a byte, the lowest first; the sign is the lowest bit of all, so that small numbers are short. */
+/* Seven bits a byte, the lowest first. The sign is the lowest bit of all, so small numbers are short. */
 static uint64_t fold_sign(int64_t v)
 {
     return v < 0 ? ~((uint64_t)v << 1) : (uint64_t)v << 1;
@@ -115,7 +115,7 @@ static void code_config(struct replay_coder *c, struct carom_config *g)
     code_u8(c, &g->substep_cap);
     code_u8(c, &g->sweep_cap);
     code_bool(c, &asks);
-    if (c->in) { /* the player puts its own function there */
+    if (c->in) { /* the player sets its own function */
         g->contact_user = asks ? g : NULL;
     }
 }
@@ -209,7 +209,7 @@ void replay_joint(struct replay_coder *c, struct joint *j)
 
 /* --------------------------------------------------------------------- calls */
 
-/* Arguments of the calls that act by a vector, a place or numbers. */
+/* Arguments of calls that act by a vector, a place or numbers. */
 static void code_act(struct replay_coder *c, struct replay_call *call)
 {
     switch (call->op) {

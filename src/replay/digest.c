@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Digests: one number a stage, of all that the stage found in a step. */
+/* Digests: for each stage, one number of all that the stage found in a step. */
 #include "../num/fnv.h"
 #include "../world/world.h"
 #include "call.h"

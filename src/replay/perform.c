@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The calls themselves, for who records and who plays. */
+/* Make a recorded call on a world. The recorder and the player use this. */
 #include "call.h"
 
 static int do_act(struct carom_world *w, const struct replay_call *c)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Playing: the calls of a file are made again, and what comes of them is compared. No byte of it is trusted. */
+/* Playing: make the calls of a file again and compare the results. No byte of the file is trusted. */
 #include "play.h"
 
 static bool next_is(const struct carom_replay *p, uint8_t token)
@@ -7,7 +7,7 @@ static bool next_is(const struct carom_replay *p, uint8_t token)
     return p->run == 0 && p->at < p->bytes && p->file[p->at] == token;
 }
 
-/* The first difference of a frame is the one that is told. */
+/* Keep the first difference of a frame. */
 static void differ(struct carom_replay *p, int difference, int64_t wanted, int64_t found)
 {
     if (p->difference == CAROM_REPLAY_SAME) {
@@ -19,7 +19,7 @@ static void differ(struct carom_replay *p, int difference, int64_t wanted, int64
 
 /* ----------------------------------------------------------------------- contacts */
 
-/* Answers as the program did: what is next in the file, if it is about this question. */
+/* Answer as the program did, if the next bytes of the file are about this question. */
 static bool answer_as_recorded(void *user, struct carom_touch *touch)
 {
     struct carom_replay *p = (struct carom_replay *)user;
@@ -63,7 +63,7 @@ static int make_world(struct carom_replay *p, struct replay_call *call)
                                                                              : CAROM_OK;
 }
 
-/* What the step left against what it left when it was recorded. */
+/* Compare the state after a step with the recorded one. */
 static int check(struct carom_replay *p)
 {
     struct replay_coder c = play_rest(p);
@@ -91,7 +91,7 @@ static int check(struct carom_replay *p)
     return p->difference == CAROM_REPLAY_SAME ? CAROM_REPLAY_FRAME : CAROM_REPLAY_DIFFERS;
 }
 
-/* What a call returned against what it did when it was recorded. */
+/* Compare the result of a call with the recorded one. */
 static int compare_result(struct carom_replay *p, int result)
 {
     int64_t wanted = 0;
@@ -110,7 +110,7 @@ static int compare_result(struct carom_replay *p, int result)
         }
     }
     if (result != wanted && p->run == 0 && p->at >= p->bytes) {
-        return CAROM_REPLAY_CUT; /* before the result was written */
+        return CAROM_REPLAY_CUT; /* the program ended before the result was written */
     }
     if (result != wanted) {
         differ(p, CAROM_REPLAY_IN_RESULT, wanted, result);
@@ -118,7 +118,7 @@ static int compare_result(struct carom_replay *p, int result)
     return CAROM_OK;
 }
 
-/* Make a call and compare its result; an error of the file, or how a step went, or CAROM_OK. */
+/* Make a call and compare its result. Returns an error of the file, the outcome of a step, or CAROM_OK. */
 static int perform(struct carom_replay *p, struct replay_call *call)
 {
     struct carom_mesh **mesh = NULL;
@@ -137,13 +137,13 @@ static int perform(struct carom_replay *p, struct replay_call *call)
     }
     result = replay_result(call->op, replay_do(p->world, call));
     if (mesh && (*mesh)->surface) {
-        *mesh = NULL; /* such a mesh is one body's */
+        *mesh = NULL; /* such a mesh belongs to one body */
     }
     result = compare_result(p, result);
     return result == CAROM_OK && call->op == CAROM_CALL_world_step ? check(p) : result;
 }
 
-/* A call of a slot. */
+/* Play a call of a slot. */
 static int perform_again(struct carom_replay *p, uint8_t slot)
 {
     const struct carom_replay_slot *s = &p->memory.slots[slot];
@@ -158,7 +158,7 @@ static int perform_again(struct carom_replay *p, uint8_t slot)
     return c.bad ? CAROM_ERR_FORMAT : perform(p, &call);
 }
 
-/* A call that is written out. */
+/* Play a call that is written in full. */
 static int perform_new(struct carom_replay *p, uint8_t op)
 {
     const uint8_t *bytes = p->file + p->at - 1;
@@ -181,7 +181,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
     return result < 0 ? result : perform(p, &call);
 }
 
-/* The end: is it that of this file? */
+/* Check that the end fits the file. */
 static int end(struct carom_replay *p)
 {
     const uint32_t sum = replay_sum(REPLAY_SUM_START, p->file, p->bytes >= 4 ? p->bytes - 4 : 0);

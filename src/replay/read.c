@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* What a recording holds beside calls: meshes, and the data that follow a call. No byte of it is trusted. */
+/* Reading what a recording holds beside calls: meshes, and the data behind a call. No byte of it is trusted. */
 #include "play.h"
 
 /* ------------------------------------------------------------------ memory, bytes */
 
-/* Room that stays taken; NULL when there is none left. */
+/* Memory that stays taken; NULL if there is none left. */
 static void *take(struct carom_replay *p, size_t bytes)
 {
     const size_t rounded = (bytes + 7) / 8 * 8;
@@ -17,7 +17,7 @@ static void *take(struct carom_replay *p, size_t bytes)
     return at;
 }
 
-/* A block that the next call may have again. */
+/* A block that the next call may use again. */
 void *play_take_again(struct carom_replay *p, uint8_t **block, size_t *had, size_t bytes)
 {
     if (!*block || *had < bytes) {
@@ -32,7 +32,7 @@ struct replay_coder play_rest(const struct carom_replay *p)
     return (struct replay_coder){.in = p->file + p->at, .size = p->bytes - p->at};
 }
 
-/* How much was read; true if all of it was there and meant something. */
+/* Advance past what was read. True if all bytes were there and meant something. */
 bool play_done(struct carom_replay *p, const struct replay_coder *c)
 {
     p->at += c->at;
@@ -48,7 +48,7 @@ static void read_vertices(struct replay_coder *c, int16_t (*out)[3], uint32_t co
     }
 }
 
-/* A mesh that is read. */
+/* Read a mesh. */
 struct mesh_parts {
     bool moving;
     struct carom_mesh_raw raw;
@@ -59,7 +59,7 @@ struct mesh_parts {
     void *block;
 };
 
-/* Room for a mesh and for what it is built of; false when there is none. */
+/* Make room for a mesh and its index; false if there is none. */
 static bool take_mesh(struct carom_replay *p, struct mesh_parts *m)
 {
     m->bytes = m->moving ? CAROM_SURFACE_BYTES(m->raw.vertex_count, m->raw.face_count)
@@ -104,7 +104,7 @@ int play_mesh(struct carom_replay *p)
     return CAROM_OK;
 }
 
-/* A joint that was there when the recording began. */
+/* Read a joint that existed when the recording began. */
 int play_joint(struct carom_replay *p)
 {
     struct replay_coder c = play_rest(p);
@@ -144,7 +144,7 @@ static int read_materials(struct carom_replay *p, struct replay_call *call)
     uint8_t *of_face;
 
     if (call->faces == 0 && call->count == 0) {
-        return CAROM_OK; /* the body's own again */
+        return CAROM_OK; /* the body's own material again */
     }
     if (!mesh || call->faces != mesh->raw.face_count || call->count > 256 || call->count == 0) {
         return CAROM_ERR_FORMAT;

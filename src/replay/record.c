@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Recording: calls and what came of them, written as they are made. */
+/* Recording: write each call and its result as it is made. */
 #include "record.h"
 
 /* ------------------------------------------------------------------ what is written */
@@ -28,7 +28,7 @@ static void put_number(struct carom_record *r, int64_t value)
     put(r, out, c.at);
 }
 
-/* The calls that came as they came the last time. */
+/* Write the run of calls that came in the same order as before. */
 static void put_run(struct carom_record *r)
 {
     if (r->run > 0) {
@@ -43,7 +43,7 @@ void record_token(struct carom_record *r, uint8_t token)
     put_fixed(r, token, 1);
 }
 
-/* Ids depend on what had a place before the recording began; numbers do not. One that names no body becomes `none`. */
+/* Record body numbers, not ids: ids depend on what happened before the recording began. An id that names no body becomes `none`. */
 static int numbered(const struct carom_record *r, int body, int none)
 {
     return world_find_body(r->world, &body) ? body : none;
@@ -193,7 +193,7 @@ static uint64_t hash_mesh(const struct carom_mesh_raw *raw)
         hash = (hash ^ raw->faces[i / 3][i % 3]) * 0x100000001b3u;
         hash ^= hash >> 29;
     }
-    return hash | 1; /* 0 is no mesh */
+    return hash | 1; /* 0 means no mesh */
 }
 
 uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh)
@@ -224,7 +224,7 @@ uint32_t record_mesh(struct carom_record *r, const struct carom_mesh *mesh)
 
 /* ----------------------------------------------------------------------- contacts */
 
-/* Asks the program, and keeps the answer if it is more than "as it is". */
+/* Ask the program, and write its answer unless it is "as it is". */
 static bool ask_program(void *user, struct carom_touch *touch)
 {
     struct carom_record *r = (struct carom_record *)user;

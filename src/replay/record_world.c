@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A recording that begins in the middle of a world's life: calls that make a world of the same bodies and joints, and a
- * snapshot that puts all of them where they are. While they are added all bodies are at 0 and may touch nothing.
+ * Recording a world from the middle of its life: calls that make a world of the same bodies and joints, then a snapshot that puts
+ * them where they are. While bodies are added they all lie at 0 and may touch nothing.
  */
 #include "../mesh/mesh.h"
 #include "record.h"
 
-/* In a free place a body is added and taken away again: this one. */
+/* Stands for a body in a place that is free: it is added and removed again. */
 static const int16_t corners[][3] = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}};
 static const uint16_t side[][3] = {{0, 1, 2}};
 static const struct carom_mesh stopgap = {.raw = {corners, side, 3, 1, 8, CAROM_SURFACE}};
 
-/* 0 for a mass that follows from the mesh, which 2^-20 need not hold. */
+/* Returns 0 for a mass that follows from the mesh, since 2^-20 need not hold it. */
 static uint32_t mass_of(const struct body *b)
 {
     const struct fix_scaled by_volume = fix_scale(b->mesh->mass.volume_q32, 32);
@@ -26,7 +26,7 @@ static struct carom_body_def def_of(const struct body *b)
     struct carom_body_def def;
 
     memset(&def, 0, sizeof def);
-    def.filter.category = 1; /* and no mask; the snapshot has the filter */
+    def.filter.category = 1; /* without a mask; the snapshot has the filter */
     def.mesh = &stopgap;
     def.stationary = true;
     if (b->mesh) {
@@ -42,7 +42,7 @@ static struct carom_body_def def_of(const struct body *b)
     return def;
 }
 
-/* A surface is written as it was when the last step ended, and moved from there. */
+/* Write a surface as it was when the last step ended, and move it from there. */
 static void note_body(struct carom_record *r, int body)
 {
     const struct body *b = &r->world->bodies[body];
@@ -67,8 +67,8 @@ static void note_body(struct carom_record *r, int body)
 }
 
 /*
- * Materials by face. The world does not know how many there are: those that faces have, and one more for the largest e
- * and mu of all.
+ * Write materials by face. The world does not know how many there are: write those that faces use, and one more with the
+ * largest e and mu of all.
  */
 static void note_faces(struct carom_record *r, int body, const struct body_extra *extra)
 {
@@ -91,8 +91,8 @@ static void note_faces(struct carom_record *r, int body, const struct body_extra
 }
 
 /*
- * Materials, and an extra for who has one. A world mixes materials by its rules from the first change of one on: so there is
- * a change, and it is taken back.
+ * Write materials, and an extra for a body that has one. A world mixes materials by its rules from the first change of a
+ * material on, so write a change and take it back.
  */
 static void note_extras(struct carom_record *r, int body)
 {
@@ -157,7 +157,7 @@ static void note_all(struct carom_record *r)
     }
 }
 
-/* What the world knows beside its state, to be faster, a player has to find out anew: so has the world, or digests of stages differ. */
+/* Make the world forget what it keeps beside its state to be faster. A player starts without it, and the digests of stages must agree. */
 static void forget(struct carom_world *w)
 {
     for (uint32_t i = 0; i < w->body_count; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The functions that record, one for each that changes a world. */
+/* The functions that record, one for each function that changes a world. */
 #include "record.h"
 
-/* What is given by a pointer; with NULL the call itself says what is wrong. */
+/* Functions with an argument by pointer. For NULL the plain call returns the error. */
 #define RECORD_GIVEN(name, field, type)                                                            \
     int carom_record_##name(struct carom_record *r, struct carom_world *w, int body,               \
                             const type *given)                                                     \
