@@ -18,13 +18,12 @@ enum { MESH_CARD, MESH_COVER, MESH_BALL };
 #define THICK     19531
 #define HALF_SINE 171010                /* half a card */
 #define MIDDLE    (GAP + 469846 + 3340) /* height of the middle of a leaning card above its floor */
-#define ASIDE                                                                                      \
-    (GAP / 2 + HALF_SINE + 9177) /* from the top edge of the pair to the middle of a card */
-#define TOP    (GAP + 939693 + 6680)
-#define STOREY (TOP + GAP + THICK)
-#define PITCH  (2 * (2 * HALF_SINE + 18353) + 40000) /* from pair to pair */
-#define COVER  404297                                /* half the length of a lying card */
-#define APART  3000                                  /* half the distance between two lying cards */
+#define ASIDE     (GAP / 2 + HALF_SINE + 9177) /* from the pair's top edge to a card's middle */
+#define TOP       (GAP + 939693 + 6680)
+#define STOREY    (TOP + GAP + THICK)
+#define PITCH     (2 * (2 * HALF_SINE + 18353) + 40000) /* from pair to pair */
+#define COVER     404297                                /* half the length of a lying card */
+#define APART     3000 /* half the distance between two lying cards */
 
 static const struct carom_body_def ball = {.position = POSITION(-2600, 0, 270),
                                            .friction_q16 = FRICTION_Q16,

@@ -89,9 +89,8 @@ uint64_t net_hash(const struct net_side *side, int32_t frame);
  *   fill  adds the bodies to a world of these capacities
  *   act   keys are those of a pad
  */
-#define RINK_CAPS 8, 32, 96, 256, 0, 1024
-#define RINK_SNAPSHOT_BYTES                                                                        \
-    16384 /* more than this world ever needs; net_begin and net_frame check */
+#define RINK_CAPS           8, 32, 96, 256, 0, 1024
+#define RINK_SNAPSHOT_BYTES 16384 /* more than this world needs; net_begin and net_frame check */
 enum { RINK_FLOOR, RINK_PUCK, RINK_BALL = RINK_PUCK + NET_PLAYERS, RINK_BOX, RINK_BOXES = 3 };
 enum { RINK_BODIES = RINK_BOX + RINK_BOXES };
 int rink_world(const struct scene *scene, void *block, size_t bytes, struct carom_world **world);
