@@ -43,7 +43,7 @@ static uint64_t hash_bytes(const uint8_t *at, size_t bytes)
     return hash;
 }
 
-/* Read the header into raw; false when the blob cannot be a whole one. */
+/* Read the header into raw. Returns false if the blob is not whole. */
 static bool read_header(struct carom_mesh_raw *raw, const uint8_t *at, size_t bytes)
 {
     static const uint8_t start[5] = {'C', 'R', 'M', '1', BLOB_VERSION};
@@ -86,7 +86,7 @@ int carom_mesh_read(struct carom_mesh_raw *raw, const void *blob, size_t blob_by
     faces = (uint16_t(*)[3])(vertices + read.vertex_count);
     at += BLOB_HEADER;
     for (uint32_t i = 0; i < 3 * read.vertex_count; i++, at += 2) {
-        /* By way of the value, not of the representation: 0x8000 and above are negative. */
+        /* by value, not by representation: 0x8000 and above are negative */
         int32_t c = (int32_t)read_number(at, 2);
 
         vertices[i / 3][i % 3] = (int16_t)(c < 0x8000 ? c : c - 0x10000);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+/* Build a mesh: checks, box, normals and radius here, the other steps in order from their files. */
 #include "build.h"
 
-/* ------------------------------------------------------------- what is refused */
+/* ------------------------------------------------------------------ checks */
 
 static int check_header(const struct carom_mesh_raw *raw)
 {
@@ -31,9 +32,9 @@ static int check_corners(const struct carom_mesh_raw *raw)
 }
 
 /*
- * Find the box, and refuse one with a side over 256 or a diagonal over 384 units: then differences
- * of two vertices, and of a vertex and a point that a moving body can reach, fit q22, and so do
- * lengths and the radius.
+ * Find the box. Refuse a side over 256 or a diagonal over 384 units: so differences of two
+ * vertices, and of a vertex and a point that a moving body can reach, fit q22, and so do lengths
+ * and the radius.
  */
 static int find_box(struct carom_mesh *mesh)
 {
@@ -57,8 +58,8 @@ static int find_box(struct carom_mesh *mesh)
 }
 
 /*
- * The normals of all faces; those of a SURFACE must look up.
- * Bounds: a difference of corners is < 2^16, a component of the cross product < 2^33.
+ * Find all normals; those of a SURFACE must look up. Bounds: a difference of corners is < 2^16, a
+ * component of the cross product < 2^33.
  */
 static int find_normals(struct mesh_builder *b)
 {
@@ -104,7 +105,7 @@ static int32_t find_radius(const struct carom_mesh *mesh)
     return (int32_t)radius;
 }
 
-/* Where the planes of all faces lie; they need the centre of mass. */
+/* Find the offsets of all faces' planes from the centre of mass. */
 static void find_offsets(struct mesh_builder *b)
 {
     for (uint32_t f = 0; f < b->mesh->raw.face_count; f++) {
@@ -115,7 +116,7 @@ static void find_offsets(struct mesh_builder *b)
     }
 }
 
-/* Contacts lie some skins off the mesh: this part of the radius covers that. */
+/* Contacts lie some skins off the mesh: 1 / REACH_DIVISOR of the radius covers that. */
 #define REACH_DIVISOR 256
 
 /* See carom_spread. */
@@ -144,8 +145,8 @@ static int reach_bits(const struct carom_mesh *mesh)
 }
 
 /*
- * Every stage of the build, in order. The block holds CAROM_MESH_BYTES, so that no carve fails.
- * Orientation is judged after the edges, because it means nothing while a mesh is not closed.
+ * All steps of the build, in order. The block holds CAROM_MESH_BYTES, so no carve fails.
+ * Orientation is reported after the edges, because it means nothing while a mesh is not closed.
  */
 static int build(struct mesh_builder *b)
 {
@@ -177,7 +178,7 @@ static int build(struct mesh_builder *b)
     }
     find_offsets(b);
     mesh->radius_q22 = find_radius(mesh);
-    /* one that is too thin for an inverse may still stand still */
+    /* a mesh too thin for an inverse may still be a stationary body */
     if (mass_invert(&mesh->mass.inertia, &mesh->inverse, &mesh->inverse_rest) == 0) {
         mass_spread(&mesh->mass.inertia, &mesh->spread);
         mesh->spread.reach_bits = (int8_t)reach_bits(mesh);

@@ -2,8 +2,8 @@
 /*
  * build - what the files that build a mesh share. Not for other stages.
  *
- * The block is filled from its start with what stays. The work table of the moment lies at its end,
- * where the z-lists' entries, carved last, will be.
+ * The block is filled from its start with what stays. A temporary work table lies at its end, where
+ * the z-lists' entries, carved last, will be.
  */
 #ifndef CAROM_SRC_MESH_BUILD_H
 #define CAROM_SRC_MESH_BUILD_H
@@ -22,36 +22,34 @@ struct mesh_builder {
     struct carom_leaf *leaves;
 };
 
-/*
- * carom_mesh_build, and where in the block things lie: faces, edges and leaves of the builder.
- */
+/* carom_mesh_build; also sets the builder's pointers to faces, edges and leaves in the block. */
 int mesh_make(struct mesh_builder *b, struct carom_mesh *mesh, const struct carom_mesh_raw *raw,
               void *mem, size_t bytes);
 
 /*
- * Work out anew what depends on where the vertices are, but for the z-lists. CAROM_OK,
+ * Work out anew everything that depends on vertices' places, except z-lists. Returns CAROM_OK,
  * CAROM_ERR_RANGE, CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT or _SURFACE.
  */
 int mesh_refresh(struct mesh_builder *b);
 
 /*
- * The longer one of `longest` and the length of v, |v| < 2^31 each: without a root when v is clearly
- * shorter, by more than what lengths are rounded up by.
+ * The larger of `longest` and the length of v, |v| < 2^31 each. Takes no root if v is clearly
+ * shorter, by more than lengths are rounded up.
  */
 int64_t mesh_longest(int64_t longest, const int64_t v[3]);
 
-/* Edges, their rings and what faces own. CAROM_OK or CAROM_ERR_MESH_OPEN, _EDGE, _SURFACE. */
+/* Build edges, rings and owners. Returns CAROM_OK or CAROM_ERR_MESH_OPEN, _EDGE, _SURFACE. */
 int mesh_build_edges(struct mesh_builder *b);
 
-/* What of the edges depends on where the vertices are. */
+/* Set what depends on vertices' places: of edges, and who owns what. */
 void mesh_shape_edges(struct mesh_builder *b);
 
 /* Cut the faces into leaves. */
 void mesh_build_leaves(struct mesh_builder *b);
-/* What of the leaves depends on where the vertices are. */
+/* Set what depends on vertices' places: spheres and slabs of leaves. */
 void mesh_shape_leaves(struct mesh_builder *b);
 
-/* The mesh's own z-lists. CAROM_OK or CAROM_ERR_MESH_SURFACE. */
+/* Build the mesh's own z-lists. Returns CAROM_OK or CAROM_ERR_MESH_SURFACE. */
 int mesh_build_zlists(struct mesh_builder *b);
 
 #endif

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: MIT */
+/*
+ * Edges of a mesh: found by sorting the sides of faces, listed at each vertex, and owned by a face
+ * if convex.
+ */
 #include "build.h"
 
 /*
- * n0 . m, where m lies in face 1 at right angles to the edge, is minus the sine of the angle by
- * which the surface turns at the edge. Between -1e-5 and 1e-5 it is flat: rounded vertices make
- * coplanar faces turn by about that much.
+ * An edge is flat if the sine of the angle by which the surface turns there is within 1e-5: rounded
+ * vertices make coplanar faces turn by about that much. The sine is -n0 . m, where m lies in face 1
+ * at right angles to the edge.
  */
 #define FLAT_Q30 10737
 
 /*
- * A face's side as a key: its two vertices, lower one first, whether it runs from the higher one,
- * and the side's own number. Sorted, the sides of one edge are neighbours.
+ * A face's side as a key: its two vertices, the lower one first, a bit if it runs from the higher
+ * one, and the side's number. Sorting makes the sides of one edge neighbours.
  */
 #define KEY_BACKWARD ((uint64_t)1 << 31)
 
@@ -46,7 +50,7 @@ static int count_edges(struct mesh_builder *b)
             open = true;
             continue;
         }
-        wrong |= ((keys[first] ^ keys[i]) & KEY_BACKWARD) == 0; /* both of one direction */
+        wrong |= ((keys[first] ^ keys[i]) & KEY_BACKWARD) == 0; /* both run the same way */
         for (i++; i < n && same_edge(keys[first], keys[i]); i++) {
             wrong = true;
         }
@@ -93,8 +97,8 @@ static void place_edge(const struct mesh_builder *b, struct carom_edge *e)
 }
 
 /*
- * Whether the surface bends outwards at an edge, or ends there. Where it folds back by more than a
- * right angle it cannot be flat, so that the doubtful cases count as bent: a thin blade is sharp.
+ * True if the surface bends outwards at an edge, or ends there. Where it folds back by more than a
+ * right angle it cannot be flat, so doubtful cases count as convex: a thin blade is sharp.
  */
 static bool is_convex(const struct mesh_builder *b, const struct carom_edge *e)
 {
@@ -107,12 +111,12 @@ static bool is_convex(const struct mesh_builder *b, const struct carom_edge *e)
     }
     n0 = b->faces[e->face[0]].normal.c;
     n1 = b->faces[e->face[1]].normal.c;
-    /* Face 1 runs against the edge, and its inside lies to the left of its sides. */
+    /* face 1 runs against the edge; its inside is to the left of its sides */
     carom_cross(inward, e->direction.c, n1, 30);
     return carom_dot(n0, inward) < (carom_dot(n0, n1) < 0 ? limit_q60 : -limit_q60);
 }
 
-/* Make the edges out of the sorted sides, and tell the faces which are theirs. */
+/* Make the edges from the sorted sides, and enter them in their faces. */
 static void make_edges(struct mesh_builder *b)
 {
     uint32_t n = 3 * b->mesh->raw.face_count, i = 0;
@@ -135,8 +139,8 @@ static void make_edges(struct mesh_builder *b)
 }
 
 /*
- * List the edges at every vertex: count them, make of the counts the place where each list ends,
- * and fill the lists from their ends, so that the places end as the lists' starts.
+ * List the edges at each vertex: count them, turn the counts into the places where the lists end,
+ * and fill the lists from their ends, which leaves the places at the lists' starts.
  */
 static void make_rings(struct mesh_builder *b)
 {
@@ -161,7 +165,7 @@ static void make_rings(struct mesh_builder *b)
     mesh->ring = ring;
 }
 
-/* The flag of an edge in `own` of its face 0. */
+/* The bit in `own`, of the edge's face 0, that marks the edge as convex. */
 static uint8_t convex_flag(const struct mesh_builder *b, uint32_t edge)
 {
     const struct carom_face *face = &b->faces[b->edges[edge].face[0]];

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Lays a grid over a mesh, and lists by cell the faces above it: the mesh's own z-lists. */
+/* Lay a grid over a mesh, and list in each cell the faces above it: the mesh's own z-lists. */
 #include "build.h"
 
 /*
- * How many cells of 2^shift quanta cover an extent, and where they begin. The overhang is shared by
- * both ends, so that vertices on a regular grid do not fall on the sides of cells; where a cell too
- * many would be needed for that, an extent of whole cells has no overhang.
+ * The number of cells of 2^shift quanta that cover an extent, and where they begin. Both ends share
+ * the overhang, so that vertices on a regular grid do not fall on sides of cells. If that would
+ * need a cell too many, an extent of whole cells gets no overhang.
  */
 FIX_APART static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t *start)
 {
@@ -19,7 +19,7 @@ FIX_APART static int32_t fit_cells(int32_t low, int32_t high, int shift, int32_t
     return n;
 }
 
-/* Lay the grid with cells of 2^shift quanta. False when these are more cells than there may be. */
+/* Lay the grid with cells of 2^shift quanta. Returns false if there are too many cells. */
 static bool lay_grid(struct carom_mesh *mesh, int shift)
 {
     int32_t nx = fit_cells(mesh->box[0][0], mesh->box[1][0], shift, &mesh->grid_x0);
@@ -31,7 +31,7 @@ static bool lay_grid(struct carom_mesh *mesh, int shift)
     mesh->grid_shift = (uint8_t)shift;
     mesh->grid_nx = (uint8_t)nx;
     mesh->grid_ny = (uint8_t)ny;
-    /* At least 3/2 faces for each cell, so up to 6; a single cell is always allowed. */
+    /* at least 3/2 faces a cell, hence up to 6; a single cell is always allowed */
     return nx * ny == 1 || (uint32_t)(3 * nx * ny) <= 2 * mesh->raw.face_count;
 }
 
@@ -109,8 +109,8 @@ bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *
 }
 
 /*
- * Fill the lists from their ends, the last face first: `cell` holds where each list ends and is
- * left with where it starts, and a cell's faces stand in rising order.
+ * Fill the lists from their ends, last face first: `cell` holds the end of each list and is left
+ * with its start, and a cell's faces are in ascending order.
  */
 static void fill_lists(const struct carom_mesh *mesh, uint32_t *cell, struct carom_zref *zrefs)
 {
@@ -147,8 +147,10 @@ static void sort_list(struct carom_zref *list, uint32_t n)
     }
 }
 
-/* Whether a side of face f has all of face g outside or on it, seen from above.
- * Bounds: differences are < 2^16, the cross product < 2^33. */
+/*
+ * True if a side of face f has all of face g outside or on it, seen from above. Bounds: differences
+ * are < 2^16, the cross product < 2^33.
+ */
 static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_t g)
 {
     for (int k = 0; k < 3; k++) {
@@ -170,7 +172,7 @@ static bool side_separates(const struct carom_mesh_raw *raw, uint32_t f, uint32_
     return false;
 }
 
-/* Whether two faces of a list overlap seen from above: then the surface has two heights there. */
+/* True if two faces of a list overlap seen from above: then the surface has two heights there. */
 static bool list_overlaps(const struct carom_mesh_raw *raw, const struct carom_zref *list,
                           uint32_t n)
 {

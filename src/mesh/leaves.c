@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Cuts the faces of a mesh into leaves: clusters of neighbours with a sphere and a slab around each. */
+/*
+ * Cut the faces of a mesh into leaves: clusters of neighbours, with a sphere and a slab around
+ * each.
+ */
 #include "build.h"
 
 /* A face's number in the low bits of its key. */
@@ -51,7 +54,7 @@ static void sort_along(const struct carom_mesh *mesh, uint64_t *keys, uint32_t n
     sort_keys(keys, n);
 }
 
-/* The arrays that leaves are put into, and how much of them is taken. */
+/* The arrays that hold the leaves, and how much of them is used. */
 struct leaf_builder {
     struct carom_leaf *leaves;
     uint16_t *faces, *vertices;
@@ -59,7 +62,7 @@ struct leaf_builder {
     uint32_t face_count, vertex_count;
 };
 
-/* Add a face to a leaf, unless that would make it too large. */
+/* Add a face to a leaf. Returns false if that would make it too large. */
 static bool add_face(struct leaf_builder *l, struct carom_leaf *leaf, const uint16_t corner[3],
                      uint16_t face)
 {
@@ -90,8 +93,8 @@ static bool add_face(struct leaf_builder *l, struct carom_leaf *leaf, const uint
 }
 
 /*
- * The sphere around a leaf, about the middle of its box.
- * Bounds: the middle is within the mesh's box, so the differences fit q22 as the vertices do.
+ * Set the sphere around a leaf, about the middle of its box. Bounds: the middle is within the
+ * mesh's box, so differences fit q22 as vertices do.
  */
 static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf)
 {
@@ -121,7 +124,7 @@ static void bound_leaf(const struct carom_mesh *mesh, struct carom_leaf *leaf)
     }
 }
 
-/* The slab in which a leaf lies, and its vertices that belong to its faces. */
+/* Set the slab that holds a leaf, and which of its vertices its faces own. */
 static void set_slab(const struct carom_mesh *mesh, struct carom_leaf *leaf)
 {
     const uint16_t *vertices = &mesh->leaf_vertices[leaf->first_vertex];
@@ -158,8 +161,10 @@ void mesh_shape_leaves(struct mesh_builder *b)
     }
 }
 
-/* Make leaves of up to CAROM_LEAF_FACES neighbouring faces: one, or two where there are too many vertices for one,
- * since any ten faces fit. */
+/*
+ * Make leaves of up to CAROM_LEAF_FACES neighbouring faces: one, or two if there are too many
+ * vertices for one, since any ten faces fit.
+ */
 static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
                        const uint64_t *keys, uint32_t n)
 {
@@ -177,10 +182,10 @@ static void add_leaves(const struct carom_mesh *mesh, struct leaf_builder *l, ui
 }
 
 /*
- * Halve the faces across their widest axis until no more than a leaf's are together. The left part
- * is a multiple of a leaf, so that all leaves but the last can be full. What waits on the stack is
- * where a range ends; it begins where the one before it ended. A left part is at most half of its
- * range, so 16 places do for 65535 faces.
+ * Halve the faces across their widest axis until each part fits a leaf. A left part is a multiple
+ * of a leaf, so that all leaves but the last can be full. The stack holds the end of each waiting
+ * range; a range begins where the one before it ended. A left part is at most half of its range, so
+ * 16 places do for 65535 faces.
  */
 static void split_faces(const struct carom_mesh *mesh, struct leaf_builder *l, uint32_t *leaf_count,
                         uint64_t *keys)

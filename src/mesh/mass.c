@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
+/* Volume, centre of mass and inertia of a mesh; the inverse of its inertia and a root of that. */
 #include "mass.h"
 
 /* A matrix whose smallest eigenvalue is below 2^-24 of the largest counts as singular. */
 #define SINGULAR_BITS 24
 
 /*
- * Every face spans a tetrahedron with the origin. Its signed volume is det / 6 with
- * det = a . (b x c), its first moment det / 24 (a + b + c) and its second moments
- * det / 120 (s_i s_j + a_i a_j + b_i b_j + c_i c_j) with s = a + b + c. Over a closed mesh the
- * parts outside cancel, whatever the origin. So the sums are taken twice: about the origin of the
- * vertices for the volume and the centre, then about the centre for the second moments, which
- * leaves nothing large to subtract.
+ * Each face spans a tetrahedron with the origin. With det = a . (b x c) and s = a + b + c its
+ * signed volume is det / 6, its first moment det / 24 s, and its second moments det / 120 (s_i s_j
+ * + a_i a_j + b_i b_j + c_i c_j). Over a closed mesh the parts outside cancel, whatever the origin.
+ * The sums are taken twice: about the origin of the vertices for volume and centre, then about the
+ * centre for second moments, so that nothing large is subtracted.
  */
 
 /* Corners about a chosen origin. */
@@ -53,9 +53,9 @@ struct sums {
 };
 
 /*
- * Bounds: of vertices in quanta, <= 2^15, det < 3 * 2^46; about the centre coordinates are < 2^20 and
- * det < 3 * 2^61. A sum of corners is below 2^22, one of products < 12 * 2^40; so the sums over 65535
- * faces, two of them together, are < 2^124.
+ * Bounds: for vertices in quanta, <= 2^15, det < 3 * 2^46; about the centre coordinates are < 2^20
+ * and det < 3 * 2^61. A sum of corners is below 2^22, a sum of products < 12 * 2^40; so sums over
+ * 65535 faces, two of them together, are < 2^124.
  */
 static void sum_faces(const struct frame *about, struct sums *out)
 {
@@ -85,8 +85,8 @@ static void sum_faces(const struct frame *about, struct sums *out)
 }
 
 /*
- * n / d to the nearest whole number. A ratio has 30 bits and the quotient up to 35, so what the
- * first ratio leaves is divided again. n ends as what is left.
+ * n / d to the nearest whole number; n becomes the remainder. A ratio has 30 bits and the quotient
+ * up to 35, so the remainder of the first ratio is divided again.
  */
 static int64_t wide_quotient(struct fix_wide *n, int64_t d)
 {
@@ -97,10 +97,11 @@ static int64_t wide_quotient(struct fix_wide *n, int64_t d)
 }
 
 /*
- * Six times the volume in cubic quanta, and the centre of mass with `bits` fractional bits, at most 19.
+ * Six times the volume in cubic quanta, and the centre of mass with `bits` fractional bits, at most
+ * 19.
  *
- * A mesh that does not overlap itself has 6 volume <= 6 * 2^48 < 2^51: anything above winds around
- * its inside more than once.
+ * A mesh that does not overlap itself has 6 volume <= 6 * 2^48 < 2^51: more means that it winds
+ * around its inside more than once.
  */
 static int volume_and_centre(const struct carom_mesh_raw *raw, int bits, int64_t *volume6,
                              int64_t centre[3])
@@ -206,7 +207,7 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
     for (int k = 0; k < 3; k++) {
         extent = high[k] - low[k] > extent ? high[k] - low[k] : extent;
     }
-    /* The finest format that keeps a coordinate about the centre below 2^20. */
+    /* the finest format that keeps coordinates about the centre below 2^20 */
     about.bits = 20 - fix_bits((uint64_t)extent);
     bits = about.bits > to_q22 ? about.bits : to_q22;
     error = volume_and_centre(raw, bits, &volume6, centre);
@@ -215,7 +216,7 @@ int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out)
     }
     for (int k = 0; k < 3; k++) {
         if (centre[k] < carom_shl(low[k], bits) || centre[k] > carom_shl(high[k], bits)) {
-            return CAROM_ERR_MESH_INSIDE_OUT; /* some part of it is */
+            return CAROM_ERR_MESH_INSIDE_OUT; /* some part of it is inside out */
         }
         mass.centre.c[k] = (int32_t)fix_round_shift(centre[k], to_q22 - bits);
         about.origin[k] = (int32_t)fix_round_shift(centre[k], about.bits - bits);

@@ -23,12 +23,12 @@
 int mass_of_mesh(const struct carom_mesh_raw *raw, struct carom_mass *out);
 
 /*
- * Inverse of a symmetric positive matrix of shared exponent, as a sum of two.
+ * Inverse of a symmetric positive matrix with a shared exponent, as a sum of two matrices.
  *   in    xx, yy, zz, xy, yz, zx times 2^-e, each within 2^30
- *   out   its inverse, 30 bits
- *   rest  what that leaves, to 2^-59 of the largest entry: across the axis of a thin body, 30 bits
- *         for all leave hardly any
- * Returns 0, or -1 when it is singular.
+ *   out   the inverse, to 30 bits
+ *   rest  its remainder, to 2^-59 of the largest entry: across the axis of a thin body 30 bits for
+ *         all entries leave hardly any
+ * Returns 0, or -1 if the matrix is singular.
  */
 int mass_invert(const struct carom_sym3 *in, struct carom_sym3 *out, struct carom_sym3 *rest);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Questions about a mesh that several stages ask. */
 #include "build.h"
 
 extern inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,

@@ -1,6 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh - check and index a mesh: edges, planes, bounds, clusters, mass and its own z-lists.
+ * mesh - check a mesh, and index it for everything that later stages ask (the paper's object data,
+ * section 1).
+ *
+ * In: vertices, faces, kind. Out: struct carom_mesh in the caller's block.
+ *
+ * Steps, and the files that hold them:
+ *   build.c    carom_mesh_build: all steps in order; box, normals, radius
+ *   edge.c     edges, the ring of edges at each vertex, which face owns which feature
+ *   mass.c     volume, centre of mass, inertia
+ *   leaves.c   leaves: clusters of faces, each with a sphere and a slab
+ *   grid.c     the grid of cells and the mesh's own z-lists
+ *   scan.c     cells that a face touches
+ *   zlist.c    z-lists in a pool, and intervals of z
+ *   surface.c  surfaces whose vertices move
+ *   mesh.c     questions about a mesh that later stages share
+ *
+ * Beside it: blob.c (the binary form), shapes.c (boxes, spheres and the like).
  */
 #ifndef CAROM_SRC_MESH_H
 #define CAROM_SRC_MESH_H
@@ -26,9 +42,9 @@ struct interfere_place;
 struct pair;
 
 /*
- * The functions that a step needs for a surface that may move. They are called through the surface, so that a
- * program without one does not link them: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, and mesh_list_face, which enters
- * a face in z-lists, in the cells from `cells` on; false when the pool is full, with `cells` those that are done.
+ * What a step needs of a surface that may move. Called through the surface, so that a program
+ * without such surfaces does not link it: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face,
+ * mesh_list_face (below), interfere_area_under, interfere_make_lists.
  */
 struct mesh_moving {
     void (*drift_vertex)(const struct carom_mesh *mesh, uint32_t v, carom_v3_q40 *out);
@@ -38,7 +54,6 @@ struct mesh_moving {
                        carom_v3_q40 *out);
     bool (*list_face)(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
                       uint32_t *cells);
-    /* interfere_area_under and interfere_make_lists */
     struct interfere_area (*area_under)(const struct body *bodies, const struct pair *pairs,
                                         uint32_t pair_count, uint16_t b);
     bool (*make_lists)(struct interfere *w, const struct carom_mesh *mesh,
@@ -49,30 +64,30 @@ struct mesh_moving {
 struct carom_surface {
     const struct mesh_moving *does;
     struct carom_mesh *mesh;
-    int16_t (*now)[3];    /* its vertices */
-    int16_t (*before)[3]; /* where they were when the last step ended */
+    int16_t (*now)[3];    /* its present vertices */
+    int16_t (*before)[3]; /* its vertices when the last step ended */
     struct carom_face *faces;
     struct carom_edge *edges;
     struct carom_leaf *leaves;
     uint32_t *lists;  /* room for z-lists of its own */
-    bool own_lists;   /* these are kept and used; else those of a world's pool */
-    int32_t most_q22; /* no vertex has moved by more since `before` */
-    uint32_t moves;   /* how often they have */
+    bool own_lists;   /* these lists are up to date and used; else those in a world's pool */
+    int32_t most_q22; /* bound on any vertex's displacement since `before` */
+    uint32_t moves;   /* counts the moves */
 };
 
-/* carom_surface_build, for a surface that does this. */
+/* carom_surface_build with the table of functions of the surface. */
 int mesh_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw, void *mem,
                        size_t bytes, const struct mesh_moving *does);
 
 /*
- * Let the mesh have other vertices, for a try: mesh_surface_keep takes them over, mesh_surface_undo
- * goes back.
+ * Give the mesh other vertices, on trial: mesh_surface_keep accepts them, mesh_surface_undo goes
+ * back.
  *
- *   drifts  it moves there, and may do so by MESH_STEP_MAX units; else it is put there
- *   rise    out  the surface is higher than before by no more than that anywhere; 0 or above
+ *   drifts  the surface moves there, by at most MESH_STEP_MAX units; else it is put there
+ *   rise    out  bound on how much higher the surface is than before, anywhere; 0 or above
  *
  * Returns CAROM_OK, CAROM_ERR_RANGE for a step of more than MESH_STEP_MAX units or too large a box,
- * CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT or _SURFACE; nothing has changed then.
+ * CAROM_ERR_MESH_DEGENERATE, _INSIDE_OUT or _SURFACE; then nothing has changed.
  */
 #define MESH_STEP_MAX 16
 int mesh_surface_try(struct carom_surface *s, const int16_t (*vertices)[3], bool drifts,
@@ -80,18 +95,18 @@ int mesh_surface_try(struct carom_surface *s, const int16_t (*vertices)[3], bool
 void mesh_surface_keep(struct carom_surface *s);
 void mesh_surface_undo(struct carom_surface *s);
 
-/* The surface stands still where it is. */
+/* End the surface's motion: it stands still where it is. */
 void mesh_surface_halt(struct carom_surface *s);
 
-/* How far any vertex has moved since the last step; 0 for a mesh that cannot. */
+/* Bound on any vertex's displacement since the last step; 0 for a mesh that cannot move. */
 static inline int32_t mesh_drift_most(const struct carom_mesh *mesh)
 {
     return mesh->surface ? mesh->surface->most_q22 : 0;
 }
 
 /*
- * What a vertex, a place on an edge or a place on a face has moved by since the last step, in the
- * mesh's axes; places not on the feature count as the nearest.
+ * The displacement of a vertex, a place on an edge or a place on a face since the last step, in the
+ * mesh's axes. A place not on the feature counts as the feature's nearest.
  */
 void mesh_drift_vertex(const struct carom_mesh *mesh, uint32_t v, carom_v3_q40 *out);
 void mesh_drift_edge(const struct carom_mesh *mesh, uint32_t edge, const carom_v3_q22 *at,
@@ -101,8 +116,12 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
 
 /* Start the walk over the cells of the mesh's grid that a face touches. */
 void mesh_scan_face(struct scan_cells *s, const struct carom_mesh *mesh, uint32_t face);
-/* A face as z-lists see it. */
+/* A face in the form that z-lists take. */
 struct zface mesh_zface(const struct carom_mesh *mesh, uint32_t face);
+/*
+ * Enter a face in z-lists, in its cells from number `cells` on. Returns false if the pool is full,
+ * with `cells` the number of cells done.
+ */
 bool mesh_list_face(const struct carom_mesh *mesh, uint32_t face, struct zlist *lists,
                     uint32_t *cells);
 
@@ -144,17 +163,16 @@ static inline carom_v3_q30 mesh_edge_inward(const struct carom_mesh *mesh,
 }
 
 /*
- * Whether a point lies over a face, seen along the coordinate axis that its normal is most along,
- * or within a tolerance of that, times 1 to sqrt 2.
- * Range: p within 512 units of the mesh's origin
+ * True if a point lies over a face, seen along the largest axis of its normal, or beyond its border
+ * by at most the tolerance times 1 to sqrt 2. Range: p within 512 units of the mesh's origin.
  */
 bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3_q22 *p,
                     int32_t tolerance_q22);
 
 /*
- * Whether n lies in the normal cone of a vertex: no edge that leaves it goes down along n by more
- * than the tolerance, a cosine. (A body touching a plane of normal n with this vertex lies above
- * it.)
+ * True if n lies in the normal cone of a vertex: no edge that leaves the vertex descends along n by
+ * more than the tolerance, a cosine. (Then the body lies above a plane of normal n through the
+ * vertex.)
  */
 inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v, const int32_t n_q30[3],
                              int32_t tolerance_q30)

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+/* Walk over the cells of a grid that a convex polygon touches. */
 #include "scan.h"
 
-/* floor(n / d) and what remains of n, 0 <= rest < d. */
+/* floor(n / d) and the remainder, 0 <= rest < d. */
 struct quotient {
     int32_t floor, rest;
 };
 
-/* Range: d > 0, the quotient fits. A 64-bit division is avoided where n is short. */
+/* Range: d > 0, the quotient fits. Avoids a 64-bit division if n is short. */
 static struct quotient divide(int64_t n, int32_t d)
 {
     struct quotient q;
@@ -28,7 +29,7 @@ static struct quotient divide(int64_t n, int32_t d)
 
 /*
  * The closed cells, 2^shift wide from 0 on, that the interval [low, high] touches: [*first, *end).
- * A cell touches low when its upper side, (i + 1) 2^shift, does not stay below it.
+ * A cell touches low unless its upper side, (i + 1) 2^shift, is below low.
  */
 static void touched(int32_t low, int32_t high, int shift, int32_t count, int32_t *first,
                     int32_t *end)
@@ -61,9 +62,9 @@ void scan_cells_begin(struct scan_cells *s, const struct scan_grid *grid, const 
 }
 
 /*
- * Widen the whole numbers [*low, *high] by the x where the edge from a up to b crosses height y.
- * The lower limit takes the crossing rounded up, the upper one rounded down: cells begin and end at
- * whole numbers, so no cell is lost, and none is won that the exact crossing does not touch.
+ * Widen the integers [*low, *high] by the x at which the edge from a up to b crosses height y. The
+ * lower limit is rounded up, the upper one down: cells begin and end at integers, so no cell is
+ * lost, and none is added that the exact crossing does not touch.
  *
  * Bounds: y - a[1] and b[0] - a[0] are < 2^31 in size, their product < 2^62.
  */
@@ -79,9 +80,9 @@ static void add_crossing(const int32_t a[2], const int32_t b[2], int32_t y, int3
 }
 
 /*
- * Growing the polygon by a square is the same as growing the strip of cells by it, in y, and the
- * interval found, in x. The extent of a convex polygon within a strip is that of its corners inside
- * and of its edges' crossings with the two sides.
+ * Growing the polygon by a square is the same as growing the strip of cells in y and the interval
+ * found in x. The extent of a convex polygon within a strip is that of its corners inside and of
+ * its edges' crossings with both sides.
  */
 bool scan_cells_next(struct scan_cells *s, struct scan_run *run)
 {

@@ -3,8 +3,8 @@
  * scan - integer scan conversion: the cells of a grid that a polygon touches.
  *
  * The walk goes up in y, one row at a time, and gives one run of x a row. It is conservative: it
- * gives every cell that the closed polygon, grown by `grow` on all four sides, touches. It may give
- * a few more, never fewer. Degenerate polygons (edge-on, a point) give the cells of their edges.
+ * gives every cell that the closed polygon, grown by `grow` on all four sides, touches, and perhaps
+ * a few more. Degenerate polygons (edge-on, a point) give the cells of their edges.
  */
 #ifndef CAROM_SRC_SCAN_H
 #define CAROM_SRC_SCAN_H

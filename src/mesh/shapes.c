@@ -25,8 +25,9 @@ struct turned {
 #define TWO_PI_Q50 INT64_C(7074237752028440)
 
 /*
- * 1 - x^2 / (n (n + 1)) (1 - x^2 / ((n - 2) (n - 1)) ...) down to n = last, as Taylor has it; x^2 < 0.62 in q30, so
- * each product is below 2^60. The steps left out are below 2^-31, and six roundings cost less than 2^-28.
+ * 1 - x^2 / (n (n + 1)) (1 - x^2 / ((n - 2) (n - 1)) ...) down to n = last, a Taylor series. x^2 <
+ * 0.62 in q30, so each product is below 2^60. The omitted terms are below 2^-31, and six roundings
+ * cost less than 2^-28.
  */
 static int64_t series(int64_t square_q30, int32_t last)
 {
@@ -39,8 +40,8 @@ static int64_t series(int64_t square_q30, int32_t last)
 }
 
 /*
- * Cosine and sine of turn / of whole turns, 0 <= turn <= of <= 128. The angle is mirrored into the first eighth
- * of a turn, so that vertices that mirror each other do so to the bit.
+ * Cosine and sine of turn / of whole turns, 0 <= turn <= of <= 128. The angle is mirrored into the
+ * first eighth of a turn, so that mirrored vertices agree to the bit.
  */
 static void direction(int64_t out_q30[2], int32_t turn, int32_t of)
 {
@@ -62,13 +63,13 @@ static void direction(int64_t out_q30[2], int32_t turn, int32_t of)
 
 /* --------------------------------------------------------------------- vertices */
 
-/* To the nearest whole number, a half away from 0: mirrored vertices mirror each other. */
+/* To the nearest integer, halves away from 0, so that mirrored vertices agree. */
 static int32_t nearest(int64_t v_q30)
 {
     return (int32_t)(v_q30 < 0 ? -carom_round(-v_q30, 30) : carom_round(v_q30, 30));
 }
 
-/* How wide a ring is, and where it lies along z: rings count from the bottom. */
+/* The width of a ring, and its place along z; rings count from the bottom. */
 static void ring_place(const struct turned *t, int32_t ring, int64_t *scale_q30, int32_t *z)
 {
     const int32_t quarter = t->sides / 4;
@@ -120,7 +121,10 @@ static void put_vertices(struct turned *t)
     }
 }
 
-/* The number of a vertex: row -1 is the bottom pole, row `rings` the top one; j counts around, from -1 to 2 n. */
+/*
+ * The number of a vertex. Row -1 is the bottom pole, row `rings` the top one; j counts around, from
+ * -1 to 2 n.
+ */
 static uint16_t at(const struct turned *t, int32_t row, int32_t j)
 {
     if (row < 0) {
@@ -133,8 +137,8 @@ static uint16_t at(const struct turned *t, int32_t row, int32_t j)
 /* ------------------------------------------------------------------------- faces */
 
 /*
- * On which side of the plane of a, b and c a place lies: above 0 outside of it. Coordinates are below 2^15, so the
- * result is below 2^51.
+ * The side of a face's plane on which a place lies: above 0 is outside. Coordinates are below 2^15,
+ * so the result is below 2^51.
  */
 static int64_t side_of(const struct turned *t, const uint16_t face[3], const int16_t place[3])
 {
@@ -161,8 +165,9 @@ static void put_face(struct turned *t, uint16_t a, uint16_t b, uint16_t c)
 }
 
 /*
- * Whether the newest face, which is in sector j above a row, looks away from the origin and has no vertex of its
- * neighbours outside. A closed mesh around the origin all of whose faces are so is convex.
+ * True if the newest face, in sector j above a row, looks away from the origin and none of its
+ * neighbours' vertices is outside it. If this holds for all faces of a closed mesh around the
+ * origin the mesh is convex.
  */
 static bool is_convex(const struct turned *t, int32_t row, int32_t j)
 {
@@ -183,7 +188,10 @@ static bool is_convex(const struct turned *t, int32_t row, int32_t j)
     return true;
 }
 
-/* One sector between a row and the next: a triangle at a pole, else two, over the diagonal that bulges out. */
+/*
+ * Put the faces of a sector between a row and the next: one triangle at a pole, else two, along the
+ * diagonal that bulges out. Returns false if the result is not convex.
+ */
 static bool put_sector(struct turned *t, int32_t row, int32_t j)
 {
     const uint16_t a = at(t, row, j), b = at(t, row, j + 1);
@@ -244,7 +252,7 @@ static int check(const struct carom_mesh_raw *raw, const struct carom_shape_room
     return room->quantum_bits < 7 || room->quantum_bits > 20 ? CAROM_ERR_ARGUMENT : CAROM_OK;
 }
 
-/* A raw mesh over the arrays of a room, empty as yet. */
+/* A raw mesh over a room's arrays, still empty. */
 static struct carom_mesh_raw empty(const struct carom_shape_room *room)
 {
     struct carom_mesh_raw raw;
@@ -257,7 +265,7 @@ static struct carom_mesh_raw empty(const struct carom_shape_room *room)
     return raw;
 }
 
-/* t has the form and nothing else. */
+/* Make a solid of revolution; t holds its form and nothing else yet. */
 static int turn(struct carom_mesh_raw *raw, const struct carom_shape_room *room, struct turned *t)
 {
     const int error = check(raw, room);
@@ -273,7 +281,7 @@ static int turn(struct carom_mesh_raw *raw, const struct carom_shape_room *room,
     if (t->round && t->half + t->radius > COORDINATE_MAX) {
         return CAROM_ERR_RANGE;
     }
-    /* Euler: a closed mesh of triangles has 2 V - 4 faces. */
+    /* Euler: a closed mesh of triangles has 2 V - 4 faces */
     vertices = t->rings * t->sides + poles;
     faces = 2 * vertices - 4;
     if ((uint32_t)vertices > room->vertex_count || (uint32_t)faces > room->face_count) {
@@ -315,7 +323,7 @@ int carom_shape_box(struct carom_mesh_raw *raw, const struct carom_shape_room *r
                    v & 4 ? half[2] : -half[2]);
     }
     for (int k = 0; k < 3; k++) {
-        /* the corners of a side count up along the two other axes, `right` and `back` */
+        /* corners of a side count up along both other axes, `right` and `back` */
         const int right = 1 << fix_next(k), back = 1 << fix_next(fix_next(k)), far = 1 << k;
 
         put_face(&t, 0, (uint16_t)back, (uint16_t)(right + back));
@@ -327,7 +335,7 @@ int carom_shape_box(struct carom_mesh_raw *raw, const struct carom_shape_room *r
     return CAROM_OK;
 }
 
-/* Two hemispheres, with a ring each for the equator where they are apart. */
+/* A shape of two hemispheres; the equator has a ring for each if they are apart. */
 static int turn_round(struct carom_mesh_raw *raw, const struct carom_shape_room *room,
                       int32_t radius, int32_t half, uint32_t sides)
 {
@@ -341,7 +349,7 @@ static int turn_round(struct carom_mesh_raw *raw, const struct carom_shape_room 
     return turn(raw, room, &t);
 }
 
-/* Rings of the whole radius: two, or one below a tip. */
+/* A shape of rings of the whole radius: two, or one below a tip. */
 static int turn_straight(struct carom_mesh_raw *raw, const struct carom_shape_room *room,
                          int32_t radius, int32_t half, uint32_t sides, int32_t rings)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Surfaces whose vertices move: what is built of a mesh is worked out anew in the same place. */
+/*
+ * Surfaces whose vertices move: what a build derives from vertices is worked out anew in the same
+ * place.
+ */
 #include "build.h"
 
 _Static_assert(sizeof(struct carom_surface) <= 80, "CAROM_SURFACE_BYTES");
@@ -46,7 +49,7 @@ int mesh_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *raw
     return CAROM_OK;
 }
 
-/* Quanta as a length. */
+/* A number of quanta as a length. */
 static int64_t length_q22(const struct carom_surface *s, int32_t quanta)
 {
     return carom_shl(quanta, 22 - s->mesh->raw.quantum_bits);
@@ -65,9 +68,10 @@ static int32_t largest_change(const struct carom_surface *s, const int16_t (*a)[
 }
 
 /*
- * A point of the new surface is a mean of new corners, and the same mean of the old ones lies on the
- * old surface: lower by no more than dz, and beside it by no more than dx + dy, where the old surface
- * is lower by at most that times its steepest slope, 1 / n.z. And nothing is higher than both boxes.
+ * A bound on how much higher the new surface is. A point of the new surface is a mean of new
+ * corners; the same mean of the old corners lies on the old surface. It is lower by at most dz and
+ * aside by at most dx + dy, and there the old surface is lower by at most that times its steepest
+ * slope, 1 / n.z. The heights of both boxes bound the rise, too.
  */
 static int64_t find_rise_q22(const struct carom_surface *s, const int16_t (*vertices)[3])
 {
@@ -111,8 +115,8 @@ static bool moves_aside(const struct carom_surface *s, const int16_t (*vertices)
 }
 
 /*
- * What is built of the vertices that mesh->raw has. Faces that look up overlap nowhere when seen
- * from above they are where they were: only then the z-lists need not be looked through.
+ * Rebuild from the vertices of mesh->raw. Faces that look up and whose x and y have not changed
+ * cannot overlap: only then may the z-lists be skipped.
  */
 static int refresh(struct carom_surface *s, bool lists)
 {
@@ -158,7 +162,7 @@ void mesh_surface_keep(struct carom_surface *s)
 void mesh_surface_undo(struct carom_surface *s)
 {
     s->mesh->raw.vertices = (const int16_t(*)[3])s->now;
-    (void)refresh(s, true); /* was good before */
+    (void)refresh(s, true); /* it was good before */
 }
 
 void mesh_surface_halt(struct carom_surface *s)
@@ -169,7 +173,7 @@ void mesh_surface_halt(struct carom_surface *s)
 
 /* ------------------------------------------------------------------- drift */
 
-/* The mean of what vertices have moved by; weights are 0 .. 1, 1 in all. */
+/* The weighted mean of vertices' displacements; weights are 0 .. 1 and sum to 1. */
 static void mean_drift(const struct carom_mesh *mesh, const uint16_t *vertex,
                        const int32_t *weight_q30, int n, carom_v3_q40 *out)
 {
@@ -177,7 +181,7 @@ static void mean_drift(const struct carom_mesh *mesh, const uint16_t *vertex,
     int digits = mesh->raw.quantum_bits - 10;
 
     for (int k = 0; k < 3; k++) {
-        int64_t sum = 0; /* of n < 4 products below 2^17 2^30 */
+        int64_t sum = 0; /* n < 4 products below 2^17 2^30 */
 
         for (int i = 0; i < n; i++) {
             sum += (int64_t)(s->now[vertex[i]][k] - s->before[vertex[i]][k]) * weight_q30[i];
@@ -194,7 +198,7 @@ void mesh_drift_vertex(const struct carom_mesh *mesh, uint32_t v, carom_v3_q40 *
     mean_drift(mesh, &vertex, &whole, 1, out);
 }
 
-/* part / whole cut to 0 .. 1; whole > 0 */
+/* part / whole, clamped to 0 .. 1; whole > 0 */
 static int32_t share_q30(int64_t part, int64_t whole)
 {
     int down = fix_bits((uint64_t)whole) - 31;
@@ -222,7 +226,7 @@ void mesh_drift_edge(const struct carom_mesh *mesh, uint32_t edge, const carom_v
     mean_drift(mesh, e->vertex, weight, 2, out);
 }
 
-/* Seen from above: twice the area of a corner and the place, the edge in quanta. */
+/* Twice the area, seen from above, between an edge and a place; the edge in quanta. */
 static int64_t area(const int16_t *from, const int16_t *to, const int32_t at_q22[2], int shift)
 {
     int64_t x = at_q22[0] - carom_shl(from[0], shift), y = at_q22[1] - carom_shl(from[1], shift);
@@ -248,7 +252,7 @@ void mesh_drift_face(const struct carom_mesh *mesh, uint32_t face, const carom_v
         part[k] = part[k] < 0 ? 0 : part[k];
         whole += part[k];
     }
-    /* not 0: the area of the face is positive and not less than what lies inside */
+    /* not 0: the face has an area, and at least that of the part inside */
     weight[1] = share_q30(part[1], whole > 0 ? whole : 1);
     weight[2] = share_q30(part[2], whole > 0 ? whole : 1);
     weight[0] = CAROM_ONE_Q30 - weight[1] - weight[2];

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Z-lists: enter intervals, and the interval of z that a face spans over a cell. */
 #include "zlist.h"
 
 void zlist_clear(struct zlist *z)
@@ -45,7 +46,7 @@ static void extent(const struct zface *f, int k, int32_t *low, int32_t *high)
 }
 
 /*
- * The part of the face's rectangle that lies over the cell grown by f->grow. Returns whether the
+ * The part of the face's rectangle over the cell, which is grown by f->grow. Returns true if the
  * cell cuts anything away.
  */
 static bool cut_area(const struct zface *f, const struct scan_grid *grid, int32_t col, int32_t row,

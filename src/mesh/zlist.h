@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * zlist - pooled z-lists, sorted by z, on a grid of cells.
+ * zlist - z-lists from a pool, sorted by z, on a grid of cells (paper, section 1, figure 1).
  *
  * The paper's z-list buffer with conservative cells in place of pixels: a face is entered in every
- * cell that its projection touches, with the interval of z that it spans over that cell. The
- * entries come from one fixed pool; a full pool refuses, and the caller goes on in chunks.
+ * cell that its projection touches, with the interval of z that it spans over that cell. Entries
+ * come from one fixed pool. A full pool refuses, and the caller goes on in chunks.
  */
 #ifndef CAROM_SRC_ZLIST_H
 #define CAROM_SRC_ZLIST_H
@@ -31,11 +31,13 @@ struct zlist {
 /* Empty every cell. */
 void zlist_clear(struct zlist *z);
 
-/* Enter one interval in a cell, in order of z1 (highest first; ties by face, lowest first).
- * Returns false when the pool is full; nothing is changed then. */
+/*
+ * Enter an interval in a cell, in order of z1 (highest first; ties by face, lowest first). Returns
+ * false, and changes nothing, if the pool is full.
+ */
 bool zlist_enter(struct zlist *z, uint32_t cell, int16_t z0, int16_t z1, uint16_t face);
 
-/* A triangle as the z-list sees it: corners in quanta of the grid. */
+/* A triangle for z-lists: corners in quanta of the grid. */
 struct zface {
     int32_t p[3][3];
     int32_t grow; /* quanta on all sides, z included */

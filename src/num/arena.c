@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Carve a block into arrays; take places of a pool. */
 #include "arena.h"
 
 void arena_init(struct arena *a, void *mem, size_t bytes)
@@ -13,7 +14,7 @@ void *arena_carve(struct arena *a, size_t bytes)
     size_t start = a->used;
     size_t rounded = (bytes + 7) & ~(size_t)7;
 
-    /* Sticky once anything failed: used stays past size, so that no later carve succeeds. */
+    /* sticky: once a carve fails used stays past size, so no later carve succeeds */
     if (rounded < bytes || start > SIZE_MAX - rounded) {
         a->used = SIZE_MAX;
         return NULL;

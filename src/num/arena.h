@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * arena - carve one caller-supplied block into named pools.
+ * arena - carve one block of the caller's into arrays, and pools that count.
  *
- * A block is carved once and never given back; what is carved is zeroed. Pools count what they
- * hold.
+ * A block is carved once and nothing is given back. Carved memory is zeroed.
  */
 #ifndef CAROM_SRC_ARENA_H
 #define CAROM_SRC_ARENA_H
@@ -13,7 +12,7 @@
 struct arena {
     uint8_t *base;
     size_t size;
-    size_t used; /* grows past size when a carve does not fit, so that the need is known */
+    size_t used; /* grows past size if a carve does not fit, so that the need is known */
 };
 
 /* mem must be aligned to 8 bytes. */
@@ -22,7 +21,9 @@ void arena_init(struct arena *a, void *mem, size_t bytes);
 /* bytes of zeroed memory aligned to 8, or NULL when the block is too small. */
 void *arena_carve(struct arena *a, size_t bytes);
 
-/* Carve room for `count` of what the pointer `to` points at; `to` then points at the first. */
+/*
+ * Carve `count` elements of the type that the pointer `to` points at, and point `to` at the first.
+ */
 #ifdef __cplusplus
 #define ARENA_POINTER_(to) (decltype(to))
 #else
@@ -31,7 +32,7 @@ void *arena_carve(struct arena *a, size_t bytes);
 #define ARENA_CARVE(arena, to, count)                                                              \
     ((to) = ARENA_POINTER_(to) arena_carve(arena, (count) * sizeof *(to)))
 
-/* Counters of one pool: how many it can hold, holds, held at most, and how many it turned away. */
+/* Counters of a pool: size, places in use, most ever in use, requests refused. */
 struct pool {
     uint32_t size;
     uint32_t used;
@@ -39,7 +40,7 @@ struct pool {
     uint32_t refused;
 };
 
-/* Takes the next place of the pool and returns its index, or -1 when it is full. */
+/* Take the next place of a pool: returns its index, or -1 if the pool is full. */
 int32_t pool_take(struct pool *p);
 static inline void pool_clear(struct pool *p)
 {

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Division, square roots, normalisation and 128-bit arithmetic: what is too long to be inline. */
 #include "fix.h"
 
 /*

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* Gauss-Jordan elimination with iterative refinement, in 32-bit rows. */
 #include "gauss.h"
 
 /*
- * Bounds. Entries of rows stay within FULL = 2^30. One elimination forms pivot r + f s from two
- * such entries, with |pivot|, |f| < 2^31: at most 2^62, and its upper word, the new entry, is at
- * most 2^30 again. So a step cannot overflow; it can only leave a row small, which normalising
- * repairs.
+ * Bounds. Entries of rows stay within FULL = 2^30. An elimination forms pivot r + f s from two such
+ * entries, with |pivot|, |f| < 2^31: at most 2^62, and its upper word, the new entry, is at most
+ * 2^30 again. So a step cannot overflow. It can only leave a row small, and normalising repairs
+ * that.
  */
 #define FULL           ((int32_t)1 << 30)
 #define NORMAL         ((int32_t)1 << 29) /* a normalised row's largest entry is at least this */
@@ -14,7 +15,7 @@
 #define ROUNDS_MAX     5
 #define RESIDUAL_BITS  61
 
-/* |v|, or |v| - 1 for negative v: good enough to see how many bits are used, and no branch. */
+/* |v|, or |v| - 1 for a negative v: exact enough to count bits, and without a branch. */
 static uint32_t magnitude(int32_t v)
 {
     return (uint32_t)(v ^ (v >> 31));
@@ -25,7 +26,7 @@ static int headroom(uint32_t v, uint32_t full)
 {
     int z = 0;
 
-    /* Mostly 0 to 3 turns: faster than a general count of bits. */
+    /* mostly 0 to 3 turns: faster than a general count of bits */
     while (v < full) {
         v <<= 1;
         z++;
@@ -57,7 +58,7 @@ static int normalise_rows(struct gauss *w, int n)
     return 0;
 }
 
-/* The unused row with the largest entry in column k, or -1 when all are noise. */
+/* The unused row with the largest entry in column k; -1 if all are noise. */
 static int choose_pivot(const struct gauss *w, int n, int k)
 {
     uint32_t largest = SMALLEST_PIVOT - 1;
@@ -74,7 +75,7 @@ static int choose_pivot(const struct gauss *w, int n, int k)
     return best;
 }
 
-/* row = (scale row + factor other) / 2^32 in columns from..n-1; returns the bits in use. */
+/* row = (scale row + factor other) / 2^32 in columns from .. n - 1; returns the bits used. */
 static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32_t factor, int from,
                         int n)
 {
@@ -90,14 +91,15 @@ static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32
 }
 
 /*
- * Take column k out of row i. The entry a_ik is not cleared: nothing reads it as a coefficient any
- * more, and it is the multiplier that later right-hand sides need.
+ * Eliminate column k from row i. The entry a_ik is not cleared: nobody reads it as a coefficient
+ * any more, and later right-hand sides need it as the multiplier.
  */
 FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
 {
     int32_t *row = w->a[i];
     int32_t pivot = w->pivot[k], f = -row[k];
-    int own = w->step[i]; /* the column of a row that has been pivot: its diagonal scales along */
+    int own =
+        w->step[i]; /* the row's own column, if it has been the pivot: its diagonal scales along */
     int z = headroom(magnitude(pivot) | magnitude(f), (uint32_t)FULL);
     int up = 0;
     uint32_t used;
@@ -112,7 +114,7 @@ FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
     if (used > 0 && used < (uint32_t)NORMAL) {
         up = headroom(used, NORMAL);
         if (up > 31 - z) {
-            up = 31 - z; /* keeps the shift below positive; only a hopeless system comes here */
+            up = 31 - z; /* keeps the shift positive; only a hopeless system gets here */
         }
         for (int j = k + 1; j < n; j++) {
             row[j] = (int32_t)carom_shl(row[j], up);
@@ -159,7 +161,7 @@ static int invert_diagonal(struct gauss *w, int n)
             return -1;
         }
         z = headroom((uint32_t)carom_abs(*d), NORMAL);
-        /* 2^59 over at least 2^29: at most 2^30. */
+        /* 2^59 over at least 2^29: at most 2^30 */
         *d = (int32_t)(((int64_t)1 << 59) / carom_shl(*d, z));
         w->inverse_shift[k] = (uint8_t)z;
     }
@@ -184,8 +186,8 @@ static int64_t scale_down(int64_t v, int s)
 }
 
 /*
- * Carry w->y through all steps. Before each step |y| <= 2^30, so the products are within 2^62;
- * where a step lets y grow past that, all of it is scaled down. Returns by how many bits in all.
+ * Carry w->y through all steps. Before each step |y| <= 2^30, so products are within 2^62. If a
+ * step lets y grow past that all of y is scaled down. Returns the number of bits in all.
  */
 static int replay(struct gauss *w, int n)
 {
@@ -218,13 +220,18 @@ static int replay(struct gauss *w, int n)
     return down;
 }
 
-/* x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse: 60 bits before it. */
+/*
+ * x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse; this is y inverse, 60
+ * bits.
+ */
 static inline int64_t quotient(const struct gauss *w, int k)
 {
     return (int64_t)(int32_t)w->y[w->row[k]] * w->a[w->row[k]][k];
 }
 
-/* Solve for the residual, of so many bits, times 2^-q. The answer is digits 2^-h; returns h. */
+/*
+ * Solve for the residual, which has `bits` bits, times 2^-q. The answer is digits 2^-h; returns h.
+ */
 static int correction(struct gauss *w, int n, int bits, int q)
 {
     int s = bits - 30;
@@ -282,7 +289,7 @@ int gauss_begin(struct gauss *w, int n)
     return block_bits(w->residual, n) > 0;
 }
 
-/* 1, and the residual in the scale of the correction that is to be taken out of it. */
+/* Go on: bring the residual to the scale of the correction to be taken out of it. Returns 1. */
 static int go_on(struct gauss *w, int n, int h)
 {
     for (int i = 0; i < n; i++) {
@@ -306,11 +313,11 @@ int gauss_correct(struct gauss *w, int n)
     }
     h = correction(w, n, bits, w->last);
     if (h < DIGITS_BITS - 20 || h < w->last + 4) {
-        return -1; /* out of range, or corrections that hardly shrink */
+        return -1; /* out of range, or the corrections hardly shrink */
     }
     add_digits(w, n, h);
     w->first = w->round == 0 ? h : w->first;
-    /* Each correction is as good, relative to itself, as the first solution was. */
+    /* each correction is as good, relative to itself, as the first solution was */
     gained = (h - w->first) + (h - w->last);
     return w->round++ > 0 && gained >= 34 ? 0 : go_on(w, n, h);
 }
