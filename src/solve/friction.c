@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Coulomb's limit of a single contact. */
+/* Coulomb's limit of a single contact, and arithmetic of answers. */
 #include "rows.h"
 
 void impact_add_scaled(struct impact_answer *to, const struct impact_answer *difference,
@@ -42,12 +42,12 @@ void impact_cone_limit(const struct impact_problem *p, const struct impact_answe
     int64_t length = fix_length(tangential), reach, growth;
     struct fix_wide excess = fix_wide_mul(-length, length);
 
-    /* One Newton step for the digits that fix_length leaves out: growth is a difference. */
+    /* one Newton step for the digits that fix_length drops, since growth is a difference */
     if (length > 0) {
         fix_wide_add_dot(&excess, tangential, tangential);
         length += fix_mul_scaled(1, fix_wide_over(&excess, 2 * length));
     }
-    /* Where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N). */
+    /* where P0 + s D meets the cone: |D_t| s = mu (P0.N + s D.N) */
     reach = fix_mul(impact_dot(out->p_q40, &p->frame.n), mu_q16, 16);
     growth = length - fix_mul(impact_dot(d.p_q40, &p->frame.n), mu_q16, 16);
     if (reach > 0 && growth > 0) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+/* Solve one impact: impact_solve. */
 #include "rows.h"
 
-/* The one rounding of the impulse, to momentum's last place. */
+/* Round the impulse, once, to the last place of momentum. */
 static void finish(const struct impact_problem *p, const struct impact_answer *x,
                    struct impact_result *out)
 {
@@ -17,8 +18,8 @@ static void finish(const struct impact_problem *p, const struct impact_answer *x
 }
 
 /*
- * Coulomb's limit is passed: the impulse along the slip, or where there is none to begin with, along
- * the slip that a frictionless impact leaves. Returns 0, or -1 when there is no solution.
+ * Solve for a sliding contact. Friction acts along the slip; if there is none to begin with, along
+ * the slip that a frictionless impact leaves. Returns 0, or -1 if there is no solution.
  */
 static int slide(struct impact_problem *p, bool slips, const struct impact_answer *stick,
                  struct impact_answer *out)
@@ -34,7 +35,7 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
             after[k] = fix_round_shift(p->in->velocity.c[k], -out->unit) + out->dv_q40[k];
         }
         if (!impact_set_frame(&p->frame, after)) {
-            return 0; /* nothing for friction to act along */
+            return 0; /* no direction for friction */
         }
     }
     if (impact_slide(p, p->in->friction_q16, out) == 0 && impact_dot(out->p_q40, &p->frame.n) > 0) {
@@ -51,7 +52,7 @@ int impact_solve(struct gauss *w, const struct impact *in, struct impact_result 
 {
     struct impact_problem p = {.w = w, .in = in, .frame = {.n = in->normal}};
     struct impact_result result = {.slid = false, .energy_rule = false};
-    struct impact_answer x, other; /* the sticking one, then the frictionless one */
+    struct impact_answer x, other; /* the sticking answer, later the frictionless one */
     bool slips;
 
     CAROM_ASSERT(in->friction_q16 <= CAROM_MU_MAX_Q16);

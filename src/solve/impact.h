@@ -1,7 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * impact - one contact between two bodies: the paper's equations (1)-(10) by Gauss-Jordan, with
- * Newton's restitution, Coulomb friction, and a rule that never gains energy.
+ * impact - one contact between two bodies: the paper's equations (1)-(10) by Gauss-Jordan
+ * elimination, with Newton's restitution, Coulomb friction, and a rule that never gains energy
+ * (paper, section 3).
+ *
+ * In: both bodies' masses, inertias and arms, N, V, the target of V'.N. Out: the impulse P.
+ *
+ * Steps, and the files that hold them:
+ *   impact.c         impact_solve: stick; if that leaves the friction cone slide; then the energy rule
+ *   rows.c           the equations as rows in units near 1; solve and refine them
+ *   friction.c       Coulomb's limit
+ *   impact_energy.c  the energy rule of a single impact
  */
 #ifndef CAROM_SRC_IMPACT_H
 #define CAROM_SRC_IMPACT_H
@@ -15,10 +24,10 @@ struct impact_arm {
     int32_t e;
 };
 
-/* One of the two bodies, as the equations see it. */
+/* One of both bodies, as the equations see it. */
 struct impact_side {
     bool moving;                    /* a stationary body has no unknowns */
-    struct fix_scaled inverse_mass; /* what momentum is multiplied by to be velocity */
+    struct fix_scaled inverse_mass; /* velocity = inverse_mass momentum */
     struct carom_sym3 inertia; /* divided by the mass, about the centre of mass, in world axes */
     struct impact_arm arm;     /* from the centre of mass to the contact */
 };
@@ -39,15 +48,16 @@ struct impact_result {
 };
 
 /*
- * The impulse of one contact.
+ * Solve one impact.
  *
  *   w    workspace
  *   in   at least one side moves; |V| < 2^12, |arm| <= 2^6, masses 2^-10 .. 2^10, mu <= 4
- *   out  the impulse; zero when V.N >= target already (the contact does not pull)
+ *   out  the impulse; zero if V.N >= target already (a contact does not pull)
  *
- * Returns  CAROM_OK or CAROM_ERR_RANGE when the system cannot be solved; out is written only for
- * OK. Source   paper eq. (1)-(8) stick, (9), (10) slip; rows scaled as SPEC.md says. 9 unknowns
- * when one side moves, 15 when both do.
+ * Returns  CAROM_OK, or CAROM_ERR_RANGE if the system cannot be solved; out is written only for
+ * CAROM_OK Source   paper eq. (1)-(8) stick, (9), (10) slip; rows scaled as SPEC.md says. 9
+ * unknowns if one
+ *          side moves, 15 if both do.
  */
 int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out);
 

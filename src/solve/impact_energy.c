@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The rule that a single impact never gains energy. */
+/* The energy rule: a single impact never gains energy. */
 #include "rows.h"
 
 #define HALVINGS_MAX 30
@@ -15,7 +15,7 @@ static struct fix_scaled largest_feasible(int64_t abc[3])
 {
     struct fix_scaled k = {.m = 0, .e = 30};
 
-    /* Halve until 1/2 is feasible, so that a small k has its 30 digits too. */
+    /* halve until 1/2 is feasible, so that a small k has its 30 digits, too */
     while (k.e < 30 + HALVINGS_MAX && quadratic(abc, CAROM_ONE_Q30 / 2) > 0) {
         abc[0] = (abc[0] + 3) >> 2; /* upwards: on the safe side */
         abc[1] = (abc[1] + 1) >> 1;
@@ -54,9 +54,9 @@ bool impact_gains(const struct impact_problem *p, const struct impact_answer *x)
  *   P0.(2V + K P0) + 2k D.V + k^2 D.K D
  *
  * because N.K D = 0: both impulses give the same V'.N. The first term is (P0.N) (V.N + target),
- * formed from V itself because at e = 1 it is a difference of nearly equal numbers; it is not
- * positive while e <= 1. The last is not negative. So from the largest k with a value <= 0 on, all
- * are positive.
+ * formed from V itself, since at e = 1 it is a difference of nearly equal numbers. It is not
+ * positive while e <= 1. The last term is not negative. So beyond the largest k with a value <= 0
+ * all values are positive.
  */
 void impact_energy_rule(const struct impact_problem *p, const struct impact_answer *free,
                         struct impact_answer *x)

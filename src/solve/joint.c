@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a joint's anchors and axes are, and how far they are from where they belong. */
+/* The places of a joint's anchors and axes, and their errors by row. */
 #include "joint.h"
 
 extern inline bool joint_holds(const struct joint_list *list, uint32_t i);
@@ -27,7 +27,7 @@ bool joint_is_driven(const struct joint *j, const struct joint_state *s)
 
 /* ---------------------------------------------------------------- places, axes */
 
-/* An anchor in the world, q40. */
+/* An anchor in world axes, q40. */
 static void anchor_q40(const struct joint *j, int side, const struct joint_pose *pose,
                        int64_t out[3])
 {
@@ -51,7 +51,7 @@ carom_v3_q32 joint_anchor(const struct joint *j, int side, const struct joint_po
     return at;
 }
 
-/* The joint's axes on a side: of length 1 within some units of the last place. */
+/* The joint's axes on a side; of length 1 within some units of the last place. */
 static carom_quat_q30 axes_of(const struct joint *j, int side, const struct joint_pose *pose)
 {
     const int32_t *p = pose->rotation.c, *q = j->frame[side].c;
@@ -143,7 +143,7 @@ int64_t joint_turned_q40(int64_t from_q40, int64_t to_q40)
 
 /* ----------------------------------------------------------------------- errors */
 
-/* A direction of b's axes. */
+/* Column `at` of a matrix: a direction of its axes. */
 static void column(const carom_m3_q30 *m, int at, int32_t out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -159,7 +159,7 @@ static int64_t along(const int64_t v[3], const carom_m3_q30 *axes, int at)
     return fix_dot_q30(v, d);
 }
 
-/* Errors of the rows that turn: small rotations of a's axes against b's. */
+/* Set the errors of the angular rows: small rotations of a's axes against b's. */
 static void measure_turn(const struct joint *j, const carom_quat_q30 *a, const carom_quat_q30 *b,
                          const carom_m3_q30 *axes, struct joint_error *out)
 {
@@ -226,7 +226,7 @@ static void set_arm(struct joint_lever *lever, const int64_t arm_q40[3])
 {
     int up = 30 - fix_bits3(arm_q40);
 
-    up = up < 12 ? up : 12; /* nearer than 2^-22 it is as good as there */
+    up = up < 12 ? up : 12; /* an arm below 2^-22 may be rounded */
     lever->arm_bits = 40 + up;
     for (int k = 0; k < 3; k++) {
         lever->arm[k] = (int32_t)fix_round_shift(arm_q40[k], up);

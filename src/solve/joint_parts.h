@@ -1,24 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* joint_parts - what the files that solve joints share; one joint each. parts.h says what is called when. */
+/*
+ * joint_parts - what the files that solve joints share. Each function is about one joint unless it
+ * takes the island; parts.h says what is called when.
+ */
 #ifndef CAROM_SRC_JOINT_PARTS_H
 #define CAROM_SRC_JOINT_PARTS_H
 
 #include "parts.h"
 
-/* Levers and K^-1; `lightest` gives the unit of mass. */
+/* Set levers and K^-1; `lightest` gives the unit of mass. */
 bool joint_prepare(struct joint *j, const struct body *lightest);
-/* By how much an impulse of 1 along row k of b changes V of row i of a, q30: an entry of K, where both are one joint. */
+/*
+ * The change of V of row i of a by an impulse of 1 along row k of b, q30: an entry of K if a and b
+ * are the same joint.
+ */
 int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_work *b, int k);
-/* Factors of what all held rows of the island do to each other; false when the room is short. The solution with them: how
- * much a velocity moved. */
+/*
+ * Factor the matrix of all held rows of the island; false if the room is too small. Solve with the
+ * factors; returns how much a velocity moved.
+ */
 bool joint_factor(struct rest *r);
 int64_t joint_solve_held(struct rest *r, int32_t quiet);
-/* V - wanted V of a row by now, of the last one V; and what changes of impulses do. */
+/* V - wanted V of a row now, or V of the last row. joint_push applies changes of impulses. */
 int32_t joint_present(const struct joint_work *w, int row);
 void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
 /*
- * Its parts. What impulses do to a body is summed up modulo 2^64: a light one between heavy ones is pushed hard from both sides, and
- * what is left of it is short though the pushes are long.
+ * Parts of joint_push. Effects on a body are summed modulo 2^64: a light body between heavy ones is
+ * pushed hard from both sides, and the sum is short though the pushes are long.
  */
 struct joint_sum {
     uint64_t way[3], turn[3];
@@ -26,11 +34,11 @@ struct joint_sum {
 void joint_note(struct joint_work *w, const int64_t change[JOINT_ROWS]);
 void joint_add_effect(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS],
                       struct joint_sum *sum);
-/* The sum in units of dv and du; and that to the body's velocity. */
+/* Round a sum to units of dv and du; add it to the body's velocity. */
 void joint_round_sum(const struct body *b, const struct joint_sum *sum, int64_t dv[3],
                      int64_t du[3]);
 void joint_move(struct body *b, const struct joint_sum *sum);
-/* V of a row, q40; and the part of it that is a kinematic body's. */
+/* V of a row, q40; the part of it that a kinematic body contributes. */
 int64_t joint_speed_q40(const struct joint_work *w, int row);
 int64_t joint_led_speed_q40(const struct joint_work *w, int row);
 int64_t joint_largest_q40(const struct joint *j);
@@ -41,7 +49,7 @@ int64_t joint_sweep(struct joint *j, int32_t quiet);
 void joint_end(struct joint *j, const struct rest_sweep *sw);
 void joint_apply(struct rest *r, const struct joint *j);
 
-/* v, or +-2^bits: numbers that no world in range comes to are kept from wrapping round. */
+/* v, clamped to +-2^bits: keeps numbers that no world in range reaches from wrapping. */
 static inline int64_t joint_limited(int64_t v, int bits)
 {
     const int64_t most = (int64_t)1 << bits;

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* A joint in the sweeps: all of its rows at once, the last one by the law of its limits, motor or spring. */
+/*
+ * A joint in the sweeps: all of its rows at once, the last one by the law of its limits, motor or
+ * spring.
+ */
 #include "joint_parts.h"
 
-/* V - wanted V of a row by now; of the last one V. */
+/* V - wanted V of a row now; V of the last row. */
 int32_t joint_present(const struct joint_work *w, int row)
 {
     const struct body *a = w->lever[0].body, *b = w->lever[1].body;
@@ -33,11 +36,11 @@ int32_t joint_present(const struct joint_work *w, int row)
     return rest_clamp(w->before[row] + v + ((int64_t)turn >> 32));
 }
 
-/* Where K is all but singular an impulse is long, though what it changes is short. */
+/* If K is all but singular an impulse is long though its effect is short. */
 #define IMPULSE_BITS   58
 #define WAY_FINER_BITS 8
 
-/* By how many bits sums of turns are finer than du: as far as its shift leaves any. */
+/* Extra bits of turn sums below du: as many as the shift leaves. */
 static int finer_bits(const struct body *b)
 {
     int s = rest_turn_shift(b, JOINT_FINE_BITS);
@@ -79,7 +82,7 @@ void joint_move(struct body *b, const struct joint_sum *sum)
     int64_t dv[3], du[3];
 
     joint_round_sum(b, sum, dv, du);
-    for (int k = 0; k < 3; k++) { /* more than 2^30 is seen to have outgrown the unit */
+    for (int k = 0; k < 3; k++) { /* beyond 2^30 it is noticed as having outgrown the unit */
         in->used |= rest_add(&in->dv[k], rest_within(dv[k], CAROM_ONE_Q30)) |
                     rest_add(&in->du[k], rest_within(du[k], CAROM_ONE_Q30));
     }
@@ -107,8 +110,9 @@ void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
 }
 
 /*
- * The impulse that the last row is to have, `now` being the one with which the others hold and V is v: the motor's, or the
- * spring's, or none; and what the limits ask for beyond that.
+ * The impulse that the last row is to have. `now` is the impulse at which the held rows hold, and V
+ * is v then. The result is the motor's, the spring's, or none, plus what the limits ask for beyond
+ * that.
  */
 static int64_t by_law(const struct joint_work *w, int64_t now, int32_t v)
 {
@@ -149,7 +153,7 @@ int64_t joint_sweep(struct joint *j, int32_t quiet)
     for (int i = 0; i < w->rows; i++) {
         int64_t sum = 0;
 
-        /* below 2^30 and 2^29, six of them */
+        /* six products of numbers below 2^30 and 2^29 */
         for (int k = 0; k < w->held; k++) {
             sum += (int64_t)w->inverse[i][k] * error[k];
         }

@@ -1,51 +1,52 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rigid - islands that move as one rigid body: where energy is taken out of the rest of their
- * motion, and the last resort for an island that no solve sets right.
+ * rigid - islands that move as one rigid body: used when energy is taken out of the rest of their
+ * motion, and as the last resort for an island that no solve sets right.
  */
 #ifndef CAROM_SRC_RIGID_H
 #define CAROM_SRC_RIGID_H
 
 #include "rest.h"
 
-/* The active bodies of an island, in order; ISLAND_END after the last. */
+/* The active bodies of an island, in order: the first, the next; ISLAND_END after the last. */
 uint32_t rest_island_first(const struct rest *r, uint32_t island);
 uint32_t rest_island_next(const struct rest *r, uint32_t i);
 
 /* The motion of an island as one rigid body. */
 struct rest_rigid {
-    uint32_t first, heavy; /* bodies: the first active one, and one of the heaviest */
+    uint32_t first, heavy; /* bodies: the first active one; a heaviest one */
     carom_v3_q32 centre;
     carom_v3_q40 velocity, spin;
-    int32_t mass_e, length_bits; /* the units that sums are in */
+    int32_t mass_e, length_bits; /* units of sums */
     int64_t mass_q30;
 };
 
 /*
- * The rigid motion that has the momentum and the angular momentum of the island's active bodies, to
- * 30 bits. Takes the room of the dense system, which contact_work shares. Returns false when these
- * are fewer than two, or all in a line so thin that it has no inertia about it.
+ * Find the rigid motion that has the momentum and the angular momentum of the island's active
+ * bodies, to 30 bits. Uses the room of the dense system, which contact_work shares. Returns false
+ * if the island has fewer than two active bodies, or is a line so thin that it has no inertia about
+ * it.
  */
 bool rest_rigid_motion(const struct rest *r, uint32_t island, struct rest_rigid *rigid);
-/* A body with the momenta that it has in that motion. */
+/* The state of a body with the momenta that it has in that motion. */
 struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid *rigid,
                                    uint32_t i);
 
 /*
- * Scale what an island moves by beside its rigid motion; nothing outside acts on it, so its momenta
+ * Scale an island's motion relative to its rigid motion. Nothing outside acts on it, so its momenta
  * stay: linear momentum to the last place, angular momentum to half of one. A heavy body gets what
  * rounding takes of them.
  */
 void rest_scale_free(struct rest *r, const struct rest_rigid *rigid, int32_t factor_q30);
 
-/* The same of an island that touches what stands still: it has no motion to keep. */
+/* The same for an island that touches a stationary body: it has no motion to keep. */
 void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30);
 
 /*
- * The last resort: no two bodies of the island approach each other after it, nor what stands still
- * when it is grounded. A free island moves as one rigid body, with all of its momentum and angular
- * momentum; a grounded one is at rest. Its energy does not rise. Returns false, and changes nothing,
- * when the island is so thin that its turn is not known.
+ * The last resort. Afterwards no two bodies of the island approach each other, nor, if it is
+ * grounded, a stationary body. A free island moves as one rigid body, with all of its momentum and
+ * angular momentum; a grounded one is at rest. Its energy does not rise. Returns false, and changes
+ * nothing, if the island is so thin that its turn is unknown.
  */
 bool rest_unite(struct rest *r, uint32_t island, bool grounded);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The equations of one impact as rows; their solution by Gauss-Jordan elimination, refined. */
 #include "rows.h"
 
 #define UNKNOWNS_MAX 57 /* bits of x in q40: sums over 15 unknowns stay below 2^61 */
@@ -33,14 +34,14 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
         fix_wide_add_product(&cross_q70[k], -t[j], f->n.c[i]);
     }
     bits = fix_wide_bits3(cross_q70);
-    /* Less than 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much. */
+    /* below 2^-36, or 2^-28 of t: N is rounded to 2^-31, which turns t x N as much */
     slips = bits > 34 && bits > fix_bits3(t) + 30 - 28;
     if (slips) {
         for (int k = 0; k < 3; k++) {
             across[k] = fix_wide_shift(&cross_q70[k], bits > 62 ? bits - 62 : 0);
         }
     } else {
-        /* The axis farthest from N: its cross product with N is at least sqrt(2/3) long. */
+        /* the axis farthest from N: its cross product with N is at least sqrt(2/3) long */
         int far = 0;
 
         for (int k = 1; k < 3; k++) {
@@ -52,7 +53,7 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
     }
     fix_normalise(&f->u, across);
     carom_cross(f->v.c, f->n.c, f->u.c, 30);
-    /* Some units of 2^-30. */
+    /* some units of 2^-30 */
     f->un_q52 = (int32_t)carom_round(carom_dot(f->u.c, f->n.c), 8);
     f->vn_q52 = (int32_t)carom_round(carom_dot(f->v.c, f->n.c), 8);
     return slips;
@@ -60,7 +61,7 @@ bool impact_set_frame(struct impact_frame *f, const int64_t t[3])
 
 /* -------------------------------------------------------------------- rows */
 
-/* The power of two of I / m and of the arm; returns the c that this body needs. */
+/* Set the powers of two of I / m (g) and of the arm; returns the c that this body needs. */
 static int set_shape(struct impact_mover *m, const struct impact_side *side, int *g)
 {
     uint32_t inertia = 0, arm = 0;
@@ -82,14 +83,14 @@ static int set_shape(struct impact_mover *m, const struct impact_side *side, int
     return fix_bits(arm) - side->arm.e - *g + 1;
 }
 
-/* A number up to 1 in two parts. */
+/* Split a number up to 1 into two parts. */
 static void split_q60(int64_t v_q60, int32_t *v_q30, int32_t *rest_q60)
 {
     *v_q30 = (int32_t)carom_round(v_q60, 30);
     *rest_q60 = (int32_t)(v_q60 - *v_q30 * ((int64_t)1 << 30));
 }
 
-/* m*, and the shares, exact to 60 bits: m* / m is 1/2 to 1 for the lighter body. */
+/* Set m* and the shares, exact to 60 bits: m* / m is 1/2 to 1 for the lighter body. */
 static void set_masses(struct impact_problem *p, const struct impact_side *side[2])
 {
     int power[2], top = 0;
@@ -130,7 +131,7 @@ void impact_prepare(struct impact_problem *p)
     }
     for (int b = 0; b < p->movers; b++) {
         for (int k = 0; k < 3; k++) {
-            /* |arm| < 2^(g + c - 1 + e), so |arm_q30| <= 2^29 and |arm x d| < 2^30. */
+            /* |arm| < 2^(g + c - 1 + e), so |arm_q30| <= 2^29 and |arm x d| < 2^30 */
             int shift = 60 - side[b]->arm.e - g[b] - p->arm_shift;
 
             split_q60(fix_round_shift(side[b]->arm.c[k], shift), &p->mover[b].arm_q30[k],
@@ -140,7 +141,7 @@ void impact_prepare(struct impact_problem *p)
     set_masses(p, side);
 }
 
-/* (arm x P)_i has arm_j P_k with a plus sign: what an impulse along an axis turns by along another. */
+/* Entry of -s share arm x P: how an impulse along one axis turns the body about another. */
 static int32_t turn_by(const struct impact_mover *m, int k)
 {
     return (int32_t)carom_round((int64_t)(m->sign * m->share_q30) * m->arm_q30[k],
@@ -167,7 +168,7 @@ static void body_row(const struct impact_problem *p, int b, int k, int32_t *row)
     }
 }
 
-/* The coefficients that give the change of V.d from dv and dw. */
+/* Set the coefficients by which dv and dw change V.d. */
 static void velocity_row(const struct impact_problem *p, const carom_v3_q30 *d, int32_t *row)
 {
     for (int b = 0; b < p->movers; b++) {
@@ -182,8 +183,7 @@ static void velocity_row(const struct impact_problem *p, const carom_v3_q30 *d, 
     }
 }
 
-/* v 2^16 + mu N of (10), and the bits that it takes: (v + mu N) 2^(46 - bits) in 30 bits is its
- * row. */
+/* v 2^16 + mu N of (10); returns its bits. (v + mu N) 2^(46 - bits), in 30 bits, is the row. */
 static int slide_direction(const struct impact_problem *p, uint32_t friction_q16, int64_t out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -208,12 +208,12 @@ static void slide_row(const struct impact_problem *p, uint32_t friction_q16, boo
 
 /* ------------------------------------------------------------------- solve */
 
-/* What one solution asks for. */
+/* What a solution is to reach. */
 struct goal {
     bool sticks;
-    uint32_t friction_q16; /* when it does not */
+    uint32_t friction_q16; /* if it does not stick */
     int bits;              /* of the unit, with 70 fractional bits */
-    int64_t change_q40[3]; /* of V along N, u, v, in the unit */
+    int64_t change_q40[3]; /* change of V along N, u, v, in the unit */
 };
 
 /* v in units of 2^bits. */
@@ -223,7 +223,7 @@ static int64_t in_unit_q40(const struct fix_wide *v_q70, int bits)
                      : carom_shl(fix_wide_shift(v_q70, 0), 40 - bits);
 }
 
-/* The unit must not be so small that V does not fit, nor finer than the velocities are. */
+/* The unit's bits: V must fit, and the unit need not be finer than velocities are. */
 static int unit_bits(const struct impact_problem *p, int bits)
 {
     int lowest = fix_bits3(p->in->velocity.c) + 30 + 40 - SPEED_BITS;
@@ -287,7 +287,7 @@ static int64_t cross_arm(const struct impact_mover *m, const int64_t v[3], int k
            times(v[j], m->arm_q30[i], m->arm_rest_q60[i]);
 }
 
-/* The change of V that dv and dw make: sum of s (2^-c dv + dw x arm). */
+/* Set the change of V by dv and dw: sum of s (2^-c dv + dw x arm). */
 static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
 {
     memset(out_q40, 0, 3 * sizeof out_q40[0]);
@@ -301,7 +301,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
     }
 }
 
-/* What the solution leaves over of (1) to (4), with nothing rounded but the last place of q40. */
+/* Residual of (1) to (4), rounded only to the last place of q40. */
 static void body_residual(const struct impact_problem *p, int b, int64_t *out_q40)
 {
     const struct impact_mover *m = &p->mover[b];
@@ -321,8 +321,8 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
 }
 
 /*
- * Refine the solution against the equations before their coefficients were rounded to rows. It
- * matters where P is large beside the approach speed, as in a grazing contact that wedges.
+ * Refine the solution against the equations before their coefficients were rounded to rows. This
+ * matters if P is large beside the approach speed, as in a grazing contact that wedges.
  */
 static int refine(const struct impact_problem *p, const struct goal *goal)
 {
@@ -336,7 +336,7 @@ static int refine(const struct impact_problem *p, const struct goal *goal)
     velocity_change(p, change);
     last[0] = goal->change_q40[0] - impact_dot(change, &f->n);
     if (goal->sticks) {
-        /* V' along N: V'.u is not 0 but the target times u.N. */
+        /* V' is along N: V'.u is not 0 but the target times u.N */
         int64_t after = fix_round_shift(p->in->target_q40, 70 - goal->bits);
 
         last[1] = goal->change_q40[1] - impact_dot(change, &f->u) + fix_mul(after, f->un_q52, 52);
@@ -360,7 +360,7 @@ static int solve(const struct impact_problem *p, const struct goal *goal, struct
     if (eliminate(p, goal)) {
         return -1;
     }
-    /* A contact about to wedge: too large for the sums that follow, and of no use. */
+    /* a contact about to wedge: too large for the sums that follow, and useless */
     for (int j = 0; j < p->n; j++) {
         used |= (uint64_t)carom_abs(x[j]);
     }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Normals that differ by a hair. Faces on each other are as parallel as the gaps at their corners
- * are even, a few parts in 10^5. What is pressed between two such faces is pushed out between them
- * by as large a part of the pressure: by its own weight or more when a body presses on it that is as
- * many times as heavy. Within their skins they are parallel.
+ * Share normals that differ by a hair. Faces on each other are as parallel as the gaps at their
+ * corners are even: to a few parts in 10^5. A body pressed between two such faces would be pushed
+ * out by that part of the pressure, which is its own weight or more if the body on top is as many
+ * times as heavy. Within their skins such faces count as parallel.
  */
 #include "parts.h"
 
-/* V.N may change by this part of a skin a frame. */
+/* V.N may change by at most this part of a skin a frame. */
 #define CHANGE_DIVISOR 64
 
-/* Whether the contact's pair carries by a face: it has three contacts in the island. */
+/* True if the contact's pair rests on a face: it has three contacts in the island. */
 static bool on_face(const struct rest *r, uint32_t i)
 {
     uint16_t pair = rest_contact(r, i)->key.pair;
@@ -22,7 +22,7 @@ static bool on_face(const struct rest *r, uint32_t i)
     return first + 2 < r->count && rest_contact(r, first + 2)->key.pair == pair;
 }
 
-/* Whether `sign` other is as good a normal of the contact. */
+/* True if `sign` other is as good a normal of the contact. */
 static bool as_good(const struct contact *c, const carom_v3_q30 *other, int32_t sign)
 {
     int64_t change_q40 = 0;

@@ -18,7 +18,7 @@ static inline void rest_split_change(struct rest_change *g, const int32_t n[3])
     }
 }
 
-/* Take up a change into the impulses. */
+/* Add a change to the accumulated impulses. */
 static inline void rest_accumulate(struct contact_work *in, const struct rest_change *g)
 {
     in->normal_impulse += g->along;
@@ -28,12 +28,13 @@ static inline void rest_accumulate(struct contact_work *in, const struct rest_ch
     }
 }
 
-/* And into the bodies; returns its largest component, the last place apart. */
+/* Add a change to the bodies' velocities; returns its largest component, to the last place. */
 int32_t rest_gain(struct contact *c, const struct rest_change *g);
 
 /*
- * Nesterov's momentum: after each sweep go on beyond it, the farther the longer the sweeps agree. The root of the
- * number of sweeps is enough then. When sweeps turn back the momentum begins anew. `age` counts the sweeps that agree.
+ * Nesterov's momentum: after each sweep go on beyond it, farther the longer the sweeps agree. About
+ * the root of the number of sweeps is then enough. When sweeps turn back momentum begins anew.
+ * `age` counts the sweeps that agree.
  */
 void rest_accelerate(struct rest *r, int *age);
 
