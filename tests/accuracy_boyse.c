@@ -233,7 +233,7 @@ static long double largest_opening(const struct truth *truth, long double enough
  */
 static bool find_target(struct truth *truth)
 {
-    int32_t skin_a = meeting.body[0].skin_q22, skin_b = meeting.body[1].skin_q22;
+    int32_t skin_a = meeting.body[0].def.skin_q22, skin_b = meeting.body[1].def.skin_q22;
     long double event = (skin_a > skin_b ? skin_a : skin_b) / 2 * MEETING_UNIT, open, deepest = 0;
     long double start = separation(truth, 0);
 

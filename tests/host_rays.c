@@ -224,7 +224,7 @@ static void try_ray(struct carom_world *world, struct test_random *r, int64_t si
     if (query_carry(&carried, &ray, &world->bodies[0], state)) {
         double error = error_of(&carried, &ray, state);
         double reach = ldexp((double)fix_length(ray.way.c), -32) +
-                       ldexp((double)world->bodies[0].radius_q22, -22);
+                       ldexp((double)world->bodies[0].def.radius_q22, -22);
 
         carried.back = filter.flags != 0;
         face = first_of_all(&carried, &way);
@@ -282,8 +282,8 @@ int main(int argc, char **argv)
         }
         /* towards places within 3/4 of the radius along each axis; the farthest rays begin 12,000 units away */
         try_ray(world, &r,
-                ((int64_t)world->bodies[0].radius_q22 << 10) * 3 / 4 < (INT64_C(24) << 32)
-                    ? ((int64_t)world->bodies[0].radius_q22 << 10) * 3 / 4
+                ((int64_t)world->bodies[0].def.radius_q22 << 10) * 3 / 4 < (INT64_C(24) << 32)
+                    ? ((int64_t)world->bodies[0].def.radius_q22 << 10) * 3 / 4
                     : INT64_C(24) << 32);
     }
     printf("# %lu rays, %lu met; the carried ray is off by 2^%.1f units at most over 8 units\n",

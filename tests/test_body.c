@@ -390,7 +390,7 @@ static void test_still(void)
         int64_t way_q22, turn_q30;
 
         random_state(&r, 1, 0.3);
-        body.moving = n != 0;
+        body.def.moving = n != 0;
         state.asleep = n == 1;
         state.out = n == 2;
         before = state;
@@ -528,7 +528,7 @@ static void test_motion(void)
             CHECK_NEAR(w2.c[k], w.c[k], real_round(most_w * real_power2(40 - 22)) + 4000000);
             /* p = m v */
             CHECK_NEAR(state.momentum.c[k],
-                       real_round((double)v.c[k] * real(body.mass.m, body.mass.e)), 1 << 8);
+                       real_round((double)v.c[k] * real(body.def.mass.m, body.def.mass.e)), 1 << 8);
         }
     }
 }
@@ -576,7 +576,7 @@ static void test_inertia(void)
         real_vector(w, spin.c, 40);
         real_rotate(lb, mine, w);
         real_rotate_back(wb, m, w);
-        mass = real(body.mass.m, body.mass.e);
+        mass = real(body.def.mass.m, body.def.mass.e);
         energy = real_dot(p, p) / mass;
         for (int i = 0; i < 3; i++) {
             CHECK_LESS(real_abs(lb[i] * mass - l[i]), 1e-7);

@@ -292,7 +292,7 @@ static void test_at_start(void)
 
     start_at(0, 0, &hit);
     skin = duo.pair.skin_q22;
-    CHECK_EQ(skin, duo.body[0].radius_q22 >> 11);
+    CHECK_EQ(skin, duo.body[0].def.radius_q22 >> 11);
     /* clear of the event gap: it goes on to that */
     CHECK(start_at(skin, -0.125, &hit));
     check_time(&hit, real(skin - skin / 2, 22) / 0.125, 0.125);

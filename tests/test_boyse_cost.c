@@ -108,7 +108,7 @@ static void time_frame(struct fall *fall, struct carom_world *world, const carom
         *state = world_now(world)->bodies[numbers[s]];
         body_predict(b, state, CAROM_ONE_Q30, gravity);
         body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
-        room_q22 = b->moving ? way_q22 + way_q22 / 10 * 3 + 20 * b->skin_q22 : 0;
+        room_q22 = b->def.moving ? way_q22 + way_q22 / 10 * 3 + 20 * b->def.skin_q22 : 0;
         body_place(b, state);
         body_region_begin(b, state, CAROM_ONE_Q30, CAROM_ONE_Q30, (int32_t)room_q22);
         body_predict(b, state, CAROM_ONE_Q30, gravity);

@@ -133,7 +133,7 @@ static void random_motion(struct test_random *r)
         body_normalise(&duo.state[s].rotation);
     }
     random_vector(r, 2000, x);
-    if (duo.body[1].moving) {
+    if (duo.body[1].def.moving) {
         random_vector(r, 0.3, v);
         random_vector(r, 0.25, w);
         duo_set_motion(1, v, w);
@@ -341,7 +341,7 @@ static void test_polynomial(void)
         random_case(&r, &c, n % 3);
         boyse_place_start(&duo.pair, &c, &start);
         degree = boyse_polynomial(&duo.pair, &c, &start, a_q40);
-        CHECK_EQ(degree, duo.body[1].moving ? 6 : 4);
+        CHECK_EQ(degree, duo.body[1].def.moving ? 6 : 4);
         for (int k = 0; k < 2; k++) {
             s2[k] = real_dot(duo.motion[k].u, duo.motion[k].u);
         }

@@ -33,10 +33,10 @@ static void begin(void)
 static int find(uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        bodies[i].region.at = states[i].position;
-        bodies[i].region.q = states[i].rotation;
-        bodies[i].active = broad_active(&bodies[i], &states[i]);
-        if (bodies[i].mesh) {
+        bodies[i].search.region.at = states[i].position;
+        bodies[i].search.region.q = states[i].rotation;
+        bodies[i].search.active = broad_active(&bodies[i], &states[i]);
+        if (bodies[i].def.mesh) {
             broad_set_box(&bodies[i]);
         }
     }
@@ -91,7 +91,7 @@ static void test_left_out(void)
     CHECK(found(3, 1));
 
     begin();
-    bodies[1].moving = bodies[3].moving = bodies[1].goes = bodies[3].goes = false;
+    bodies[1].def.moving = bodies[3].def.moving = bodies[1].def.goes = bodies[3].def.goes = false;
     CHECK_EQ(find(BODIES), CAROM_OK);
     CHECK_EQ(pool.used, 3);
     CHECK(found(2, 0));
@@ -99,7 +99,7 @@ static void test_left_out(void)
     CHECK(found(2, 3));
 
     begin();
-    bodies[1].mesh = NULL; /* a free place */
+    bodies[1].def.mesh = NULL; /* a free place */
     CHECK_EQ(find(BODIES), CAROM_OK);
     CHECK_EQ(pool.used, 3);
     CHECK(found(2, 0));
@@ -116,8 +116,8 @@ static void test_reach(void)
                 int64_t side_q22 = (int64_t)1 << (22 - axis);
 
                 begin();
-                bodies[1].reach_q22 = reach_q22 / 3;
-                bodies[2].reach_q22 = reach_q22 - reach_q22 / 3;
+                bodies[1].search.reach_q22 = reach_q22 / 3;
+                bodies[2].search.reach_q22 = reach_q22 - reach_q22 / 3;
                 states[2].position.c[axis] = sign * ((side_q22 + reach_q22) << 10);
                 CHECK_EQ(find(3), CAROM_OK);
                 CHECK(found(2, 1));
@@ -150,7 +150,7 @@ static void real_bounds(int body, double low[3], double high[3])
         }
         real_rotate(turned, m, p);
         for (int k = 0; k < 3; k++) {
-            double reach = real(bodies[body].reach_q22, 22);
+            double reach = real(bodies[body].search.reach_q22, 22);
             double x = turned[k] + real(states[body].position.c[k], 32);
 
             low[k] = x - reach < low[k] ? x - reach : low[k];
@@ -171,7 +171,7 @@ static void test_poses(void)
 
         for (int i = 1; i <= 2; i++) {
             states[i].rotation = shape_random_turn(&r);
-            bodies[i].reach_q22 = (int32_t)test_random_range(&r, 0, 1 << 20);
+            bodies[i].search.reach_q22 = (int32_t)test_random_range(&r, 0, 1 << 20);
             for (int k = 0; k < 3; k++) {
                 states[i].position.c[k] =
                     ((int64_t)4000 << 32) + test_random_range(&r, 0, (int64_t)3 << 31);

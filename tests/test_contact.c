@@ -94,7 +94,7 @@ static void check_four_corners(int32_t gap_q22)
         CHECK_EQ(c->normal.c[1], 0);
         CHECK_EQ(c->normal.c[2], CAROM_ONE_Q30);
         CHECK_EQ(c->gap_q22, gap_q22);
-        CHECK_EQ(c->skin_q22, bodies[0].skin_q22);
+        CHECK_EQ(c->skin_q22, bodies[0].def.skin_q22);
         CHECK_SAME(c->side[0].body, &bodies[0]);
         CHECK_SAME(c->side[1].body, NULL);
         CHECK_LESS(v, 4); /* the lower ones, and each once */
@@ -117,7 +117,7 @@ static void test_flat(void)
     int32_t skin;
 
     box_over_plane(0);
-    skin = bodies[0].skin_q22;
+    skin = bodies[0].def.skin_q22;
     for (int32_t gap = -2 * skin; gap <= 5 * skin; gap += skin / 2) {
         box_over_plane(gap);
         CHECK(find(5 * skin, 0));
@@ -227,7 +227,7 @@ static void test_margin(void)
     int32_t skin;
 
     box_over_plane(700);
-    skin = bodies[0].skin_q22;
+    skin = bodies[0].def.skin_q22;
     CHECK(find(700, 0));
     CHECK_EQ(pool.used, 4);
     CHECK(find(699, 0));
@@ -356,7 +356,7 @@ static void box_over_box(struct test_random *r)
 static void set_path(struct test_random *r, int32_t way_q22)
 {
     struct body_path *path = &bodies[0].path;
-    int32_t turn_q30 = (int32_t)(((int64_t)way_q22 << 28) / bodies[0].radius_q22);
+    int32_t turn_q30 = (int32_t)(((int64_t)way_q22 << 28) / bodies[0].def.radius_q22);
 
     for (int k = 0; k < 3; k++) {
         path->v.c[k] = carom_shl(test_random_range(r, -way_q22 / 6, way_q22 / 6), 18);
@@ -388,7 +388,8 @@ static void test_clear(void)
 
             place();
             pool_clear(&pool);
-            CHECK(contact_add(&list, &pair, &candidates[k], 2 * bodies[0].skin_q22, &clear_q22));
+            CHECK(
+                contact_add(&list, &pair, &candidates[k], 2 * bodies[0].def.skin_q22, &clear_q22));
             if (clear_q22 > 0) {
                 clear++;
                 set_path(&r, clear_q22);
@@ -478,7 +479,7 @@ static void test_thin(void)
 
         box_over_box(&r);
         place();
-        CHECK(find(2 * bodies[0].skin_q22, 0));
+        CHECK(find(2 * bodies[0].def.skin_q22, 0));
         contact_merge(&list);
         found = pool.used;
         memcpy(first, contacts, found * sizeof *contacts);
@@ -599,7 +600,7 @@ static void test_force(void)
     states[0].position.c[0] = (int64_t)1 << 31;
     states[0].position.c[1] = (int64_t)1 << 28;
     place();
-    skin = bodies[0].skin_q22;
+    skin = bodies[0].def.skin_q22;
     memset(&hit, 0, sizeof hit);
     hit.touch.normal.c[2] = CAROM_ONE_Q30;
     CHECK(find(700, 0));
@@ -632,7 +633,7 @@ static void test_force(void)
     CHECK_EQ(contact_arm(c).c[1], -(1 << 18));
     CHECK_NEAR(contact_arm(c).c[2], -600 * 1024 - 150, 1);
     /* the unit of length is 1, the power of two above the radius */
-    CHECK_EQ(bodies[0].unit_bits, 22);
+    CHECK_EQ(bodies[0].def.unit_bits, 22);
     CHECK_NEAR(c->side[0].arm_q30[0], -(1 << 29), 2);
     CHECK_NEAR(c->side[0].arm_q30[1], -(1 << 26), 2);
     CHECK_NEAR(c->side[0].arm_q30[2], -(600 * 1024 + 150) * 256, 2);

@@ -77,9 +77,9 @@ static void test_rule(void)
         for (int k = 0; k < 2; k++) {
             f[k] = (struct carom_filter){random_bits(&r), (uint16_t)test_random_next(&r),
                                          (int16_t)test_random_range(&r, -2, 2)};
-            b[k].category = f[k].category;
-            b[k].mask = f[k].mask;
-            b[k].group = f[k].group;
+            b[k].def.category = f[k].category;
+            b[k].def.mask = f[k].mask;
+            b[k].def.group = f[k].group;
         }
         touch += may_touch(&f[0], &f[1]);
         CHECK_EQ(broad_may_meet(&b[0], &b[1]), may_touch(&f[0], &f[1]));

@@ -78,7 +78,7 @@ static void test_wraps(void)
     CHECK_EQ(add(0), 0);
     CHECK_EQ(carom_body_id(world, 0), 1 << 12);
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
-    world->bodies[0].generation = 65533; /* as if so many had been here */
+    world->bodies[0].def.generation = 65533; /* as if so many had been here */
     for (int n = 65534; n < 65539; n++) {
         CHECK_EQ(add(0), 0);
         CHECK_EQ(carom_body_id(world, 0), (n <= 65535 ? n : n - 65535) << 12);

@@ -136,12 +136,9 @@ static int gather(struct set *set, uint32_t entry_size, uint32_t candidate_size,
 
 static void place(int i)
 {
-    int32_t turn_q30 = bodies[i].turn_q30;
-
     body_place(&bodies[i], &states[i]);
     body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
-                      bodies[i].region.room_q22);
-    bodies[i].turn_q30 = turn_q30;
+                      bodies[i].search.region.room_q22);
     solid_place(i == 0 ? &a : &b, &states[i]);
 }
 
@@ -201,9 +198,8 @@ static void random_scene(struct test_random *r, bool turn_b)
     double on_a[3], on_b[3], n[3];
 
     for (int i = 0; i < 2; i++) {
-        bodies[i].region.room_q22 =
-            (int32_t)test_random_range(r, 64, (int64_t)1 << test_random_range(r, 8, 17));
-        bodies[i].turn_q30 = (int32_t)test_random_range(r, 0, CAROM_ONE_Q30 / 10);
+        bodies[i].search.region.room_q22 =
+            (int32_t)test_random_range(r, 64, (int64_t)1 << test_random_range(r, 8, 19));
         states[i].rotation = (carom_quat_q30){{CAROM_ONE_Q30, 0, 0, 0}};
     }
     states[0].rotation = shape_random_turn(r);
@@ -219,7 +215,7 @@ static void random_scene(struct test_random *r, bool turn_b)
     random_place(r, &b, on_b, n);
     lowest_place(r, &a, n, on_a);
     for (int k = 0; k < 3; k++) {
-        int64_t near_q22 = bodies[0].region.room_q22 + bodies[1].region.room_q22;
+        int64_t near_q22 = bodies[0].search.region.room_q22 + bodies[1].search.region.room_q22;
 
         states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
                                    test_random_range(r, -near_q22, near_q22) * 512;
@@ -299,8 +295,8 @@ static void check_faces(void)
 static void start(struct test_random *r, bool turn_b)
 {
     random_scene(r, turn_b);
-    reach_q22 = bodies[0].region.room_q22 + bodies[1].region.room_q22;
-    turn = real(bodies[0].turn_q30 + bodies[1].turn_q30, 30);
+    reach_q22 = bodies[0].search.region.room_q22 + bodies[1].search.region.room_q22;
+    turn = real(body_region_turn_off_q30(&bodies[0]) + body_region_turn_off_q30(&bodies[1]), 30);
 }
 
 static void make(int which)
@@ -387,7 +383,7 @@ static void place_at(struct test_random *r, int32_t t_q30)
 
     for (int i = 0; i < 2; i++) {
         struct body_state state = states[i];
-        int64_t off = bodies[i].region.room_q22 * 500; /* q32, by axis: 0.86 of the room */
+        int64_t off = bodies[i].search.region.room_q22 * 500; /* q32, by axis: 0.86 of the room */
 
         body_advance(&bodies[i], &state, t_q30, CAROM_ONE_Q30, NULL);
         for (int k = 0; k < 3; k++) {
@@ -419,23 +415,23 @@ static int32_t random_motion(struct test_random *r)
         }
         body_set_motion(body, &states[i], &v, &w);
         body_predict(body, &states[i], CAROM_ONE_Q30, test_random_range(r, 0, 3) == 0 ? &g : NULL);
-        body->region.room_q22 = 0;
+        body->search.region.room_q22 = 0;
     }
     place_at(r, t_q30);
     random_place(r, &b, on_b, n);
     lowest_place(r, &a, n, on_a);
     for (int k = 0; k < 3; k++) {
         states[0].position.c[k] += real_round((on_b[k] - on_a[k]) * real_power2(32)) +
-                                   test_random_range(r, -1, 1) * bodies[0].skin_q22 * 2048;
+                                   test_random_range(r, -1, 1) * bodies[0].def.skin_q22 * 2048;
     }
     for (int i = 0; i < 2; i++) {
         const carom_v3_q40 g = bodies[i].path.g;
 
         body_predict(&bodies[i], &states[i], CAROM_ONE_Q30, NULL);
         bodies[i].path.g = g;
-        body_region_begin(&bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
-                          by_paths ? 0
-                                   : (int32_t)test_random_range(r, 0, 1) * bodies[i].skin_q22 * 10);
+        body_region_begin(
+            &bodies[i], &states[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
+            by_paths ? 0 : (int32_t)test_random_range(r, 0, 1) * bodies[i].def.skin_q22 * 10);
     }
     return t_q30;
 }
@@ -449,8 +445,8 @@ static void make_sheet(void)
     shape_box(&box, 12, FIELD * 256, FIELD * 256, 512);
     shape_body(&box, true, body, &states[0]);
     shape_field(&shape_a, 12, FIELD, 256, 200, 9);
-    body->mesh = &shape_a.mesh;
-    body->radius_q22 = shape_a.mesh.radius_q22;
+    body->def.mesh = &shape_a.mesh;
+    body->def.radius_q22 = shape_a.mesh.radius_q22;
     solid_note_owned(&a);
 }
 
@@ -486,8 +482,9 @@ static void check_motion(uint64_t seed, bool small_b)
             make_sheet();
         }
         shape_body(&shape_b, true, &bodies[1], &states[1]);
-        reach_q22 = 5 * (int64_t)(bodies[0].skin_q22 > bodies[1].skin_q22 ? bodies[0].skin_q22
-                                                                          : bodies[1].skin_q22);
+        reach_q22 =
+            5 * (int64_t)(bodies[0].def.skin_q22 > bodies[1].def.skin_q22 ? bodies[0].def.skin_q22
+                                                                          : bodies[1].def.skin_q22);
         for (int n = 0; n < POSES / 3; n++) {
             struct collector to;
             int32_t t_q30 = random_motion(&r), part_q30[2] = {0, CAROM_ONE_Q30};
@@ -646,7 +643,7 @@ static void test_nothing(void)
     shape_plane(&shape_b, 9, FIELD, 512);
     make(0);
     states[0].position.c[2] = (int64_t)2 << 32;
-    bodies[0].region.room_q22 = 1 << 21;
+    bodies[0].search.region.room_q22 = 1 << 21;
     place(0);
     place(1);
     CHECK_EQ(gather(&found, ENTRIES, CANDIDATES, FACES, &to), CAROM_OK);

@@ -101,9 +101,9 @@ static void test_slices(void)
     shape_box(&box, 12, 4096, 2048, 1024);
     memset(&b, 0, sizeof b);
     memset(&extra, 0, sizeof extra);
-    b.mesh = &box.mesh;
-    b.radius_q22 = box.mesh.radius_q22;
-    b.extra = &extra;
+    b.def.mesh = &box.mesh;
+    b.def.radius_q22 = box.mesh.radius_q22;
+    b.def.extra = &extra;
     for (int n = 0; n < 2000; n++) {
         struct body_state s = {.rotation = random_turn(&r)}, to = {.rotation = random_turn(&r)};
         int sign = 0;
@@ -148,8 +148,8 @@ static void test_spin(void)
         struct body b;
 
         memset(&b, 0, sizeof b);
-        b.mesh = &box.mesh;
-        b.radius_q22 = box.mesh.radius_q22;
+        b.def.mesh = &box.mesh;
+        b.def.radius_q22 = box.mesh.radius_q22;
         for (int k = 0; k < 3; k++) {
             q.c[1 + k] = (int32_t)real_round(sine * axis[k] * CAROM_ONE_Q30);
         }

@@ -413,7 +413,7 @@ static void test_mass(void)
         }
     }
     CHECK_EQ(carom_body_set_mass(world, 1, 0), CAROM_OK);
-    CHECK_EQ(world->bodies[1].mass.m, fix_scale((int64_t)1 << 32, 32).m);
+    CHECK_EQ(world->bodies[1].def.mass.m, fix_scale((int64_t)1 << 32, 32).m);
 }
 
 /* A heavier body on top presses harder; sleepers wake; what a force can do to a lighter one is asked. */

@@ -118,7 +118,7 @@ static void test_errors(void)
     not_this = 1;
     CHECK_EQ(carom_cast_ray(world, &ray, &filter, &hit), 1);
     filter.mask = 1; /* the body has no category */
-    world->bodies[0].category = 2;
+    world->bodies[0].def.category = 2;
     CHECK_EQ(carom_cast_ray(world, &ray, &filter, &hit), 0);
     filter.mask = 3;
     CHECK_EQ(carom_cast_ray(world, &ray, &filter, &hit), 1);

@@ -34,8 +34,8 @@ static uint8_t bits[CROSSING_BITS(SCENE_HEAD_FACES, SCENE_FIELD_FACES)];
 
 static void place_exactly(void)
 {
-    exact_a.mesh = bodies[0].mesh;
-    exact_b.mesh = bodies[1].mesh;
+    exact_a.mesh = bodies[0].def.mesh;
+    exact_b.mesh = bodies[1].def.mesh;
     crossing_place(&exact_a, &states[0].position, &states[0].rotation, &states[1].position);
     crossing_place(&exact_b, &states[1].position, &states[1].rotation, &states[1].position);
 }
@@ -65,7 +65,7 @@ static void random_pose(struct test_random *r, bool turn_b, bool grazing)
     double middle[3], n[3], lowest = 1e30;
     uint32_t best = 0;
     int64_t off_q22 =
-        grazing ? (int64_t)1 << test_random_range(r, 8, 16) : bodies[0].radius_q22 / 4;
+        grazing ? (int64_t)1 << test_random_range(r, 8, 16) : bodies[0].def.radius_q22 / 4;
 
     states[0].rotation = shape_random_turn(r);
     for (int k = 0; k < 3; k++) {
@@ -159,12 +159,12 @@ static void test_head(void)
     memset(states, 0, sizeof states);
     CHECK_EQ(scene_load(&scene, "head", NULL, shape_scene_block, sizeof shape_scene_block),
              CAROM_OK);
-    bodies[0].mesh = scene.body.mesh;
-    bodies[0].radius_q22 = scene.body.mesh->radius_q22;
-    bodies[1].mesh = scene.ground.mesh;
+    bodies[0].def.mesh = scene.body.mesh;
+    bodies[0].def.radius_q22 = scene.body.mesh->radius_q22;
+    bodies[1].def.mesh = scene.ground.mesh;
     states[1].rotation.c[0] = CAROM_ONE_Q30;
     check_recall(50, SCENE_POSES, true);
-    bodies[1].mesh = scene.body.mesh;
+    bodies[1].def.mesh = scene.body.mesh;
     check_recall(60, SCENE_POSES, true);
 }
 

@@ -17,7 +17,7 @@ static void test_particle(void)
         hand_begin(1, 1 / 1024.0);
         hand_set_surface(e, 0);
         hand_set_motion(1, (double[3]){0.0625, -0.03125, -0.25}, (double[3]){0, 0, 0});
-        hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
+        hand_touch(0, 0, below, hand_up, hand.bodies[1].def.skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
         CHECK_LESS(real_abs(v[2] - 0.25 * e), 1e-9);
@@ -39,7 +39,7 @@ static void test_too_near(void)
     hand_make_cube();
     for (int n = 0; n < 3; n++) {
         double speed = n == 0 ? 0.25 : 1e-6, v[3], w[3], lacks, gap;
-        int32_t skin = hand.bodies[1].skin_q22;
+        int32_t skin = hand.bodies[1].def.skin_q22;
 
         hand_begin(1, 0);
         hand_set_surface(0, 0);
@@ -68,7 +68,7 @@ static void test_particle_friction(void)
         hand_begin(1, 1 / 1024.0);
         hand_set_surface(0.5, mu);
         hand_set_motion(1, (double[3]){0.25, 0, -0.25}, (double[3]){0, 0, 0});
-        hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22 / 2);
+        hand_touch(0, 0, below, hand_up, hand.bodies[1].def.skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
         CHECK_LESS(real_abs(hand_pressure(&hand.contacts[0], &across) - 0.375), 1e-8);
@@ -89,9 +89,9 @@ static void test_weight(void)
     hand_make_box();
     hand_begin(1, 1 / 367.0);
     hand_set_surface(0.5, 0.5);
-    hand_touch_corners(hand.bodies[1].skin_q22);
+    hand_touch_corners(hand.bodies[1].def.skin_q22);
     CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
-    CHECK(hand.bodies[1].in_contact);
+    CHECK(hand.bodies[1].clock.in_contact);
     hand_velocity_of(1, v, w);
     CHECK_LESS(real_abs(v[2] + 1 / 367.0), 1e-9);
     CHECK(!rest_enter_contact(&hand.rest, CAROM_ONE_Q30)); /* once a frame */
@@ -124,7 +124,7 @@ static void test_warm(void)
     for (int frame = 0; frame < 3; frame++) {
         hand_clear_contacts();
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-        hand_touch_corners(hand.bodies[1].skin_q22);
+        hand_touch_corners(hand.bodies[1].def.skin_q22);
         CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         if (frame == 0) {
@@ -140,7 +140,7 @@ static void test_warm(void)
     for (int change = 0; change < 3; change++) {
         hand_clear_contacts();
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-        hand_touch_corners(hand.bodies[1].skin_q22);
+        hand_touch_corners(hand.bodies[1].def.skin_q22);
         CHECK_EQ(hand.rest.warm_count, 4);
         for (int i = 0; i < 4; i++) {
             hand.warm[i].b = (uint16_t)(change == 0 ? 2 : hand.warm[i].b);
@@ -172,7 +172,7 @@ static void test_ramp(void)
         hand_set_gravity(g * sine, 0, -g * cosine);
         for (int frame = 1; frame <= 10; frame++) {
             hand_clear_contacts();
-            hand_touch_corners(hand.bodies[1].skin_q22);
+            hand_touch_corners(hand.bodies[1].def.skin_q22);
             CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
             CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
             hand_velocity_of(1, v, w);
@@ -196,11 +196,11 @@ static void test_gaps(void)
 
     hand_make_cube();
     hand_begin(1, 1 / 367.0);
-    skin = real(hand.bodies[1].skin_q22, 22);
+    skin = real(hand.bodies[1].def.skin_q22, 22);
     hand_set_surface(0.5, 0);
     for (int n = 0; n < 4; n++) {
         int32_t tau_q30 = n == 3 ? CAROM_ONE_Q30 / 4 : CAROM_ONE_Q30;
-        int32_t gap = (n == 2 ? 0 : 3) * hand.bodies[1].skin_q22;
+        int32_t gap = (n == 2 ? 0 : 3) * hand.bodies[1].def.skin_q22;
         double speed = n == 0 ? -1 * skin : n == 2 ? 0 : -9 * skin;
 
         hand_clear_contacts();
@@ -240,7 +240,7 @@ static void test_enter(void)
         hand_begin(1, g);
         hand_set_surface(cases[n].e, 0);
         hand_set_motion(1, (double[3]){0, 0, cases[n].speed * g}, (double[3]){0, 0, 0});
-        hand_touch_corners(hand.bodies[1].skin_q22);
+        hand_touch_corners(hand.bodies[1].def.skin_q22);
         for (int k = 0; k < 4; k++) {
             hand.contacts[k].lasting = cases[n].lasting;
         }
@@ -249,10 +249,10 @@ static void test_enter(void)
         /* gravity of the time that is left */
         CHECK_LESS(real_abs(v[2] - (cases[n].speed - (cases[n].enters ? 0.5 : 0)) * g), 1e-9);
     }
-    hand.bodies[0].restitution_q30 = 5;
-    hand.bodies[1].restitution_q30 = 3;
-    hand.bodies[0].friction_q16 = 7;
-    hand.bodies[1].friction_q16 = 9;
+    hand.bodies[0].def.restitution_q30 = 5;
+    hand.bodies[1].def.restitution_q30 = 3;
+    hand.bodies[0].def.friction_q16 = 7;
+    hand.bodies[1].def.friction_q16 = 9;
     CHECK_EQ(rest_restitution(&hand.rest, &hand.bodies[0], &hand.bodies[1]), 3);
     CHECK_EQ(rest_friction(&hand.rest, &hand.bodies[1], &hand.bodies[0]), 7);
 }
@@ -282,7 +282,7 @@ static void test_lasting(void)
 
     hand_make_cube();
     hand_begin(1, 0);
-    skin = real(hand.bodies[1].skin_q22, 22);
+    skin = real(hand.bodies[1].def.skin_q22, 22);
     for (size_t n = 0; n < 2 * sizeof cases / sizeof *cases; n++) {
         size_t i = n / 2;
         double aside = n % 2 ? 1e-3 * skin : 0.25, before, after;
@@ -317,16 +317,16 @@ static void test_impact_warm(void)
     for (int n = 1; n <= 4; n += 3) {
         hand_begin(1, 1 / 367.0);
         hand_set_surface(0.5, 0.5);
-        hand_touch_corners(hand.bodies[1].skin_q22);
+        hand_touch_corners(hand.bodies[1].def.skin_q22);
         CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ(hand.rest.warm_count, 4);
         hand_clear_contacts();
         hand_set_motion(1, (double[3]){0, 0, -0.5}, (double[3]){0, 0, 0});
         if (n == 1) {
-            hand_touch(0, 0, below, hand_up, hand.bodies[1].skin_q22);
+            hand_touch(0, 0, below, hand_up, hand.bodies[1].def.skin_q22);
         } else {
-            hand_touch_corners(hand.bodies[1].skin_q22);
+            hand_touch_corners(hand.bodies[1].def.skin_q22);
         }
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ(hand.rest.impacts, n);

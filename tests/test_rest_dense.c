@@ -154,7 +154,7 @@ static void touch(struct test_random *r, uint32_t at, uint16_t number, struct ax
     }
     fix_normalise(&n_q30, n64);
     for (int s = 0; s < 2; s++) {
-        random_vector(r, a, planar, real(bodies[of[s]].radius_q22, 22), arm);
+        random_vector(r, a, planar, real(bodies[of[s]].def.radius_q22, 22), arm);
         for (int k = 0; k < 3; k++) {
             arm_q40[s].c[k] = real_round(arm[k] * real_power2(40));
             normal[at][k] = real(n_q30.c[k], 30);
@@ -223,8 +223,8 @@ static void random_bodies(struct test_random *r, struct axes *a, bool planar, do
     rest.rolls = rolls;
     for (int i = 0; i < 3; i++) {
         place(r, i, a, planar);
-        bodies[i].restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
-        bodies[i].friction_q16 = (uint32_t)real_round(mu * 65536);
+        bodies[i].def.restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
+        bodies[i].def.friction_q16 = (uint32_t)real_round(mu * 65536);
         set_motion(r, i, a, planar, i > 0 ? speed : 0);
     }
     pool = (struct pool){2, 0, 0, 0};
@@ -430,7 +430,7 @@ static bool random_two(struct test_random *r, int movers, double wanted[2], doub
     for (uint32_t n = 0; n < 2; n++) {
         touch(r, n, movers == 2 ? 1 : 0, &a, false);
         velocity(&contacts[n], v);
-        wanted[n] = -real_dot(v, normal[n]) * (1 + real(bodies[1].restitution_q30, 30));
+        wanted[n] = -real_dot(v, normal[n]) * (1 + real(bodies[1].def.restitution_q30, 30));
         for (uint32_t m = 0; m <= n; m++) {
             k[n][m] = k[m][n] = box_response(0, (int)n, (int)m) +
                                 (movers == 2 ? box_response(1, (int)n, (int)m) : 0);

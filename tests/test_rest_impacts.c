@@ -40,7 +40,7 @@ static void random_contacts(struct test_random *r, uint16_t number)
         carom_rotate(arm, &hand.bodies[hand_pairs[number].a].path.start.r, arm);
         fix_normalise(&normal, n_long);
         hand_touch(number, v + 8 * (uint32_t)n, arm, normal,
-                   (int32_t)test_random_range(r, -800, 3 * hand.bodies[1].skin_q22));
+                   (int32_t)test_random_range(r, -800, 3 * hand.bodies[1].def.skin_q22));
     }
 }
 
@@ -99,7 +99,7 @@ static void check_momenta(const struct body_state before[HAND_BODIES])
 /* Impulses push, and lie in the friction cone. */
 static void check_cones(void)
 {
-    double mu = real(hand.bodies[1].friction_q16, 16), largest = 0;
+    double mu = real(hand.bodies[1].def.friction_q16, 16), largest = 0;
 
     for (uint32_t i = 0; i < hand.pool.used; i++) {
         double across, along = hand_pressure(&hand.contacts[i], &across);
@@ -168,7 +168,7 @@ static void test_plastic(void)
         hand_clear_contacts();
         random_contacts(&r, 0);
         for (uint32_t i = 0; i < hand.pool.used; i++) {
-            hand.contacts[i].gap_q22 = hand.bodies[1].skin_q22;
+            hand.contacts[i].gap_q22 = hand.bodies[1].def.skin_q22;
         }
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);

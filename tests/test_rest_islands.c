@@ -14,7 +14,7 @@ static void test_sleep(void)
 
     hand_make_cube();
     hand_begin(1, 1 / 367.0);
-    hand.bodies[1].in_contact = true;
+    hand.bodies[1].clock.in_contact = true;
     hand_set_motion(1, (double[3]){1e-5, 0, 0}, (double[3]){0, 1e-5, 0});
     while (!hand.states[1].asleep && frames < 100) {
         frame_of_sleep(hand_pairs, 1);
@@ -32,14 +32,14 @@ static void test_sleep(void)
             frame_of_sleep(hand_pairs, 1);
         }
         CHECK_EQ(hand.states[1].quiet, 19);
-        hand.bodies[1].in_contact = n != 2;
+        hand.bodies[1].clock.in_contact = n != 2;
         hand_set_motion(1, (double[3]){n == 0 ? 1. / 367 / 7 : 0, 0, 0},
                         (double[3]){0, 0, n == 1 ? 1. / 367 / 6 : 0});
         frame_of_sleep(hand_pairs, 1);
         CHECK_EQ(hand.states[1].quiet, 0);
         CHECK(!hand.states[1].asleep);
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-        hand.bodies[1].in_contact = true;
+        hand.bodies[1].clock.in_contact = true;
     }
 }
 
@@ -57,7 +57,8 @@ static void test_islands(void)
         const struct pair *island = touching ? chain : apart;
 
         hand_begin(3, 1 / 367.0);
-        hand.bodies[1].in_contact = hand.bodies[2].in_contact = hand.bodies[3].in_contact = true;
+        hand.bodies[1].clock.in_contact = hand.bodies[2].clock.in_contact =
+            hand.bodies[3].clock.in_contact = true;
         hand_set_motion(3, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 30; frame++) {
             rest_sleep(&hand.rest, island, 3);
@@ -96,12 +97,12 @@ static void begin_apart(int islands)
     hand_set_motion(2, (double[3]){0, -0.003, -fall}, (double[3]){0.001, 0, 0});
     hand_set_motion(3, (double[3]){3, 1, -8}, (double[3]){0.5, -0.3, 0.1});
     if (islands & TWO) {
-        hand_touch_corners_of(0, hand.bodies[1].skin_q22);
-        hand_touch(1, 9, on_top, hand_up, hand.bodies[1].skin_q22);
-        hand_touch_corners_of(3, hand.bodies[2].skin_q22);
+        hand_touch_corners_of(0, hand.bodies[1].def.skin_q22);
+        hand_touch(1, 9, on_top, hand_up, hand.bodies[1].def.skin_q22);
+        hand_touch_corners_of(3, hand.bodies[2].def.skin_q22);
     }
     if (islands & ONE) {
-        hand_touch_corners_of(2, hand.bodies[3].skin_q22);
+        hand_touch_corners_of(2, hand.bodies[3].def.skin_q22);
     }
 }
 
@@ -142,11 +143,11 @@ static void test_enter_apart(void)
     hand_make_box();
     begin_apart(TWO | ONE);
     hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-    hand.bodies[3].in_contact = true;
+    hand.bodies[3].clock.in_contact = true;
     memcpy(before, hand.states, sizeof before);
     CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
-    CHECK(hand.bodies[1].in_contact);
-    CHECK(hand.bodies[2].in_contact);
+    CHECK(hand.bodies[1].clock.in_contact);
+    CHECK(hand.bodies[2].clock.in_contact);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
     CHECK(!same_state(1, &before[1]));
     CHECK(!same_state(2, &before[2]));
@@ -168,7 +169,7 @@ static void test_island_numbers(void)
         bool again = true;
 
         for (int i = 0; i < MANY; i++) {
-            many[i].moving = test_random_range(&r, 0, 9) > 0;
+            many[i].def.moving = test_random_range(&r, 0, 9) > 0;
             colour[i] = i;
         }
         island_begin(many, MANY);
@@ -183,7 +184,7 @@ static void test_island_numbers(void)
             for (int i = 0; i < count; i++) {
                 int a = joined[i].a, b = joined[i].b;
 
-                if (many[a].moving && many[b].moving && colour[a] != colour[b]) {
+                if (many[a].def.moving && many[b].def.moving && colour[a] != colour[b]) {
                     colour[a] = colour[b] = colour[a] < colour[b] ? colour[a] : colour[b];
                     again = true;
                 }
@@ -192,11 +193,11 @@ static void test_island_numbers(void)
         for (int i = 0; i < MANY; i++) {
             int next = i + 1;
 
-            CHECK_EQ(many[i].island, colour[i]);
+            CHECK_EQ(many[i].island.lowest, colour[i]);
             while (next < MANY && colour[next] != colour[i]) {
                 next++;
             }
-            CHECK_EQ(many[i].next_in_island, next < MANY ? next : (int)ISLAND_END);
+            CHECK_EQ(many[i].island.next, next < MANY ? next : (int)ISLAND_END);
         }
     }
 }

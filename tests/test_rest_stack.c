@@ -79,14 +79,14 @@ static void test_unsettled(void)
         stack(mass, x, y, 1 / 367.0);
         hand_set_surface(0, n % 3 ? 0.5 : 0);
         hand_set_motion(2, (double[3]){0.01, 0, -0.125}, (double[3]){0.01, 0.02, 0});
-        hand_touch_corners_of(0, hand.bodies[1].skin_q22 / 2);
-        hand_touch_corners_of(1, hand.bodies[1].skin_q22 / 2);
+        hand_touch_corners_of(0, hand.bodies[1].def.skin_q22 / 2);
+        hand_touch_corners_of(1, hand.bodies[1].def.skin_q22 / 2);
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, false), CAROM_OK);
-        bound = real(hand.bodies[1].skin_q22, 22) / 32 + 1e-8;
-        CHECK_EQ(hand.bodies[1].unsettled, hand.bodies[2].unsettled);
-        CHECK(hand.bodies[1].unsettled || slowest() > -bound);
-        CHECK(mass > 1 || !hand.bodies[1].unsettled);
-        *(hand.bodies[1].unsettled ? &unsettled : &settled) += 1;
+        bound = real(hand.bodies[1].def.skin_q22, 22) / 32 + 1e-8;
+        CHECK_EQ(hand.bodies[1].solve.unsettled, hand.bodies[2].solve.unsettled);
+        CHECK(hand.bodies[1].solve.unsettled || slowest() > -bound);
+        CHECK(mass > 1 || !hand.bodies[1].solve.unsettled);
+        *(hand.bodies[1].solve.unsettled ? &unsettled : &settled) += 1;
         CHECK(rest_unite(&hand.rest, 1, true));
         CHECK_EQ(slowest(), 0);
     }
@@ -107,7 +107,7 @@ static void touch_leaning(void)
         for (int k = 0; k < 3; k++) {
             arm[k] = hand.solid.vertices[v][k] * 1024;
         }
-        hand_touch(1, v, arm, normal, hand.bodies[1].skin_q22);
+        hand_touch(1, v, arm, normal, hand.bodies[1].def.skin_q22);
     }
 }
 
@@ -126,7 +126,7 @@ static void test_share(void)
         stack(1000, 0, 0, g);
         hand_set_surface(0, 0);
         hand_set_motion(2, (double[3]){slides ? 0.25 : 0, 0, 0}, (double[3]){0, 0, 0});
-        hand_touch_corners_of(0, hand.bodies[1].skin_q22);
+        hand_touch_corners_of(0, hand.bodies[1].def.skin_q22);
         touch_leaning();
         CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);

@@ -280,7 +280,7 @@ static int first_of_all(struct carom_world *world, const struct shape *own,
     int body = -1;
 
     CHECK_EQ(query_put(mesh, &a, &start), CAROM_OK);
-    length_q30 = (int32_t)(2 * fix_length(way->way.c) / ((int64_t)a.radius_q22 << 10)) + 1;
+    length_q30 = (int32_t)(2 * fix_length(way->way.c) / ((int64_t)a.def.radius_q22 << 10)) + 1;
     length_q30 = CAROM_ONE_Q30 / length_q30;
     for (int32_t from = 0, to; from < CAROM_ONE_Q30 && body < 0; from = to) {
         to = length_q30 < CAROM_ONE_Q30 - from ? from + length_q30 : CAROM_ONE_Q30;

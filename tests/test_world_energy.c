@@ -44,9 +44,9 @@ static void begin(void)
     for (int i = 0; i < BODIES; i++) {
         struct body *b = &world->bodies[i];
 
-        b->in_contact = false;
-        CHECK(world_acceleration(b, 1 << 16, &config.gravity, &b->force, &b->acceleration));
-        b->acceleration_q40 = fix_length(b->acceleration.c);
+        b->clock.in_contact = false;
+        CHECK(world_acceleration(b, 1 << 16, &config.gravity, &b->def.force, &b->def.acceleration));
+        b->def.acceleration_q40 = fix_length(b->def.acceleration.c);
     }
 }
 
@@ -149,7 +149,7 @@ static void test_grounded(void)
     begin();
     touch(HIGH, LOW);
     touch(LOW, STILL);
-    world->bodies[LOW].in_contact = true;
+    world->bodies[LOW].clock.in_contact = true;
     speed_up(LOW, 5);
     speed_up(HIGH, 7);
     memcpy(before, step.next->bodies, sizeof before);
@@ -181,7 +181,7 @@ static void test_slack(void)
         speed_up(LOW, gain ? 1 << 22 : 1 << 27);
         speed_up(HIGH, gain ? 1 << 22 : 1 << 27);
         memcpy(before, step.next->bodies, sizeof before);
-        world->bodies[HIGH].stands = true;
+        world->bodies[HIGH].clock.stands = true;
         step_limit_energy(&step);
         CHECK_EQ((unchanged(LOW, &before[LOW]) && unchanged(HIGH, &before[HIGH])), !gain);
     }
@@ -203,7 +203,7 @@ static void test_climbed(void)
         other = &step.next->bodies[APART];
         other_was = &world_now(world)->bodies[APART];
         touch(LOW, STILL);
-        world->bodies[LOW].in_contact = true;
+        world->bodies[LOW].clock.in_contact = true;
         s->position.c[2] += (int64_t)8 << 32; /* 8 / 256 more than (1/8)^2 / 2 */
         if (taken > 0) {
             other->position = was->position;

@@ -35,7 +35,7 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
 /* out = J^-1 v with all the digits of the inverse; out may be v. */
 static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3])
 {
-    const struct carom_mesh *mesh = b->mesh;
+    const struct carom_mesh *mesh = b->def.mesh;
     int32_t high[3], low[3];
 
     split(v, high, low);
@@ -50,7 +50,7 @@ static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3]
  */
 static uint64_t calm_angular_q40(const struct body *b)
 {
-    const struct carom_sym3 *inverse = &b->mesh->inverse;
+    const struct carom_sym3 *inverse = &b->def.mesh->inverse;
     int64_t most = 1, quotient;
     int shift;
 
@@ -63,9 +63,9 @@ static uint64_t calm_angular_q40(const struct body *b)
         most = sum > most ? sum : most;
     }
     /* m / 2n = quotient 2^-32 2^(n.e - m.e - 1), in q40 */
-    quotient = ((int64_t)b->mass.m << 32) / most;
+    quotient = ((int64_t)b->def.mass.m << 32) / most;
     quotient -= quotient >> 20;
-    shift = inverse->e - b->mass.e - 1 - 32 + 40;
+    shift = inverse->e - b->def.mass.e - 1 - 32 + 40;
     if (shift > 60 - fix_bits((uint64_t)quotient)) {
         return (uint64_t)1 << 60;
     }
@@ -74,25 +74,26 @@ static uint64_t calm_angular_q40(const struct body *b)
 
 void body_set_mass(struct body *b, struct fix_scaled mass)
 {
-    b->mass = mass;
-    b->inverse_mass = fix_scaled_inverse(mass);
+    b->def.mass = mass;
+    b->def.inverse_mass = fix_scaled_inverse(mass);
     /* |v| <= |p| / m, a 64th off for roundings */
-    b->calm_momentum_q40 = (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
-    b->calm_angular_q40 = calm_angular_q40(b);
+    b->def.calm_momentum_q40 =
+        (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
+    b->def.calm_angular_q40 = calm_angular_q40(b);
 }
 
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v)
 {
     *v = (carom_v3_q40){{0, 0, 0}};
-    if (b->moving) {
-        fix_mul_scaled3(v->c, s->momentum.c, b->inverse_mass);
+    if (b->def.moving) {
+        fix_mul_scaled3(v->c, s->momentum.c, b->def.inverse_mass);
     }
 }
 
 void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                   int64_t out[3])
 {
-    fix_mul_scaled3(out, s->angular.c, b->inverse_mass);
+    fix_mul_scaled3(out, s->angular.c, b->def.inverse_mass);
     fix_rotate_back(out, r, out);
 }
 
@@ -100,7 +101,7 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
                carom_v3_q40 *w)
 {
     *w = (carom_v3_q40){{0, 0, 0}};
-    if (!b->moving) {
+    if (!b->def.moving) {
         return;
     }
     if (!body_spin_fits(b, s, r)) {
@@ -120,11 +121,11 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 
     fix_matrix(&r, &s->rotation);
     fix_rotate_back(l, &r, w->c);
-    body_sym3_mul(l, &b->mesh->mass.inertia, l);
+    body_sym3_mul(l, &b->def.mesh->mass.inertia, l);
     fix_rotate(l, &r, l);
     for (int k = 0; k < 3; k++) {
-        s->momentum.c[k] = fix_mul_scaled(v->c[k], b->mass);
-        s->angular.c[k] = fix_mul_scaled(l[k], b->mass);
+        s->momentum.c[k] = fix_mul_scaled(v->c[k], b->def.mass);
+        s->angular.c[k] = fix_mul_scaled(l[k], b->def.mass);
     }
 }
 
@@ -149,31 +150,31 @@ void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const st
     int64_t speed_q40;
     int n;
 
-    if (!b->moving || (p_q40 | l_q40) == 0) {
+    if (!b->def.moving || (p_q40 | l_q40) == 0) {
         return;
     }
     if (!body_calm(b, s)) {
         sum->hi += INT64_MAX >> 20; /* far more than any has */
         return;
     }
-    speed_q40 = fix_mul_scaled((int64_t)p_q40, b->inverse_mass);
+    speed_q40 = fix_mul_scaled((int64_t)p_q40, b->def.inverse_mass);
     speed_q40 += (speed_q40 >> 20) + 1;
-    n = fix_bits(b->calm_angular_q40) - 1 - fix_bits(l_q40);
+    n = fix_bits(b->def.calm_angular_q40) - 1 - fix_bits(l_q40);
     fix_wide_add_product(sum, (int64_t)p_q40, speed_q40);
     fix_wide_add_product(sum, (int64_t)l_q40, n < 39 ? (int64_t)1 << (39 - n) : 1);
 }
 
 void body_add_lift2(struct fix_wide *sum, const struct body *b, int sign)
 {
-    int64_t weight_q40 = fix_mul_scaled(b->acceleration_q40, b->mass);
+    int64_t weight_q40 = fix_mul_scaled(b->def.acceleration_q40, b->def.mass);
 
-    fix_wide_add_product(sum, weight_q40 / 10 * 3, sign * ((int64_t)b->skin_q22 << 18));
+    fix_wide_add_product(sum, weight_q40 / 10 * 3, sign * ((int64_t)b->def.skin_q22 << 18));
 }
 
 void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct carom_sym3 *out)
 {
     static const uint8_t row[6] = {0, 1, 2, 0, 1, 2}, col[6] = {0, 1, 2, 1, 2, 0};
-    struct carom_sym3 whole = b->mesh->mass.inertia;
+    struct carom_sym3 whole = b->def.mesh->mass.inertia;
 
     whole.e = 1; /* as plain integers, doubled below */
     for (int n = 0; n < 6; n++) {
@@ -189,7 +190,7 @@ void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct caro
             out->m[n] += (int32_t)fix_mul(axis[k], r->c[row[n]][k], 59);
         }
     }
-    out->e = b->mesh->mass.inertia.e;
+    out->e = b->def.mesh->mass.inertia.e;
 }
 
 void body_normalise(carom_quat_q30 *q)

@@ -167,104 +167,111 @@ struct body_extra {
 #define BODY_ROLLING_Q16       CAROM_ROLLING_Q16 /* 1/64 of the radius: solve/roll.c says why */
 #define BODY_GRAVITY_SCALE_Q16 (1 << 16)
 
-/* Holders of the other shared memory of a body. */
-enum body_work_phase { BODY_WORK, BODY_LIFT };
-
 /*
- * A body, 600 bytes where a pointer has 32 bits. Each field stands under the stage that writes it. What
- * world sets outlives a step, and so do in_contact and the region with `active`, `free`, `boxed` and the
- * box: no result depends on these.
+ * A body has five parts, one for each lifetime, and a link to its island: 600 bytes where a pointer has 32 bits.
+ *
+ *   def     what the caller set and what follows from it; world writes it between steps, a step only reads it
+ *   clock   the frame at hand: which part of it the path takes, and how the body fares in it
+ *   path    the motion over that part, and the room of a solve while there is none
+ *   search  what pairs and candidates are gathered for; outlives steps, but no result depends on it
+ *   solve   what a solve works in
+ *
+ * Flags that are asked for most have bytes of their own.
  */
-struct body {
-    /* world, 7 bytes */
+
+/* The definition. Written by world between steps, valid until the body is removed. */
+struct body_def {
     const struct carom_mesh *mesh; /* NULL: the place is free */
+    struct body_extra *extra;      /* NULL: none */
+    void *user;                    /* the caller's */
+    uint16_t generation;           /* of the bodies that had this place, from 1 on; 0: none has */
+    uint16_t category, mask;       /* which bodies it may touch */
+    int16_t group;
+    uint16_t joined; /* the lowest of the bodies that joints connect it with, plus 1; BODY_ALONE */
     bool moving;
     bool goes;        /* has paths: moves, or is kinematic and led somewhere */
-    bool standing;    /* still, and the path, the region and the box are those of where it is */
     int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
-
-    /* of a step, 11 bytes and the tag; flags of bodies that are asked for most have bytes of their own */
-    bool active;      /* region: was to move when its region was set */
-    bool free;        /* region: there were no candidates then */
-    bool boxed;       /* broad: its box is around its mesh's; else around its sphere */
-    bool in_contact;  /* rest: took the frame's acceleration at once; moves straight */
-    bool entering;    /* rest: in_contact is new */
-    bool solving;     /* rest: has a contact in the solve at hand */
-    bool unsettled;   /* rest: its island's last solve left places that approach */
-    int8_t turn_bits; /* rest: no place of a contact at hand moves by 2^(turn_bits - 1) du */
-    bool touched;  /* step: was in contact in the last one; energy: its island must not gain any */
-    bool grounded; /* energy: touches a body that stands still; the lowest of an island: any does */
-    bool rewound : 1;    /* energy: is back where the frame found it */
-    bool woke : 1;       /* wake: in the static check at hand */
-    bool sensor : 1;     /* world */
-    uint8_t one_way : 3; /* world: enum carom_one_way */
-    PHASE_TAG(work_phase)
-
-    /* islands, by whoever asks for them: 6 bytes with `contacts` */
-    uint16_t island, next_in_island; /* its lowest body, and the next higher one */
-
-    /* clock, 4 bytes; its times are below */
-    bool member;   /* step, cut: its path is new; answer: of the island of the hit at hand */
-    bool placed;   /* clock: its path is that of a place where it is looked at */
-    bool stands;   /* answer: for what is left of the frame */
-    bool strained; /* clock: left a path that turns before its end */
-
-    /* world: what follows from mesh, mass and force, 80 bytes */
-    uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
-    struct fix_scaled mass, inverse_mass;
+    bool sensor : 1;
+    uint8_t one_way : 3; /* enum carom_one_way */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22;          /* EPS: a resting contact keeps half of this gap to all */
+    int32_t skin_q22; /* EPS: a resting contact keeps half of this gap to all */
+    /* follows from the mesh, the mass and the force */
+    uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
+    struct fix_scaled mass, inverse_mass;
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
+    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
+};
 
-    /* clock, 12 bytes: the part of the frame that the path at hand takes */
-    int32_t from_q30, to_q30;
-    uint16_t events; /* answer: hits that it took part in, in this frame */
-    uint8_t cuts;    /* cut: how often the path at hand was set again for an earlier end */
-    uint8_t shorter; /* answer: slices are shorter by so many factors of 4; one less after each */
+/* The frame at hand. Written by the step, but `in_contact` and `entering` by rest_enter_contact; valid from begin_clock until the next frame. */
+struct body_clock {
+    int32_t from_q30, to_q30; /* the part of the frame that the path at hand takes */
+    uint16_t events;          /* hits that it took part in */
+    uint8_t cuts;             /* how often the path at hand was set again for an earlier end */
+    uint8_t shorter;          /* slices are shorter by so many factors of 4; one less after each */
+    bool in_contact;          /* took the frame's acceleration at once; moves straight */
+    bool stands;              /* for what is left of the frame */
+    bool placed;              /* its path is that of a place where it is looked at */
+    bool strained;            /* left a path that turns before its end */
+    /* the event at hand */
+    bool member;       /* its path is new; or it belongs to the island of the hit */
+    bool woke : 1;     /* in the static check */
+    bool entering : 1; /* in_contact is new */
+    /* energy */
+    bool touched; /* was in contact in the last frame; at the end: its island must not gain any */
+    bool grounded : 1; /* touches a body that stands still; the lowest of an island: any does */
+    bool rewound : 1;  /* is back where the frame found it */
+};
 
-    uint16_t contacts; /* solve: where the island's contacts are listed */
-    uint16_t
-        joined; /* world: one more than the lowest of the bodies that joints connect it with; BODY_ALONE */
-
-    /* clock, and solve while there is no path: 160 bytes */
-    struct body_path path;
-
-    /* region, 160 bytes */
+/* What pairs and candidates are gathered for. Written by regions (step) and broad; valid until the body is given another state. */
+struct body_search {
     struct body_region region;
-    int32_t reach_q22; /* how far any point may go in the region, and the margin */
-    int32_t turn_q30;  /* and how far the body may turn, radians */
+    int32_t reach_q22;     /* how far any point may go in the region, and the margin */
+    int32_t box_q18[2][3]; /* in world axes around the region, grown by the reach */
+    bool standing;   /* still, and the path, the region and the box are those of where it is */
+    bool active : 1; /* was to move when its region was set */
+    bool free : 1;   /* there were no candidates then */
+    bool boxed : 1;  /* its box is around its mesh's; else around its sphere */
+};
 
-    /* broad, 24 bytes: in world axes around the region, grown by the reach */
-    int32_t box_q18[2][3];
+/* Holders of the shared memory of a body's solve. */
+enum body_work_phase { BODY_WORK, BODY_LIFT };
 
-    /* solve: before it, 72 bytes */
-    carom_v3_q40 saved_momentum; /* for the energy rule */
-    carom_v3_q40 velocity,
-        spin; /* between steps, while a snapshot is read: its forces, in all three */
-
-    /* world, 24 bytes: through the centre of mass, until the caller changes it; hashed, saved */
-    carom_v3_q40 force;
-
-    union {                    /* by PHASE_TAG work_phase; 16 bytes */
-        struct fix_wide work2; /* solve: twice what surfaces did on it in this step, q80 */
+/* A solve. Written by solve, valid from rest_load_contacts until the solve ends; `work` until the step does. */
+struct body_solve {
+    carom_v3_q40 saved_momentum; /* before it, for the energy rule */
+    carom_v3_q40 velocity, spin; /* before it */
+    union {                      /* by PHASE_TAG work_phase */
+        struct fix_wide work2;   /* twice what surfaces did on it in this step, q80 */
         int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
     };
+    uint16_t contacts; /* where the island's contacts are listed */
+    bool solving;      /* has a contact or a joint in the solve at hand */
+    bool unsettled;    /* its island's last solve left places that approach */
+    int8_t turn_bits;  /* no place of a contact at hand moves by 2^(turn_bits - 1) du */
+    PHASE_TAG(work_phase)
+};
 
-    /* world, 16 bytes: what no solve reads */
-    uint16_t generation;     /* of the bodies that had this place, from 1 on; 0: none has */
-    uint16_t category, mask; /* which bodies it may touch */
-    int16_t group;
-    void *user;               /* the caller's */
-    struct body_extra *extra; /* NULL: none */
+/* The island of a body, valid until somebody asks for islands again. Written by island_*. */
+struct body_island {
+    uint16_t lowest, next; /* its lowest body, and the next higher one */
+};
+
+struct body {
+    struct body_def def;
+    struct body_clock clock;
+    struct body_island island;
+    struct body_path path;
+    struct body_search search;
+    struct body_solve solve;
 };
 
 /* Whether a kinematic body is led somewhere. */
 static inline bool body_travels(const struct body *b)
 {
-    return b->goes && !b->moving;
+    return b->def.goes && !b->def.moving;
 }
 
 /* The path of a body that has one: for all but `start`, `start_x_q32` and `turns`, which stay. */
@@ -297,20 +304,20 @@ static inline const struct body_path *body_solved(const struct body *b)
 /* Twice the work that moving surfaces did on a body in a step, to write and to read; and their lift of its island between steps. */
 static inline struct fix_wide *body_work2(struct body *b)
 {
-    PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return &b->work2;
+    PHASE_ASSERT(b->solve.work_phase, BODY_WORK);
+    return &b->solve.work2;
 }
 
 static inline const struct fix_wide *body_worked2(const struct body *b)
 {
-    PHASE_ASSERT(b->work_phase, BODY_WORK);
-    return &b->work2;
+    PHASE_ASSERT(b->solve.work_phase, BODY_WORK);
+    return &b->solve.work2;
 }
 
 static inline int64_t *body_lift_q32(struct body *b)
 {
-    PHASE_ASSERT(b->work_phase, BODY_LIFT);
-    return &b->lift_q32;
+    PHASE_ASSERT(b->solve.work_phase, BODY_LIFT);
+    return &b->solve.lift_q32;
 }
 
 /* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
@@ -394,8 +401,8 @@ void body_route_velocity(const struct body *b, const carom_v3_q40 *arm, carom_v3
  */
 static inline bool body_calm(const struct body *b, const struct body_state *s)
 {
-    return fix_sum(s->momentum.c) < b->calm_momentum_q40 &&
-           fix_sum(s->angular.c) < b->calm_angular_q40;
+    return fix_sum(s->momentum.c) < b->def.calm_momentum_q40 &&
+           fix_sum(s->angular.c) < b->def.calm_angular_q40;
 }
 /* The longest slice, at most tau_q30, that turns by BODY_TURN_MAX_Q30 at the present spin. */
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
@@ -414,11 +421,13 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
 
 /*
  * Make the region that of the path, which takes slice_q30 of a frame, gone on with until time_q30:
- * reach_q22 and turn_q30 as well. What else a body does on the way must stay within room_q22 of it.
+ * reach_q22 as well. What else a body does on the way must stay within room_q22 of it.
  * |u| time / slice is to be at most BODY_TURN_MAX_Q30 / 2 when time is longer than the slice.
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22);
+/* How far the body may turn in the region beside the region's own turn, radians; both together count as 1 at most. */
+int32_t body_region_turn_off_q30(const struct body *b);
 /* The part of a region that begins at `from` and takes `time`; both in frames, within its time. */
 void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
                        struct body_sweep *sweep);

@@ -47,7 +47,7 @@ static inline struct parts parts_of(const int64_t v[3], int bits)
  */
 static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
 {
-    const struct carom_sym3 *inverse = &b->mesh->inverse, *of_rest = &b->mesh->inverse_rest;
+    const struct carom_sym3 *inverse = &b->def.mesh->inverse, *of_rest = &b->def.mesh->inverse_rest;
     int64_t high[3], low[3], rest[3];
 
     CAROM_ASSERT(of_rest->e == inverse->e + 29);
@@ -98,7 +98,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         int64_t next[3], change = 0;
         struct parts of_m = parts_of(m, 31), of_u;
 
-        inverse_mul_parts(b, next, &of_m, b->mesh->inverse.e + 40 + up - 60);
+        inverse_mul_parts(b, next, &of_m, b->def.mesh->inverse.e + 40 + up - 60);
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             int64_t d = next[k] - u_q60[k];
@@ -158,7 +158,7 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
     int64_t l[3];
 
     body_place(b, s);
-    if (!b->moving || s->asleep || s->out) {
+    if (!b->def.moving || s->asleep || s->out) {
         return;
     }
     body_velocity(b, s, &v);
@@ -288,7 +288,7 @@ void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int
         if (gravity && gravity->c[k] != 0) {
             int64_t dv_q40 = fix_mul_q30(fix_mul_q30(gravity->c[k], tau_q30), t_q30);
 
-            s->momentum.c[k] += fix_mul_scaled(dv_q40, b->mass);
+            s->momentum.c[k] += fix_mul_scaled(dv_q40, b->def.mass);
         }
     }
     s->rotation = body_rotation_at(b, t_q30);
@@ -302,5 +302,5 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
 
     /* turned: 2 atan |u| <= 2 |u| */
     *turn_q30 = fix_mul_q30(2 * u_q30, t_q30) + 1;
-    *way_q22 = (fix_mul_q30(way_q40, t_q30) >> 18) + fix_mul_q30(*turn_q30, b->radius_q22) + 2;
+    *way_q22 = (fix_mul_q30(way_q40, t_q30) >> 18) + fix_mul_q30(*turn_q30, b->def.radius_q22) + 2;
 }

@@ -10,7 +10,7 @@ FIX_APART static int64_t longer(int64_t x, int32_t by_q16)
 
 static void set_turn(struct body *b, int32_t longer_q16)
 {
-    struct body_region *region = &b->region;
+    struct body_region *region = &b->search.region;
     int64_t u2_q60 = 0;
 
     if (!b->path.turns) {
@@ -32,7 +32,7 @@ static void set_turn(struct body *b, int32_t longer_q16)
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22)
 {
-    struct body_region *region = &b->region;
+    struct body_region *region = &b->search.region;
     const struct body_path *path = body_path(b);
     int64_t turn_q30;
     /* 64 frames over the shortest slice that is gone on with, 2^-6 of a frame: below 2^29 */
@@ -52,10 +52,17 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     region->length_q22 = (int32_t)(fix_length_bound(region->way.c) >> 18) +
                          (int32_t)(fix_length_bound(region->bend.c) >> 18) + 2;
     turn_q30 = 2 * (int64_t)region->u_q30;
-    b->reach_q22 = region->length_q22 + (int32_t)fix_mul_q30(turn_q30, b->radius_q22) + 2 +
-                   room_q22 + BODY_MARGIN_SKINS * b->skin_q22;
-    turn_q30 += ((int64_t)room_q22 << 30) / b->radius_q22 + 1;
-    b->turn_q30 = turn_q30 < CAROM_ONE_Q30 ? (int32_t)turn_q30 : CAROM_ONE_Q30;
+    b->search.reach_q22 = region->length_q22 + (int32_t)fix_mul_q30(turn_q30, b->def.radius_q22) +
+                          2 + room_q22 + BODY_MARGIN_SKINS * b->def.skin_q22;
+}
+
+int32_t body_region_turn_off_q30(const struct body *b)
+{
+    const struct body_region *region = &b->search.region;
+    int64_t off_q30 = ((int64_t)region->room_q22 << 30) / b->def.radius_q22 + 1;
+    int64_t most_q30 = CAROM_ONE_Q30 - 2 * (int64_t)region->u_q30;
+
+    return (int32_t)(off_q30 < most_q30 ? off_q30 : most_q30);
 }
 
 /*
@@ -174,7 +181,7 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
  */
 static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
 {
-    const struct body_region *region = &b->region;
+    const struct body_region *region = &b->search.region;
     const struct body_path *path = body_path(b);
     int64_t d[3], cubes_q30;
     int32_t turn[3], part_q30;
@@ -201,7 +208,7 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
 
 bool body_region_holds(const struct body *b, int32_t time_q30)
 {
-    const struct body_region *region = &b->region;
+    const struct body_region *region = &b->search.region;
     const struct body_path *path = body_path(b);
     int64_t start[3], end[3], bend[3], off, at_end;
     int64_t until_q30 = region->elapsed_q30 + time_q30;
@@ -221,13 +228,13 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     off = off > at_end ? off : at_end;
     /* between the ends two parabolas are farther apart by a quarter of what their bends differ by */
     off += (fix_length_bound(bend) >> 20) + 1;
-    off += fix_mul_q30(region->turned_off_q30 + turns_off_q30(b, time_q30), b->radius_q22);
+    off += fix_mul_q30(region->turned_off_q30 + turns_off_q30(b, time_q30), b->def.radius_q22);
     return off <= region->room_q22;
 }
 
 void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30)
 {
-    struct body_region *region = &b->region;
+    struct body_region *region = &b->search.region;
     /* the path turns evenly but for cubes; no room holds two radians */
     int64_t off_q30 = region->turned_off_q30 + turns_off_q30(b, time_q30);
 

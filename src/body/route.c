@@ -13,7 +13,8 @@
 /* Slices so many that the centre goes no farther in one than it may. */
 static int bits_of_way(const struct body *b, const carom_v3_q40 *velocity)
 {
-    int64_t way_q22 = fix_length(velocity->c) >> 18, most_q22 = (int64_t)b->radius_q22 * WAY_RADII;
+    int64_t way_q22 = fix_length(velocity->c) >> 18,
+            most_q22 = (int64_t)b->def.radius_q22 * WAY_RADII;
     int bits = 0;
 
     while (way_q22 >> bits > most_q22) {
@@ -116,7 +117,7 @@ void body_route_on(const struct body *b, const struct body_state *s, const carom
 
 void body_follow(struct body *b, const struct body_state *s)
 {
-    const struct body_route *route = &b->extra->route;
+    const struct body_route *route = &b->def.extra->route;
     struct body_path *path = &b->path;
 
     body_place(b, s);
@@ -131,7 +132,7 @@ void body_follow(struct body *b, const struct body_state *s)
 /* A spin is below 4, and so has 31 bits in q29; an arm of some 2^13 units then turns by less than 2^56. */
 void body_route_velocity(const struct body *b, const carom_v3_q40 *arm, carom_v3_q40 *v)
 {
-    const struct body_route *route = &b->extra->route;
+    const struct body_route *route = &b->def.extra->route;
     int32_t w_q29[3];
 
     for (int k = 0; k < 3; k++) {

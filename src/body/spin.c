@@ -11,7 +11,7 @@
  */
 static bool angular_fits(const struct body *b, const struct body_state *s)
 {
-    return fix_bits(fix_sum(s->angular.c)) + 30 - b->inverse_mass.e <= 40 + ANGULAR_BITS;
+    return fix_bits(fix_sum(s->angular.c)) + 30 - b->def.inverse_mass.e <= 40 + ANGULAR_BITS;
 }
 
 /*
@@ -22,16 +22,16 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
 {
     int64_t l[3];
 
-    fix_mul_scaled3(l, s->angular.c, b->inverse_mass);
+    fix_mul_scaled3(l, s->angular.c, b->def.inverse_mass);
     fix_rotate_back(l, r, l);
     FIX_UNROLL
     for (int i = 0; i < 3; i++) {
         struct fix_wide sum = {0, 0};
 
         for (int k = 0; k < 3; k++) {
-            fix_wide_add_product(&sum, b->mesh->inverse.m[fix_sym3_at[i][k]], l[k]);
+            fix_wide_add_product(&sum, b->def.mesh->inverse.m[fix_sym3_at[i][k]], l[k]);
         }
-        if (fix_wide_bits(&sum) - b->mesh->inverse.e > 40 + BODY_SPIN_BITS) {
+        if (fix_wide_bits(&sum) - b->def.mesh->inverse.e > 40 + BODY_SPIN_BITS) {
             return false;
         }
     }
@@ -41,7 +41,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
 bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
 {
     /* a calm body turns by less than half a radian, and most are not much faster */
-    return fix_sum(s->angular.c) >> (BODY_SPIN_BITS + 1) < b->calm_angular_q40 ||
+    return fix_sum(s->angular.c) >> (BODY_SPIN_BITS + 1) < b->def.calm_angular_q40 ||
            (angular_fits(b, s) && spin_fits(b, s, r));
 }
 

@@ -65,7 +65,7 @@ static inline bool stays_above(int32_t gap, int32_t rate, int32_t bend, int32_t 
 static bool vertex_stays_beside(const struct boyse_view *view, uint32_t face, const struct vec *x,
                                 const struct vec *velocity)
 {
-    const struct carom_mesh *mesh = view->to->mesh;
+    const struct carom_mesh *mesh = view->to->def.mesh;
     int32_t bend_q20 = (view->seen.bend_q22 >> 2) + BEND_SLACK_Q20;
 
     for (int k = 0; k < 3; k++) {
@@ -86,8 +86,8 @@ static bool vertex_stays_beside(const struct boyse_view *view, uint32_t face, co
 static bool vertex_may_meet(const struct boyse_pair *pair, const struct candidate *c)
 {
     const struct boyse_view *view = boyse_view(pair, c);
-    const struct carom_face *face = &view->to->mesh->faces[c->j];
-    const carom_v3_q22 vertex = mesh_vertex(view->from->mesh, c->i);
+    const struct carom_face *face = &view->to->def.mesh->faces[c->j];
+    const carom_v3_q22 vertex = mesh_vertex(view->from->def.mesh, c->i);
     const struct vec x = place_q20(view, &vertex);
     const int32_t *n = face->normal.c;
     /*
@@ -204,11 +204,11 @@ static bool edges_stay_beside(const struct boyse_view *view, const struct edge_l
 static bool edges_may_meet(const struct boyse_pair *pair, const struct candidate *c)
 {
     const struct boyse_view *view = &pair->view[0];
-    const struct carom_edge *edge_a = &pair->a->mesh->edges[c->i];
-    const struct carom_edge *edge_b = &pair->b->mesh->edges[c->j];
+    const struct carom_edge *edge_a = &pair->a->def.mesh->edges[c->i];
+    const struct carom_edge *edge_b = &pair->b->def.mesh->edges[c->j];
     const int32_t *direction = edge_a->direction.c, *f = edge_b->direction.c;
-    const carom_v3_q22 local_a = mesh_vertex(pair->a->mesh, edge_a->vertex[0]);
-    const carom_v3_q22 local_b = mesh_vertex(pair->b->mesh, edge_b->vertex[0]);
+    const carom_v3_q22 local_a = mesh_vertex(pair->a->def.mesh, edge_a->vertex[0]);
+    const carom_v3_q22 local_b = mesh_vertex(pair->b->def.mesh, edge_b->vertex[0]);
     const struct vec p = place_q20(view, &local_a);
     const struct vec q = {{local_b.c[0] >> 2, local_b.c[1] >> 2, local_b.c[2] >> 2}};
     const struct vec d = {{p.c[0] - q.c[0], p.c[1] - q.c[1], p.c[2] - q.c[2]}};

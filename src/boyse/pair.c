@@ -33,21 +33,23 @@ static void set_bounds(struct boyse_view *view)
     if (from->path.turns) {
         int64_t s_q30 = fix_sqrt((uint64_t)(body_path(from)->u2_q30 + 1) << 30) + 1;
 
-        way += fix_mul_q30(2 * s_q30, from->radius_q22) + 1;
-        bend += fix_mul_q30(3 * (int64_t)from->radius_q22, bend_q30(body_path(from), s_q30)) + 1;
+        way += fix_mul_q30(2 * s_q30, from->def.radius_q22) + 1;
+        bend +=
+            fix_mul_q30(3 * (int64_t)from->def.radius_q22, bend_q30(body_path(from), s_q30)) + 1;
     }
     view->fixed = view->seen = (struct boyse_bound){clamp(way), clamp(bend)};
     if (to->path.turns) {
         const int64_t centre[3] = {view->centre.c[0], view->centre.c[1], view->centre.c[2]};
         int64_t s_q30 = fix_sqrt((uint64_t)(body_path(to)->u2_q30 + 1) << 30) + 1;
 
-        reach = fix_length(centre) + from->radius_q22 + way;
+        reach = fix_length(centre) + from->def.radius_q22 + way;
         view->seen.way_q22 = clamp(way + fix_mul_q30(2 * reach, (int32_t)s_q30) + 1);
         view->seen.bend_q22 = clamp(bend + fix_mul_q30(2 * way, (int32_t)s_q30) +
                                     fix_mul_q30(3 * reach, bend_q30(body_path(to), s_q30)) + 2);
-        view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->radius_q22) + 1);
-        view->fixed.bend_q22 = clamp(
-            bend + fix_mul_q30(3 * (int64_t)to->radius_q22, bend_q30(body_path(to), s_q30)) + 1);
+        view->fixed.way_q22 = clamp(way + fix_mul_q30(2 * s_q30, to->def.radius_q22) + 1);
+        view->fixed.bend_q22 =
+            clamp(bend +
+                  fix_mul_q30(3 * (int64_t)to->def.radius_q22, bend_q30(body_path(to), s_q30)) + 1);
     }
 }
 
@@ -59,8 +61,8 @@ static void set_bounds(struct boyse_view *view)
  */
 static void set_fine(struct boyse_view *view)
 {
-    int64_t reach = view->fixed.way_q22 + (view->to->path.turns ? view->to->radius_q22 : 0) + 8 +
-                    (view->from->path.turns ? 1 : 2) * (int64_t)view->from->radius_q22;
+    int64_t reach = view->fixed.way_q22 + (view->to->path.turns ? view->to->def.radius_q22 : 0) +
+                    8 + (view->from->path.turns ? 1 : 2) * (int64_t)view->from->def.radius_q22;
 
     view->fine = 30 - fix_bits((uint64_t)reach);
     view->fine = view->fine < 0 ? 0 : view->fine > 7 ? 7 : view->fine;
@@ -135,7 +137,7 @@ void boyse_pair_begin(struct boyse_pair *pair, struct body *a, struct body *b)
 {
     pair->a = a;
     pair->b = b;
-    pair->skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    pair->skin_q22 = a->def.skin_q22 > b->def.skin_q22 ? a->def.skin_q22 : b->def.skin_q22;
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         pair->offset_q22[k] = (int32_t)(body_path(b)->origin_q22[k] - body_path(a)->origin_q22[k]);

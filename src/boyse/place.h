@@ -56,7 +56,7 @@ static inline bool boyse_steady(const struct boyse_pair *pair)
 static inline int64_t boyse_plane_gap_q52(const struct boyse_view *view, const struct candidate *c,
                                           const struct boyse_places *p)
 {
-    return carom_dot(p->n, p->vertex.c) - carom_shl(view->to->mesh->faces[c->j].offset_q22, 30);
+    return carom_dot(p->n, p->vertex.c) - carom_shl(view->to->def.mesh->faces[c->j].offset_q22, 30);
 }
 
 /* Place the features at the start. */

@@ -31,7 +31,7 @@ void boyse_place_start(const struct boyse_pair *pair, const struct candidate *c,
                        struct boyse_places *p)
 {
     const struct boyse_view *view = boyse_view(pair, c);
-    const struct carom_mesh *from = view->from->mesh, *to = view->to->mesh;
+    const struct carom_mesh *from = view->from->def.mesh, *to = view->to->def.mesh;
     uint32_t v = c->i;
 
     if (c->kind == CANDIDATE_EDGE_EDGE) {
@@ -426,6 +426,6 @@ int boyse_polynomial(const struct boyse_pair *pair, const struct candidate *c,
     }
     a_q40[0] = carom_round(boyse_plane_gap_q52(view, c, start), 12);
     return view->to->path.turns
-               ? turning_face(view, start, view->to->mesh->faces[c->j].offset_q22, a_q40)
+               ? turning_face(view, start, view->to->def.mesh->faces[c->j].offset_q22, a_q40)
                : moving_vertex(view, start, a_q40);
 }

@@ -175,9 +175,9 @@ static void test_vertex_face(const struct moment *m, const struct candidate *c,
     touch->gap_q22 = (int32_t)(boyse_plane_gap_q52(m->view, c, p) >> 30);
     touch->sign = 1;
     touch->valid = false;
-    if (mesh_over_face(m->view->to->mesh, c->j, &p->vertex, BOYSE_POINT_NOISE_Q22)) {
+    if (mesh_over_face(m->view->to->def.mesh, c->j, &p->vertex, BOYSE_POINT_NOISE_Q22)) {
         direction_back(m, p->n, n);
-        touch->valid = mesh_vertex_cone(m->view->from->mesh, c->i, n, INTERFERE_CONE_Q30);
+        touch->valid = mesh_vertex_cone(m->view->from->def.mesh, c->i, n, INTERFERE_CONE_Q30);
     }
 }
 
@@ -333,8 +333,8 @@ static int sign_of(const struct moment *m, const struct boyse_places *p,
     struct cones cones = {0, 0, 0, false};
     int sign;
 
-    add_cones(&cones, m->view->to->mesh, p->edge_b, n->on_b, true);
-    add_cones(&cones, m->view->from->mesh, p->edge_a, n->on_a, false);
+    add_cones(&cones, m->view->to->def.mesh, p->edge_b, n->on_b, true);
+    add_cones(&cones, m->view->from->def.mesh, p->edge_a, n->on_a, false);
     sign = cones.out >= 0 ? 1 : -1;
     for (int turn = 0; turn < 2; turn++, sign = -sign) {
         if ((sign > 0 ? cones.most : -cones.least) <= INTERFERE_CONE_Q30 &&

@@ -99,7 +99,7 @@ FIX_APART static void set_drift(struct contact_list *list, const struct boyse_pa
     bool mixes = false;
 
     contact_drift(pair, &c->key, arm, &drift);
-    if (list->materials && (pair->a->extra || pair->b->extra)) {
+    if (list->materials && (pair->a->def.extra || pair->b->def.extra)) {
         mixes = list->materials(list, pair, &c->key, &c->normal, &drift, &mixed);
     }
     contact_keep_drift(list, c, &drift, mixes ? &mixed : NULL);
@@ -132,11 +132,11 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     c->gap_q22 = gap_q22;
     c->skin_q22 = pair->skin_q22;
     c->normal = *normal;
-    c->side[0].body = pair->a->moving ? pair->a : NULL;
-    c->side[1].body = pair->b->moving ? pair->b : NULL;
+    c->side[0].body = pair->a->def.moving ? pair->a : NULL;
+    c->side[1].body = pair->b->def.moving ? pair->b : NULL;
     set_arms(c, arm);
     c->drift = NULL;
-    if (!list->plain || mesh_drift_most(pair->b->mesh) > 0) {
+    if (!list->plain || mesh_drift_most(pair->b->def.mesh) > 0) {
         set_drift(list, pair, c, &arm[1]);
     }
     return true;
@@ -159,7 +159,7 @@ bool contact_add(struct contact_list *list, const struct boyse_pair *pair,
                  const struct candidate *c, int32_t margin_q22, int32_t *clear_q22)
 {
     int32_t deepest = -(pair->skin_q22 * 5 / 2);
-    int32_t most = mesh_drift_most(pair->b->mesh);
+    int32_t most = mesh_drift_most(pair->b->def.mesh);
     struct boyse_touch touch;
     carom_v3_q40 arm[2];
 

@@ -155,7 +155,7 @@ static inline const struct body *contact_lighter(const struct contact *c)
 
 static inline struct fix_scaled contact_mass_unit(const struct contact *c)
 {
-    struct fix_scaled unit = contact_lighter(c)->mass;
+    struct fix_scaled unit = contact_lighter(c)->def.mass;
 
     unit.e += c->work->fine_bits;
     return unit;
@@ -229,7 +229,7 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c,
 /* Fractional bits of arm_q30 taken as a length. */
 inline int contact_arm_bits(const struct body *b)
 {
-    return 30 + 22 - b->unit_bits;
+    return 30 + 22 - b->def.unit_bits;
 }
 
 /* From the centre of mass of a, which moves, to the contact; and the place in the world. */

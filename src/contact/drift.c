@@ -15,20 +15,20 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
         body_route_velocity(b, arm, drift);
         return;
     }
-    if (mesh_drift_most(b->mesh) == 0) {
+    if (mesh_drift_most(b->def.mesh) == 0) {
         return;
     }
-    surface = b->mesh->surface->does;
+    surface = b->def.mesh->surface->does;
     fix_rotate_back(local, &b->path.start.r, arm->c);
     for (int k = 0; k < 3; k++) {
         at.c[k] = (int32_t)carom_round(local[k], 18);
     }
     if (key->kind == CANDIDATE_VERTEX_FACE) {
-        surface->drift_face(b->mesh, key->j, &at, drift);
+        surface->drift_face(b->def.mesh, key->j, &at, drift);
     } else if (key->kind == CANDIDATE_FACE_VERTEX) {
-        surface->drift_vertex(b->mesh, key->i, drift);
+        surface->drift_vertex(b->def.mesh, key->i, drift);
     } else {
-        surface->drift_edge(b->mesh, key->j, &at, drift);
+        surface->drift_edge(b->def.mesh, key->j, &at, drift);
     }
     fix_rotate(drift->c, &b->path.start.r, drift->c);
 }

@@ -9,7 +9,7 @@
 /* The world normal of a face. */
 static void normal_of(const struct body *b, uint16_t face, int32_t normal[3])
 {
-    carom_rotate(normal, &b->path.start.r, b->mesh->faces[face].normal.c);
+    carom_rotate(normal, &b->path.start.r, b->def.mesh->faces[face].normal.c);
 }
 
 static bool opposite(const int32_t a[3], const int32_t b[3])
@@ -46,8 +46,8 @@ void contact_flatten(const struct boyse_pair *pair, const struct candidate *c, c
     if (c->kind != CANDIDATE_EDGE_EDGE) {
         return;
     }
-    n = nearly_along(pair->b, &pair->b->mesh->edges[c->j], normal, of_b);
-    edge = &pair->a->mesh->edges[c->i];
+    n = nearly_along(pair->b, &pair->b->def.mesh->edges[c->j], normal, of_b);
+    edge = &pair->a->def.mesh->edges[c->i];
     for (int side = 0; n > 0 && side < 2; side++) {
         if (edge->face[side] == CAROM_NO_FACE) {
             continue;

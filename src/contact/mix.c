@@ -59,7 +59,7 @@ uint32_t contact_face(const struct body *b, const struct candidate *key, int sid
 {
     /* a vertex is i, of a or of b; a face is j, of the other; of edges i is a's */
     bool vertex = key->kind == (side == 0 ? CANDIDATE_VERTEX_FACE : CANDIDATE_FACE_VERTEX);
-    const struct carom_mesh *mesh = b->mesh;
+    const struct carom_mesh *mesh = b->def.mesh;
     uint32_t best = CAROM_NO_FACE;
     int32_t along_q30[3];
     int64_t most_q60 = 0;
@@ -85,10 +85,11 @@ uint32_t contact_face(const struct body *b, const struct candidate *key, int sid
 static const struct carom_material *material(const struct body *b, const struct candidate *key,
                                              int side, const carom_v3_q30 *normal)
 {
-    if (!b->extra || !b->extra->materials) {
+    if (!b->def.extra || !b->def.extra->materials) {
         return NULL;
     }
-    return &b->extra->materials[b->extra->face_material[contact_face(b, key, side, normal)]];
+    return &b->def.extra
+                ->materials[b->def.extra->face_material[contact_face(b, key, side, normal)]];
 }
 
 /* Add sign times how a surface moves, in world axes. */
@@ -97,10 +98,10 @@ static void add_surface(const struct body *b, const struct carom_material *m, in
 {
     int64_t own[3];
 
-    if (!b->extra) {
+    if (!b->def.extra) {
         return;
     }
-    fix_rotate(own, &b->path.start.r, m ? m->surface_velocity.c : b->extra->surface_velocity.c);
+    fix_rotate(own, &b->path.start.r, m ? m->surface_velocity.c : b->def.extra->surface_velocity.c);
     for (int k = 0; k < 3; k++) {
         sum->c[k] += sign * own[k];
     }
@@ -124,9 +125,10 @@ bool contact_mix_materials(const struct contact_list *list, const struct boyse_p
         drift->c[k] += along.c[k] - fix_mul_q30(out_q40, normal->c[k]);
     }
     mixed->restitution_q30 =
-        contact_mix_restitution(list, of_a ? of_a->restitution_q30 : a->restitution_q30,
-                                of_b ? of_b->restitution_q30 : b->restitution_q30);
-    mixed->friction_q16 = contact_mix_friction(list, of_a ? of_a->friction_q16 : a->friction_q16,
-                                               of_b ? of_b->friction_q16 : b->friction_q16);
+        contact_mix_restitution(list, of_a ? of_a->restitution_q30 : a->def.restitution_q30,
+                                of_b ? of_b->restitution_q30 : b->def.restitution_q30);
+    mixed->friction_q16 =
+        contact_mix_friction(list, of_a ? of_a->friction_q16 : a->def.friction_q16,
+                             of_b ? of_b->friction_q16 : b->def.friction_q16);
     return of_a || of_b || (along.c[0] | along.c[1] | along.c[2]) != 0;
 }

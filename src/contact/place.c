@@ -112,13 +112,13 @@ static int64_t on_both_q40(const carom_v3_q40 *d, const int32_t e[3], const int3
 static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candidate *c,
                                const carom_v3_q40 *apart, carom_v3_q40 *start_b)
 {
-    const struct carom_edge *edge_a = &pair->a->mesh->edges[c->i];
-    const struct carom_edge *edge_b = &pair->b->mesh->edges[c->j];
-    carom_v3_q40 start_a = turned(pair->a, mesh_vertex(pair->a->mesh, edge_a->vertex[0]));
+    const struct carom_edge *edge_a = &pair->a->def.mesh->edges[c->i];
+    const struct carom_edge *edge_b = &pair->b->def.mesh->edges[c->j];
+    carom_v3_q40 start_a = turned(pair->a, mesh_vertex(pair->a->def.mesh, edge_a->vertex[0]));
     carom_v3_q40 d;
     int32_t e[3], f[3];
 
-    *start_b = turned(pair->b, mesh_vertex(pair->b->mesh, edge_b->vertex[0]));
+    *start_b = turned(pair->b, mesh_vertex(pair->b->def.mesh, edge_b->vertex[0]));
     carom_rotate(e, &pair->a->path.start.r, edge_a->direction.c);
     carom_rotate(f, &pair->b->path.start.r, edge_b->direction.c);
     for (int k = 0; k < 3; k++) {
@@ -140,8 +140,8 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
         const struct body *of_face = c->kind == CANDIDATE_VERTEX_FACE ? pair->b : pair->a;
 
         known = c->kind == CANDIDATE_VERTEX_FACE ? 0 : 1;
-        on[known] = turned(of_vertex, mesh_vertex(of_vertex->mesh, c->i));
-        on[1 - known] = turned(of_face, mesh_corner(of_face->mesh, c->j, 0));
+        on[known] = turned(of_vertex, mesh_vertex(of_vertex->def.mesh, c->i));
+        on[1 - known] = turned(of_face, mesh_corner(of_face->def.mesh, c->j, 0));
     }
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {

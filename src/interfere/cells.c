@@ -26,7 +26,7 @@ struct interfere_cells interfere_cells_under(const struct carom_mesh *mb, const 
 /* Highest z of b in a cell; below every vertex if the cell is empty. */
 static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     const uint32_t *start = &mb->cell_start[cell];
 
     if (w->pooled) {
@@ -40,7 +40,7 @@ static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
 int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const int32_t high[3],
                           int32_t enough)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     struct interfere_cells cells = interfere_cells_under(mb, low, high);
     int32_t top = INT16_MIN - 1;
 

@@ -162,7 +162,7 @@ void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all
 {
     for (uint32_t i = 0; i < n && !w->error; i++) {
         const struct pair *p = &all->pairs[c[i].pair];
-        const struct carom_mesh *a = all->bodies[p->a].mesh, *b = all->bodies[p->b].mesh;
+        const struct carom_mesh *a = all->bodies[p->a].def.mesh, *b = all->bodies[p->b].def.mesh;
         uint16_t of_a, of_b;
 
         if (c[i].kind == CANDIDATE_EDGE_EDGE) {

@@ -46,7 +46,7 @@ bool interfere_vertex_face(const struct interfere *w, const struct target *t, ui
         return false;
     }
     carom_rotate_back(n, &l->to_b, t->face->normal.c);
-    return mesh_vertex_cone(w->a->mesh, interfere_vertex(w, at), n, l->cone_q30);
+    return mesh_vertex_cone(w->a->def.mesh, interfere_vertex(w, at), n, l->cone_q30);
 }
 
 bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k)
@@ -55,7 +55,7 @@ bool interfere_face_vertex(const struct interfere *w, const struct target *t, ui
     const uint8_t *corner = interfere_corners(w, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const int32_t *n = l->planes[i].n_q30;
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
 
     return !stays_beside(l, &t->p[k], p, n) &&
            mesh_vertex_cone(mb, mb->raw.faces[t->number][k], n, l->cone_q30);
@@ -105,13 +105,13 @@ static bool arcs_meet(const struct interfere *in, const struct edge_pair *l, int
     int64_t turn_q30 = (int64_t)in->leaf->cone_q30 - INTERFERE_CONE_Q30;
     int64_t tolerance_q60 = in->leaf->cone_q30 * sine_q30 + carom_shl(turn_q30, 30);
     int32_t f_a[3], tolerance_q28 = (int32_t)(tolerance_q60 >> 32) + 1;
-    uint32_t sides = sides_between(in->b->mesh, l->b, l->e, tolerance_q28);
+    uint32_t sides = sides_between(in->b->def.mesh, l->b, l->e, tolerance_q28);
 
     if (sides == 0) {
         return false;
     }
     carom_rotate_back(f_a, &in->leaf->to_b, l->b->direction.c);
-    return (sides & sides_between(in->a->mesh, l->a, f_a, tolerance_q28)) != 0;
+    return (sides & sides_between(in->a->def.mesh, l->a, f_a, tolerance_q28)) != 0;
 }
 
 /*
@@ -163,8 +163,8 @@ bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint
     /* an owned edge runs in the direction of its face's corners */
     struct edge_pair edges;
 
-    edges.a = &w->a->mesh->edges[w->a->mesh->faces[interfere_face(w, i)].edge[k]];
-    edges.b = &w->b->mesh->edges[t->face->edge[j]];
+    edges.a = &w->a->def.mesh->edges[w->a->def.mesh->faces[interfere_face(w, i)].edge[k]];
+    edges.b = &w->b->def.mesh->edges[t->face->edge[j]];
     edges.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
     edges.start_b = &t->p[j];
     return edges_may_touch(w, &edges);

@@ -11,7 +11,9 @@
  */
 static bool in_range(const struct body *a, const struct body *b)
 {
-    return 2 * ((int64_t)a->radius_q22 + b->radius_q22 + a->reach_q22 + b->reach_q22) < INT32_MAX;
+    return 2 * ((int64_t)a->def.radius_q22 + b->def.radius_q22 + a->search.reach_q22 +
+                b->search.reach_q22) <
+           INT32_MAX;
 }
 
 /*
@@ -21,11 +23,11 @@ static bool in_range(const struct body *a, const struct body *b)
 FIX_APART static int64_t carried_around(const struct interfere *w, const struct body *other,
                                         const struct body *by)
 {
-    int64_t radius = other->radius_q22 >> 10;
+    int64_t radius = other->def.radius_q22 >> 10;
     int32_t u2_q30 = by->path.turns ? by->path.u2_q30 : 0;
 
     if (!w->by_paths) {
-        u2_q30 = carom_mul_q30(by->region.u_q30, by->region.u_q30);
+        u2_q30 = carom_mul_q30(by->search.region.u_q30, by->search.region.u_q30);
     }
     return u2_q30 * radius * radius;
 }
@@ -41,7 +43,7 @@ static void choose_asker(struct interfere *w)
     const struct body *a = w->a;
     int64_t from_a_q30 = w->span.from_a_q30;
 
-    w->swapped = w->b->moving && a->radius_q22 / 5 > w->b->radius_q22 / 4 &&
+    w->swapped = w->b->def.moving && a->def.radius_q22 / 5 > w->b->def.radius_q22 / 4 &&
                  carried_around(w, a, w->b) > carried_around(w, w->b, a);
     if (w->swapped) {
         w->a = w->b;
@@ -61,8 +63,8 @@ static int64_t off_the_middle_q30(const struct interfere *w)
     int64_t turn_q30 = w->leaf->angle_q30 / 2 + INTERFERE_CONE_NOISE_Q30;
 
     if (!w->by_paths) {
-        turn_q30 += w->a->turn_q30 - 2 * w->a->region.u_q30;
-        turn_q30 += w->b->turn_q30 - 2 * w->b->region.u_q30;
+        turn_q30 += body_region_turn_off_q30(w->a);
+        turn_q30 += body_region_turn_off_q30(w->b);
     }
     return turn_q30;
 }
@@ -77,7 +79,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
     w->a = &bodies[p->a];
     w->b = &bodies[p->b];
     choose_asker(w);
-    w->pooled = interfere_makes_lists(w->b->mesh);
+    w->pooled = interfere_makes_lists(w->b->def.mesh);
     if (!interfere_set_motion(w)) {
         return;
     }
@@ -98,7 +100,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
 static void gather_over(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
 {
     const uint16_t b = all->pairs[number].b;
-    const struct carom_mesh *mesh = all->bodies[b].mesh;
+    const struct carom_mesh *mesh = all->bodies[b].def.mesh;
     const struct mesh_moving *does = mesh->surface->does;
     const struct interfere_area area = does->area_under(all->bodies, all->pairs, all->count, b);
     struct interfere_place place = {0, 0};
@@ -118,7 +120,7 @@ static void gather(struct interfere *w, const struct interfere_pairs *all, uint3
     w->error = CAROM_OK;
     w->pair_count = all->count;
     w->gathers++;
-    if (interfere_makes_lists(all->bodies[all->pairs[number].b].mesh)) {
+    if (interfere_makes_lists(all->bodies[all->pairs[number].b].def.mesh)) {
         gather_over(w, all, number);
     } else {
         gather_pair(w, all, number);

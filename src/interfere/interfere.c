@@ -19,16 +19,17 @@
 /* Highest z of b in the cells that a passes over during the span, quanta. */
 static int32_t highest_of_b(const struct interfere *w)
 {
-    int64_t around_q22 = w->a->radius_q22 + w->leaf->near_q22 +
-                         fix_mul(w->a->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
+    int64_t around_q22 =
+        w->a->def.radius_q22 + w->leaf->near_q22 +
+        fix_mul(w->a->def.radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
     int32_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
 
     for (int k = 0; k < 2; k++) {
         int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->leaf->moves.c[k]) / 2 +
                         2 * PLACE_NOISE_Q20;
 
-        low[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] - reach, k);
-        high[k] = interfere_quanta(w->b->mesh, w->leaf->at.c[k] + reach, k) + 1;
+        low[k] = interfere_quanta(w->b->def.mesh, w->leaf->at.c[k] - reach, k);
+        high[k] = interfere_quanta(w->b->def.mesh, w->leaf->at.c[k] + reach, k) + 1;
     }
     return interfere_highest(w, low, high, INT32_MAX);
 }
@@ -36,7 +37,7 @@ static int32_t highest_of_b(const struct interfere *w)
 /* Set shift, reach and box along axis k from the leaf's sphere. */
 static inline void sweep_sphere(struct interfere *w, int k)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     struct interfere_leaf *l = w->leaf;
     int32_t radius = (l->leaf->radius_q22 >> 2) + 1;
     int32_t x = interfere_dot(w->leaf->to_b.c[k], l->leaf->centre.c) + w->leaf->at.c[k];
@@ -52,7 +53,7 @@ static inline void sweep_sphere(struct interfere *w, int k)
 /* Sweep the leaf's sphere. Returns true if it meets b's box and is not above all of b under it. */
 static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
 {
-    const int16_t(*box)[3] = w->b->mesh->box;
+    const int16_t(*box)[3] = w->b->def.mesh->box;
     struct interfere_leaf *l = w->leaf;
     int32_t around_q22 =
         carom_mul_q30(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30);
@@ -89,7 +90,7 @@ static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32
  */
 static inline bool face_near(const struct interfere *w, uint16_t face)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     const struct interfere_leaf *l = w->leaf;
     const uint16_t *corner = mb->raw.faces[face];
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
@@ -123,7 +124,7 @@ static inline void visit_face(struct interfere *w, uint16_t face)
 /* Visit b's faces in a cell, highest z1 first, down to the bottom of the leaf's box. */
 static void visit_cell(struct interfere *w, uint32_t cell)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
@@ -151,7 +152,7 @@ static void visit_made(struct interfere *w, uint32_t cell)
 
 static void visit_leaf(struct interfere *w)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     struct interfere_cells cells;
 
     if (!interfere_place_leaf(w)) {
@@ -181,14 +182,14 @@ static void visit_leaf(struct interfere *w)
  */
 static int64_t highest_leaf(const struct interfere *w, int32_t top)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     const struct interfere_leaf *l = w->leaf;
     int64_t turns_q30 = l->angle_q30 / 2 + l->skew_q30, reach_q20;
 
     for (int k = 0; k < 3; k++) {
         turns_q30 += carom_abs(l->change.c[2][k]) / 2;
     }
-    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->radius_q22, 30)) >> 2) +
+    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->def.radius_q22, 30)) >> 2) +
                 carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 6;
     reach_q20 += (int64_t)(top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
                  (mb->mass.centre.c[2] >> 2) - l->at.c[2];
@@ -199,7 +200,7 @@ static int64_t highest_leaf(const struct interfere *w, int32_t top)
 static const struct carom_leaf *next_leaf(const struct interfere *w, const struct carom_leaf *leaf,
                                           int64_t highest_q20)
 {
-    const struct carom_leaf *end = w->a->mesh->leaves + w->a->mesh->leaf_count;
+    const struct carom_leaf *end = w->a->def.mesh->leaves + w->a->def.mesh->leaf_count;
     const int32_t *up = w->leaf->to_b.c[2];
     const int32_t x = up[0], y = up[1], z = up[2];
     const int64_t highest_q52 = highest_q20 * ((int64_t)1 << 32);
@@ -215,10 +216,11 @@ static const struct carom_leaf *next_leaf(const struct interfere *w, const struc
 
 void interfere_leaves(struct interfere *w)
 {
-    const struct carom_leaf *leaf = w->a->mesh->leaves, *end = leaf + w->a->mesh->leaf_count;
+    const struct carom_leaf *leaf = w->a->def.mesh->leaves,
+                            *end = leaf + w->a->def.mesh->leaf_count;
     int64_t highest_q20;
 
-    leaf = next_leaf(w, leaf, highest_leaf(w, w->b->mesh->box[1][2]));
+    leaf = next_leaf(w, leaf, highest_leaf(w, w->b->def.mesh->box[1][2]));
     if (leaf == end) {
         return;
     }

@@ -8,7 +8,7 @@
 /* Carry coordinate k of the leaf's vertices into b's frame, and set its swept box along k. */
 static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     struct interfere_leaf *l = w->leaf;
     /* copies: the compiler must assume that a store may alias w */
     const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
@@ -43,7 +43,7 @@ FIX_APART static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_
  */
 static void place_slab(struct interfere *w)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
     struct interfere_leaf *l = w->leaf;
     int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
 
@@ -58,7 +58,7 @@ static void place_slab(struct interfere *w)
     }
     /* low_q22 and high_q22 are measured in a's own axes; to_b preserves them but for its skew */
     reach_q18 = interfere_reach_q18(l, axis_q30) +
-                (int32_t)(fix_mul(w->a->radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
+                (int32_t)(fix_mul(w->a->def.radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
                 (rounding_q15 >> (mb->raw.quantum_bits - 3));
     l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
     l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
@@ -66,7 +66,7 @@ static void place_slab(struct interfere *w)
 
 bool interfere_place_leaf(struct interfere *w)
 {
-    const struct carom_mesh *ma = w->a->mesh;
+    const struct carom_mesh *ma = w->a->def.mesh;
     struct interfere_leaf *l = w->leaf;
     const struct carom_leaf *leaf = l->leaf;
     const uint16_t *vertex = &ma->leaf_vertices[leaf->first_vertex];
@@ -104,7 +104,7 @@ void interfere_list_faces(struct interfere *w)
         const uint8_t *corner = interfere_corners(w, i);
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-        l->own_edges[i] = w->a->mesh->faces[interfere_face(w, i)].own >> 3;
+        l->own_edges[i] = w->a->def.mesh->faces[interfere_face(w, i)].own >> 3;
     }
 }
 
@@ -129,7 +129,7 @@ void interfere_place_plane(struct interfere *w, uint32_t i)
     int32_t offset_q18, reach_q18;
 
     l->placed |= 1u << i;
-    carom_rotate(plane->n_q30, &l->to_b, w->a->mesh->faces[interfere_face(w, i)].normal.c);
+    carom_rotate(plane->n_q30, &l->to_b, w->a->def.mesh->faces[interfere_face(w, i)].normal.c);
     offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
     reach_q18 = interfere_reach_q18(l, plane->n_q30);
     plane->above_q18 = offset_q18 + reach_q18;

@@ -76,17 +76,18 @@ struct interfere_area interfere_area_under(const struct body *bodies, const stru
 {
     struct interfere_area area = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
     const struct body *surface = &bodies[b];
-    int shift = 32 - surface->mesh->raw.quantum_bits;
+    int shift = 32 - surface->def.mesh->raw.quantum_bits;
     carom_m3_q30 r;
 
-    fix_matrix(&r, &surface->region.q);
+    fix_matrix(&r, &surface->search.region.q);
     for (uint32_t i = 0; i < pair_count; i++) {
         const struct body *a = &bodies[pairs[i].a];
-        int64_t way[3], around_q22 = (int64_t)a->radius_q22 + a->reach_q22 + surface->reach_q22;
+        int64_t way[3], around_q22 = (int64_t)a->def.radius_q22 + a->search.reach_q22 +
+                                     surface->search.reach_q22;
         int32_t around = (int32_t)(around_q22 >> (shift - 10)) + 2;
 
         for (int k = 0; k < 3; k++) {
-            way[k] = a->region.at.c[k] - surface->region.at.c[k];
+            way[k] = a->search.region.at.c[k] - surface->search.region.at.c[k];
         }
         fix_rotate_back(way, &r, way);
         for (int k = 0; pairs[i].b == b && k < 2; k++) {

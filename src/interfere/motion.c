@@ -34,10 +34,11 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
     int64_t way = (int64_t)a->length_q22 + b->length_q22;
     int32_t twice_q30 = 2 * a->u_q30;
 
-    way += fix_mul(w->a->radius_q22, twice_q30, 30);
-    bend += fix_mul(fix_mul(w->a->radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
+    way += fix_mul(w->a->def.radius_q22, twice_q30, 30);
+    bend += fix_mul(fix_mul(w->a->def.radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
     if (b->u_q30 > 0) {
-        int64_t from_a = distance_q22 + w->a->radius_q22, from_b = w->b->radius_q22 + margin_q22;
+        int64_t from_a = distance_q22 + w->a->def.radius_q22,
+                from_b = w->b->def.radius_q22 + margin_q22;
 
         twice_q30 = 2 * b->u_q30;
         bend += 2 * fix_mul(way, twice_q30, 30);
@@ -56,17 +57,17 @@ FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body
 {
     if (w->by_paths) {
         body_path_sweep(b, sweep);
-        return mesh_drift_most(b->mesh) + PATH_NOISE_Q22;
+        return mesh_drift_most(b->def.mesh) + PATH_NOISE_Q22;
     }
-    body_region_sweep(&b->region, from_q30, w->span.time_q30, sweep);
-    return b->region.room_q22;
+    body_region_sweep(&b->search.region, from_q30, w->span.time_q30, sweep);
+    return b->search.region.room_q22;
 }
 
 /* True if the body's axes are the world's throughout the sweep. */
 static bool is_upright(const struct interfere *w, const struct body *b,
                        const struct body_sweep *sweep)
 {
-    const carom_quat_q30 *q = w->by_paths ? &body_path(b)->q : &b->region.q;
+    const carom_quat_q30 *q = w->by_paths ? &body_path(b)->q : &b->search.region.q;
 
     return (q->c[1] | q->c[2] | q->c[3]) == 0 && sweep->u_q30 == 0;
 }
@@ -75,10 +76,10 @@ bool interfere_set_motion(struct interfere *w)
 {
     struct interfere_leaf *l = w->leaf;
     struct body_sweep sweep[2], *a = &sweep[0], *b = &sweep[1];
-    const struct body *skin = w->a->skin_q22 > w->b->skin_q22 ? w->a : w->b;
+    const struct body *skin = w->a->def.skin_q22 > w->b->def.skin_q22 ? w->a : w->b;
     int64_t start[3], end[3], distance = 0, margin_q22;
 
-    margin_q22 = BODY_MARGIN_SKINS * (int64_t)skin->skin_q22;
+    margin_q22 = BODY_MARGIN_SKINS * (int64_t)skin->def.skin_q22;
     margin_q22 += sweep_body(w, w->a, w->span.from_a_q30, a);
     margin_q22 += sweep_body(w, w->b, w->span.from_b_q30, b);
     FIX_UNROLL

@@ -7,7 +7,7 @@
 
 static void place_target(const struct interfere *w, struct target *t)
 {
-    const struct carom_mesh *mb = w->b->mesh;
+    const struct carom_mesh *mb = w->b->def.mesh;
 
     const uint16_t *corner = mb->raw.faces[t->number];
     const int32_t *centre = mb->mass.centre.c, x = centre[0], y = centre[1], z = centre[2];
@@ -139,7 +139,7 @@ static void face_vertex(struct interfere *w, const struct target *t, int k, uint
     for (uint32_t i = 0; near != 0; i++, near >>= 1) {
         if ((near & 1) && !outside_face(w->leaf, &t->p[k], i) && reaches_plane(w, &t->p[k], i) &&
             interfere_face_vertex(w, t, i, k)) {
-            interfere_emit(w, CANDIDATE_FACE_VERTEX, w->b->mesh->raw.faces[t->number][k],
+            interfere_emit(w, CANDIDATE_FACE_VERTEX, w->b->def.mesh->raw.faces[t->number][k],
                            interfere_face(w, i));
         }
     }
@@ -173,8 +173,8 @@ static void edges_edge(struct interfere *w, const struct target *t, uint32_t i, 
             !both_beside(p[2], q[2], low->c[2], high->c[2]) &&
             !both_beside(p[1], q[1], low->c[1], high->c[1]) &&
             !both_beside(p[0], q[0], low->c[0], high->c[0]) && interfere_edge_edge(w, t, i, k, j)) {
-            interfere_emit(w, CANDIDATE_EDGE_EDGE, w->a->mesh->faces[interfere_face(w, i)].edge[k],
-                           t->face->edge[j]);
+            interfere_emit(w, CANDIDATE_EDGE_EDGE,
+                           w->a->def.mesh->faces[interfere_face(w, i)].edge[k], t->face->edge[j]);
         }
     }
 }
@@ -212,7 +212,7 @@ void interfere_narrow(struct interfere *w, uint16_t face_b)
     struct target t; /* set step by step: nearly all faces fail the plane */
 
     t.number = face_b;
-    t.face = &w->b->mesh->faces[face_b];
+    t.face = &w->b->def.mesh->faces[face_b];
     if (!part_by_plane(w, &t)) {
         return;
     }

@@ -107,7 +107,7 @@ static inline void interfere_bound(const struct interfere_vec *p, const struct i
 /* Vertex number in a of the leaf's vertex `at`. */
 static inline uint32_t interfere_vertex(const struct interfere *w, uint32_t at)
 {
-    return w->a->mesh->leaf_vertices[w->leaf->leaf->first_vertex + at];
+    return w->a->def.mesh->leaf_vertices[w->leaf->leaf->first_vertex + at];
 }
 
 /*
@@ -116,12 +116,12 @@ static inline uint32_t interfere_vertex(const struct interfere *w, uint32_t at)
  */
 static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
 {
-    return w->a->mesh->leaf_faces[w->leaf->leaf->first_face + i];
+    return w->a->def.mesh->leaf_faces[w->leaf->leaf->first_face + i];
 }
 
 static inline const uint8_t *interfere_corners(const struct interfere *w, uint32_t i)
 {
-    return w->a->mesh->leaf_corners[w->leaf->leaf->first_face + i];
+    return w->a->def.mesh->leaf_corners[w->leaf->leaf->first_face + i];
 }
 
 /*

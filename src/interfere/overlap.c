@@ -230,12 +230,13 @@ static int32_t side_q20(const struct carom_mesh *mesh, int side, int k)
 /* True if the box around a's sphere, in b's axes, is apart from b's box. */
 static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
 {
-    int64_t around = (w->a->radius_q22 + BOX_MARGIN_Q22) >> 2;
+    int64_t around = (w->a->def.radius_q22 + BOX_MARGIN_Q22) >> 2;
 
     for (int k = 0; k < 3; k++) {
         int64_t at = d_q32[k] >> 12;
 
-        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+        if (at + around < side_q20(w->b->def.mesh, 0, k) ||
+            at - around > side_q20(w->b->def.mesh, 1, k)) {
             return true;
         }
     }
@@ -249,7 +250,7 @@ static bool box_apart(const struct interfere *w)
     int32_t middle[3], half[3];
 
     for (int k = 0; k < 3; k++) {
-        int32_t low = side_q20(w->a->mesh, 0, k), high = side_q20(w->a->mesh, 1, k);
+        int32_t low = side_q20(w->a->def.mesh, 0, k), high = side_q20(w->a->def.mesh, 1, k);
 
         middle[k] = (low + high) / 2;
         half[k] = (high - low) / 2 + 1;
@@ -261,7 +262,8 @@ static bool box_apart(const struct interfere *w)
             at += carom_mul_q30(middle[i], l->to_b.c[k][i]);
             around += carom_mul_q30(half[i], (int32_t)carom_abs(l->to_b.c[k][i]));
         }
-        if (at + around < side_q20(w->b->mesh, 0, k) || at - around > side_q20(w->b->mesh, 1, k)) {
+        if (at + around < side_q20(w->b->def.mesh, 0, k) ||
+            at - around > side_q20(w->b->def.mesh, 1, k)) {
             return true;
         }
     }
@@ -297,8 +299,8 @@ static bool place_pair(struct interfere *w, const struct body_state *a, const st
 /* The rectangle of b that a may reach, in b's quanta; everything is below 2^31 in q20. */
 static struct interfere_area area_at(const struct interfere *w)
 {
-    int shift = 20 - w->b->mesh->raw.quantum_bits;
-    int32_t around = (w->a->radius_q22 >> 2) + BOX_MARGIN_Q22;
+    int shift = 20 - w->b->def.mesh->raw.quantum_bits;
+    int32_t around = (w->a->def.radius_q22 >> 2) + BOX_MARGIN_Q22;
     struct interfere_area area;
 
     for (int k = 0; k < 2; k++) {
@@ -315,9 +317,10 @@ static void visit_leaves(struct interfere *w)
     struct interfere_place place = {0, 0};
     bool last = false;
 
-    w->pooled = interfere_makes_lists(w->b->mesh);
+    w->pooled = interfere_makes_lists(w->b->def.mesh);
     while (!last && !w->error) {
-        last = !w->pooled || w->b->mesh->surface->does->make_lists(w, w->b->mesh, &area, &place);
+        last = !w->pooled ||
+               w->b->def.mesh->surface->does->make_lists(w, w->b->def.mesh, &area, &place);
         interfere_leaves(w);
         w->query->again = true;
     }
@@ -331,7 +334,7 @@ static int query(struct interfere *w, struct interfere_placed a, struct interfer
     int result;
 
     q.sure = sure;
-    q.swapped = a.body->mesh->raw.kind == CAROM_SURFACE;
+    q.swapped = a.body->def.mesh->raw.kind == CAROM_SURFACE;
     w->a = q.swapped ? b.body : a.body;
     w->b = q.swapped ? a.body : b.body;
     if (!place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state)) {
@@ -365,7 +368,7 @@ int interfere_query(struct interfere *w, struct interfere_placed a, struct inter
 bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
                           struct interfere_sure *sure)
 {
-    CAROM_ASSERT(a.body->mesh->raw.kind == CAROM_SOLID);
+    CAROM_ASSERT(a.body->def.mesh->raw.kind == CAROM_SOLID);
     return query(w, a, b, sure, NULL, 0) !=
            0; /* room is 0: the first pair found ends the search with an error */
 }
@@ -375,8 +378,8 @@ bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct
 /* Place a's first vertex in b's mesh, q22 from its origin. Returns false if it does not fit. */
 static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct interfere_placed b)
 {
-    const struct carom_mesh *mb = b.body->mesh;
-    carom_v3_q22 v = mesh_vertex(a.body->mesh, 0);
+    const struct carom_mesh *mb = b.body->def.mesh;
+    carom_v3_q22 v = mesh_vertex(a.body->def.mesh, 0);
     int64_t p_q32[3];
     carom_m3_q30 r;
 
@@ -472,7 +475,7 @@ static int winding_of_all(const struct carom_mesh *mesh, const carom_v3_q22 *p)
 
 bool interfere_inside(struct interfere_placed a, struct interfere_placed b)
 {
-    const struct carom_mesh *mb = b.body->mesh;
+    const struct carom_mesh *mb = b.body->def.mesh;
     carom_v3_q22 p;
 
     return place_probe(&p, a, b) &&

@@ -14,7 +14,7 @@ static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t h
 static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_quat_q30 *q,
                    int32_t reach_q22, int32_t box_q18[2][3])
 {
-    const struct carom_mesh *mesh = b->mesh;
+    const struct carom_mesh *mesh = b->def.mesh;
     int shift = 22 - mesh->raw.quantum_bits;
     int64_t middle[3], half[3];
     carom_m3_q30 r;
@@ -60,22 +60,22 @@ bool broad_near(const struct body *a, const struct body_state *state_a, const st
 
 static void set_mesh_box(struct body *b)
 {
-    bounds(b, &b->region.at, &b->region.q, b->reach_q22, b->box_q18);
-    b->boxed = true;
+    bounds(b, &b->search.region.at, &b->search.region.q, b->search.reach_q22, b->search.box_q18);
+    b->search.boxed = true;
 }
 
 void broad_set_box(struct body *b)
 {
-    int64_t half_q22 = (int64_t)b->radius_q22 + b->reach_q22 + 1;
+    int64_t half_q22 = (int64_t)b->def.radius_q22 + b->search.reach_q22 + 1;
 
-    if (!b->active) {
+    if (!b->search.active) {
         set_mesh_box(b);
         return;
     }
     for (int k = 0; k < 3; k++) {
-        set_side(b->box_q18, k, carom_round(b->region.at.c[k], 10), half_q22);
+        set_side(b->search.box_q18, k, carom_round(b->search.region.at.c[k], 10), half_q22);
     }
-    b->boxed = false;
+    b->search.boxed = false;
 }
 
 bool broad_boxes_meet(struct body *a, struct body *b)
@@ -83,13 +83,13 @@ bool broad_boxes_meet(struct body *a, struct body *b)
     if (broad_apart(a, b)) {
         return false;
     }
-    if (a->boxed && b->boxed) {
+    if (a->search.boxed && b->search.boxed) {
         return true;
     }
-    if (!a->boxed) {
+    if (!a->search.boxed) {
         set_mesh_box(a);
     }
-    if (!b->boxed) {
+    if (!b->search.boxed) {
         set_mesh_box(b);
     }
     return !broad_apart(a, b);
@@ -97,20 +97,20 @@ bool broad_boxes_meet(struct body *a, struct body *b)
 
 bool broad_may_meet(const struct body *a, const struct body *b)
 {
-    if (a->sensor && b->sensor) {
+    if (a->def.sensor && b->def.sensor) {
         return false;
     }
-    if (a->group == b->group && a->group != 0) {
-        return a->group > 0;
+    if (a->def.group == b->def.group && a->def.group != 0) {
+        return a->def.group > 0;
     }
-    return (a->category & b->mask) != 0 && (b->category & a->mask) != 0;
+    return (a->def.category & b->def.mask) != 0 && (b->def.category & a->def.mask) != 0;
 }
 
 bool broad_is_pair(const struct body *bodies, const struct body_state *states, uint32_t a,
                    uint32_t b)
 {
-    return bodies[a].mesh && bodies[a].moving && !states[a].out && bodies[b].mesh &&
-           !states[b].out && (bodies[b].moving ? b < a : true) &&
+    return bodies[a].def.mesh && bodies[a].def.moving && !states[a].out && bodies[b].def.mesh &&
+           !states[b].out && (bodies[b].def.moving ? b < a : true) &&
            (broad_active(&bodies[a], &states[a]) || broad_active(&bodies[b], &states[b])) &&
            broad_may_meet(&bodies[a], &bodies[b]);
 }

@@ -67,7 +67,7 @@ struct pair_work {
 /* A body that moves, or is led, and is neither asleep nor frozen. */
 inline bool broad_active(const struct body *b, const struct body_state *s)
 {
-    return b->mesh && b->goes && !s->asleep && !s->out;
+    return b->def.mesh && b->def.goes && !s->asleep && !s->out;
 }
 
 /* Whether two bodies may meet: their filters, by Box2D's rule, and that two sensors do not see each other. */
@@ -75,7 +75,7 @@ bool broad_may_meet(const struct body *a, const struct body *b);
 /* The same, and that neither is a sensor. */
 static inline bool broad_may_touch(const struct body *a, const struct body *b)
 {
-    return !a->sensor && !b->sensor && broad_may_meet(a, b);
+    return !a->def.sensor && !b->def.sensor && broad_may_meet(a, b);
 }
 
 /* Whether the boxes of two bodies, each grown by `margin`, overlap. */
@@ -92,7 +92,8 @@ void broad_set_box(struct body *b);
 static inline bool broad_apart(const struct body *a, const struct body *b)
 {
     for (int k = 0; k < 3; k++) {
-        if (a->box_q18[1][k] < b->box_q18[0][k] || b->box_q18[1][k] < a->box_q18[0][k]) {
+        if (a->search.box_q18[1][k] < b->search.box_q18[0][k] ||
+            b->search.box_q18[1][k] < a->search.box_q18[0][k]) {
             return true;
         }
     }

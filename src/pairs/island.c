@@ -5,26 +5,26 @@
 void island_begin(struct body *bodies, uint32_t body_count)
 {
     for (uint32_t i = 0; i < body_count; i++) {
-        bodies[i].island = (uint16_t)i;
+        bodies[i].island.lowest = (uint16_t)i;
     }
 }
 
 /* The lowest body that is known to be connected with this one; halves the way for the next. */
 static uint16_t lowest(struct body *bodies, uint16_t i)
 {
-    while (bodies[i].island != i) {
-        bodies[i].island = bodies[bodies[i].island].island;
-        i = bodies[i].island;
+    while (bodies[i].island.lowest != i) {
+        bodies[i].island.lowest = bodies[bodies[i].island.lowest].island.lowest;
+        i = bodies[i].island.lowest;
     }
     return i;
 }
 
 void island_join(struct body *bodies, const struct pair *p)
 {
-    if (bodies[p->a].moving && bodies[p->b].moving) {
+    if (bodies[p->a].def.moving && bodies[p->b].def.moving) {
         uint16_t a = lowest(bodies, p->a), b = lowest(bodies, p->b);
 
-        bodies[a > b ? a : b].island = a < b ? a : b;
+        bodies[a > b ? a : b].island.lowest = a < b ? a : b;
     }
 }
 
@@ -32,15 +32,15 @@ void island_end(struct body *bodies, uint32_t body_count)
 {
     /* a body is connected through lower ones, which know their island by then */
     for (uint32_t i = 0; i < body_count; i++) {
-        bodies[i].island = bodies[bodies[i].island].island;
-        bodies[i].next_in_island = ISLAND_END;
+        bodies[i].island.lowest = bodies[bodies[i].island.lowest].island.lowest;
+        bodies[i].island.next = ISLAND_END;
     }
     for (uint32_t i = body_count; i-- > 0;) {
-        struct body *first = &bodies[bodies[i].island];
+        struct body *first = &bodies[bodies[i].island.lowest];
 
         if (first != &bodies[i]) {
-            bodies[i].next_in_island = first->next_in_island;
-            first->next_in_island = (uint16_t)i;
+            bodies[i].island.next = first->island.next;
+            first->island.next = (uint16_t)i;
         }
     }
 }

@@ -38,22 +38,22 @@ static void set_pair(struct ahead *h)
 {
     const struct body *a = h->work.a, *b = h->work.b;
     struct interfere_leaf *l = h->work.leaf;
-    int32_t skins_q22 = fix_larger(a->skin_q22, b->skin_q22) * BODY_MARGIN_SKINS;
+    int32_t skins_q22 = fix_larger(a->def.skin_q22, b->def.skin_q22) * BODY_MARGIN_SKINS;
 
     interfere_relate(&l->to_b, &b->path.start.r, &a->path.start.r);
     memset(&l->change, 0, sizeof l->change);
-    l->leaf = a->mesh->leaves;
+    l->leaf = a->def.mesh->leaves;
     l->angle_q30 = 0;
     l->skew_q30 = 1;
     l->cone_q30 = INTERFERE_CONE_Q30 + INTERFERE_CONE_NOISE_Q30;
-    h->near_q20 = (skins_q22 + mesh_drift_most(b->mesh)) / 4 + NOISE_Q20;
+    h->near_q20 = (skins_q22 + mesh_drift_most(b->def.mesh)) / 4 + NOISE_Q20;
 }
 
 /* Set a's vertices in b's axes, and the box around them. */
 static void set_vertices(struct ahead *h)
 {
     const struct interfere_leaf *l = h->work.leaf;
-    const struct carom_mesh *mesh = h->work.a->mesh;
+    const struct carom_mesh *mesh = h->work.a->def.mesh;
 
     for (int k = 0; k < 3; k++) {
         h->low_q20[k] = INT32_MAX;
@@ -118,7 +118,7 @@ static void add_axis(struct ahead *h, const int32_t n_q30[3])
 static void set_axes(struct ahead *h)
 {
     const struct interfere_leaf *l = h->work.leaf;
-    const struct carom_mesh *mesh = h->work.a->mesh;
+    const struct carom_mesh *mesh = h->work.a->def.mesh;
 
     h->axes = 0;
     for (uint32_t i = 0; i < l->leaf->face_count && h->axes < AHEAD_AXES; i++) {
@@ -138,7 +138,7 @@ static void set_axes(struct ahead *h)
  */
 static int32_t near_of(const struct ahead *h)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     int32_t near_q14 = to_q14(mb, h->near_q20) + 2;
 
     for (int k = 0; k < 3; k++) {
@@ -164,8 +164,8 @@ bool ahead_begin(struct ahead *h, const struct interfere *work, const struct bod
         h->way_q32[k] = way->c[k];
         longest += carom_abs(way->c[k]);
     }
-    if (a->mesh->leaf_count > 1 || interfere_makes_lists(b->mesh) ||
-        to_q14(b->mesh, fix_mul_q30(longest, part_q30) >> 12) >= FAR_Q14 / 4) {
+    if (a->def.mesh->leaf_count > 1 || interfere_makes_lists(b->def.mesh) ||
+        to_q14(b->def.mesh, fix_mul_q30(longest, part_q30) >> 12) >= FAR_Q14 / 4) {
         return false;
     }
     h->work = *work;
@@ -196,7 +196,7 @@ bool ahead_begin(struct ahead *h, const struct interfere *work, const struct bod
 /* True if a's box, swept over the stretch, meets b's box and is not above all of b under it. */
 static bool passes(struct ahead *h)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
 
     for (int k = 2; k >= 0; k--) {
         int32_t x = h->at_q20[k] + h->low_q20[k] - h->near_q20;
@@ -215,7 +215,8 @@ static bool passes(struct ahead *h)
 bool ahead_stretch(struct ahead *h, int32_t from_q30, int32_t to_q30)
 {
     /* beyond it the spheres do not meet; within it places are within a few radii and fit q20 */
-    int64_t reach_q22 = 2 * ((int64_t)h->work.a->radius_q22 + h->work.b->radius_q22 + h->near_q20);
+    int64_t reach_q22 =
+        2 * ((int64_t)h->work.a->def.radius_q22 + h->work.b->def.radius_q22 + h->near_q20);
 
     for (int k = 0; k < 3; k++) {
         int64_t from = h->start_q32[k] + fix_mul_q30(h->way_q32[k], from_q30);
@@ -233,7 +234,7 @@ bool ahead_stretch(struct ahead *h, int32_t from_q30, int32_t to_q30)
 /* Set a's intervals along its axes at the start of the stretch. */
 static void place_axes(struct ahead *h)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     int32_t at_q20[3];
 
     for (int k = 0; k < 3; k++) {
@@ -286,7 +287,7 @@ static bool plane_times(struct times *times, const struct ahead *h, const struct
 /* Narrow the times at which a may touch a face of b; false if never. */
 static bool face_times(struct times *times, const struct ahead *h, uint16_t face)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     const uint16_t *corner = mb->raw.faces[face];
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
@@ -327,8 +328,8 @@ static void leave_out_last(struct ahead *h)
     if (h->moves_q20[2] < 0) { /* the shorter stretch does not reach as low */
         int32_t goes = (int32_t)((int64_t)h->moves_q20[2] * h->end >> TIMES_BITS);
 
-        h->low_quanta[2] =
-            interfere_quanta(h->work.b->mesh, h->at_q20[2] + h->low_q20[2] - h->near_q20 + goes, 2);
+        h->low_quanta[2] = interfere_quanta(h->work.b->def.mesh,
+                                            h->at_q20[2] + h->low_q20[2] - h->near_q20 + goes, 2);
     }
 }
 
@@ -350,7 +351,7 @@ static void note_face(struct ahead *h, uint16_t face)
  */
 static bool cell_near(const struct ahead *h, int32_t col, int32_t row, int32_t top)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     const int32_t side = 1 << mb->grid_shift;
     const int32_t x = mb->grid_x0 + col * side, y = mb->grid_y0 + row * side;
     const int32_t low[3] = {x, y, fix_larger(h->low_quanta[2], mb->box[0][2])};
@@ -379,7 +380,7 @@ static bool cell_near(const struct ahead *h, int32_t col, int32_t row, int32_t t
 /* Note b's faces in a cell, highest first, down to a. */
 static void note_cell(struct ahead *h, int32_t col, int32_t row)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     const uint32_t *start = &mb->cell_start[row * mb->grid_nx + col];
     const struct carom_zref *r = &mb->zrefs[start[0]], *end = &mb->zrefs[start[1]];
     uint16_t *seen = h->work.leaf->seen;
@@ -398,7 +399,7 @@ static void note_cell(struct ahead *h, int32_t col, int32_t row)
 /* Note b's faces in the cells under a. */
 static void note_faces(struct ahead *h)
 {
-    const struct carom_mesh *mb = h->work.b->mesh;
+    const struct carom_mesh *mb = h->work.b->def.mesh;
     const struct interfere_cells cells = interfere_cells_under(mb, h->low_quanta, h->high_quanta);
 
     memset(h->work.leaf->seen, 0xff, sizeof h->work.leaf->seen); /* = CAROM_NO_FACE */

@@ -41,7 +41,7 @@ static int32_t nearest_q30(const int64_t to_q32[3], const carom_v3_q32 *way)
 static bool boxes_apart(const struct carom_ray *ray, const struct body *body,
                         const struct body_state *state)
 {
-    int64_t radius_q32 = (int64_t)body->mesh->radius_q22 << 10;
+    int64_t radius_q32 = (int64_t)body->def.mesh->radius_q22 << 10;
 
     for (int k = 0; k < 3; k++) {
         int64_t start = ray->from.c[k] - state->position.c[k], end = start + ray->way.c[k];
@@ -145,7 +145,7 @@ bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struc
         at[k] = fix_mul_q30(ray->way.c[k], t_q30) - at[k];
         way[k] = ray->way.c[k];
     }
-    if (outside(at, body->mesh->radius_q22)) {
+    if (outside(at, body->def.mesh->radius_q22)) {
         return false;
     }
     if ((q[1] | q[2] | q[3]) != 0) { /* skipped for most ground */
@@ -156,8 +156,8 @@ bool query_carry(struct query_ray *out, const struct carom_ray *ray, const struc
         fix_rotate_back(way, &r, way);
     }
     for (int k = 0; k < 3; k++) {
-        at[k] += carom_shl(body->mesh->mass.centre.c[k], 10);
+        at[k] += carom_shl(body->def.mesh->mass.centre.c[k], 10);
     }
-    out->mesh = body->mesh;
+    out->mesh = body->def.mesh;
     return set_ray(out, at, way, t_q30);
 }

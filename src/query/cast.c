@@ -10,13 +10,13 @@ bool query_wants(const struct carom_world *w, const struct carom_query_filter *f
 {
     const struct body *b = &w->bodies[body];
 
-    if (!b->mesh || world_now(w)->bodies[body].out) {
+    if (!b->def.mesh || world_now(w)->bodies[body].out) {
         return false;
     }
-    if (b->sensor && !(filter && (filter->flags & CAROM_QUERY_SENSORS))) {
+    if (b->def.sensor && !(filter && (filter->flags & CAROM_QUERY_SENSORS))) {
         return false;
     }
-    return !filter || ((filter->mask == 0 || (b->category & filter->mask) != 0) &&
+    return !filter || ((filter->mask == 0 || (b->def.category & filter->mask) != 0) &&
                        (!filter->wants || filter->wants(filter->context, (int)body)));
 }
 
@@ -113,7 +113,7 @@ static void take_hit(struct query_struck *self, struct query_ray *ray,
 static void complete(const struct carom_world *w, const struct carom_ray *ray,
                      struct carom_ray_hit *hit)
 {
-    const struct carom_mesh *mesh = w->bodies[hit->body].mesh;
+    const struct carom_mesh *mesh = w->bodies[hit->body].def.mesh;
     carom_m3_q30 r;
 
     fix_matrix(&r, &world_now(w)->bodies[hit->body].rotation);
@@ -131,7 +131,7 @@ static void cast(struct cast *c, const struct carom_ray *ray,
     struct query_ray carried;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (!w->bodies[i].mesh ||
+        if (!w->bodies[i].def.mesh ||
             !query_carry(&carried, ray, &w->bodies[i], &world_now(w)->bodies[i]) ||
             !query_wants(w, filter, i)) {
             continue;

@@ -146,7 +146,7 @@ bool cross_triangles(const struct interfere_vec p[3], const struct interfere_vec
  */
 static place carried(const struct cross *c, uint32_t vertex)
 {
-    carom_v3_q22 v = mesh_vertex(c->a.body->mesh, vertex);
+    carom_v3_q22 v = mesh_vertex(c->a.body->def.mesh, vertex);
     place p;
 
     for (int k = 0; k < 3; k++) {
@@ -160,7 +160,7 @@ static place carried(const struct cross *c, uint32_t vertex)
 
 static place of_b(const struct cross *c, uint32_t vertex)
 {
-    const struct carom_mesh *mesh = c->b.body->mesh;
+    const struct carom_mesh *mesh = c->b.body->def.mesh;
     const int16_t *v = mesh->raw.vertices[vertex];
     const int32_t one = (int32_t)1 << (c->bits - mesh->raw.quantum_bits);
 
@@ -169,7 +169,7 @@ static place of_b(const struct cross *c, uint32_t vertex)
 
 static void set_triangle(const struct cross *c, bool of_a, uint16_t face, place t[3])
 {
-    const struct carom_mesh *mesh = of_a ? c->a.body->mesh : c->b.body->mesh;
+    const struct carom_mesh *mesh = of_a ? c->a.body->def.mesh : c->b.body->def.mesh;
 
     for (int k = 0; k < 3; k++) {
         t[k] = of_a ? carried(c, mesh->raw.faces[face][k]) : of_b(c, mesh->raw.faces[face][k]);
@@ -189,13 +189,13 @@ static bool sure_cross(struct interfere_sure *self, uint16_t face_a, uint16_t fa
 /* Fractional bits of places, such that b and all that a can reach of it fit. */
 static int bits_for(const struct cross *c)
 {
-    const struct carom_mesh *mesh = c->b.body->mesh;
+    const struct carom_mesh *mesh = c->b.body->def.mesh;
     int64_t most = 0;
 
     for (int k = 0; k < 3; k++) {
         most = fix_larger((int32_t)most, fix_larger(-mesh->box[0][k], mesh->box[1][k]));
     }
-    most = (most << (22 - mesh->raw.quantum_bits)) + 2 * (int64_t)c->a.body->radius_q22 + 1024;
+    most = (most << (22 - mesh->raw.quantum_bits)) + 2 * (int64_t)c->a.body->def.radius_q22 + 1024;
     return 22 + PLACE_BITS - fix_bits((uint64_t)most);
 }
 
@@ -218,7 +218,7 @@ void cross_begin(struct cross *c, struct interfere_placed a, struct interfere_pl
     for (int k = 0; k < 3; k++) {
         /* bodies farther apart do not meet */
         int64_t far = (int64_t)1 << 41,
-                x = at_q32[k] + carom_shl(b.body->mesh->mass.centre.c[k], 10);
+                x = at_q32[k] + carom_shl(b.body->def.mesh->mass.centre.c[k], 10);
 
         c->at_q52[k] = carom_shl(x > far ? far : x < -far ? -far : x, 20);
     }
@@ -254,7 +254,7 @@ static int is_over(const place t[3], const place *p)
 /* Winding number: upward minus downward faces above p, over all faces of a or b. */
 static int winding(const struct cross *c, bool of_a, const place *p)
 {
-    const uint32_t faces = (of_a ? c->a : c->b).body->mesh->raw.face_count;
+    const uint32_t faces = (of_a ? c->a : c->b).body->def.mesh->raw.face_count;
     int sum = 0;
 
     for (uint32_t face = 0; face < faces; face++) {
@@ -269,7 +269,7 @@ static int winding(const struct cross *c, bool of_a, const place *p)
 /* winding of b, by the z-list of a cell. */
 static int winding_in_cell(const struct cross *c, const place *p)
 {
-    const struct carom_mesh *mesh = c->b.body->mesh;
+    const struct carom_mesh *mesh = c->b.body->def.mesh;
     const int shift = c->bits - mesh->raw.quantum_bits;
     const int32_t at[3] = {p->c[0] >> shift, p->c[1] >> shift, p->c[2] >> shift};
     const struct interfere_cells cells = interfere_cells_under(mesh, at, at);
@@ -287,7 +287,7 @@ static int winding_in_cell(const struct cross *c, const place *p)
 
 bool cross_inside(const struct cross *c)
 {
-    const struct carom_mesh *mesh = c->b.body->mesh;
+    const struct carom_mesh *mesh = c->b.body->def.mesh;
     const place p = carried(c, 0);
     const int32_t one = (int32_t)1 << (c->bits - mesh->raw.quantum_bits);
 
@@ -305,7 +305,7 @@ bool cross_inside(const struct cross *c)
 bool cross_around(const struct cross *c)
 {
     const place p = of_b(c, 0);
-    const int64_t radius = ((int64_t)c->a.body->radius_q22 << 30 >> (52 - c->bits)) + 1;
+    const int64_t radius = ((int64_t)c->a.body->def.radius_q22 << 30 >> (52 - c->bits)) + 1;
 
     for (int k = 0; k < 3; k++) {
         if (carom_abs(p.c[k] - (c->at_q52[k] >> (52 - c->bits))) > radius) {

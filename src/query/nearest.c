@@ -31,7 +31,7 @@ struct nearest {
 
 static struct place placed(const struct nearest *n, uint32_t vertex)
 {
-    carom_v3_q22 v = mesh_vertex(n->body[0]->mesh, vertex);
+    carom_v3_q22 v = mesh_vertex(n->body[0]->def.mesh, vertex);
     struct place p;
 
     for (int k = 0; k < 3; k++) {
@@ -42,7 +42,7 @@ static struct place placed(const struct nearest *n, uint32_t vertex)
 
 static struct place of_b(const struct nearest *n, uint32_t vertex)
 {
-    carom_v3_q22 v = mesh_vertex(n->body[1]->mesh, vertex);
+    carom_v3_q22 v = mesh_vertex(n->body[1]->def.mesh, vertex);
 
     return (struct place){{v.c[0], v.c[1], v.c[2]}};
 }
@@ -132,7 +132,7 @@ static void set_box(struct facet *f)
 
 static void set_directions(const struct nearest *n, int side, struct facet *f)
 {
-    const struct carom_mesh *mesh = n->body[side]->mesh;
+    const struct carom_mesh *mesh = n->body[side]->def.mesh;
 
     turned(n, side, f->n_q30, mesh->faces[f->number].normal.c);
     for (int k = 0; k < 3; k++) {
@@ -252,7 +252,7 @@ static void leaf_centre(const struct nearest *n, const struct carom_leaf *a, int
 
 static void try_leaves(struct nearest *n, const struct carom_leaf *a, const struct carom_leaf *b)
 {
-    const struct carom_mesh *ma = n->body[0]->mesh, *mb = n->body[1]->mesh;
+    const struct carom_mesh *ma = n->body[0]->def.mesh, *mb = n->body[1]->def.mesh;
 
     for (uint32_t i = a->first_face; i < a->first_face + a->face_count; i++) {
         struct facet f = {.number = ma->leaf_faces[i]};
@@ -278,14 +278,14 @@ static void try_leaves(struct nearest *n, const struct carom_leaf *a, const stru
 static void place_leaf(struct nearest *n, const struct carom_leaf *a)
 {
     for (int i = 0; i < a->vertex_count; i++) {
-        n->p[i] = placed(n, n->body[0]->mesh->leaf_vertices[a->first_vertex + (uint32_t)i]);
+        n->p[i] = placed(n, n->body[0]->def.mesh->leaf_vertices[a->first_vertex + (uint32_t)i]);
     }
 }
 
 /* Try the two leaves whose centres are closest, for a good first distance. */
 static void begin_nearest(struct nearest *n)
 {
-    const struct carom_mesh *ma = n->body[0]->mesh, *mb = n->body[1]->mesh;
+    const struct carom_mesh *ma = n->body[0]->def.mesh, *mb = n->body[1]->def.mesh;
     const struct carom_leaf *best[2] = {ma->leaves, mb->leaves};
     int64_t least = INT64_MAX, centre[3];
 
@@ -308,7 +308,7 @@ static void begin_nearest(struct nearest *n)
 /* Try all pairs of leaves whose spheres are within the best distance so far. */
 static void search(struct nearest *n)
 {
-    const struct carom_mesh *ma = n->body[0]->mesh, *mb = n->body[1]->mesh;
+    const struct carom_mesh *ma = n->body[0]->def.mesh, *mb = n->body[1]->def.mesh;
 
     for (uint32_t i = 0; i < ma->leaf_count; i++) {
         const struct carom_leaf *a = &ma->leaves[i];
@@ -361,8 +361,8 @@ static void complete(const struct nearest *n, const struct body_state *b, struct
 static bool overlap(struct carom_world *w, int a, int b)
 {
     return carom_query_faces(w, a, b, NULL, 0) != 0 || carom_query_inside(w, a, b) > 0 ||
-           (w->bodies[a].mesh->raw.kind == CAROM_SOLID &&
-            w->bodies[b].mesh->raw.kind == CAROM_SOLID && carom_query_inside(w, b, a) > 0);
+           (w->bodies[a].def.mesh->raw.kind == CAROM_SOLID &&
+            w->bodies[b].def.mesh->raw.kind == CAROM_SOLID && carom_query_inside(w, b, a) > 0);
 }
 
 int carom_closest_points(struct carom_world *world, int a, int b, struct carom_closest *out)

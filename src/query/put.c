@@ -16,10 +16,10 @@ int query_put(const struct carom_query_mesh *mesh, struct body *body, struct bod
         mesh->mesh->radius_q22 < BODY_RADIUS_MIN_Q22) {
         return CAROM_ERR_RANGE;
     }
-    body->mesh = mesh->mesh;
-    body->moving = true;
-    body->radius_q22 = mesh->mesh->radius_q22;
-    body->skin_q22 = body->radius_q22 >> 11 > 256 ? body->radius_q22 >> 11 : 256;
+    body->def.mesh = mesh->mesh;
+    body->def.moving = true;
+    body->def.radius_q22 = mesh->mesh->radius_q22;
+    body->def.skin_q22 = body->def.radius_q22 >> 11 > 256 ? body->def.radius_q22 >> 11 : 256;
     return CAROM_OK;
 }
 
@@ -27,7 +27,7 @@ int query_put(const struct carom_query_mesh *mesh, struct body *body, struct bod
 static bool spheres_apart(const struct body *a, const struct body_state *at_a, const struct body *b,
                           const struct body_state *at_b)
 {
-    int64_t reach_q32 = ((int64_t)a->radius_q22 + b->radius_q22) << 10;
+    int64_t reach_q32 = ((int64_t)a->def.radius_q22 + b->def.radius_q22) << 10;
 
     for (int k = 0; k < 3; k++) {
         if (carom_abs(at_a->position.c[k] - at_b->position.c[k]) > reach_q32) {
@@ -45,12 +45,12 @@ bool query_overlaps(struct carom_world *w, const struct body *body, const struct
     struct cross c;
 
     /* under a surface counts as inside, however deep */
-    if (b.body->mesh->raw.kind == CAROM_SOLID && spheres_apart(body, state, b.body, b.state)) {
+    if (b.body->def.mesh->raw.kind == CAROM_SOLID && spheres_apart(body, state, b.body, b.state)) {
         return false;
     }
     cross_begin(&c, a, b);
     return interfere_query_sure(&w->interfere, a, b, &c.base) || cross_inside(&c) ||
-           (b.body->mesh->raw.kind == CAROM_SOLID && cross_around(&c));
+           (b.body->def.mesh->raw.kind == CAROM_SOLID && cross_around(&c));
 }
 
 int carom_overlap_mesh(struct carom_world *world, const struct carom_query_mesh *mesh,

@@ -22,6 +22,7 @@ struct swept {
     struct carom_world *w;
     const struct carom_mesh_way *way;
     struct body bodies[2]; /* the mesh on a part of its way; the body at hand */
+    uint16_t number;       /* of the body at hand in the world */
     struct body_state state;
     bool straight;            /* the mesh does not turn */
     int32_t length_q30;       /* part of the way that each part takes */
@@ -59,7 +60,7 @@ static void set_path(struct swept *s, int32_t from_q30, int32_t to_q30)
 static int check_way(struct swept *s)
 {
     int64_t length_q32 = fix_length(s->way->way.c);
-    int64_t radius_q32 = (int64_t)s->bodies[0].radius_q22 << 10;
+    int64_t radius_q32 = (int64_t)s->bodies[0].def.radius_q22 << 10;
 
     if (!world_each_within(s->way->way.c, (int64_t)BODY_WORLD_LIMIT << 32) ||
         fix_largest(s->way->turn.c) > TURN_MAX_Q30 ||
@@ -77,9 +78,9 @@ static bool stays_apart(const struct swept *s, const struct body *b, const struc
                         int32_t from_q30, int32_t to_q30)
 {
     const struct body *a = &s->bodies[0];
-    int64_t reach_q32 = ((int64_t)a->radius_q22 + b->radius_q22) << 10;
+    int64_t reach_q32 = ((int64_t)a->def.radius_q22 + b->def.radius_q22) << 10;
 
-    reach_q32 += (int64_t)(a->skin_q22 + b->skin_q22) << 13;
+    reach_q32 += (int64_t)(a->def.skin_q22 + b->def.skin_q22) << 13;
     for (int k = 0; k < 3; k++) {
         int64_t way = s->way->way.c[k], d = s->state.position.c[k] - at->position.c[k];
         int64_t start = d + fix_mul_q30(way, from_q30), end = d + fix_mul_q30(way, to_q30);
@@ -93,13 +94,13 @@ static bool stays_apart(const struct swept *s, const struct body *b, const struc
 
 /* ---------------------------------------------------------------------- hits */
 
-static bool is_before(const struct swept *s, const struct boyse_hit *hit, uint16_t body)
+static bool is_before(const struct swept *s, const struct boyse_hit *hit)
 {
     if (s->from_q30 != s->hit_from_q30) {
         return s->from_q30 < s->hit_from_q30;
     }
-    if (hit->t_q30 != s->hit.t_q30 || body != s->body) {
-        return hit->t_q30 < s->hit.t_q30 || (hit->t_q30 == s->hit.t_q30 && body < s->body);
+    if (hit->t_q30 != s->hit.t_q30 || s->number != s->body) {
+        return hit->t_q30 < s->hit.t_q30 || (hit->t_q30 == s->hit.t_q30 && s->number < s->body);
     }
     return candidate_compare(&hit->candidate, &s->hit.candidate) < 0;
 }
@@ -108,7 +109,6 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
 {
     struct swept *s = (struct swept *)self;
     struct boyse_pair *pair = world_pair(s->w);
-    uint16_t body = s->bodies[1].island; /* its number in the world, see copy_body */
     uint32_t roots = 0;
 
     if (n > 0 && !s->set) {
@@ -122,9 +122,9 @@ static void visit_swept(struct candidate_visitor *self, const struct candidate *
         boyse_pair_for(pair, &c[i]);
         if (boyse_first(pair, &c[i], &hit, &roots)) {
             hit.candidate = c[i];
-            if (!s->found || is_before(s, &hit, body)) {
+            if (!s->found || is_before(s, &hit)) {
                 s->found = true;
-                s->body = body;
+                s->body = s->number;
                 s->hit = hit;
                 s->hit_from_q30 = s->from_q30;
             }
@@ -139,11 +139,11 @@ static void copy_body(struct swept *s, uint32_t i)
     struct body *b = &s->bodies[1];
 
     memset(b, 0, sizeof *b);
-    b->mesh = from->mesh;
-    b->moving = from->moving;
-    b->radius_q22 = from->radius_q22;
-    b->skin_q22 = from->skin_q22;
-    b->island = (uint16_t)i;
+    b->def.mesh = from->def.mesh;
+    b->def.moving = from->def.moving;
+    b->def.radius_q22 = from->def.radius_q22;
+    b->def.skin_q22 = from->def.skin_q22;
+    s->number = (uint16_t)i;
     body_place(b, &world_now(s->w)->bodies[i]);
 }
 
@@ -181,7 +181,7 @@ static int ask_part(struct swept *s)
     }
     start.rotation = body_path(&s->bodies[0])->q;
     body_region_begin(&s->bodies[0], &start, CAROM_ONE_Q30, CAROM_ONE_Q30, 0);
-    body_region_begin(&s->bodies[1], &world_now(s->w)->bodies[s->bodies[1].island], CAROM_ONE_Q30,
+    body_region_begin(&s->bodies[1], &world_now(s->w)->bodies[s->number], CAROM_ONE_Q30,
                       CAROM_ONE_Q30, 0);
     work.candidates = candidates;
     work.candidate_pool = &pool;
@@ -281,7 +281,7 @@ static int ask_body(struct swept *s, uint32_t i)
 static uint16_t face_of(const struct body *b, bool vertex, uint32_t feature,
                         const carom_v3_q30 *along)
 {
-    const struct carom_mesh *mesh = b->mesh;
+    const struct carom_mesh *mesh = b->def.mesh;
     uint32_t first = vertex ? mesh->ring_start[feature] : 0;
     uint32_t end = vertex ? mesh->ring_start[feature + 1] : 1;
     int64_t most = INT64_MIN;
@@ -335,7 +335,7 @@ static void complete(struct swept *s, struct carom_mesh_hit *out)
     carom_v3_q40 arm[2];
     carom_v3_q32 way;
 
-    if (s->bodies[1].island != s->body) {
+    if (s->number != s->body) {
         copy_body(s, s->body);
     }
     begin_part(s, s->hit_from_q30);
@@ -381,7 +381,7 @@ static int ask_bodies(struct swept *s, const struct carom_query_filter *filter)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-        if (w->bodies[i].mesh &&
+        if (w->bodies[i].def.mesh &&
             !stays_apart(s, &w->bodies[i], &world_now(w)->bodies[i], 0, CAROM_ONE_Q30) &&
             query_wants(w, filter, i)) {
             result = ask_body(s, i);

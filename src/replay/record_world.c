@@ -14,11 +14,11 @@ static const struct carom_mesh stopgap = {.raw = {corners, side, 3, 1, 8, CAROM_
 /* Returns 0 for a mass that follows from the mesh, since 2^-20 need not hold it. */
 static uint32_t mass_of(const struct body *b)
 {
-    const struct fix_scaled by_volume = fix_scale(b->mesh->mass.volume_q32, 32);
+    const struct fix_scaled by_volume = fix_scale(b->def.mesh->mass.volume_q32, 32);
 
-    return !b->moving || (by_volume.m == b->mass.m && by_volume.e == b->mass.e)
+    return !b->def.moving || (by_volume.m == b->def.mass.m && by_volume.e == b->def.mass.e)
                ? 0
-               : (uint32_t)fix_mul_scaled((int64_t)1 << 20, b->mass);
+               : (uint32_t)fix_mul_scaled((int64_t)1 << 20, b->def.mass);
 }
 
 static struct carom_body_def def_of(const struct body *b)
@@ -29,15 +29,15 @@ static struct carom_body_def def_of(const struct body *b)
     def.filter.category = 1; /* without a mask; the snapshot has the filter */
     def.mesh = &stopgap;
     def.stationary = true;
-    if (b->mesh) {
-        def.mesh = b->mesh;
+    if (b->def.mesh) {
+        def.mesh = b->def.mesh;
         def.kinematic = world_is_kinematic(b);
-        def.stationary = !b->moving && !def.kinematic;
+        def.stationary = !b->def.moving && !def.kinematic;
         def.mass_q20 = mass_of(b);
-        def.restitution_q30 = b->restitution_q30;
-        def.friction_q16 = b->friction_q16;
-        def.sensor = b->sensor;
-        def.one_way = b->one_way;
+        def.restitution_q30 = b->def.restitution_q30;
+        def.friction_q16 = b->def.friction_q16;
+        def.sensor = b->def.sensor;
+        def.one_way = b->def.one_way;
     }
     return def;
 }
@@ -77,7 +77,7 @@ static void note_faces(struct carom_record *r, int body, const struct body_extra
                                   .friction_q16 = extra->most_friction_q16};
     uint32_t used = 0;
 
-    call.faces = r->world->bodies[body].mesh->raw.face_count;
+    call.faces = r->world->bodies[body].def.mesh->raw.face_count;
     for (uint32_t i = 0; i < call.faces; i++) {
         used = extra->face_material[i] >= used ? extra->face_material[i] + 1u : used;
     }
@@ -102,7 +102,7 @@ static void note_extras(struct carom_record *r, int body)
 
     if (r->world->rest.list.materials) {
         struct carom_material *m = &call.u.material;
-        uint32_t *changed = b->extra ? &m->rolling_q16 : &m->friction_q16;
+        uint32_t *changed = b->def.extra ? &m->rolling_q16 : &m->friction_q16;
         uint32_t is;
 
         carom_body_material(r->world, body, m);
@@ -112,10 +112,10 @@ static void note_extras(struct carom_record *r, int body)
         *changed = is;
         record_made(r, &call, CAROM_OK);
     }
-    if (b->extra && b->extra->materials) {
-        note_faces(r, body, b->extra);
+    if (b->def.extra && b->def.extra->materials) {
+        note_faces(r, body, b->def.extra);
     }
-    for (int k = 1; b->extra && b->moving && k >= 0; k--) {
+    for (int k = 1; b->def.extra && b->def.moving && k >= 0; k--) {
         damping.u.numbers[0] = k;
         record_made(r, &damping, CAROM_OK);
     }
@@ -146,7 +146,7 @@ static void note_all(struct carom_record *r)
     for (uint32_t i = 0; i < w->body_count; i++) {
         const struct replay_call away = {.op = CAROM_CALL_body_remove, .body = (int32_t)i};
 
-        if (w->bodies[i].mesh) {
+        if (w->bodies[i].def.mesh) {
             note_extras(r, (int)i);
         } else {
             record_made(r, &away, CAROM_OK);
@@ -163,7 +163,8 @@ static void forget(struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
 
-        b->standing = b->active = b->free = b->boxed = b->in_contact = false;
+        b->search.standing = b->search.active = b->search.free = b->search.boxed =
+            b->clock.in_contact = false;
     }
     w->idle = false;
     w->interfere.stale = true;

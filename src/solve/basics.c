@@ -24,12 +24,14 @@ int32_t rest_within(int64_t v, int32_t most)
 /* The largest e, and mu, of a body's faces, where these are of several materials. */
 static int32_t most_restitution(const struct body *b)
 {
-    return b->extra && b->extra->materials ? b->extra->most_restitution_q30 : b->restitution_q30;
+    return b->def.extra && b->def.extra->materials ? b->def.extra->most_restitution_q30
+                                                   : b->def.restitution_q30;
 }
 
 static uint32_t most_friction(const struct body *b)
 {
-    return b->extra && b->extra->materials ? b->extra->most_friction_q16 : b->friction_q16;
+    return b->def.extra && b->def.extra->materials ? b->def.extra->most_friction_q16
+                                                   : b->def.friction_q16;
 }
 
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b)
@@ -101,10 +103,10 @@ void rest_relative_velocity(const struct contact *c, carom_v3_q40 *v)
         if (!b) {
             continue;
         }
-        cross_arm(turn, b->spin.c, &c->side[s]);
+        cross_arm(turn, b->solve.spin.c, &c->side[s]);
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
-            int64_t at = b->velocity.c[k] + turn[k];
+            int64_t at = b->solve.velocity.c[k] + turn[k];
 
             v->c[k] += s == 0 ? at : -at;
         }

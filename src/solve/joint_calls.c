@@ -53,10 +53,10 @@ static void load_velocities(struct rest *r)
             struct body *b = j->work.lever[s].body;
             const struct body_state *state = &r->states[s == 0 ? j->a : j->b];
 
-            if (b && !b->solving) {
-                b->solving = true;
-                body_velocity(b, state, &b->velocity);
-                body_spin(b, state, &b->path.start.r, &b->spin);
+            if (b && !b->solve.solving) {
+                b->solve.solving = true;
+                body_velocity(b, state, &b->solve.velocity);
+                body_spin(b, state, &b->path.start.r, &b->solve.spin);
             }
         }
     }
@@ -67,7 +67,7 @@ static uint16_t island_of(const struct joint *j)
 {
     const struct joint_lever *lever = j->work.lever;
 
-    return lever[0].body ? lever[0].body->island : lever[1].body->island;
+    return lever[0].body ? lever[0].body->island.lowest : lever[1].body->island.lowest;
 }
 
 static bool take(struct rest *r)
@@ -111,20 +111,21 @@ static void enter(struct rest *r)
             struct body *a = &r->bodies[j->a];
             struct body *b = j->b == JOINT_WORLD ? NULL : &r->bodies[j->b];
 
-            if (!joint_holds(&r->joints, i) || !b || !b->moving || a->entering == b->entering) {
+            if (!joint_holds(&r->joints, i) || !b || !b->def.moving ||
+                a->clock.entering == b->clock.entering) {
                 continue;
             }
-            b = a->entering ? b : a;
-            if (!b->in_contact) {
-                b->in_contact = b->entering = again = true;
+            b = a->clock.entering ? b : a;
+            if (!b->clock.in_contact) {
+                b->clock.in_contact = b->clock.entering = again = true;
             }
         }
     }
     for (uint32_t i = 0; i < r->joints.count; i++) {
         struct joint *j = &r->joints.joints[i];
 
-        j->chosen = j->chosen &&
-                    (r->bodies[j->a].entering || (j->b != JOINT_WORLD && r->bodies[j->b].entering));
+        j->chosen = j->chosen && (r->bodies[j->a].clock.entering ||
+                                  (j->b != JOINT_WORLD && r->bodies[j->b].clock.entering));
     }
 }
 
@@ -138,8 +139,8 @@ static const struct body *lightest_of(const struct rest *r)
         for (int s = 0; s < 2; s++) {
             const struct body *b = j->work.lever[s].body;
 
-            if (b && (!lightest || fix_mul_scaled((int64_t)1 << 40, b->mass) <
-                                       fix_mul_scaled((int64_t)1 << 40, lightest->mass))) {
+            if (b && (!lightest || fix_mul_scaled((int64_t)1 << 40, b->def.mass) <
+                                       fix_mul_scaled((int64_t)1 << 40, lightest->def.mass))) {
                 lightest = b;
             }
         }
@@ -285,8 +286,8 @@ static void refresh(const struct rest *r, struct joint *j)
         struct body *b = j->work.lever[s].body;
 
         if (b) {
-            body_velocity(b, &r->states[s == 0 ? j->a : j->b], &b->velocity);
-            body_spin(b, &r->states[s == 0 ? j->a : j->b], &b->path.start.r, &b->spin);
+            body_velocity(b, &r->states[s == 0 ? j->a : j->b], &b->solve.velocity);
+            body_spin(b, &r->states[s == 0 ? j->a : j->b], &b->path.start.r, &b->solve.spin);
         }
     }
 }
@@ -298,7 +299,7 @@ static void refresh(const struct rest *r, struct joint *j)
 static void book_drive(struct rest *r, const struct joint *j)
 {
     const struct joint_work *w = &j->work;
-    struct fix_wide *sum = &r->bodies[j->a].work2;
+    struct fix_wide *sum = &r->bodies[j->a].solve.work2;
     int last = w->rows - 1;
     int64_t before_q40 = w->speed_q40[last], p_q40 = w->row_q40[last];
     int64_t after_q40 = joint_speed_q40(w, last);
@@ -327,7 +328,7 @@ static void book_drive(struct rest *r, const struct joint *j)
 static void book_led(struct rest *r, const struct joint *j)
 {
     const struct joint_work *w = &j->work;
-    struct fix_wide *sum = &r->bodies[j->a].work2;
+    struct fix_wide *sum = &r->bodies[j->a].solve.work2;
 
     for (int i = 0; i < w->rows; i++) {
         fix_wide_add_product(sum, w->row_q40[i], -2 * joint_led_speed_q40(w, i));

@@ -177,7 +177,7 @@ static struct joint_sum sum_of(const struct rest *r, const struct body *b, bool 
 
 void joint_sum_up(struct rest *r)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         struct body_path *in = body_solve(&r->bodies[i]);
         struct joint_sum sum = sum_of(r, &r->bodies[i], false);
         int64_t dv[3], du[3];
@@ -198,7 +198,7 @@ static void push_all(struct rest *r)
         changes_of(r, j, change);
         joint_note(&j->work, change);
     }
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         struct joint_sum sum = sum_of(r, &r->bodies[i], true);
 
         joint_move(&r->bodies[i], &sum);

@@ -16,7 +16,7 @@ static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lev
 {
     const struct body *b = lever->body;
     const int32_t *column = body_solved(b)->columns[j], *d = w->direction[row];
-    int down = b->turn_bits - 31 + b->mesh->spread.e[j];
+    int down = b->solve.turn_bits - 31 + b->def.mesh->spread.e[j];
 
     if (joint_is_angular(w, row)) {
         /* q30 over 2^e, times 2^(length_bits - 22) */
@@ -41,8 +41,8 @@ static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
             int64_t turn = turn_of(w, lever, row, j);
 
             if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
-                if (lever->body->turn_bits < TURN_BITS_MAX) {
-                    lever->body->turn_bits++;
+                if (lever->body->solve.turn_bits < TURN_BITS_MAX) {
+                    lever->body->solve.turn_bits++;
                     return false;
                 }
                 turn = rest_within(turn, CAROM_ONE_Q30 - 1);
@@ -56,7 +56,7 @@ static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
 /* Each body's share of the lightest one's mass. */
 static void prepare_joint_shares(struct joint_work *w, const struct body *lightest)
 {
-    int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->mass);
+    int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->def.mass);
 
     w->lightest = lightest;
     for (int s = 0; s < 2; s++) {
@@ -64,9 +64,9 @@ static void prepare_joint_shares(struct joint_work *w, const struct body *lighte
 
         if (own) {
             w->lever[s].share_q30 =
-                own->mass.m == lightest->mass.m && own->mass.e == lightest->mass.e
+                own->def.mass.m == lightest->def.mass.m && own->def.mass.e == lightest->def.mass.e
                     ? CAROM_ONE_Q30
-                    : (int32_t)(fix_mul_scaled(unit_q40, own->inverse_mass) >> 10);
+                    : (int32_t)(fix_mul_scaled(unit_q40, own->def.inverse_mass) >> 10);
         }
     }
 }
@@ -92,7 +92,7 @@ int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_wo
                                        -a->down - b->down);
             }
             part += fix_round_shift(carom_dot(own->turn[i], other->turn[k]),
-                                    -(32 - 2 * own->body->turn_bits));
+                                    -(32 - 2 * own->body->solve.turn_bits));
             part = fix_mul_q30(part, own->share_q30);
             sum += s == t ? part : -part;
         }
@@ -207,7 +207,7 @@ bool joint_prepare(struct joint *j, const struct body *lightest)
 
     prepare_joint_shares(w, lightest);
     w->down = 0;
-    w->length_bits = (w->lever[0].body ? w->lever[0].body : w->lever[1].body)->unit_bits;
+    w->length_bits = (w->lever[0].body ? w->lever[0].body : w->lever[1].body)->def.unit_bits;
     for (int pass = 0; pass < 2; pass++) {
         for (int s = 0; s < 2; s++) {
             if (w->lever[s].body && !prepare_turns(w, &w->lever[s])) {
@@ -247,12 +247,12 @@ static void own_velocity(const struct joint_lever *lever, bool angular, int64_t 
     const struct body *b = lever->body;
 
     if (angular) {
-        memcpy(out, b->spin.c, sizeof b->spin.c);
+        memcpy(out, b->solve.spin.c, sizeof b->solve.spin.c);
         return;
     }
-    turn_velocity(lever, b->spin.c, out);
+    turn_velocity(lever, b->solve.spin.c, out);
     for (int k = 0; k < 3; k++) {
-        out[k] += b->velocity.c[k];
+        out[k] += b->solve.velocity.c[k];
     }
 }
 
@@ -264,7 +264,7 @@ int64_t joint_led_speed_q40(const struct joint_work *w, int row)
     if (!w->led) {
         return 0;
     }
-    v = w->led->extra->route.spin;
+    v = w->led->def.extra->route.spin;
     if (!joint_is_angular(w, row)) {
         for (int k = 0; k < 3; k++) {
             arm.c[k] = fix_round_shift(lever->arm[k], 40 - lever->arm_bits);
@@ -324,7 +324,7 @@ static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int 
 /* An impulse of a row in the solver's units, and back. */
 static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
 {
-    struct fix_scaled by = w->lightest->inverse_mass;
+    struct fix_scaled by = w->lightest->def.inverse_mass;
     const int64_t most = (int64_t)1 << 58;
 
     by.e += unit + row_shift(w, row) - JOINT_FINE_BITS;
@@ -341,7 +341,7 @@ static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
     int64_t own_q40 = carom_shl(w->inverse[last][last], 10), k_q40;
 
     own_q40 = fix_round_shift(own_q40, 30 - w->inverse_bits);
-    k_q40 = fix_mul_scaled(stiff_q40, w->lightest->inverse_mass);
+    k_q40 = fix_mul_scaled(stiff_q40, w->lightest->def.inverse_mass);
     if (fix_bits((uint64_t)k_q40) + bits > 60 || own_q40 == 0) {
         return CAROM_ONE_Q30;
     }
@@ -382,7 +382,7 @@ void joint_load(struct joint *j, const struct joint_state *state, const struct r
 static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
 {
     const int64_t most = (int64_t)1 << 57;
-    struct fix_scaled by = w->lightest->mass;
+    struct fix_scaled by = w->lightest->def.mass;
 
     by.e += JOINT_FINE_BITS - unit - row_shift(w, row);
     if (fix_bits((uint64_t)carom_abs(w->impulse[row])) + 30 - by.e > 57) {

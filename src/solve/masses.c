@@ -11,14 +11,14 @@ void rest_prepare_body(struct body *b)
     const carom_m3_q30 *r = &b->path.start.r;
 
     PHASE_BEGIN(b->path.phase, BODY_SOLVE);
-    b->turn_bits = (int8_t)(b->mesh->spread.reach_bits + 1);
+    b->solve.turn_bits = (int8_t)(b->def.mesh->spread.reach_bits + 1);
     /* a column is below sqrt(3) 2^30 */
     FIX_UNROLL
     for (int j = 0; j < 3; j++) {
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
             body_solve(b)->columns[j][k] =
-                (int32_t)carom_round(carom_dot(r->c[k], b->mesh->spread.column[j]), 30);
+                (int32_t)carom_round(carom_dot(r->c[k], b->def.mesh->spread.column[j]), 30);
         }
     }
 }
@@ -32,11 +32,11 @@ static inline bool too_long(int64_t turn)
 static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
     struct body *b = side->body;
-    int more = b->turn_bits + contact_arm_bits(b) - 31;
+    int more = b->solve.turn_bits + contact_arm_bits(b) - 31;
 
     FIX_UNROLL
     for (int j = 0; j < 3; j++) {
-        int down = more + b->mesh->spread.e[j];
+        int down = more + b->def.mesh->spread.e[j];
         int64_t turn[3];
 
         fix_cross(turn, body_solved(b)->columns[j], side->arm_q30);
@@ -45,8 +45,8 @@ static bool prepare_turn(const struct contact_side *side, struct contact_lever *
             turn[k] = down > 0 ? carom_round(turn[k], down) : carom_shl(turn[k], -down);
         }
         if (too_long(turn[0]) || too_long(turn[1]) || too_long(turn[2])) {
-            if (b->turn_bits < TURN_BITS_MAX) {
-                b->turn_bits++;
+            if (b->solve.turn_bits < TURN_BITS_MAX) {
+                b->solve.turn_bits++;
                 return false;
             }
             for (int i = 0; i < 3; i++) {
@@ -84,7 +84,7 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
         if (!c->side[s].body) {
             continue;
         }
-        find_own_k(own_q30, lever->turn, c->side[s].body->turn_bits);
+        find_own_k(own_q30, lever->turn, c->side[s].body->solve.turn_bits);
         for (int n = 0; n < 6; n++) {
             k_q30[n] += lever->share_q30 == CAROM_ONE_Q30
                             ? own_q30[n]
@@ -100,9 +100,10 @@ static void prepare_shares(struct contact *c)
     struct fix_scaled unit;
 
     c->work->b_lighter =
-        !a || (b && (a->mass.m != b->mass.m || a->mass.e != b->mass.e) &&
-               fix_mul_scaled(CAROM_ONE_Q30, b->mass) < fix_mul_scaled(CAROM_ONE_Q30, a->mass));
-    unit = contact_lighter(c)->mass;
+        !a ||
+        (b && (a->def.mass.m != b->def.mass.m || a->def.mass.e != b->def.mass.e) &&
+         fix_mul_scaled(CAROM_ONE_Q30, b->def.mass) < fix_mul_scaled(CAROM_ONE_Q30, a->def.mass));
+    unit = contact_lighter(c)->def.mass;
     for (int s = 0; s < 2; s++) {
         const struct contact_side *side = &c->side[s];
         struct contact_lever *lever = &c->work->lever[s];
@@ -110,12 +111,13 @@ static void prepare_shares(struct contact *c)
         if (!side->body) {
             continue;
         }
-        if (side->body->mass.m == unit.m && side->body->mass.e == unit.e) {
+        if (side->body->def.mass.m == unit.m && side->body->def.mass.e == unit.e) {
             lever->share_q30 = CAROM_ONE_Q30;
         } else {
             int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, unit);
 
-            lever->share_q30 = (int32_t)(fix_mul_scaled(unit_q40, side->body->inverse_mass) >> 10);
+            lever->share_q30 =
+                (int32_t)(fix_mul_scaled(unit_q40, side->body->def.inverse_mass) >> 10);
         }
     }
 }

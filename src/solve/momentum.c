@@ -41,7 +41,7 @@ static uint32_t go_on(int32_t *v, int32_t *last, int32_t part_q30)
 /* Bodies go beyond as their contacts do: velocities are linear in impulses. */
 static void bodies_beyond(struct rest *r, int32_t part_q30)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         struct body_path *in = body_solve(&r->bodies[i]);
 
         FIX_UNROLL

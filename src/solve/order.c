@@ -5,7 +5,7 @@
 /* The first body of the island that a contact belongs to: a of a pair moves. */
 static uint16_t island_of(const struct rest *r, const struct contact *c)
 {
-    return rest_body(r, c, 0)->island;
+    return rest_body(r, c, 0)->island.lowest;
 }
 
 void rest_list_islands(struct rest *r)
@@ -22,21 +22,21 @@ void rest_list_islands(struct rest *r)
     }
     island_end(r->bodies, r->body_count);
     for (uint32_t i = 0; i < r->body_count; i++) {
-        r->bodies[i].contacts = 0;
+        r->bodies[i].solve.contacts = 0;
     }
     for (uint32_t i = 0; i < n; i++) {
-        r->bodies[island_of(r, &r->list.contacts[i])].contacts++;
+        r->bodies[island_of(r, &r->list.contacts[i])].solve.contacts++;
     }
     for (uint32_t i = 0; i < r->body_count; i++) {
-        uint16_t count = r->bodies[i].contacts;
+        uint16_t count = r->bodies[i].solve.contacts;
 
-        r->bodies[i].contacts = place;
+        r->bodies[i].solve.contacts = place;
         place = (uint16_t)(place + count);
     }
     for (uint32_t i = 0; i < n; i++) {
         struct body *first = &r->bodies[island_of(r, &r->list.contacts[i])];
 
-        r->list.contacts[first->contacts++].order = (uint16_t)i;
+        r->list.contacts[first->solve.contacts++].order = (uint16_t)i;
     }
 }
 

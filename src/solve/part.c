@@ -11,16 +11,16 @@
 /* Velocities of the island's bodies: as they are by now, or as they were before the solve. */
 static void load(struct rest *r, bool before)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         struct body *b = &r->bodies[i];
         struct body_state state = r->states[i];
 
         if (before) {
-            state.momentum = b->saved_momentum;
+            state.momentum = b->solve.saved_momentum;
             state.angular = body_solve(b)->saved_angular;
         }
-        body_velocity(b, &state, &b->velocity);
-        body_spin(b, &state, &b->path.start.r, &b->spin);
+        body_velocity(b, &state, &b->solve.velocity);
+        body_spin(b, &state, &b->path.start.r, &b->solve.spin);
     }
 }
 

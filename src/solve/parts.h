@@ -68,9 +68,9 @@ inline struct contact *rest_contact(const struct rest *r, uint32_t i)
 /* Whether one body moves in the island, or two. */
 static inline bool rest_up_to_two(const struct rest *r)
 {
-    uint16_t next = r->bodies[r->island].next_in_island;
+    uint16_t next = r->bodies[r->island].island.next;
 
-    return next == ISLAND_END || r->bodies[next].next_in_island == ISLAND_END;
+    return next == ISLAND_END || r->bodies[next].island.next == ISLAND_END;
 }
 
 /* Add `times` twice what a surface that moves does by a contact's impulse, q80; 1 or -1 times. */
@@ -110,7 +110,7 @@ static inline int32_t turn_by(const struct contact_lever *lever, int k, const in
 /* By how many bits products of turn and an impulse with so many fractional bits are finer than du. */
 static inline int rest_turn_shift(const struct body *b, int fine_bits)
 {
-    return 30 + fine_bits - 2 * b->turn_bits;
+    return 30 + fine_bits - 2 * b->solve.turn_bits;
 }
 
 /*

@@ -13,7 +13,7 @@ void rest_load_contacts(struct rest *r)
     }
     r->loaded = true;
     for (uint32_t i = 0; i < r->body_count; i++) {
-        r->bodies[i].solving = r->bodies[i].entering = false;
+        r->bodies[i].solve.solving = r->bodies[i].clock.entering = false;
     }
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
@@ -21,10 +21,10 @@ void rest_load_contacts(struct rest *r)
         for (int s = 0; s < 2; s++) {
             struct body *b = c->idle ? NULL : c->side[s].body;
 
-            if (b && !b->solving) {
-                b->solving = true;
-                body_velocity(b, rest_state(r, c, s), &b->velocity);
-                body_spin(b, rest_state(r, c, s), &b->path.start.r, &b->spin);
+            if (b && !b->solve.solving) {
+                b->solve.solving = true;
+                body_velocity(b, rest_state(r, c, s), &b->solve.velocity);
+                body_spin(b, rest_state(r, c, s), &b->path.start.r, &b->solve.spin);
             }
         }
     }
@@ -57,7 +57,7 @@ static void impact_side(const struct contact_side *from, struct impact_side *to)
     memset(to, 0, sizeof *to);
     if (from->body) {
         to->moving = true;
-        to->inverse_mass = from->body->inverse_mass;
+        to->inverse_mass = from->body->def.inverse_mass;
         memcpy(to->arm.c, from->arm_q30, sizeof to->arm.c);
         to->arm.e = contact_arm_bits(from->body);
         body_world_inertia(from->body, &from->body->path.start.r, &to->inertia);
@@ -107,7 +107,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
 
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         rest_prepare_body(&r->bodies[i]);
     }
     for (uint32_t i = 0; i < r->count; i++) {
@@ -140,8 +140,8 @@ static bool lasts(const struct rest *r)
 
 static void note_unsettled(struct rest *r, bool unsettled)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        r->bodies[i].unsettled = unsettled;
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
+        r->bodies[i].solve.unsettled = unsettled;
     }
 }
 
@@ -153,7 +153,7 @@ static const carom_v3_q40 *island_drift(const struct rest *r)
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
 
-        if (c->drift && rest_body(r, c, 1)->goes) {
+        if (c->drift && rest_body(r, c, 1)->def.goes) {
             return c->drift;
         }
     }
@@ -170,17 +170,18 @@ static int64_t loose_q40(const struct rest *r, bool start)
     int32_t skin_q22 = INT32_MAX;
     bool moves = !start;
 
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         const struct body *b = &r->bodies[i];
         int64_t v[3];
 
-        skin_q22 = b->skin_q22 < skin_q22 ? b->skin_q22 : skin_q22;
+        skin_q22 = b->def.skin_q22 < skin_q22 ? b->def.skin_q22 : skin_q22;
         FIX_UNROLL
         for (int k = 0; k < 3; k++) {
-            v[k] = b->velocity.c[k] - drift->c[k] - (start ? b->acceleration.c[k] : 0);
+            v[k] = b->solve.velocity.c[k] - drift->c[k] - (start ? b->def.acceleration.c[k] : 0);
         }
-        moves |= fix_length_bound(v) + fix_mul(fix_length_bound(b->spin.c), b->radius_q22, 22) >
-                 carom_shl(b->skin_q22, 18) * MOVES_SKINS;
+        moves |= fix_length_bound(v) +
+                     fix_mul(fix_length_bound(b->solve.spin.c), b->def.radius_q22, 22) >
+                 carom_shl(b->def.skin_q22, 18) * MOVES_SKINS;
     }
     return moves ? carom_shl(skin_q22, 18) / LOOSE_DIVISOR : 0;
 }
@@ -233,7 +234,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 /* Whoever asks for the contacts after the step is told where they are by this. */
 static void place_origins(struct rest *r)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         body_place_origin(&r->bodies[i], &r->states[i]);
     }
 }
@@ -291,15 +292,15 @@ int rest_project(struct rest *r)
 /* Whether a contact has a body that moves and has not taken gravity. */
 static bool may_enter(const struct contact *c)
 {
-    return (c->side[0].body && !c->side[0].body->in_contact) ||
-           (c->side[1].body && !c->side[1].body->in_contact);
+    return (c->side[0].body && !c->side[0].body->clock.in_contact) ||
+           (c->side[1].body && !c->side[1].body->clock.in_contact);
 }
 
 /* Whether a body is on a side of the contact that newly took gravity. */
 static bool enters(const struct contact *c)
 {
-    return (c->side[0].body && c->side[0].body->entering) ||
-           (c->side[1].body && c->side[1].body->entering);
+    return (c->side[0].body && c->side[0].body->clock.entering) ||
+           (c->side[1].body && c->side[1].body->clock.entering);
 }
 
 bool rest_enter_contact(struct rest *r, int32_t tau_q30)
@@ -317,8 +318,8 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
 
-            if (b && !b->in_contact) {
-                b->in_contact = b->entering = any = true;
+            if (b && !b->clock.in_contact) {
+                b->clock.in_contact = b->clock.entering = any = true;
             }
         }
     }
@@ -331,12 +332,12 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; any && i < r->body_count; i++) {
         struct body *b = &r->bodies[i];
 
-        if (b->entering) {
+        if (b->clock.entering) {
             for (int k = 0; k < 3; k++) {
                 r->states[i].momentum.c[k] +=
-                    fix_mul_scaled(fix_mul(b->acceleration.c[k], tau_q30, 30), b->mass);
+                    fix_mul_scaled(fix_mul(b->def.acceleration.c[k], tau_q30, 30), b->def.mass);
             }
-            body_velocity(b, &r->states[i], &b->velocity);
+            body_velocity(b, &r->states[i], &b->solve.velocity);
         }
     }
     r->loaded = any;

@@ -120,11 +120,12 @@ uint32_t rest_friction(const struct rest *r, const struct body *a, const struct 
 /* The smaller ones: those of a list that is `plain`. */
 inline int32_t rest_plain_restitution(const struct body *a, const struct body *b)
 {
-    return a->restitution_q30 < b->restitution_q30 ? a->restitution_q30 : b->restitution_q30;
+    return a->def.restitution_q30 < b->def.restitution_q30 ? a->def.restitution_q30
+                                                           : b->def.restitution_q30;
 }
 inline uint32_t rest_plain_friction(const struct body *a, const struct body *b)
 {
-    return a->friction_q16 < b->friction_q16 ? a->friction_q16 : b->friction_q16;
+    return a->def.friction_q16 < b->def.friction_q16 ? a->def.friction_q16 : b->def.friction_q16;
 }
 
 /* The islands of bodies that touch or that joints connect. */

@@ -9,16 +9,16 @@
 
 void rest_save_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        r->bodies[i].saved_momentum = r->states[i].momentum;
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
+        r->bodies[i].solve.saved_momentum = r->states[i].momentum;
         body_solve(&r->bodies[i])->saved_angular = r->states[i].angular;
     }
 }
 
 static void restore_momenta(struct rest *r)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
-        r->states[i].momentum = r->bodies[i].saved_momentum;
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
+        r->states[i].momentum = r->bodies[i].solve.saved_momentum;
         r->states[i].angular = body_solve(&r->bodies[i])->saved_angular;
     }
 }
@@ -63,7 +63,7 @@ FIX_APART static void subtract_blend2(const struct rest *r, struct fix_wide *sum
     for (uint32_t i = 0; i < r->count; i++) {
         const struct contact *c = rest_contact(r, i);
 
-        for (int k = 0; c->drift && rest_body(r, c, 1)->goes && k < 3; k++) {
+        for (int k = 0; c->drift && rest_body(r, c, 1)->def.goes && k < 3; k++) {
             int64_t more = contact_wanted(c)->c[k] - contact_impulse(c)->c[k];
 
             fix_wide_add_product(sum, fix_mul_q30(more, k_q30), -2 * c->drift->c[k]);
@@ -80,7 +80,7 @@ static bool rises(const struct rest *r, const struct fix_wide *limit, bool exact
     struct fix_wide sum = {0, 0};
 
     fix_wide_subtract(&sum, limit);
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         const struct body *b = &r->bodies[i];
 
         if (exactly) {
@@ -101,7 +101,7 @@ static bool rises(const struct rest *r, const struct fix_wide *limit, bool exact
 /* Add the most that resting contacts may add to twice the energy of the island at hand. */
 static void add_lift2(const struct rest *r, struct fix_wide *sum)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         body_add_lift2(sum, &r->bodies[i], 1);
     }
 }
@@ -109,11 +109,11 @@ static void add_lift2(const struct rest *r, struct fix_wide *sum)
 /* Twice the kinetic energy before the solve. */
 static void add_before2(const struct rest *r, struct fix_wide *sum)
 {
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         const struct body *b = &r->bodies[i];
 
-        fix_wide_add_dot(sum, b->saved_momentum.c, b->velocity.c);
-        fix_wide_add_dot(sum, body_solved(b)->saved_angular.c, b->spin.c);
+        fix_wide_add_dot(sum, b->solve.saved_momentum.c, b->solve.velocity.c);
+        fix_wide_add_dot(sum, body_solved(b)->saved_angular.c, b->solve.spin.c);
     }
 }
 

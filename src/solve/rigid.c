@@ -13,7 +13,7 @@
 uint32_t rest_island_next(const struct rest *r, uint32_t i)
 {
     do {
-        i = r->bodies[i].next_in_island;
+        i = r->bodies[i].island.next;
     } while (i != ISLAND_END && !broad_active(&r->bodies[i], &r->states[i]));
     return i;
 }
@@ -38,7 +38,7 @@ static void arm_q30(const struct rest *r, const struct rest_rigid *rigid, uint32
 /* A body's mass in the unit of mass, 2^(30 - mass_e). */
 static int32_t share_q30(const struct rest *r, const struct rest_rigid *rigid, uint32_t i)
 {
-    const struct fix_scaled *mass = &r->bodies[i].mass;
+    const struct fix_scaled *mass = &r->bodies[i].def.mass;
 
     return (int32_t)fix_round_shift(mass->m, rigid->mass_e - mass->e);
 }
@@ -52,11 +52,11 @@ static void choose_units(const struct rest *r, struct rest_rigid *rigid)
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
         const struct body *b = &r->bodies[i];
 
-        if (b->mass.e < rigid->mass_e) {
-            rigid->mass_e = b->mass.e;
+        if (b->def.mass.e < rigid->mass_e) {
+            rigid->mass_e = b->def.mass.e;
             rigid->heavy = i;
         }
-        length_q32 |= (uint64_t)b->radius_q22 << 10;
+        length_q32 |= (uint64_t)b->def.radius_q22 << 10;
         for (int k = 0; k < 3; k++) {
             int64_t way_q32 = r->states[i].position.c[k] - rigid->centre.c[k];
 

@@ -61,9 +61,9 @@ static bool rises(const struct contact_side *side)
         int m = fix_next(k), n = fix_next(m), bits = contact_arm_bits(b);
 
         fix_wide_add_product(&sum,
-                             fix_mul(b->spin.c[n], side->arm_q30[m], bits) -
-                                 fix_mul(b->spin.c[m], side->arm_q30[n], bits),
-                             b->acceleration.c[k]);
+                             fix_mul(b->solve.spin.c[n], side->arm_q30[m], bits) -
+                                 fix_mul(b->solve.spin.c[m], side->arm_q30[n], bits),
+                             b->def.acceleration.c[k]);
     }
     return fix_wide_sign(&sum) < 0;
 }
@@ -95,8 +95,8 @@ static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
     if (r->list.plain) {
         return CAROM_ROLLING_Q16;
     }
-    a = rest_body(r, c, 0)->extra;
-    b = rest_body(r, c, 1)->extra;
+    a = rest_body(r, c, 0)->def.extra;
+    b = rest_body(r, c, 1)->def.extra;
     /* each is at most 2^16 */
     product = (uint64_t)(a ? a->rolling_q16 : CAROM_ROLLING_Q16) *
               (b ? b->rolling_q16 : CAROM_ROLLING_Q16) / CAROM_ROLLING_Q16;
@@ -116,10 +116,10 @@ FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
         const struct body *b = c->side[s].body;
 
         for (int k = 0; b && k < 3; k++) {
-            spin_q40[k] += s == 0 ? b->spin.c[k] : -b->spin.c[k];
+            spin_q40[k] += s == 0 ? b->solve.spin.c[k] : -b->solve.spin.c[k];
         }
-        if (b && ROLL_FRAMES * b->acceleration_q40 > whole_q40) {
-            whole_q40 = ROLL_FRAMES * b->acceleration_q40;
+        if (b && ROLL_FRAMES * b->def.acceleration_q40 > whole_q40) {
+            whole_q40 = ROLL_FRAMES * b->def.acceleration_q40;
         }
     }
     /* a radius has 2048 skins */
@@ -134,7 +134,7 @@ FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
 /* What fractional bits a column of R H has by the pair's unit of length. */
 static int column_bits(const struct contact *c, const struct body *b, int j)
 {
-    return b->mesh->spread.e[j] + 22 - c->work->roll->unit_bits;
+    return b->def.mesh->spread.e[j] + 22 - c->work->roll->unit_bits;
 }
 
 /*
@@ -179,7 +179,8 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     }
     c->work->roll = roll = &r->rolls[r->roll_count++];
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
-    roll->unit_bits = (b && b->unit_bits < a->unit_bits) ? b->unit_bits : a->unit_bits;
+    roll->unit_bits =
+        (b && b->def.unit_bits < a->def.unit_bits) ? b->def.unit_bits : a->def.unit_bits;
     /* an arm is below 2^21 and becomes 64 times as long at most */
     roll->arm_q30 = rest_clamp(
         carom_shl(arm_q22(r, i) * rolling_q16(r, c) / CAROM_ROLLING_Q16, 30 - roll->unit_bits));
@@ -191,7 +192,8 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         }
         mass_q30 += turning_q30(c, s);
         for (int k = 0; k < 3; k++) {
-            int64_t w = fix_round_shift(side->body->spin.c[k], roll->unit_bits - 22 - sw->unit);
+            int64_t w =
+                fix_round_shift(side->body->solve.spin.c[k], roll->unit_bits - 22 - sw->unit);
 
             spin[k] += s == 0 ? w : -w;
         }
@@ -224,8 +226,8 @@ static void twist(struct contact *c, const int32_t moment[3])
         for (int j = 0; j < 3; j++) {
             int64_t turn = carom_dot(body_solve(b)->columns[j], part);
 
-            turn =
-                fix_round_shift(turn, b->turn_bits + 1 - c->work->fine_bits - column_bits(c, b, j));
+            turn = fix_round_shift(turn, b->solve.turn_bits + 1 - c->work->fine_bits -
+                                             column_bits(c, b, j));
             body_solve(b)->du[j] += rest_within(turn, CAROM_ONE_Q30);
             body_solve(b)->used |= (uint32_t)(body_solve(b)->du[j] ^ (body_solve(b)->du[j] >> 31));
         }
@@ -238,7 +240,7 @@ static void spin_by_now(const struct contact *c, const struct body *b, int64_t o
     out[0] = out[1] = out[2] = 0;
     for (int j = 0; j < 3; j++) {
         const int32_t *column = body_solved(b)->columns[j];
-        int down = b->turn_bits + 1 + column_bits(c, b, j);
+        int down = b->solve.turn_bits + 1 + column_bits(c, b, j);
 
         for (int k = 0; k < 3; k++) {
             out[k] += fix_round_shift((int64_t)column[k] * body_solved(b)->du[j], -down);

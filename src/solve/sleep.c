@@ -8,7 +8,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
-    if (!b->in_contact && b->joined == BODY_ALONE) {
+    if (!b->clock.in_contact && b->def.joined == BODY_ALONE) {
         return false;
     }
     /*
@@ -16,17 +16,17 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
      * eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20 does,
      * and no drop takes more than a few frames longer.
      */
-    limit_q40 = b->acceleration_q40 / 32;
+    limit_q40 = b->def.acceleration_q40 / 32;
     fix_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);
-    return fix_length(v.c) + fix_mul(fix_length(w.c), b->radius_q22, 22) < limit_q40;
+    return fix_length(v.c) + fix_mul(fix_length(w.c), b->def.radius_q22, 22) < limit_q40;
 }
 
 /* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */
 static bool island_quiet(const struct body *bodies, const struct body_state *states, uint32_t first)
 {
-    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].island.next) {
         if (broad_active(&bodies[i], &states[i]) && states[i].quiet < REST_QUIET_FRAMES) {
             return false;
         }
@@ -36,7 +36,7 @@ static bool island_quiet(const struct body *bodies, const struct body_state *sta
 
 static void put_to_sleep(const struct body *bodies, struct body_state *states, uint32_t first)
 {
-    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = bodies[i].island.next) {
         if (broad_active(&bodies[i], &states[i])) {
             states[i].asleep = 1;
             memset(&states[i].momentum, 0, sizeof states[i].momentum);
@@ -82,7 +82,7 @@ void rest_sleep(struct rest *r, const struct pair *touching, uint32_t touching_c
     }
     rest_find_islands(r, bodies, body_count, touching, touching_count);
     for (uint32_t i = 0; i < body_count; i++) {
-        if (bodies[i].island == i && island_quiet(bodies, states, i)) {
+        if (bodies[i].island.lowest == i && island_quiet(bodies, states, i)) {
             put_to_sleep(bodies, states, i);
         }
     }

@@ -274,7 +274,7 @@ static bool outgrown(const struct rest *r)
 {
     uint32_t used = 0;
 
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         used |= body_solved(&r->bodies[i])->used;
     }
     return used >> REST_USED_BITS;

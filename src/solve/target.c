@@ -26,8 +26,8 @@
 static bool may_rest(const struct contact *c, int32_t e_q30)
 {
     return e_q30 < CAROM_ONE_Q30 || c->lasting ||
-           (c->side[0].body && c->side[0].body->in_contact) ||
-           (c->side[1].body && c->side[1].body->in_contact);
+           (c->side[0].body && c->side[0].body->clock.in_contact) ||
+           (c->side[1].body && c->side[1].body->clock.in_contact);
 }
 
 /* The velocity that gravity gives in a frame. */
@@ -38,8 +38,8 @@ FIX_APART static int64_t pull_q40(const struct contact *c)
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
 
-        if (b && b->acceleration_q40 > largest_q40) {
-            largest_q40 = b->acceleration_q40;
+        if (b && b->def.acceleration_q40 > largest_q40) {
+            largest_q40 = b->def.acceleration_q40;
         }
     }
     return largest_q40;
@@ -114,7 +114,7 @@ static int64_t lift_q40(const struct contact *c)
     int64_t spin_q40 = 0;
 
     for (int s = 0; s < 2 && c->gap_q22 < c->skin_q22 / 4; s++) {
-        int64_t own_q40 = c->side[s].body ? fix_length(c->side[s].body->spin.c) : 0;
+        int64_t own_q40 = c->side[s].body ? fix_length(c->side[s].body->solve.spin.c) : 0;
 
         spin_q40 = own_q40 > spin_q40 ? own_q40 : spin_q40;
     }
@@ -136,7 +136,7 @@ void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q3
     bool rests = may_rest(c, e_q30);
     /* a surface stands still within the step, and a kinematic body goes on */
     int64_t rise_q40 =
-        c->drift && !rest_body(r, c, 1)->goes ? contact_rise_q40(c->drift, &c->normal) : 0;
+        c->drift && !rest_body(r, c, 1)->def.goes ? contact_rise_q40(c->drift, &c->normal) : 0;
     /* a surface that goes down has left behind what is going to follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;

@@ -25,8 +25,8 @@ void rest_choose_unit(const struct rest *r, struct rest_sweep *sw)
 
         largest = change > largest ? change : largest;
         for (int s = 0; s < 2; s++) {
-            if (c->side[s].body && c->side[s].body->acceleration_q40 > largest) {
-                largest = c->side[s].body->acceleration_q40;
+            if (c->side[s].body && c->side[s].body->def.acceleration_q40 > largest) {
+                largest = c->side[s].body->def.acceleration_q40;
             }
         }
     }
@@ -163,7 +163,7 @@ bool rest_sum_up(struct rest *r)
 {
     bool fits = true;
 
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         memset(body_solve(&r->bodies[i])->wide_dv, 0, sizeof body_solve(&r->bodies[i])->wide_dv);
         memset(body_solve(&r->bodies[i])->wide_du, 0, sizeof body_solve(&r->bodies[i])->wide_du);
     }
@@ -189,7 +189,7 @@ bool rest_sum_up(struct rest *r)
     if (rest_has_joints(r)) {
         r->joints.calls->sum_up(r);
     }
-    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].next_in_island) {
+    for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
         fits = narrow(&r->bodies[i]) && fits;
     }
     return fits;

@@ -89,7 +89,7 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
 {
     const struct pair *p = &r->pairs[c->key.pair];
     const struct body *a = rest_body(r, c, 0);
-    int32_t nearest = a->radius_q22 / divisor;
+    int32_t nearest = a->def.radius_q22 / divisor;
     struct rest_warm *best = NULL;
     carom_v3_q22 arm = contact_arm(c);
 
@@ -146,7 +146,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     if (!w) {
         return;
     }
-    inverse = contact_lighter(c)->inverse_mass;
+    inverse = contact_lighter(c)->def.inverse_mass;
     inverse.e += sw->unit - c->work->fine_bits;
     find_tangent(w, impulse[3], tangent.c);
     along = rest_along_q40(&tangent, &c->normal);

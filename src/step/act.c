@@ -31,9 +31,9 @@ static void damp_both(const struct body *b, struct body_state *s, const carom_m3
     const carom_v3_q40 before = s->angular;
     struct fix_wide excess, was;
 
-    damp(&s->momentum, b->extra->linear_damping_q30);
+    damp(&s->momentum, b->def.extra->linear_damping_q30);
     was = kinetic2(b, s, r);
-    damp(&s->angular, b->extra->angular_damping_q30);
+    damp(&s->angular, b->def.extra->angular_damping_q30);
     excess = kinetic2(b, s, r);
     fix_wide_subtract(&excess, &was);
     if (fix_wide_sign(&excess) > 0) {
@@ -53,7 +53,7 @@ static void act_on(struct step *s, uint32_t i)
     damp_both(b, state, &r);
     /* 2^62 and 2^61 at most */
     for (int k = 0; k < 3; k++) {
-        state->angular.c[k] += b->extra->torque.c[k];
+        state->angular.c[k] += b->def.extra->torque.c[k];
     }
     if (!step_retire(s, i)) {
         after = kinetic2(b, state, &r);

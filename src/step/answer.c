@@ -49,11 +49,11 @@ static void join(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (b->moving && step_active(s, i) && !b->member) {
+    if (b->def.moving && step_active(s, i) && !b->clock.member) {
         step_leave_path(s, i, s->now_q30);
         body_place(b, &s->next->bodies[i]);
-        b->member = true;
-        b->unsettled = false;
+        b->clock.member = true;
+        b->solve.unsettled = false;
     }
 }
 
@@ -65,14 +65,14 @@ static int check_with(struct step *s, uint32_t number)
 {
     const struct carom_world *w = s->w;
     const struct pair *p = &w->pairs[number];
-    uint32_t other = w->bodies[p->a].member ? p->b : p->a;
+    uint32_t other = w->bodies[p->a].clock.member ? p->b : p->a;
     int result;
 
     step_look_at(s, other, s->now_q30);
     contact_doubt_pair(&s->w->rest.list, (uint16_t)number);
     result = step_check_pair(s, number);
-    if (result == CAROM_OK && w->bodies[other].moving && step_active(s, other) &&
-        !w->bodies[other].member && contact_has_pair(&w->rest.list, (uint16_t)number)) {
+    if (result == CAROM_OK && w->bodies[other].def.moving && step_active(s, other) &&
+        !w->bodies[other].clock.member && contact_has_pair(&w->rest.list, (uint16_t)number)) {
         join(s, other);
         return 1;
     }
@@ -105,7 +105,7 @@ static int grow(struct step *s)
             const struct pair *p = &w->pairs[n];
 
             if (!w->meetings[n].checked && step_is_solid(&w->meetings[n]) &&
-                (w->bodies[p->a].member || w->bodies[p->b].member)) {
+                (w->bodies[p->a].clock.member || w->bodies[p->b].clock.member)) {
                 int grown = check_with(s, n);
 
                 w->meetings[n].checked = true;
@@ -123,7 +123,7 @@ static int adopt_woken(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < s->w->body_count && result == CAROM_OK; i++) {
-        if (s->w->bodies[i].woke && s->w->bodies[i].standing) {
+        if (s->w->bodies[i].clock.woke && s->w->bodies[i].search.standing) {
             result = step_adopt(s, i);
         }
     }
@@ -137,13 +137,13 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
     int result;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].member = w->bodies[i].woke = false;
+        w->bodies[i].clock.member = w->bodies[i].clock.woke = false;
     }
     for (;;) {
         join(s, p->a);
         join(s, p->b);
         for (uint32_t i = 0; i < w->body_count; i++) {
-            if (w->bodies[i].woke) {
+            if (w->bodies[i].clock.woke) {
                 join(s, i);
             }
         }
@@ -176,7 +176,7 @@ static void leave_others_idle(struct step *s)
         struct contact *c = &w->rest.list.contacts[i];
         const struct pair *p = &w->pairs[c->key.pair];
 
-        c->idle = !w->bodies[p->a].member && !w->bodies[p->b].member;
+        c->idle = !w->bodies[p->a].clock.member && !w->bodies[p->b].clock.member;
     }
     if (w->joint_steps) {
         w->joint_steps->choose_members(s);
@@ -213,12 +213,13 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
                  s->next->bodies[p->b].angular.c[1] | s->next->bodies[p->b].angular.c[2]) != 0;
 
     if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0) ||
-        (s->w->meetings[number].hits > UNSETTLED_HITS && (a->unsettled || b->unsettled))) {
+        (s->w->meetings[number].hits > UNSETTLED_HITS &&
+         (a->solve.unsettled || b->solve.unsettled))) {
         step_calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > HARD_AFTER);
     }
     if (turn && repeats > 0) {
-        a->shorter = (uint8_t)(a->shorter + (a->shorter < SHORTER_MAX));
-        b->shorter = (uint8_t)(b->shorter + (b->shorter < SHORTER_MAX));
+        a->clock.shorter = (uint8_t)(a->clock.shorter + (a->clock.shorter < SHORTER_MAX));
+        b->clock.shorter = (uint8_t)(b->clock.shorter + (b->clock.shorter < SHORTER_MAX));
     }
 }
 
@@ -227,7 +228,7 @@ static bool spend(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    return b->moving && step_active(s, i) && ++b->events >= s->event_cap;
+    return b->def.moving && step_active(s, i) && ++b->clock.events >= s->event_cap;
 }
 
 /* The island stands still for what is left of the frame. */
@@ -236,7 +237,7 @@ static void stop_island(struct step *s, const struct pair *p)
     struct carom_world *w = s->w;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].stands |= w->bodies[i].member && w->bodies[i].moving;
+        w->bodies[i].clock.stands |= w->bodies[i].clock.member && w->bodies[i].def.moving;
     }
     step_block_pushers(s, p);
     s->cut_short = true;
@@ -253,9 +254,9 @@ static int go_on(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-        if (w->bodies[i].member) {
+        if (w->bodies[i].clock.member) {
             result = step_set_path(s, i);
-        } else if (w->bodies[i].placed) {
+        } else if (w->bodies[i].clock.placed) {
             step_look_away(s, i);
         }
     }
@@ -302,19 +303,19 @@ int step_rejoin(struct step *s, uint32_t body)
     int result;
 
     w->stats.substeps++;
-    s->now_q30 = w->bodies[body].to_q30;
+    s->now_q30 = w->bodies[body].clock.to_q30;
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
 
-        b->member = b->woke = false;
-        if (b->mesh && b->joined == w->bodies[body].joined && b->shorter > 0) {
-            b->shorter--;
+        b->clock.member = b->clock.woke = false;
+        if (b->def.mesh && b->def.joined == w->bodies[body].def.joined && b->clock.shorter > 0) {
+            b->clock.shorter--;
         }
     }
     do {
         join(s, body);
         for (uint32_t i = 0; i < w->body_count; i++) {
-            if (w->bodies[i].woke) {
+            if (w->bodies[i].clock.woke) {
                 join(s, i);
             }
         }

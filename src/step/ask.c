@@ -13,7 +13,7 @@ static void add_velocity(const struct step *s, uint32_t i, const carom_v3_q32 *p
     carom_v3_q40 v, w;
     carom_m3_q30 r;
 
-    if (!b->moving) {
+    if (!b->def.moving) {
         return;
     }
     fix_matrix(&r, &state.rotation);
@@ -88,7 +88,7 @@ void step_ask_contacts(struct step *s, bool members)
         const struct pair *p = &w->pairs[pair];
 
         first = i == 0 || list->contacts[i - 1].key.pair != pair ? i : first;
-        if ((!members || w->bodies[p->a].member || w->bodies[p->b].member) &&
+        if ((!members || w->bodies[p->a].clock.member || w->bodies[p->b].clock.member) &&
             !ask(s, &list->contacts[i])) {
             w->meetings[pair].passes = true;
             w->meetings[pair].hit_q30 = PAIRS_NEVER;

@@ -12,20 +12,20 @@
 /* What a body takes of gravity on its path: in contact it has taken all of it. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
-    return b->in_contact || b->stands ? NULL : &b->acceleration;
+    return b->clock.in_contact || b->clock.stands ? NULL : &b->def.acceleration;
 }
 
 /* A time of the frame as one of a body's path. */
 static int32_t path_time(const struct body *b, int32_t t_q30)
 {
-    int32_t slice_q30 = b->to_q30 - b->from_q30;
+    int32_t slice_q30 = b->clock.to_q30 - b->clock.from_q30;
 
-    if (t_q30 <= b->from_q30) {
+    if (t_q30 <= b->clock.from_q30) {
         return 0;
     }
-    return t_q30 >= b->to_q30 - END_Q30
+    return t_q30 >= b->clock.to_q30 - END_Q30
                ? CAROM_ONE_Q30
-               : (int32_t)(((int64_t)(t_q30 - b->from_q30) << 30) / slice_q30);
+               : (int32_t)(((int64_t)(t_q30 - b->clock.from_q30) << 30) / slice_q30);
 }
 
 /* The body's own path, from its clock. */
@@ -33,12 +33,12 @@ static void set_own_path(const struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (b->stands || b->to_q30 == b->from_q30) {
+    if (b->clock.stands || b->clock.to_q30 == b->clock.from_q30) {
         body_place(b, &s->next->bodies[i]);
-    } else if (!b->moving) {
+    } else if (!b->def.moving) {
         body_follow(b, &s->next->bodies[i]);
     } else {
-        body_predict(b, &s->next->bodies[i], b->to_q30 - b->from_q30, pull_on(b));
+        body_predict(b, &s->next->bodies[i], b->clock.to_q30 - b->clock.from_q30, pull_on(b));
     }
 }
 
@@ -47,8 +47,9 @@ struct body_state step_state_at(const struct step *s, uint32_t i, int32_t t_q30)
     const struct body *b = &s->w->bodies[i];
     struct body_state state = s->next->bodies[i];
 
-    if (step_active(s, i) && !b->stands && t_q30 > b->from_q30) {
-        body_advance(b, &state, path_time(b, t_q30), b->to_q30 - b->from_q30, pull_on(b));
+    if (step_active(s, i) && !b->clock.stands && t_q30 > b->clock.from_q30) {
+        body_advance(b, &state, path_time(b, t_q30), b->clock.to_q30 - b->clock.from_q30,
+                     pull_on(b));
     }
     return state;
 }
@@ -58,34 +59,36 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
     struct body *b = &s->w->bodies[i];
     struct body_state *state = &s->next->bodies[i];
 
-    if (b->placed) {
+    if (b->clock.placed) {
         step_look_away(s, i);
     }
-    if (t_q30 > b->from_q30) {
-        b->strained |= b->path.turns && !b->in_contact && path_time(b, t_q30) < CAROM_ONE_Q30;
-        body_region_advance(b, t_q30 - b->from_q30, b->to_q30 - b->from_q30);
-        if (step_active(s, i) && !b->stands) {
-            body_advance(b, state, path_time(b, t_q30), b->to_q30 - b->from_q30, pull_on(b));
+    if (t_q30 > b->clock.from_q30) {
+        b->clock.strained |=
+            b->path.turns && !b->clock.in_contact && path_time(b, t_q30) < CAROM_ONE_Q30;
+        body_region_advance(b, t_q30 - b->clock.from_q30, b->clock.to_q30 - b->clock.from_q30);
+        if (step_active(s, i) && !b->clock.stands) {
+            body_advance(b, state, path_time(b, t_q30), b->clock.to_q30 - b->clock.from_q30,
+                         pull_on(b));
         }
     }
-    b->from_q30 = b->to_q30 = t_q30;
+    b->clock.from_q30 = b->clock.to_q30 = t_q30;
 }
 
 void step_look_at(struct step *s, uint32_t i, int32_t t_q30)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (step_active(s, i) && !b->placed) {
+    if (step_active(s, i) && !b->clock.placed) {
         struct body_state state = step_state_at(s, i, t_q30);
 
         body_place(b, &state);
-        b->placed = true;
+        b->clock.placed = true;
     }
 }
 
 void step_look_away(struct step *s, uint32_t i)
 {
-    s->w->bodies[i].placed = false;
+    s->w->bodies[i].clock.placed = false;
     set_own_path(s, i);
 }
 
@@ -95,7 +98,7 @@ void step_look_ahead(struct step *s, uint32_t i, int32_t slice_q30)
     int32_t from_q30 = path_time(b, s->now_q30), to_q30 = path_time(b, s->now_q30 + slice_q30);
 
     step_look_away(s, i);
-    if (!b->stands) {
+    if (!b->clock.stands) {
         body_cut_path(b, &s->next->bodies[i], from_q30, to_q30);
     }
 }
@@ -109,7 +112,7 @@ void step_look_back(struct step *s, uint32_t i)
 /* The slice cut where the path at hand has gone as far as one may. */
 static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 {
-    int64_t most_q22 = (int64_t)b->radius_q22 * WAY_RADII, way_q22;
+    int64_t most_q22 = (int64_t)b->def.radius_q22 * WAY_RADII, way_q22;
     const int64_t *v = b->path.v.c;
 
     if ((int64_t)fix_sum(v) >> 18 <= most_q22) {
@@ -134,10 +137,10 @@ FIX_APART static int set_route(struct step *s, uint32_t i, int32_t left_q30)
     struct body *b = &s->w->bodies[i];
     int32_t slice_q30 = left_q30;
 
-    if (!b->stands && slice_q30 > CAROM_ONE_Q30 >> b->extra->route.slice_bits) {
-        slice_q30 = CAROM_ONE_Q30 >> b->extra->route.slice_bits;
+    if (!b->clock.stands && slice_q30 > CAROM_ONE_Q30 >> b->def.extra->route.slice_bits) {
+        slice_q30 = CAROM_ONE_Q30 >> b->def.extra->route.slice_bits;
     }
-    b->to_q30 = s->now_q30 + slice_q30;
+    b->clock.to_q30 = s->now_q30 + slice_q30;
     set_own_path(s, i);
     return slice_q30 == 0 || body_region_holds(b, slice_q30) ? CAROM_OK
                                                              : step_set_region(s, i, slice_q30);
@@ -148,35 +151,35 @@ int step_set_path(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30, slice_q30 = left_q30, shorter_q30;
 
-    b->placed = false;
-    b->cuts = 0;
-    b->from_q30 = s->now_q30;
-    b->to_q30 = CAROM_ONE_Q30;
-    if (!b->moving) {
+    b->clock.placed = false;
+    b->clock.cuts = 0;
+    b->clock.from_q30 = s->now_q30;
+    b->clock.to_q30 = CAROM_ONE_Q30;
+    if (!b->def.moving) {
         return set_route(s, i, left_q30);
     }
     /* as a frame begins what nothing has changed yet is in range */
-    if (left_q30 == 0 ||
-        ((s->now_q30 > 0 || b->in_contact || b->joined != BODY_ALONE) && step_retire(s, i))) {
+    if (left_q30 == 0 || ((s->now_q30 > 0 || b->clock.in_contact || b->def.joined != BODY_ALONE) &&
+                          step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }
-    if (!b->stands) {
-        if (b->joined == BODY_ALONE) {
+    if (!b->clock.stands) {
+        if (b->def.joined == BODY_ALONE) {
             slice_q30 = body_slice(b, &s->next->bodies[i], left_q30);
-            shorter_q30 = slice_q30 >> (2 * b->shorter);
+            shorter_q30 = slice_q30 >> (2 * b->clock.shorter);
         } else { /* those of a group have been shortened together */
             slice_q30 = shorter_q30 = step_slice(s, i, left_q30);
         }
         slice_q30 = shorter_q30 > SHORTEST_Q30 ? shorter_q30 : slice_q30;
         slice_q30 = avoid_sliver(slice_q30, left_q30);
-        b->to_q30 = s->now_q30 + slice_q30;
+        b->clock.to_q30 = s->now_q30 + slice_q30;
     }
     set_own_path(s, i);
     shorter_q30 = cut_by_way(b, slice_q30);
     if (shorter_q30 < slice_q30) {
         slice_q30 = avoid_sliver(shorter_q30, left_q30);
-        b->to_q30 = s->now_q30 + slice_q30;
+        b->clock.to_q30 = s->now_q30 + slice_q30;
         set_own_path(s, i);
     }
     return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
@@ -198,8 +201,8 @@ bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32
             return false;
         }
         if (step_active(s, both[k])) {
-            *from_q30 = b->from_q30 > *from_q30 ? b->from_q30 : *from_q30;
-            *to_q30 = b->to_q30 < *to_q30 ? b->to_q30 : *to_q30;
+            *from_q30 = b->clock.from_q30 > *from_q30 ? b->clock.from_q30 : *from_q30;
+            *to_q30 = b->clock.to_q30 < *to_q30 ? b->clock.to_q30 : *to_q30;
         }
     }
     return *to_q30 > *from_q30 && (step_active(s, p->a) || step_active(s, p->b));
@@ -210,7 +213,8 @@ static bool has_own_window(const struct step *s, uint32_t i, int32_t from_q30, i
 {
     const struct body *b = &s->w->bodies[i];
 
-    return step_active(s, i) && !b->stands && (b->from_q30 != from_q30 || b->to_q30 != to_q30);
+    return step_active(s, i) && !b->clock.stands &&
+           (b->clock.from_q30 != from_q30 || b->clock.to_q30 != to_q30);
 }
 
 void step_open_window(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)

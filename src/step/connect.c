@@ -98,7 +98,8 @@ static bool group_is_free(const struct step *s, uint16_t group)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
 
-        if (b->mesh && b->joined == group && (!step_active(s, i) || b->in_contact || b->stands)) {
+        if (b->def.mesh && b->def.joined == group &&
+            (!step_active(s, i) || b->clock.in_contact || b->clock.stands)) {
             return false;
         }
     }
@@ -114,7 +115,7 @@ static void project(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         struct joint *j = &list->joints[i];
 
-        j->chosen = joint_holds(list, i) && group_is_free(s, s->w->bodies[j->a].joined);
+        j->chosen = joint_holds(list, i) && group_is_free(s, s->w->bodies[j->a].def.joined);
         any = any || j->chosen;
         place_sides(s, j);
     }

@@ -12,7 +12,7 @@
 /* A body of a joint that moves and is awake; JOINT_WORLD and kinematic bodies do not answer. */
 static inline bool connect_answers(const struct step *s, uint16_t body)
 {
-    return body != JOINT_WORLD && s->w->bodies[body].moving && step_active(s, body);
+    return body != JOINT_WORLD && s->w->bodies[body].def.moving && step_active(s, body);
 }
 
 /* The kinematic body of a joint that is on its way; NULL: there is none. */
@@ -20,13 +20,13 @@ static inline const struct body *connect_led_by(const struct step *s, const stru
 {
     const struct body *b = j->b == JOINT_WORLD ? NULL : &s->w->bodies[j->b];
 
-    return b && body_travels(b) && !b->stands ? b : NULL;
+    return b && body_travels(b) && !b->clock.stands ? b : NULL;
 }
 
 /* Whether the body of a joint is a member. */
 static inline bool connect_is_member(const struct step *s, uint16_t body)
 {
-    return body != JOINT_WORLD && s->w->bodies[body].member;
+    return body != JOINT_WORLD && s->w->bodies[body].clock.member;
 }
 
 /* See struct step_joint_calls. */

@@ -25,7 +25,7 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
     int32_t e_q30 =
         s->w->rest.list.plain ? rest_plain_restitution(a, b) : rest_restitution(&s->w->rest, a, b);
 
-    return e_q30 == CAROM_ONE_Q30 && !a->in_contact && !b->in_contact &&
+    return e_q30 == CAROM_ONE_Q30 && !a->clock.in_contact && !b->clock.in_contact &&
            !step_is_touching(world_now(s->w), p);
 }
 
@@ -42,7 +42,7 @@ int step_check_pair(struct step *s, uint32_t number)
     struct pair_work *m = &s->w->meetings[number];
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
+    int32_t skin_q22 = a->def.skin_q22 > b->def.skin_q22 ? a->def.skin_q22 : b->def.skin_q22;
     struct step_visitor v;
     int result;
 
@@ -52,19 +52,21 @@ int step_check_pair(struct step *s, uint32_t number)
         return CAROM_OK;
     }
     v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : BODY_MARGIN_SKINS);
-    if (!m->kept && step_stay_apart(s, number,
-                                    (int64_t)v.margin_q22 + 2 * skin_q22 +
-                                        mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh))) {
+    if (!m->kept &&
+        step_stay_apart(s, number,
+                        (int64_t)v.margin_q22 + 2 * skin_q22 + mesh_drift_most(a->def.mesh) +
+                            mesh_drift_most(b->def.mesh))) {
         return CAROM_OK;
     }
     v.from_q30 = v.to_q30 = s->now_q30;
     v.clear_q22 = skin_q22;
     v.parts = 1;
     result = step_visit(s, number, &v, visit_contacts);
-    if (s->rare && (a->one_way | b->one_way) != CAROM_BOTH_WAYS) {
+    if (s->rare && (a->def.one_way | b->def.one_way) != CAROM_BOTH_WAYS) {
         step_drop_other_side(s, number);
     }
-    if (s->now_q30 == 0 && m->kept && mesh_drift_most(a->mesh) + mesh_drift_most(b->mesh) == 0) {
+    if (s->now_q30 == 0 && m->kept &&
+        mesh_drift_most(a->def.mesh) + mesh_drift_most(b->def.mesh) == 0) {
         m->clear = clear_parts(v.clear_q22, skin_q22) & 15;
     }
     return result;
@@ -215,13 +217,14 @@ static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30
     int64_t turn_q30 = fix_mul(spin_q40, left_q30, 40);
 
     turn_q30 = turn_q30 < CAROM_ONE_Q30 ? turn_q30 : CAROM_ONE_Q30;
-    return fix_mul((turn_q30 * turn_q30) >> 30, b->radius_q22, 33);
+    return fix_mul((turn_q30 * turn_q30) >> 30, b->def.radius_q22, 33);
 }
 
 /* By what a kinematic body bends that is led somewhere; 0 for all others. */
 static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
 {
-    return body_travels(b) ? bend_q22(b, fix_length_bound(b->extra->route.spin.c), left_q30) : 0;
+    return body_travels(b) ? bend_q22(b, fix_length_bound(b->def.extra->route.spin.c), left_q30)
+                           : 0;
 }
 
 /*
@@ -238,12 +241,12 @@ static bool bends(const struct step *s, const struct contact *c, int32_t left_q3
     for (int k = 0; k < 2; k++) {
         const struct body *b = c->side[k].body;
 
-        bound_q22 += b ? bend_q22(b, fix_length_bound(b->spin.c), left_q30) : 0;
+        bound_q22 += b ? bend_q22(b, fix_length_bound(b->solve.spin.c), left_q30) : 0;
     }
     for (int k = 0; bound_q22 > most_q22 && k < 2; k++) {
         const struct body *b = c->side[k].body;
 
-        all_q22 += b ? bend_q22(b, fix_length(b->spin.c), left_q30) : 0;
+        all_q22 += b ? bend_q22(b, fix_length(b->solve.spin.c), left_q30) : 0;
     }
     return all_q22 > most_q22;
 }
@@ -257,10 +260,10 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
     for (int k = 0; k < 2; k++) {
         const struct body *b = &s->w->bodies[both[k]];
 
-        if (b->moving && step_active(s, both[k])) {
+        if (b->def.moving && step_active(s, both[k])) {
             slice_q30 = step_slice(s, both[k], slice_q30);
-        } else if (body_travels(b) && b->to_q30 - s->now_q30 < slice_q30) {
-            slice_q30 = b->to_q30 - s->now_q30;
+        } else if (body_travels(b) && b->clock.to_q30 - s->now_q30 < slice_q30) {
+            slice_q30 = b->clock.to_q30 - s->now_q30;
         }
     }
     for (int k = 0; k < 2; k++) {
@@ -268,9 +271,9 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
 
         if (body_travels(b)) {
             step_look_ahead(s, both[k], slice_q30);
-        } else if (step_active(s, both[k]) && b->to_q30 != s->now_q30 + slice_q30) {
-            b->to_q30 = s->now_q30 + slice_q30;
-            if (b->stands) {
+        } else if (step_active(s, both[k]) && b->clock.to_q30 != s->now_q30 + slice_q30) {
+            b->clock.to_q30 = s->now_q30 + slice_q30;
+            if (b->clock.stands) {
                 body_place(b, &s->next->bodies[both[k]]);
             } else {
                 body_predict(b, &s->next->bodies[both[k]], slice_q30, NULL);
@@ -288,7 +291,7 @@ static void forget_paths(struct step *s)
 
         for (int k = 0; !c->idle && k < 2; k++) {
             if (c->side[k].body) {
-                c->side[k].body->to_q30 = s->now_q30;
+                c->side[k].body->clock.to_q30 = s->now_q30;
             }
         }
     }
@@ -309,7 +312,7 @@ static void note_lasting(struct step *s, struct contact *c)
     c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? CLOSED_HITS : LASTING_HITS);
     for (int k = 0; c->lasting && k < 2; k++) {
         if (c->side[k].body) {
-            c->side[k].body->strained = true;
+            c->side[k].body->clock.strained = true;
         }
     }
 }
@@ -369,7 +372,7 @@ static void find_chords(struct step *s)
 static bool all_in_range(const struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (s->w->bodies[i].moving && step_active(s, i) &&
+        if (s->w->bodies[i].def.moving && step_active(s, i) &&
             !step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
             return false;
         }
@@ -427,7 +430,7 @@ static int find_contacts(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].woke = false;
+        w->bodies[i].clock.woke = false;
     }
     for (;;) {
         pool_clear(w->rest.list.pool);
@@ -440,7 +443,7 @@ static int find_contacts(struct step *s)
             break;
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-            if (w->bodies[i].woke && w->bodies[i].standing) {
+            if (w->bodies[i].clock.woke && w->bodies[i].search.standing) {
                 result = step_adopt(s, i);
             }
         }

@@ -22,10 +22,10 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 {
     const struct body *b = &s->w->bodies[i];
 
-    return b->moving && step_active(s, i) && !b->stands && !b->in_contact && b->path.turns &&
-           b->joined == BODY_ALONE && b->cuts < CUTS_MAX &&
-           body_norm2_q30(&b->path) >= TURN2_MIN_Q30 && b->to_q30 - t_q30 > END_Q30 &&
-           t_q30 - b->from_q30 >= SLICE_MIN_Q30;
+    return b->def.moving && step_active(s, i) && !b->clock.stands && !b->clock.in_contact &&
+           b->path.turns && b->def.joined == BODY_ALONE && b->clock.cuts < CUTS_MAX &&
+           body_norm2_q30(&b->path) >= TURN2_MIN_Q30 && b->clock.to_q30 - t_q30 > END_Q30 &&
+           t_q30 - b->clock.from_q30 >= SLICE_MIN_Q30;
 }
 
 /*
@@ -43,13 +43,14 @@ static bool may_cut(const struct step *s, uint32_t i)
         const struct body *c = &w->bodies[k];
         bool near = true;
 
-        if (k == i || !step_active(s, k) || c->from_q30 <= b->from_q30 || !broad_may_touch(b, c)) {
+        if (k == i || !step_active(s, k) || c->clock.from_q30 <= b->clock.from_q30 ||
+            !broad_may_touch(b, c)) {
             continue;
         }
         body_path_length(c, CAROM_ONE_Q30, &other_q22, &turn_q30);
         for (int axis = 0; axis < 3; axis++) {
             near = near && carom_abs(b->path.origin_q22[axis] - c->path.origin_q22[axis]) <=
-                               b->radius_q22 + c->radius_q22 + way_q22 + other_q22;
+                               b->def.radius_q22 + c->def.radius_q22 + way_q22 + other_q22;
         }
         if (near) {
             return false;
@@ -62,10 +63,10 @@ static bool may_cut(const struct step *s, uint32_t i)
 static int set_end(struct step *s, uint32_t i, int32_t to_q30)
 {
     struct body *b = &s->w->bodies[i];
-    int32_t slice_q30 = to_q30 - b->from_q30;
+    int32_t slice_q30 = to_q30 - b->clock.from_q30;
 
-    b->to_q30 = to_q30;
-    body_predict(b, &s->next->bodies[i], slice_q30, &b->acceleration);
+    b->clock.to_q30 = to_q30;
+    body_predict(b, &s->next->bodies[i], slice_q30, &b->def.acceleration);
     return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
 }
 
@@ -77,7 +78,7 @@ static int set_ends(struct step *s, const struct pair *p, const bool cut[2],
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < s->w->body_count; i++) {
-        s->w->bodies[i].member = (cut[0] && i == p->a) || (cut[1] && i == p->b);
+        s->w->bodies[i].clock.member = (cut[0] && i == p->a) || (cut[1] && i == p->b);
     }
     for (int k = 0; k < 2 && result == CAROM_OK; k++) {
         if (cut[k]) {
@@ -93,7 +94,7 @@ static bool hits_in_the_past(const struct step *s)
     const struct carom_world *w = s->w;
 
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
-        if ((w->bodies[w->pairs[n].a].member || w->bodies[w->pairs[n].b].member) &&
+        if ((w->bodies[w->pairs[n].a].clock.member || w->bodies[w->pairs[n].b].clock.member) &&
             w->meetings[n].hit_q30 < s->now_q30 && !w->meetings[n].senses) {
             return true;
         }
@@ -159,7 +160,8 @@ int step_cut(struct step *s, uint32_t number, bool *tried)
     const struct pair_work was = s->w->meetings[number];
     struct body *a = &s->w->bodies[p.a], *b = &s->w->bodies[p.b];
     const bool cut[2] = {turns_on(s, p.a, was.hit_q30), turns_on(s, p.b, was.hit_q30)};
-    const int32_t ends_q30[2] = {was.hit_q30, was.hit_q30}, old_q30[2] = {a->to_q30, b->to_q30};
+    const int32_t ends_q30[2] = {was.hit_q30, was.hit_q30},
+                  old_q30[2] = {a->clock.to_q30, b->clock.to_q30};
     int32_t from_q30, to_q30;
     bool good;
     int result;
@@ -178,8 +180,8 @@ int step_cut(struct step *s, uint32_t number, bool *tried)
     if (!good) {
         result = set_ends(s, &p, cut, old_q30); /* those that were asked */
     }
-    a->cuts = cut[0] ? (uint8_t)(good ? a->cuts + 1 : CUTS_MAX) : a->cuts;
-    b->cuts = cut[1] ? (uint8_t)(good ? b->cuts + 1 : CUTS_MAX) : b->cuts;
+    a->clock.cuts = cut[0] ? (uint8_t)(good ? a->clock.cuts + 1 : CUTS_MAX) : a->clock.cuts;
+    b->clock.cuts = cut[1] ? (uint8_t)(good ? b->clock.cuts + 1 : CUTS_MAX) : b->clock.cuts;
     number = step_find_pair(s->w, &p);
     if (number == UINT32_MAX) {
         return result;

@@ -29,13 +29,13 @@ static void add_lifted2(struct fix_wide *sum, const struct body *b, const struct
                         const struct body_state *to)
 {
     for (int k = 0; k < 3; k++) {
-        int64_t weight_q40 = fix_mul_scaled(b->acceleration.c[k], b->mass);
+        int64_t weight_q40 = fix_mul_scaled(b->def.acceleration.c[k], b->def.mass);
         int64_t way_q32 = to->position.c[k] - from->position.c[k];
 
         fix_wide_add_product(sum, -2 * weight_q40, carom_shl(way_q32, 8));
     }
     fix_wide_subtract(sum, body_worked2(b));
-    if (b->in_contact) {
+    if (b->clock.in_contact) {
         body_add_lift2(sum, b, -1);
     }
 }
@@ -45,11 +45,11 @@ static bool may_gain(const struct step *s, uint32_t first)
 {
     struct fix_wide most = {0, 0};
 
-    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
-        if (b->mesh && !from->out && !to->out) {
+        if (b->def.mesh && !from->out && !to->out) {
             body_add_kinetic2_most(&most, b, to);
             add_lifted2(&most, b, from, to);
         }
@@ -63,11 +63,11 @@ static struct account audit(const struct step *s, uint32_t first)
     struct account sum = {{0, 0}, {0, 0}};
     struct fix_wide before = {0, 0};
 
-    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
         const struct body_state *from = &world_now(s->w)->bodies[i], *to = &s->next->bodies[i];
 
-        if (!b->mesh || from->out) {
+        if (!b->def.mesh || from->out) {
             continue;
         }
         add_kinetic2(&before, b, from);
@@ -112,14 +112,14 @@ static bool moved(const struct body_state *from, const struct body_state *to)
  */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
-    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body_state *before = &world_now(s->w)->bodies[i];
         struct body_state *state = &s->next->bodies[i];
 
         if (!broad_active(&s->w->bodies[i], state)) {
             continue;
         }
-        s->w->bodies[i].rewound = true;
+        s->w->bodies[i].clock.rewound = true;
         state->position = before->position;
         state->rotation = before->rotation;
         for (int k = 0; k < 3; k++) {
@@ -150,9 +150,9 @@ static uint32_t intruder(struct step *s, uint32_t body)
         const struct interfere_placed was = {b, &before->bodies[body]};
         const struct interfere_placed is = {other, &s->next->bodies[i]};
 
-        if (broad_active(other, is.state) && other->island != b->island &&
+        if (broad_active(other, is.state) && other->island.lowest != b->island.lowest &&
             moved(&before->bodies[i], is.state) && are_solid(s, body, i) &&
-            broad_near(b, was.state, other, is.state, b->skin_q22) &&
+            broad_near(b, was.state, other, is.state, b->def.skin_q22) &&
             world_overlap(s->w, was, is)) {
             return i;
         }
@@ -174,13 +174,13 @@ static void hold_still(struct step *s, uint32_t first)
     while (again) {
         again = false;
         for (uint32_t i = 0; i < s->w->body_count; i++) {
-            uint32_t by = s->w->bodies[i].rewound ? intruder(s, i) : ISLAND_END;
+            uint32_t by = s->w->bodies[i].clock.rewound ? intruder(s, i) : ISLAND_END;
 
             if (by != ISLAND_END) {
-                uint32_t other = s->w->bodies[by].island;
+                uint32_t other = s->w->bodies[by].island.lowest;
 
-                rewind_island(s, other, s->w->bodies[other].grounded);
-                if (!s->w->bodies[by].moving) {
+                rewind_island(s, other, s->w->bodies[other].clock.grounded);
+                if (!s->w->bodies[by].def.moving) {
                     step_note_blocked(s, by, i);
                 }
                 again = true;
@@ -209,7 +209,7 @@ static bool is_pushed(const struct step *s, uint32_t first)
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
 
-        if (s->w->bodies[p->a].island == first && body_travels(&s->w->bodies[p->b])) {
+        if (s->w->bodies[p->a].island.lowest == first && body_travels(&s->w->bodies[p->b])) {
             return true;
         }
     }
@@ -226,7 +226,7 @@ static void limit_island(struct step *s, uint32_t first)
     if (fix_wide_sign(&over) <= 0) {
         return;
     }
-    if (s->w->bodies[first].grounded) {
+    if (s->w->bodies[first].clock.grounded) {
         int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
 
         if (factor == 0 && is_pushed(s, first)) {
@@ -263,7 +263,7 @@ static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owe
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
     struct account sum = audit(s, first);
-    bool grounded = s->w->bodies[first].grounded;
+    bool grounded = s->w->bodies[first].clock.grounded;
     struct fix_wide energy = sum.kinetic, changed;
     struct rest_rigid rigid;
     int32_t factor, least;
@@ -303,12 +303,13 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
  */
 static void give_back_gravity(struct step *s, uint32_t first)
 {
-    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].next_in_island) {
+    for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
 
-        for (int k = 0; step_active(s, i) && b->stands && b->in_contact && k < 3; k++) {
+        for (int k = 0; step_active(s, i) && b->clock.stands && b->clock.in_contact && k < 3; k++) {
             s->next->bodies[i].momentum.c[k] -= fix_mul_scaled(
-                fix_mul_q30(b->acceleration.c[k], CAROM_ONE_Q30 - b->from_q30), b->mass);
+                fix_mul_q30(b->def.acceleration.c[k], CAROM_ONE_Q30 - b->clock.from_q30),
+                b->def.mass);
         }
     }
 }
@@ -316,7 +317,7 @@ static void give_back_gravity(struct step *s, uint32_t first)
 /* An island that touched something; `surely`: nothing else says whether it gained. */
 static void limit_touched(struct step *s, uint32_t first, bool surely)
 {
-    if (s->cut_short && !s->w->bodies[first].grounded) {
+    if (s->cut_short && !s->w->bodies[first].clock.grounded) {
         give_back_gravity(s, first);
     }
     if (surely || may_gain(s, first)) {
@@ -328,9 +329,9 @@ static void limit_touched(struct step *s, uint32_t first, bool surely)
 static bool limit_joined(struct step *s, uint32_t first)
 {
     struct body *b = &s->w->bodies[first];
-    struct fix_wide *owed = b->mesh ? s->w->joint_steps->owed2(s, first) : NULL;
+    struct fix_wide *owed = b->def.mesh ? s->w->joint_steps->owed2(s, first) : NULL;
 
-    if (owed && b->touched) {
+    if (owed && b->clock.touched) {
         limit_touched(s, first, true);
         *owed = (struct fix_wide){0, 0};
     } else if (owed) {
@@ -341,14 +342,14 @@ static bool limit_joined(struct step *s, uint32_t first)
 
 void step_calm_island(struct step *s, uint32_t body, bool hard)
 {
-    uint32_t first = s->w->bodies[body].island;
+    uint32_t first = s->w->bodies[body].island.lowest;
     bool grounded = false;
 
     for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
         const struct contact *c = &s->w->rest.list.contacts[i];
         const struct pair *p = &s->w->pairs[c->key.pair];
 
-        grounded |= s->w->bodies[p->a].island == first && !s->w->bodies[p->b].moving;
+        grounded |= s->w->bodies[p->a].island.lowest == first && !s->w->bodies[p->b].def.moving;
     }
     if (!grounded || !step_carry_island(s, first, hard)) {
         (void)rest_unite(&s->w->rest, first, grounded);
@@ -362,16 +363,16 @@ void step_limit_energy(struct step *s)
 
     island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].touched =
-            w->bodies[i].in_contact || w->bodies[i].stands || w->bodies[i].strained;
-        w->bodies[i].grounded = w->bodies[i].rewound = false;
+        w->bodies[i].clock.touched = w->bodies[i].clock.in_contact || w->bodies[i].clock.stands ||
+                                     w->bodies[i].clock.strained;
+        w->bodies[i].clock.grounded = w->bodies[i].clock.rewound = false;
     }
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
         const struct pair *p = &s->next->touching[i];
 
-        w->bodies[p->a].touched = true;
+        w->bodies[p->a].clock.touched = true;
         island_join(w->bodies, p);
-        w->bodies[p->a].grounded |= !w->bodies[p->b].moving;
+        w->bodies[p->a].clock.grounded |= !w->bodies[p->b].def.moving;
     }
     if (w->joint_steps) {
         w->rest.joints.calls->join(&w->rest, s->next->bodies);
@@ -379,12 +380,12 @@ void step_limit_energy(struct step *s)
     }
     island_end(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[w->bodies[i].island].touched |= w->bodies[i].touched;
-        w->bodies[w->bodies[i].island].grounded |= w->bodies[i].grounded;
+        w->bodies[w->bodies[i].island.lowest].clock.touched |= w->bodies[i].clock.touched;
+        w->bodies[w->bodies[i].island.lowest].clock.grounded |= w->bodies[i].clock.grounded;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].island == i && !(w->joint_steps && limit_joined(s, i)) &&
-            w->bodies[i].touched) {
+        if (w->bodies[i].island.lowest == i && !(w->joint_steps && limit_joined(s, i)) &&
+            w->bodies[i].clock.touched) {
             limit_touched(s, i, false);
         }
     }

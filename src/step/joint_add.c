@@ -15,7 +15,7 @@ static int check(const struct carom_world *w, struct carom_joint_def *def)
     if (!world_find_body(w, &def->a) || (def->b != CAROM_WORLD && !world_find_body(w, &def->b))) {
         return CAROM_ERR_BODY;
     }
-    if (def->kind > CAROM_JOINT_FIXED || def->a == def->b || !w->bodies[def->a].moving) {
+    if (def->kind > CAROM_JOINT_FIXED || def->a == def->b || !w->bodies[def->a].def.moving) {
         return CAROM_ERR_ARGUMENT;
     }
     if (def->kind == CAROM_JOINT_HINGE || def->kind == CAROM_JOINT_SLIDER) {
@@ -40,8 +40,8 @@ static bool arm_is_short(const struct carom_world *w, const struct joint *j, int
 {
     const uint16_t body = side == 0 ? j->a : j->b;
 
-    return body == JOINT_WORLD || !w->bodies[body].moving ||
-           fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].radius_q22, 18) * ARM_RADII;
+    return body == JOINT_WORLD || !w->bodies[body].def.moving ||
+           fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].def.radius_q22, 18) * ARM_RADII;
 }
 
 /* An anchor from a body's centre, in its mesh's axes. False when it is too far. */
@@ -128,8 +128,8 @@ static bool could_be(const struct carom_world *w, const struct joint *j)
 {
     const int64_t most_q40 = (int64_t)1 << 54; /* twice the width of the world */
     bool good = j->kind <= CAROM_JOINT_FIXED && j->most_impulse_q40 >= 0 && j->a != j->b &&
-                j->a < w->body_count && w->bodies[j->a].mesh && w->bodies[j->a].moving &&
-                (j->b == JOINT_WORLD || (j->b < w->body_count && w->bodies[j->b].mesh));
+                j->a < w->body_count && w->bodies[j->a].def.mesh && w->bodies[j->a].def.moving &&
+                (j->b == JOINT_WORLD || (j->b < w->body_count && w->bodies[j->b].def.mesh));
 
     for (int s = 0; good && s < 2; s++) {
         good = world_is_unit(j->frame[s].c, 4, 26) && world_each_within(j->arm[s].c, most_q40) &&

@@ -27,7 +27,7 @@ void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide 
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (joint_holds(list, i) && s->w->bodies[j->a].island == first &&
+        if (joint_holds(list, i) && s->w->bodies[j->a].island.lowest == first &&
             s->next->joints[i].drive.spring) {
             add_spring2(sum, j, &list->states[i], s->next->bodies, 1);
             add_spring2(sum, j, &list->states[i], world_now(s->w)->bodies, -1);
@@ -42,7 +42,7 @@ struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
     struct joint_state *keeper = NULL;
 
     for (uint32_t i = 0; i < list->count; i++) {
-        if (joint_holds(list, i) && s->w->bodies[list->joints[i].a].island == first) {
+        if (joint_holds(list, i) && s->w->bodies[list->joints[i].a].island.lowest == first) {
             struct joint_state *state = &list->states[i];
 
             if (!keeper) {
@@ -74,7 +74,7 @@ uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (is_led(s, i) && s->w->bodies[j->a].island == first &&
+        if (is_led(s, i) && s->w->bodies[j->a].island.lowest == first &&
             (led == ISLAND_END || j->b == led)) {
             return j->a;
         }
@@ -103,7 +103,8 @@ static bool block_group(struct step *s, uint16_t group)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (s->w->bodies[j->a].joined == group && joint_holds(list, i) && connect_led_by(s, j)) {
+        if (s->w->bodies[j->a].def.joined == group && joint_holds(list, i) &&
+            connect_led_by(s, j)) {
             step_block(s, j->b, j->a);
             any = true;
         }
@@ -124,7 +125,7 @@ bool connect_yield(struct step *s)
         const struct joint *j = &list->joints[i];
 
         if (!j->work.idle && j->work.torn) {
-            any = block_group(s, s->w->bodies[j->a].joined) || any;
+            any = block_group(s, s->w->bodies[j->a].def.joined) || any;
         }
     }
     return any;
@@ -141,9 +142,9 @@ void connect_ground(struct step *s)
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
 
-        if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].moving)) {
-            s->w->bodies[j->a].grounded = true;
-            s->w->bodies[j->a].touched |= is_led(s, i);
+        if (joint_holds(list, i) && (j->b == JOINT_WORLD || !s->w->bodies[j->b].def.moving)) {
+            s->w->bodies[j->a].clock.grounded = true;
+            s->w->bodies[j->a].clock.touched |= is_led(s, i);
         }
     }
 }

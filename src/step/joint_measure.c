@@ -32,7 +32,7 @@ static int32_t own_slice(const struct body *b, const struct body_state *state, i
 
     fix_matrix(&r, &state->rotation);
     body_spin(b, state, &r, &spin);
-    return slice_of_spin(&spin, left_q30) >> (2 * b->shorter);
+    return slice_of_spin(&spin, left_q30) >> (2 * b->clock.shorter);
 }
 
 /* The longest slice by the kinematic bodies that lead a group. */
@@ -44,8 +44,8 @@ static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
         const struct joint *j = &list->joints[i];
         const struct body *led = joint_holds(list, i) ? connect_led_by(s, j) : NULL;
 
-        if (led && s->w->bodies[j->a].joined == group) {
-            left_q30 = slice_of_spin(&led->extra->route.spin, left_q30);
+        if (led && s->w->bodies[j->a].def.joined == group) {
+            left_q30 = slice_of_spin(&led->def.extra->route.spin, left_q30);
         }
     }
     return left_q30;
@@ -53,11 +53,11 @@ static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
 
 int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
 {
-    uint16_t group = s->w->bodies[i].joined;
+    uint16_t group = s->w->bodies[i].def.joined;
     int32_t least_q30 = led_slice(s, group, left_q30);
 
     for (uint32_t k = 0; k < s->w->body_count && group != BODY_ALONE; k++) {
-        if (s->w->bodies[k].mesh && s->w->bodies[k].joined == group && step_active(s, k) &&
+        if (s->w->bodies[k].def.mesh && s->w->bodies[k].def.joined == group && step_active(s, k) &&
             step_in_range(&s->w->bodies[k], &s->next->bodies[k])) {
             int32_t own_q30 = own_slice(&s->w->bodies[k], &s->next->bodies[k], left_q30);
             least_q30 = own_q30 < least_q30 ? own_q30 : least_q30;
@@ -72,8 +72,8 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
 static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
 {
     struct body *b = &s->w->bodies[i];
-    int32_t slice_q30 = CAROM_ONE_Q30 >> b->extra->route.slice_bits, from_q30 = b->to_q30;
-    bool placed = b->placed;
+    int32_t slice_q30 = CAROM_ONE_Q30 >> b->def.extra->route.slice_bits, from_q30 = b->clock.to_q30;
+    bool placed = b->clock.placed;
     struct body_state state;
 
     step_look_away(s, i);
@@ -82,7 +82,7 @@ static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
         int32_t part_q30 = t_q30 - from_q30 < slice_q30 ? t_q30 - from_q30 : slice_q30;
 
         body_follow(b, &state);
-        body_advance(b, &state, part_q30 << b->extra->route.slice_bits, slice_q30, NULL);
+        body_advance(b, &state, part_q30 << b->def.extra->route.slice_bits, slice_q30, NULL);
     }
     step_look_away(s, i);
     if (placed) {
@@ -96,16 +96,17 @@ static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
 {
     struct joint_pose pose = world_joint_pose(s->next->bodies, i);
 
-    if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].stands) {
+    if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].clock.stands) {
         return led_pose(s, i, s->now_q30 + slice_q30);
     }
     /* a body that is out of range goes nowhere: it retires when it sets out */
-    if (connect_answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].stands &&
+    if (connect_answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].clock.stands &&
         step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
         struct body *b = &s->w->bodies[i];
         carom_v3_q32 way;
 
-        body_predict(b, &s->next->bodies[i], slice_q30, b->in_contact ? NULL : &b->acceleration);
+        body_predict(b, &s->next->bodies[i], slice_q30,
+                     b->clock.in_contact ? NULL : &b->def.acceleration);
         way = body_way_at(b, CAROM_ONE_Q30);
         pose.rotation = body_rotation_at(b, CAROM_ONE_Q30);
         for (int k = 0; k < 3; k++) {
@@ -196,7 +197,7 @@ static int64_t as_way(const struct step *s, const struct joint *j, int row, int6
 {
     bool turns = joint_is_angular(&j->work, row);
 
-    return carom_abs(turns ? fix_mul(v_q40, s->w->bodies[j->a].radius_q22, 22) : v_q40);
+    return carom_abs(turns ? fix_mul(v_q40, s->w->bodies[j->a].def.radius_q22, 22) : v_q40);
 }
 
 /* How much of what is off now is to be left at the end of a slice. */
@@ -226,8 +227,8 @@ static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
         struct body *b = connect_answers(s, side[k]) ? &s->w->bodies[side[k]] : NULL;
 
         j->work.lever[k].body = b;
-        if (b && !b->stands) {
-            int64_t own_q40 = carom_shl(b->skin_q22, 18);
+        if (b && !b->clock.stands) {
+            int64_t own_q40 = carom_shl(b->def.skin_q22, 18);
 
             slice_q30 = connect_slice(s, side[k], slice_q30);
             *skin_q40 = own_q40 < *skin_q40 ? own_q40 : *skin_q40;

@@ -23,7 +23,7 @@ static void begin_route(struct carom_world *w, uint32_t i)
 {
     const struct body_state *state = &world_now(w)->bodies[i];
     struct body *b = &w->bodies[i];
-    struct body_extra *extra = b->extra;
+    struct body_extra *extra = b->def.extra;
 
     if (extra->drive.kind == BODY_DRIVE_TO) {
         w->route_to(b, state, &extra->drive.position, &extra->drive.rotation, &extra->route);
@@ -34,8 +34,8 @@ static void begin_route(struct carom_world *w, uint32_t i)
         extra->route = still;
     }
     extra->blocked = false;
-    b->to_q30 = CAROM_ONE_Q30 >> extra->route.slice_bits;
-    b->placed = true;
+    b->clock.to_q30 = CAROM_ONE_Q30 >> extra->route.slice_bits;
+    b->clock.placed = true;
 }
 
 bool step_begin_routes(struct carom_world *w)
@@ -57,9 +57,9 @@ void step_end_routes(struct step *s)
     for (uint32_t i = 0; i < s->w->body_count; i++) {
         const struct body *b = &s->w->bodies[i];
 
-        if (body_travels(b) && !b->stands && b->extra->drive.kind == BODY_DRIVE_TO) {
-            s->next->bodies[i].position = b->extra->drive.position;
-            s->next->bodies[i].rotation = b->extra->drive.rotation;
+        if (body_travels(b) && !b->clock.stands && b->def.extra->drive.kind == BODY_DRIVE_TO) {
+            s->next->bodies[i].position = b->def.extra->drive.position;
+            s->next->bodies[i].rotation = b->def.extra->drive.rotation;
         }
     }
 }
@@ -82,7 +82,7 @@ void step_keep_awake(struct step *s)
 
 void step_note_blocked(struct step *s, uint32_t i, uint32_t by)
 {
-    struct body_extra *extra = s->w->bodies[i].extra;
+    struct body_extra *extra = s->w->bodies[i].def.extra;
 
     if (!extra->blocked && step_may_note(s->w)) {
         step_add_event(s->w, CAROM_EVENT_BLOCKED, (uint16_t)i, (uint16_t)by);
@@ -94,12 +94,12 @@ void step_block(struct step *s, uint32_t i, uint32_t by)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (b->stands) {
+    if (b->clock.stands) {
         return;
     }
     step_leave_path(s, i, s->now_q30);
-    b->extra->route = still;
-    b->stands = b->member = true;
+    b->def.extra->route = still;
+    b->clock.stands = b->clock.member = true;
     step_note_blocked(s, i, by);
 }
 
@@ -111,7 +111,7 @@ static uint32_t pushed_by(const struct step *s, uint32_t first, uint32_t led)
     for (uint32_t n = 0; n < w->rest.list.pool->used; n++) {
         const struct pair *p = &w->pairs[w->rest.list.contacts[n].key.pair];
 
-        if (w->bodies[p->a].island == first && p->b == led) {
+        if (w->bodies[p->a].island.lowest == first && p->b == led) {
             return p->a;
         }
     }
@@ -126,7 +126,7 @@ void step_block_pushers(struct step *s, const struct pair *p)
         const struct contact *c = &w->rest.list.contacts[n];
         const struct pair *q = &w->pairs[c->key.pair];
 
-        if (w->bodies[q->a].member && body_travels(&w->bodies[q->b]) && c->drift &&
+        if (w->bodies[q->a].clock.member && body_travels(&w->bodies[q->b]) && c->drift &&
             contact_rise_q40(c->drift, &c->normal) > 0) {
             step_block(s, q->b, q->a);
         }
@@ -166,7 +166,7 @@ static bool is_free_to_go(const struct step *s, uint32_t first, const struct bod
         carom_v3_q32 point;
         carom_v3_q40 v;
 
-        if (w->bodies[p->a].island != first || w->bodies[p->b].moving) {
+        if (w->bodies[p->a].island.lowest != first || w->bodies[p->b].def.moving) {
             continue;
         }
         point = contact_point(c);
@@ -182,7 +182,7 @@ static bool is_free_to_go(const struct step *s, uint32_t first, const struct bod
          i = rest_island_next(&w->rest, i)) {
         carom_v3_q40 v = motion_at(led, &s->next->bodies[i].position);
 
-        if (!world_motion_in_range(&w->bodies[i], &v, &led->extra->route.spin)) {
+        if (!world_motion_in_range(&w->bodies[i], &v, &led->def.extra->route.spin)) {
             return false;
         }
     }
@@ -209,7 +209,7 @@ static void go_along(struct step *s, uint32_t first, const struct body *led)
         carom_v3_q40 v = motion_at(led, &state->position);
 
         add_kinetic2(&before, &w->bodies[i], state);
-        body_set_motion(&w->bodies[i], state, &v, &led->extra->route.spin);
+        body_set_motion(&w->bodies[i], state, &v, &led->def.extra->route.spin);
         add_kinetic2(&work, &w->bodies[i], state);
         fix_wide_subtract(&work, &before);
         fix_wide_add(body_work2(&w->bodies[i]), &work);
@@ -223,7 +223,8 @@ bool step_carry_island(struct step *s, uint32_t first, bool hard)
     for (int stop = hard; stop < 2; stop++) {
         for (uint32_t i = 0; i < w->body_count; i++) {
             const struct body *led = &w->bodies[i];
-            uint32_t by = body_travels(led) && !led->stands ? pushed_by(s, first, i) : ISLAND_END;
+            uint32_t by =
+                body_travels(led) && !led->clock.stands ? pushed_by(s, first, i) : ISLAND_END;
 
             if (by == ISLAND_END) {
                 continue;

@@ -15,7 +15,7 @@ bool step_let_pass(struct step *s, uint32_t number)
     if (m->senses) {
         m->hits = 1;
     } else {
-        if ((s->w->bodies[p->a].one_way | s->w->bodies[p->b].one_way) == CAROM_BOTH_WAYS) {
+        if ((s->w->bodies[p->a].def.one_way | s->w->bodies[p->b].def.one_way) == CAROM_BOTH_WAYS) {
             return false;
         }
         hit = step_hit_of(s, number);
@@ -80,7 +80,7 @@ static int note_passing(struct step *s)
         const struct pair *p = &w->pairs[n];
 
         if (w->meetings[n].passes && !w->meetings[n].senses &&
-            (w->bodies[p->a].one_way | w->bodies[p->b].one_way) != CAROM_BOTH_WAYS &&
+            (w->bodies[p->a].def.one_way | w->bodies[p->b].def.one_way) != CAROM_BOTH_WAYS &&
             !world_goes_through(w, now, p) && overlap(s, p->a, p->b)) {
             result = world_note_through(w, s->next, p);
         }
@@ -90,7 +90,7 @@ static int note_passing(struct step *s)
 
 static void add_sensor_event(struct step *s, uint8_t kind, const struct pair *p)
 {
-    bool first = s->w->bodies[p->a].sensor;
+    bool first = s->w->bodies[p->a].def.sensor;
 
     step_add_event(s->w, kind, first ? p->a : p->b, first ? p->b : p->a);
 }
@@ -126,8 +126,9 @@ static int sense_all(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        for (uint32_t k = 0; k < w->body_count && w->bodies[i].sensor && result == CAROM_OK; k++) {
-            if (w->bodies[k].mesh && (w->bodies[i].moving || w->bodies[k].moving) &&
+        for (uint32_t k = 0; k < w->body_count && w->bodies[i].def.sensor && result == CAROM_OK;
+             k++) {
+            if (w->bodies[k].def.mesh && (w->bodies[i].def.moving || w->bodies[k].def.moving) &&
                 broad_may_meet(&w->bodies[i], &w->bodies[k])) {
                 result = sense(s, i, k);
             }

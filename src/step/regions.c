@@ -61,7 +61,7 @@ static struct pair_work new_meeting(const struct carom_world *w, const struct pa
 {
     return (struct pair_work){.hit_q30 = PAIRS_NEVER,
                               .passes = w->passing && world_goes_through(w, world_now(w), p),
-                              .senses = w->bodies[p->a].sensor || w->bodies[p->b].sensor,
+                              .senses = w->bodies[p->a].def.sensor || w->bodies[p->b].def.sensor,
                               .answered_q30 = -1};
 }
 
@@ -126,8 +126,8 @@ static int set_pairs(struct step *s, uint32_t i)
         }
     }
     for (uint32_t k = 0; k < w->body_count && result == CAROM_OK; k++) {
-        if (k != i && !broad_apart(&w->bodies[i], &w->bodies[k]) && w->bodies[k].mesh) {
-            bool first = w->bodies[i].moving && (!w->bodies[k].moving || i > k);
+        if (k != i && !broad_apart(&w->bodies[i], &w->bodies[k]) && w->bodies[k].def.mesh) {
+            bool first = w->bodies[i].def.moving && (!w->bodies[k].def.moving || i > k);
             uint32_t a = first ? i : k, b = first ? k : i, place;
 
             place = place_of(w, a, b);
@@ -159,8 +159,8 @@ static bool is_free(const struct carom_world *w, uint32_t i)
  */
 static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 {
-    int64_t way_q22, turn_q30, skin_q22 = b->skin_q22;
-    bool contact = b->in_contact || b->touched;
+    int64_t way_q22, turn_q30, skin_q22 = b->def.skin_q22;
+    bool contact = b->clock.in_contact || b->clock.touched;
 
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     if (s->active > 1) {
@@ -184,20 +184,21 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : BENT_FRAMES;
 
     /* where nothing is near, a new region costs less than to ask whether the old one holds */
-    if (!b->moving || slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
+    if (!b->def.moving || slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
-    if (b->active) {
-        bool to_end = b->region.until_q30 - b->region.elapsed_q30 < CAROM_ONE_Q30;
+    if (b->search.active) {
+        bool to_end = b->search.region.until_q30 - b->search.region.elapsed_q30 < CAROM_ONE_Q30;
 
-        held = (b->region.elapsed_q30 >> 30) << to_end;
+        held = (b->search.region.elapsed_q30 >> 30) << to_end;
     }
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     way_q22 = (way_q22 << 30) / slice_q30 + 1;
-    most_q22 = b->radius_q22 / (b->free                       ? REGION_PARTS_FREE
-                                : b->in_contact || b->touched ? REGION_PARTS
-                                                              : REGION_PARTS_FLIGHT);
+    most_q22 =
+        b->def.radius_q22 / (b->search.free                            ? REGION_PARTS_FREE
+                             : b->clock.in_contact || b->clock.touched ? REGION_PARTS
+                                                                       : REGION_PARTS_FLIGHT);
     frames = frames * way_q22 > most_q22 ? most_q22 / way_q22 : frames;
     frames = frames > held ? held : frames;
     return left_q30 + ((frames > 1 ? frames - 1 : 0) << 30);
@@ -209,10 +210,11 @@ static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
     int64_t time_q30 = region_time(s, b, slice_q30);
     int64_t room_q22 = room_for(s, b, time_q30 != slice_q30);
 
-    b->active = true;
-    b->standing = false;
-    room_q22 = room_q22 < b->radius_q22 / ROOM_PARTS ? room_q22 : b->radius_q22 / ROOM_PARTS;
-    room_q22 += mesh_drift_most(b->mesh); /* contacts are looked for so much farther away */
+    b->search.active = true;
+    b->search.standing = false;
+    room_q22 =
+        room_q22 < b->def.radius_q22 / ROOM_PARTS ? room_q22 : b->def.radius_q22 / ROOM_PARTS;
+    room_q22 += mesh_drift_most(b->def.mesh); /* contacts are looked for so much farther away */
     body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     broad_set_box(b);
 }
@@ -222,17 +224,17 @@ static void begin_standing(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    b->active = false;
-    b->standing = true;
+    b->search.active = false;
+    b->search.standing = true;
     body_place(b, &s->next->bodies[i]);
     body_region_begin(b, &s->next->bodies[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
-                      mesh_drift_most(b->mesh));
+                      mesh_drift_most(b->def.mesh));
     broad_set_box(b);
 }
 
 int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
 {
-    s->w->bodies[i].free = is_free(s->w, i);
+    s->w->bodies[i].search.free = is_free(s->w, i);
     begin_region(s, i, slice_q30);
     return set_pairs(s, i);
 }
@@ -243,13 +245,13 @@ static int32_t foresee(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
     int32_t slice_q30;
 
-    if (!b->moving) {
+    if (!b->def.moving) {
         body_follow(b, &s->next->bodies[i]);
-        return b->to_q30;
+        return b->clock.to_q30;
     }
     slice_q30 = step_slice(s, i, CAROM_ONE_Q30 - s->now_q30);
 
-    body_predict(b, &s->next->bodies[i], slice_q30, b->touched ? NULL : &b->acceleration);
+    body_predict(b, &s->next->bodies[i], slice_q30, b->clock.touched ? NULL : &b->def.acceleration);
     return slice_q30;
 }
 
@@ -258,8 +260,8 @@ int step_adopt(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
     int result;
 
-    if (b->moving) {
-        b->from_q30 = b->to_q30 = s->now_q30;
+    if (b->def.moving) {
+        b->clock.from_q30 = b->clock.to_q30 = s->now_q30;
     }
     result = step_set_region(s, i, foresee(s, i));
     body_place(b, &s->next->bodies[i]);
@@ -287,11 +289,11 @@ static int begin_all(struct step *s)
     int result;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].free = false;
+        w->bodies[i].search.free = false;
         if (step_active(s, i)) {
             begin_region(s, i, foresee(s, i));
             body_place(&w->bodies[i], &s->next->bodies[i]);
-        } else if (w->bodies[i].mesh && !w->bodies[i].standing) {
+        } else if (w->bodies[i].def.mesh && !w->bodies[i].search.standing) {
             begin_standing(s, i);
         }
     }
@@ -313,13 +315,13 @@ static int begin_one(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
 
     if (!step_active(s, i)) {
-        if (b->standing) {
+        if (b->search.standing) {
             return CAROM_OK;
         }
         begin_standing(s, i);
         return set_pairs(s, i);
     }
-    if (b->active && b->moving) { /* its path stayed within its region */
+    if (b->search.active && b->def.moving) { /* its path stayed within its region */
         if (s->w->pools[CAROM_POOL_pairs].used > 0) {
             body_place(b, &s->next->bodies[i]);
             CAROM_ASSERT(body_region_holds(b, 0));
@@ -362,7 +364,7 @@ int step_begin_regions(struct step *s)
             mark_passes(w);
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-            result = w->bodies[i].mesh ? begin_one(s, i) : CAROM_OK;
+            result = w->bodies[i].def.mesh ? begin_one(s, i) : CAROM_OK;
         }
     }
     step_mark(w, CAROM_STAGE_BROAD);

@@ -123,7 +123,7 @@ bool step_stay_apart(const struct step *s, uint32_t number, int64_t more_q22)
 {
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int64_t reach_q22 = (int64_t)a->radius_q22 + b->radius_q22 + more_q22, apart[3];
+    int64_t reach_q22 = (int64_t)a->def.radius_q22 + b->def.radius_q22 + more_q22, apart[3];
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
 
     /* way and turn of a path are rounded up; turns do not matter to spheres */
@@ -169,7 +169,8 @@ static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t
 static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int32_t radius_q22 = (b->goes && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+    int32_t radius_q22 =
+        (b->def.goes && b->def.radius_q22 < a->def.radius_q22 ? b : a)->def.radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
     int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, TURN_PARTS);
 
@@ -187,7 +188,9 @@ int32_t step_parts(const struct step *s, uint32_t number)
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
-    return a->in_contact || b->in_contact ? 1 : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
+    return a->clock.in_contact || b->clock.in_contact
+               ? 1
+               : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
 }
 
 /*
@@ -235,8 +238,8 @@ static int64_t way_together_q22(const struct body *a, const struct body *b)
         turn_a_q30 += carom_abs(path_a->u.c[k]);
         turn_b_q30 += carom_abs(path_b->u.c[k]);
     }
-    return (way_q40 >> 18) + (turn_a_q30 * a->radius_q22 >> 29) +
-           (turn_b_q30 * b->radius_q22 >> 29) + 3;
+    return (way_q40 >> 18) + (turn_a_q30 * a->def.radius_q22 >> 29) +
+           (turn_b_q30 * b->def.radius_q22 >> 29) + 3;
 }
 
 /*
@@ -250,7 +253,8 @@ static bool stays_clear(const struct step *s, uint32_t number)
     const struct body *b = &s->w->bodies[s->w->pairs[number].b];
 
     return m->kept && m->clear > 0 &&
-           way_together_q22(a, b) * 16 < (int64_t)m->clear * fix_larger(a->skin_q22, b->skin_q22);
+           way_together_q22(a, b) * 16 <
+               (int64_t)m->clear * fix_larger(a->def.skin_q22, b->def.skin_q22);
 }
 
 int step_search(struct step *s, uint32_t number)
@@ -298,7 +302,7 @@ int step_search_members(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used && result == CAROM_OK; n++) {
-        if (w->bodies[w->pairs[n].a].member || w->bodies[w->pairs[n].b].member) {
+        if (w->bodies[w->pairs[n].a].clock.member || w->bodies[w->pairs[n].b].clock.member) {
             result = step_search(s, n);
         }
     }
@@ -320,8 +324,8 @@ enum step_event step_next(const struct step *s, uint32_t *number)
         }
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (step_active(s, i) && w->bodies[i].to_q30 < first_q30) {
-            first_q30 = w->bodies[i].to_q30;
+        if (step_active(s, i) && w->bodies[i].clock.to_q30 < first_q30) {
+            first_q30 = w->bodies[i].clock.to_q30;
             *number = i;
             event = STEP_SLICE;
         }

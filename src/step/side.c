@@ -9,14 +9,14 @@
 static bool is_solid_to(const struct body *b, const carom_quat_q30 *rotation,
                         const carom_v3_q30 *normal, int sign)
 {
-    int axis = (b->one_way - 1) % 3;
+    int axis = (b->def.one_way - 1) % 3;
     int64_t cosine_q30 = 0;
     carom_m3_q30 r;
 
-    if (b->one_way == CAROM_BOTH_WAYS) {
+    if (b->def.one_way == CAROM_BOTH_WAYS) {
         return true;
     }
-    sign = b->one_way < CAROM_ONE_WAY_MINUS_X ? sign : -sign;
+    sign = b->def.one_way < CAROM_ONE_WAY_MINUS_X ? sign : -sign;
     fix_matrix(&r, rotation);
     for (int k = 0; k < 3; k++) {
         cosine_q30 += carom_mul_q30(r.c[k][axis], normal->c[k]);

@@ -16,7 +16,7 @@ void step_mark(struct carom_world *w, enum carom_stage stage)
 
 int32_t step_slice(const struct step *s, uint32_t i, int32_t left_q30)
 {
-    return s->w->bodies[i].joined == BODY_ALONE
+    return s->w->bodies[i].def.joined == BODY_ALONE
                ? body_slice(&s->w->bodies[i], &s->next->bodies[i], left_q30)
                : s->w->joint_steps->slice(s, i, left_q30);
 }

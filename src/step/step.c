@@ -27,12 +27,13 @@ FIX_APART static void forget(struct carom_world *w)
 
 FIX_APART static void begin_clock(struct body *b)
 {
-    b->touched = b->in_contact;
-    b->in_contact = b->stands = b->strained = b->placed = b->member = false;
-    b->from_q30 = b->to_q30 = 0;
-    b->events = b->cuts = b->shorter = 0;
-    PHASE_BEGIN(b->work_phase, BODY_WORK);
-    b->work2 = (struct fix_wide){0, 0};
+    b->clock.touched = b->clock.in_contact;
+    b->clock.in_contact = b->clock.stands = b->clock.strained = b->clock.placed = b->clock.member =
+        false;
+    b->clock.from_q30 = b->clock.to_q30 = 0;
+    b->clock.events = b->clock.cuts = b->clock.shorter = 0;
+    PHASE_BEGIN(b->solve.work_phase, BODY_WORK);
+    b->solve.work2 = (struct fix_wide){0, 0};
 }
 
 /*
@@ -48,7 +49,7 @@ static uint32_t copy_bodies(struct carom_world *w, struct world_state *next)
         const struct body_state *from = &now->bodies[i];
         struct body_state *to = &next->bodies[i];
 
-        if (w->bodies[i].goes && !(from->asleep && to->asleep && !to->woken)) {
+        if (w->bodies[i].def.goes && !(from->asleep && to->asleep && !to->woken)) {
             *to = *from;
             active += broad_active(&w->bodies[i], from);
         }
@@ -122,8 +123,8 @@ static int set_out(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-        w->bodies[i].member = step_active(s, i);
-        if (w->bodies[i].member) {
+        w->bodies[i].clock.member = step_active(s, i);
+        if (w->bodies[i].clock.member) {
             result = step_set_path(s, i);
         }
     }
@@ -138,17 +139,17 @@ static int end_slice(struct step *s, uint32_t i)
     int result;
 
     for (uint32_t k = 0; k < s->w->body_count; k++) {
-        s->w->bodies[k].member = k == i;
+        s->w->bodies[k].clock.member = k == i;
     }
     s->w->stats.substeps++;
-    s->now_q30 = s->w->bodies[i].to_q30;
-    if (s->w->bodies[i].shorter > 0) {
-        s->w->bodies[i].shorter--;
+    s->now_q30 = s->w->bodies[i].clock.to_q30;
+    if (s->w->bodies[i].clock.shorter > 0) {
+        s->w->bodies[i].clock.shorter--;
     }
     step_leave_path(s, i, s->now_q30);
     result = step_set_path(s, i);
     step_mark(s->w, CAROM_STAGE_PREDICT);
-    if (s->w->bodies[i].sensor) {
+    if (s->w->bodies[i].def.sensor) {
         s->now_q30 = before_q30; /* to all others it was no event */
     }
     return result == CAROM_OK ? step_search_members(s) : result;
@@ -165,8 +166,8 @@ static int run(struct step *s)
         bool cut = false;
 
         if (event == STEP_SLICE) {
-            result = s->w->bodies[number].joined == BODY_ALONE ? end_slice(s, number)
-                                                               : step_rejoin(s, number);
+            result = s->w->bodies[number].def.joined == BODY_ALONE ? end_slice(s, number)
+                                                                   : step_rejoin(s, number);
             continue;
         }
         if (step_let_pass(s, number)) {
@@ -184,7 +185,7 @@ static int run(struct step *s)
 static void arrive(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
-        if (step_active(s, i) && !s->w->bodies[i].stands) {
+        if (step_active(s, i) && !s->w->bodies[i].clock.stands) {
             step_leave_path(s, i, CAROM_ONE_Q30);
         }
     }
@@ -202,9 +203,10 @@ static void stop_clock(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    if (b->stands && step_active(s, i)) {
-        body_region_advance(b, CAROM_ONE_Q30 - b->from_q30, CAROM_ONE_Q30 - b->from_q30);
-        b->from_q30 = b->to_q30 = CAROM_ONE_Q30;
+    if (b->clock.stands && step_active(s, i)) {
+        body_region_advance(b, CAROM_ONE_Q30 - b->clock.from_q30,
+                            CAROM_ONE_Q30 - b->clock.from_q30);
+        b->clock.from_q30 = b->clock.to_q30 = CAROM_ONE_Q30;
     }
 }
 

@@ -25,8 +25,10 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
     int64_t used = 0;
 
     if (step_active(s, i)) {
-        used = b->region.elapsed_q30 + (t_q30 - b->from_q30);
-        *left_q30 = b->region.until_q30 - used < *left_q30 ? b->region.until_q30 - used : *left_q30;
+        used = b->search.region.elapsed_q30 + (t_q30 - b->clock.from_q30);
+        *left_q30 = b->search.region.until_q30 - used < *left_q30
+                        ? b->search.region.until_q30 - used
+                        : *left_q30;
     }
     return used;
 }
@@ -44,7 +46,7 @@ static struct interfere_span span_of(const struct step *s, const struct pair *p,
 
 static uint32_t face_pairs(const struct body *a, const struct body *b)
 {
-    return (uint32_t)a->mesh->raw.face_count * b->mesh->raw.face_count;
+    return (uint32_t)a->def.mesh->raw.face_count * b->def.mesh->raw.face_count;
 }
 
 bool step_many_faces(const struct body *a, const struct body *b)
@@ -55,25 +57,25 @@ bool step_many_faces(const struct body *a, const struct body *b)
 bool step_goes_far(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    int64_t way_q22 = (step_active(s, p->a) ? a->region.length_q22 : 0) +
-                      (step_active(s, p->b) ? b->region.length_q22 : 0);
+    int64_t way_q22 = (step_active(s, p->a) ? a->search.region.length_q22 : 0) +
+                      (step_active(s, p->b) ? b->search.region.length_q22 : 0);
 
-    if ((step_active(s, p->a) ? a->region.u_q30 : 0) +
-                (step_active(s, p->b) ? b->region.u_q30 : 0) >
+    if ((step_active(s, p->a) ? a->search.region.u_q30 : 0) +
+                (step_active(s, p->b) ? b->search.region.u_q30 : 0) >
             TURN_KEPT_Q30 / 2 &&
         step_many_faces(a, b)) {
         return true;
     }
-    return way_q22 > (b->goes && b->radius_q22 < a->radius_q22 ? b : a)->radius_q22;
+    return way_q22 > (b->def.goes && b->def.radius_q22 < a->def.radius_q22 ? b : a)->def.radius_q22;
 }
 
 /* Whether a body's region lasts beyond the frame because nothing was near. */
 static bool lasts(const struct step *s, uint32_t i)
 {
     const struct body *b = &s->w->bodies[i];
-    int64_t left_q30 = b->region.until_q30;
+    int64_t left_q30 = b->search.region.until_q30;
 
-    return step_active(s, i) && b->free && used_q30(s, i, CAROM_ONE_Q30, &left_q30) >= 0 &&
+    return step_active(s, i) && b->search.free && used_q30(s, i, CAROM_ONE_Q30, &left_q30) >= 0 &&
            left_q30 > 0;
 }
 
@@ -83,7 +85,7 @@ static void shorten(struct step *s, uint32_t i)
     if (lasts(s, i)) {
         int64_t left_q30 = 0;
 
-        s->w->bodies[i].region.until_q30 = used_q30(s, i, CAROM_ONE_Q30, &left_q30);
+        s->w->bodies[i].search.region.until_q30 = used_q30(s, i, CAROM_ONE_Q30, &left_q30);
     }
 }
 
@@ -146,8 +148,8 @@ static bool goes_on_far(const struct step *s, const struct pair *p)
     if (face_pairs(a, b) < FACE_PAIRS_COSTLY) {
         return false;
     }
-    return (step_active(s, p->a) && a->region.length_q22 > a->radius_q22 / FAR_PARTS) ||
-           (step_active(s, p->b) && b->region.length_q22 > b->radius_q22 / FAR_PARTS);
+    return (step_active(s, p->a) && a->search.region.length_q22 > a->def.radius_q22 / FAR_PARTS) ||
+           (step_active(s, p->b) && b->search.region.length_q22 > b->def.radius_q22 / FAR_PARTS);
 }
 
 /* Whether it is likely that a part of the window is enough: what has hit or touches flies away, or hits slowly. */
@@ -155,8 +157,8 @@ static bool goes_by_parts(const struct step *s, uint32_t number)
 {
     const struct pair *p = &s->w->pairs[number];
 
-    return s->w->meetings[number].hits == 0 && !s->w->bodies[p->a].touched &&
-           !s->w->bodies[p->b].touched;
+    return s->w->meetings[number].hits == 0 && !s->w->bodies[p->a].clock.touched &&
+           !s->w->bodies[p->b].clock.touched;
 }
 
 /* A pair of which one body's region lasts: it ends with the frame when something is near. */
@@ -225,8 +227,8 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
     for (int k = 0; k < 2; k++) {
         uint32_t i = k == 0 ? p->a : p->b;
 
-        if (step_active(s, i) && w->bodies[i].from_q30 > from_q30) {
-            from_q30 = w->bodies[i].from_q30;
+        if (step_active(s, i) && w->bodies[i].clock.from_q30 > from_q30) {
+            from_q30 = w->bodies[i].clock.from_q30;
         }
     }
     return gather_regions(s, number, v, from_q30);

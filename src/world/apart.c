@@ -22,7 +22,7 @@ bool world_overlap(struct carom_world *w, struct interfere_placed a, struct inte
     /* nearly all are far from each other */
     for (int k = 0; k < 3; k++) {
         if (carom_abs(a.state->position.c[k] - b.state->position.c[k]) >
-            ((int64_t)a.body->radius_q22 + b.body->radius_q22) << 10) {
+            ((int64_t)a.body->def.radius_q22 + b.body->def.radius_q22) << 10) {
             return false;
         }
     }
@@ -75,8 +75,8 @@ static bool crosses(struct carom_world *w, const struct body *b, uint32_t place,
     const struct interfere_placed mine = {b, state};
     const struct interfere_placed theirs = {&w->bodies[other], &world_now(w)->bodies[other]};
 
-    if (other == place || !theirs.body->mesh || theirs.state->out ||
-        !(b->moving || theirs.body->moving) || !broad_may_touch(b, theirs.body)) {
+    if (other == place || !theirs.body->def.mesh || theirs.state->out ||
+        !(b->def.moving || theirs.body->def.moving) || !broad_may_touch(b, theirs.body)) {
         return false;
     }
     return !already_pass(w, place, other) && world_overlap(w, mine, theirs);
@@ -86,7 +86,7 @@ static bool crosses(struct carom_world *w, const struct body *b, uint32_t place,
 static bool is_shallow(struct carom_world *w, const struct body *b, uint32_t place,
                        const struct body_state *state, uint32_t other)
 {
-    int32_t skin_q22 = fix_larger(b->skin_q22, w->bodies[other].skin_q22);
+    int32_t skin_q22 = fix_larger(b->def.skin_q22, w->bodies[other].def.skin_q22);
     struct body_state at;
     carom_v3_q30 to;
 
@@ -128,7 +128,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
                            const struct body_state *state, const carom_v3_q30 *way,
                            int64_t most_q32)
 {
-    int64_t inside_q32 = 0, skin_q32 = (int64_t)(b->skin_q22 > 0 ? b->skin_q22 : 256) << 10;
+    int64_t inside_q32 = 0, skin_q32 = (int64_t)(b->def.skin_q22 > 0 ? b->def.skin_q22 : 256) << 10;
     int64_t out_q32 = FIRST_SKINS * skin_q32;
     struct body_state at;
 
@@ -159,7 +159,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
 static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
                     struct body_state *state)
 {
-    const int64_t most_q32 = ((int64_t)WAY_MAX << 32) + ((int64_t)b->radius_q22 << 11);
+    const int64_t most_q32 = ((int64_t)WAY_MAX << 32) + ((int64_t)b->def.radius_q22 << 11);
     int64_t best_q32 = most_q32;
     struct body_state at, best = *state;
     carom_v3_q30 to;
@@ -197,7 +197,7 @@ static int room_to_pass(struct carom_world *w, const struct body *b, uint32_t pl
 int world_settle(struct carom_world *w, const struct body *b, uint32_t place,
                  struct body_state *state, int overlap)
 {
-    if (b->sensor || next_crossed(w, b, place, state, 0) == w->body_count) {
+    if (b->def.sensor || next_crossed(w, b, place, state, 0) == w->body_count) {
         return CAROM_OK;
     }
     switch (overlap) {

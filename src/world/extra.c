@@ -5,7 +5,7 @@
 struct body_extra *world_extra(struct carom_world *w, uint32_t body)
 {
     struct pool *pool = &w->pools[CAROM_POOL_extras];
-    struct body_extra *extra = w->bodies[body].extra;
+    struct body_extra *extra = w->bodies[body].def.extra;
     uint32_t place = 0;
 
     if (extra || pool_take(pool) < 0) {
@@ -19,17 +19,17 @@ struct body_extra *world_extra(struct carom_world *w, uint32_t body)
                                  .used = true,
                                  .rolling_q16 = BODY_ROLLING_Q16,
                                  .gravity_scale_q16 = BODY_GRAVITY_SCALE_Q16};
-    w->bodies[body].extra = extra;
+    w->bodies[body].def.extra = extra;
     return extra;
 }
 
 void world_drop_extra(struct carom_world *w, uint32_t body)
 {
-    struct body_extra *extra = w->bodies[body].extra;
+    struct body_extra *extra = w->bodies[body].def.extra;
 
     if (extra) {
         memset(extra, 0, sizeof *extra);
-        w->bodies[body].extra = NULL;
+        w->bodies[body].def.extra = NULL;
         w->pools[CAROM_POOL_extras].used--;
     }
 }

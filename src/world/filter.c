@@ -6,9 +6,9 @@ void world_filter(struct body *b, const struct carom_filter *filter)
 {
     bool none = (filter->category | filter->mask | filter->group) == 0;
 
-    b->category = none ? 1 : filter->category;
-    b->mask = none ? 0xffff : filter->mask;
-    b->group = filter->group;
+    b->def.category = none ? 1 : filter->category;
+    b->def.mask = none ? 0xffff : filter->mask;
+    b->def.group = filter->group;
 }
 
 int carom_body_set_filter(struct carom_world *w, int body, const struct carom_filter *filter)
@@ -25,8 +25,9 @@ int carom_body_set_filter(struct carom_world *w, int body, const struct carom_fi
     }
     changed = w->bodies[body];
     world_filter(&changed, filter);
-    if (changed.category == w->bodies[body].category && changed.mask == w->bodies[body].mask &&
-        changed.group == w->bodies[body].group) {
+    if (changed.def.category == w->bodies[body].def.category &&
+        changed.def.mask == w->bodies[body].def.mask &&
+        changed.def.group == w->bodies[body].def.group) {
         return CAROM_OK; /* nothing changed: nothing wakes */
     }
     state = world_now(w)->bodies[body];
@@ -49,8 +50,8 @@ int carom_body_get_filter(const struct carom_world *w, int body, struct carom_fi
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    filter->category = w->bodies[body].category;
-    filter->mask = w->bodies[body].mask;
-    filter->group = w->bodies[body].group;
+    filter->category = w->bodies[body].def.category;
+    filter->mask = w->bodies[body].def.mask;
+    filter->group = w->bodies[body].def.group;
     return CAROM_OK;
 }

@@ -32,13 +32,13 @@ struct carom_forces world_forces(const struct body *b)
     struct carom_forces f;
 
     memset(&f, 0, sizeof f);
-    f.force = b->force;
+    f.force = b->def.force;
     f.gravity_scale_q16 = BODY_GRAVITY_SCALE_Q16;
-    if (b->extra) {
-        f.torque = b->extra->torque;
-        f.gravity_scale_q16 = b->extra->gravity_scale_q16;
-        f.linear_damping_q30 = b->extra->linear_damping_q30;
-        f.angular_damping_q30 = b->extra->angular_damping_q30;
+    if (b->def.extra) {
+        f.torque = b->def.extra->torque;
+        f.gravity_scale_q16 = b->def.extra->gravity_scale_q16;
+        f.linear_damping_q30 = b->def.extra->linear_damping_q30;
+        f.angular_damping_q30 = b->def.extra->angular_damping_q30;
     }
     return f;
 }
@@ -52,7 +52,7 @@ bool world_forces_need_extra(const struct carom_forces *f)
 
 bool world_set_forces(struct carom_world *w, uint32_t body, const struct carom_forces *f)
 {
-    struct body_extra *extra = w->bodies[body].extra;
+    struct body_extra *extra = w->bodies[body].def.extra;
 
     if (!extra && world_forces_need_extra(f)) {
         extra = world_extra(w, body);
@@ -60,7 +60,7 @@ bool world_set_forces(struct carom_world *w, uint32_t body, const struct carom_f
             return false;
         }
     }
-    w->bodies[body].force = f->force;
+    w->bodies[body].def.force = f->force;
     if (extra) {
         extra->torque = f->torque;
         extra->gravity_scale_q16 = f->gravity_scale_q16;
@@ -87,7 +87,7 @@ int world_check_forces(const struct body *b, const carom_v3_q40 *gravity,
         !is_part(f->linear_damping_q30) || !is_part(f->angular_damping_q30)) {
         return CAROM_ERR_ARGUMENT;
     }
-    return world_each_within(f->torque.c, b->moving ? world_most_angular_q40(b) : 0) &&
+    return world_each_within(f->torque.c, b->def.moving ? world_most_angular_q40(b) : 0) &&
                    world_acceleration(b, f->gravity_scale_q16, gravity, &f->force, &sum)
                ? CAROM_OK
                : CAROM_ERR_RANGE;
@@ -112,7 +112,7 @@ static int find_forces(const struct carom_world *w, int *body, struct carom_forc
         return CAROM_ERR_BODY;
     }
     *out = world_forces(&w->bodies[*body]);
-    return w->bodies[*body].moving ? CAROM_OK : CAROM_ERR_ARGUMENT;
+    return w->bodies[*body].def.moving ? CAROM_OK : CAROM_ERR_ARGUMENT;
 }
 
 /* Set them, when `result` says that they were found. */
@@ -237,7 +237,7 @@ int carom_body_set_force_at(struct carom_world *w, int body, const carom_v3_q40 
         const struct body *b = &w->bodies[body];
 
         /* no more than what with gravity is 1 */
-        if (!world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->mass)) ||
+        if (!world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->def.mass)) ||
             !moment_about(&world_now(w)->bodies[body], point, force, &f.torque)) {
             return CAROM_ERR_RANGE;
         }
@@ -252,8 +252,8 @@ static int check_push(const struct carom_world *w, int *body)
     if (!world_find_body(w, body)) {
         return CAROM_ERR_BODY;
     }
-    return w->bodies[*body].moving && !world_now(w)->bodies[*body].out ? CAROM_OK
-                                                                       : CAROM_ERR_ARGUMENT;
+    return w->bodies[*body].def.moving && !world_now(w)->bodies[*body].out ? CAROM_OK
+                                                                           : CAROM_ERR_ARGUMENT;
 }
 
 /* Add to the momenta of a body. */
@@ -267,7 +267,8 @@ static int push(struct carom_world *w, int body, const carom_v3_q40 *impulse,
     impulse = impulse ? impulse : &none;
     moment = moment ? moment : &none;
     /* no more than turns a body's fastest motion around: below 2^57, and 2^62 */
-    if (!world_each_within(impulse->c, fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41, b->mass)) ||
+    if (!world_each_within(impulse->c,
+                           fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41, b->def.mass)) ||
         !world_each_within(moment->c, 2 * world_most_angular_q40(b))) {
         return CAROM_ERR_RANGE;
     }
@@ -296,8 +297,8 @@ int carom_body_push(struct carom_world *w, int body, const carom_v3_q40 *impulse
     if (result < 0) {
         return result;
     }
-    if (!world_each_within(impulse->c,
-                           fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41, w->bodies[body].mass)) ||
+    if (!world_each_within(impulse->c, fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41,
+                                                      w->bodies[body].def.mass)) ||
         !moment_about(&world_now(w)->bodies[body], point, impulse, &moment)) {
         return CAROM_ERR_RANGE;
     }

@@ -24,7 +24,7 @@ int carom_body_matrix(const struct carom_world *w, int body, struct carom_matrix
     int result = ask(w, &body, matrix, matrix);
 
     if (result == CAROM_OK) {
-        const carom_v3_q22 *centre = &w->bodies[body].mesh->mass.centre;
+        const carom_v3_q22 *centre = &w->bodies[body].def.mesh->mass.centre;
 
         axes_of(w, body, &matrix->r);
         for (int k = 0; k < 3; k++) {
@@ -50,7 +50,7 @@ int carom_body_world_point(const struct carom_world *w, int body, const carom_v3
     }
     axes_of(w, body, &r);
     for (int k = 0; k < 3; k++) {
-        arm_q32[k] = local->c[k] - carom_shl(w->bodies[body].mesh->mass.centre.c[k], 10);
+        arm_q32[k] = local->c[k] - carom_shl(w->bodies[body].def.mesh->mass.centre.c[k], 10);
     }
     fix_rotate(arm_q32, &r, arm_q32);
     for (int k = 0; k < 3; k++) {
@@ -78,7 +78,7 @@ int carom_body_local_point(const struct carom_world *w, int body, const carom_v3
     }
     fix_rotate_back(arm_q32, &r, arm_q32);
     for (int k = 0; k < 3; k++) {
-        local->c[k] = arm_q32[k] + carom_shl(w->bodies[body].mesh->mass.centre.c[k], 10);
+        local->c[k] = arm_q32[k] + carom_shl(w->bodies[body].def.mesh->mass.centre.c[k], 10);
     }
     return CAROM_OK;
 }

@@ -12,8 +12,8 @@ bool world_find_body(const struct carom_world *w, int *body)
     uint32_t generation = id >> WORLD_NUMBER_BITS;
 
     /* a negative one has a generation above all */
-    if (number >= w->body_count || !w->bodies[number].mesh ||
-        (generation != 0 && generation != w->bodies[number].generation)) {
+    if (number >= w->body_count || !w->bodies[number].def.mesh ||
+        (generation != 0 && generation != w->bodies[number].def.generation)) {
         return false;
     }
     *body = (int)number;
@@ -28,7 +28,7 @@ int carom_body_id(const struct carom_world *w, int body)
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    return body | w->bodies[body].generation << WORLD_NUMBER_BITS;
+    return body | w->bodies[body].def.generation << WORLD_NUMBER_BITS;
 }
 
 int carom_body_number(int id)
@@ -44,11 +44,11 @@ int carom_body_set_user(struct carom_world *w, int body, void *user)
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    w->bodies[body].user = user;
+    w->bodies[body].def.user = user;
     return CAROM_OK;
 }
 
 void *carom_body_user(const struct carom_world *w, int body)
 {
-    return w && world_find_body(w, &body) ? w->bodies[body].user : NULL;
+    return w && world_find_body(w, &body) ? w->bodies[body].def.user : NULL;
 }

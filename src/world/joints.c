@@ -65,15 +65,15 @@ bool world_joint_plausible(const struct joint *j, const struct joint_state *stat
 
 static uint16_t lowest(struct body *bodies, uint16_t i)
 {
-    while (bodies[i].joined != i + 1) {
-        i = (uint16_t)(bodies[i].joined - 1);
+    while (bodies[i].def.joined != i + 1) {
+        i = (uint16_t)(bodies[i].def.joined - 1);
     }
     return i;
 }
 
 static void ignore(struct carom_world *w, const struct joint *j)
 {
-    bool first = !w->bodies[j->b].moving || j->a > j->b;
+    bool first = !w->bodies[j->b].def.moving || j->a > j->b;
     const struct pair p = {first ? j->a : j->b, first ? j->b : j->a};
     uint32_t place = broad_place_of(w->ignored, w->ignored_count, p.a, p.b);
 
@@ -89,7 +89,7 @@ void world_group_joints(struct carom_world *w)
 
     w->ignored_count = 0;
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].joined = BODY_ALONE;
+        w->bodies[i].def.joined = BODY_ALONE;
     }
     for (uint32_t i = 0; i < list->count; i++) {
         const struct joint *j = &list->joints[i];
@@ -97,8 +97,8 @@ void world_group_joints(struct carom_world *w)
         if (!j->used || w->now->joints[i].broken) {
             continue;
         }
-        if (w->bodies[j->a].joined == BODY_ALONE) {
-            w->bodies[j->a].joined = (uint16_t)(j->a + 1);
+        if (w->bodies[j->a].def.joined == BODY_ALONE) {
+            w->bodies[j->a].def.joined = (uint16_t)(j->a + 1);
         }
         if (j->b == JOINT_WORLD) {
             continue;
@@ -106,20 +106,20 @@ void world_group_joints(struct carom_world *w)
         if (!j->touch) {
             ignore(w, j);
         }
-        if (w->bodies[j->b].moving) {
+        if (w->bodies[j->b].def.moving) {
             uint16_t a, b;
 
-            if (w->bodies[j->b].joined == BODY_ALONE) {
-                w->bodies[j->b].joined = (uint16_t)(j->b + 1);
+            if (w->bodies[j->b].def.joined == BODY_ALONE) {
+                w->bodies[j->b].def.joined = (uint16_t)(j->b + 1);
             }
             a = lowest(w->bodies, j->a);
             b = lowest(w->bodies, j->b);
-            w->bodies[a > b ? a : b].joined = (uint16_t)((a < b ? a : b) + 1);
+            w->bodies[a > b ? a : b].def.joined = (uint16_t)((a < b ? a : b) + 1);
         }
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].joined != BODY_ALONE) {
-            w->bodies[i].joined = (uint16_t)(lowest(w->bodies, (uint16_t)i) + 1);
+        if (w->bodies[i].def.joined != BODY_ALONE) {
+            w->bodies[i].def.joined = (uint16_t)(lowest(w->bodies, (uint16_t)i) + 1);
         }
     }
     w->rest.joints.states = w->now->joints;
@@ -159,7 +159,7 @@ void world_write_off(const struct carom_world *w, struct joint_state *states, co
     for (uint32_t i = 0; i < w->rest.joints.count; i++) {
         const struct joint *own = &w->rest.joints.joints[i];
 
-        if (own->used && w->bodies[own->a].joined == w->bodies[j->a].joined &&
+        if (own->used && w->bodies[own->a].def.joined == w->bodies[j->a].def.joined &&
             fix_wide_sign(&states[i].owed2) < 0) {
             states[i].owed2 = (struct fix_wide){0, 0};
         }
@@ -248,13 +248,13 @@ static int64_t speed_q40(const struct carom_world *w, const struct joint *j)
             continue;
         }
         fix_matrix(&r, &states[side[s]].rotation);
-        if (w->bodies[side[s]].moving) {
+        if (w->bodies[side[s]].def.moving) {
             body_velocity(&w->bodies[side[s]], &states[side[s]], &own);
             body_spin(&w->bodies[side[s]], &states[side[s]], &r, &turn);
         } else if (world_is_kinematic(&w->bodies[side[s]]) &&
-                   w->bodies[side[s]].extra->drive.kind == BODY_DRIVE_ON) {
-            own = w->bodies[side[s]].extra->drive.velocity;
-            turn = w->bodies[side[s]].extra->drive.spin;
+                   w->bodies[side[s]].def.extra->drive.kind == BODY_DRIVE_ON) {
+            own = w->bodies[side[s]].def.extra->drive.velocity;
+            turn = w->bodies[side[s]].def.extra->drive.spin;
         } else {
             continue;
         }

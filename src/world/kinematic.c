@@ -4,7 +4,7 @@
 
 bool world_is_kinematic(const struct body *b)
 {
-    return b->extra && b->extra->kinematic;
+    return b->def.extra && b->def.extra->kinematic;
 }
 
 bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
@@ -25,10 +25,10 @@ void world_drive(struct carom_world *w, uint32_t body, const struct body_drive *
 {
     struct body *b = &w->bodies[body];
 
-    b->extra->drive = *drive;
-    b->goes = world_leads(drive, &world_now(w)->bodies[body]);
-    if (!b->goes) {
-        b->extra->drive.kind = BODY_DRIVE_NONE;
+    b->def.extra->drive = *drive;
+    b->def.goes = world_leads(drive, &world_now(w)->bodies[body]);
+    if (!b->def.goes) {
+        b->def.extra->drive.kind = BODY_DRIVE_NONE;
         return;
     }
     w->idle = false;
@@ -102,11 +102,11 @@ void world_halt_routes(struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
 
-        if (b->mesh && body_travels(b)) {
+        if (b->def.mesh && body_travels(b)) {
             /* a step relies on what stands still being the same in both states */
             w->states[0].bodies[i] = w->states[1].bodies[i] = w->now->bodies[i];
-            b->goes = b->extra->drive.kind == BODY_DRIVE_ON;
-            b->extra->drive.kind = b->goes ? BODY_DRIVE_ON : BODY_DRIVE_NONE;
+            b->def.goes = b->def.extra->drive.kind == BODY_DRIVE_ON;
+            b->def.extra->drive.kind = b->def.goes ? BODY_DRIVE_ON : BODY_DRIVE_NONE;
         }
     }
 }

@@ -16,11 +16,11 @@ static struct carom_material material_of(const struct body *b)
     struct carom_material m;
 
     memset(&m, 0, sizeof m);
-    m.restitution_q30 = b->restitution_q30;
-    m.friction_q16 = b->friction_q16;
-    m.rolling_q16 = b->extra ? b->extra->rolling_q16 : BODY_ROLLING_Q16;
-    if (b->extra) {
-        m.surface_velocity = b->extra->surface_velocity;
+    m.restitution_q30 = b->def.restitution_q30;
+    m.friction_q16 = b->def.friction_q16;
+    m.rolling_q16 = b->def.extra ? b->def.extra->rolling_q16 : BODY_ROLLING_Q16;
+    if (b->def.extra) {
+        m.surface_velocity = b->def.extra->surface_velocity;
     }
     return m;
 }
@@ -64,12 +64,12 @@ int carom_body_set_material(struct carom_world *w, int body, const struct carom_
     if (needs_extra(material) && !world_extra(w, (uint32_t)body)) {
         return CAROM_ERR_EXTRAS_FULL;
     }
-    b->restitution_q30 = material->restitution_q30;
-    b->friction_q16 = material->friction_q16;
+    b->def.restitution_q30 = material->restitution_q30;
+    b->def.friction_q16 = material->friction_q16;
     w->rest.list.materials = contact_mix_materials;
-    if (b->extra) {
-        b->extra->rolling_q16 = material->rolling_q16;
-        b->extra->surface_velocity = material->surface_velocity;
+    if (b->def.extra) {
+        b->def.extra->rolling_q16 = material->rolling_q16;
+        b->def.extra->surface_velocity = material->surface_velocity;
     }
     stir(w, (uint32_t)body);
     return CAROM_OK;
@@ -133,15 +133,15 @@ int carom_body_set_face_materials(struct carom_world *w, int body,
         return CAROM_ERR_BODY;
     }
     b = &w->bodies[body];
-    if (materials && !materials_in_range(b->mesh, materials, count, of_face)) {
+    if (materials && !materials_in_range(b->def.mesh, materials, count, of_face)) {
         return CAROM_ERR_ARGUMENT;
     }
     if (materials && !world_extra(w, (uint32_t)body)) {
         return CAROM_ERR_EXTRAS_FULL;
     }
     w->rest.list.materials = contact_mix_materials;
-    if (b->extra) {
-        take_materials(b->extra, materials, materials ? count : 0, materials ? of_face : NULL);
+    if (b->def.extra) {
+        take_materials(b->def.extra, materials, materials ? count : 0, materials ? of_face : NULL);
         stir(w, (uint32_t)body);
     }
     return CAROM_OK;
@@ -168,15 +168,15 @@ int carom_world_set_combine(struct carom_world *w, enum carom_combine restitutio
 static bool change_mass(const struct body *from, const struct body *to, struct body_state *s)
 {
     for (int k = 0; k < 3; k++) {
-        int64_t l_q40 = fix_mul_scaled(s->angular.c[k], from->inverse_mass);
+        int64_t l_q40 = fix_mul_scaled(s->angular.c[k], from->def.inverse_mass);
 
         /* times at most 2^10; a thin body about its axis has less */
         if (carom_abs(l_q40) >> 51 != 0) {
             return false;
         }
-        s->angular.c[k] = fix_mul_scaled(l_q40, to->mass);
+        s->angular.c[k] = fix_mul_scaled(l_q40, to->def.mass);
         s->momentum.c[k] =
-            fix_mul_scaled(fix_mul_scaled(s->momentum.c[k], from->inverse_mass), to->mass);
+            fix_mul_scaled(fix_mul_scaled(s->momentum.c[k], from->def.inverse_mass), to->def.mass);
     }
     return world_in_range(to, s);
 }
@@ -195,12 +195,12 @@ int carom_body_set_mass(struct carom_world *w, int body, uint32_t mass_q20)
         return CAROM_ERR_BODY;
     }
     changed = w->bodies[body];
-    if (!changed.moving) {
+    if (!changed.def.moving) {
         return CAROM_ERR_ARGUMENT;
     }
     result = world_set_mass(&changed, mass_q20);
-    if (result < 0 ||
-        (changed.mass.m == w->bodies[body].mass.m && changed.mass.e == w->bodies[body].mass.e)) {
+    if (result < 0 || (changed.def.mass.m == w->bodies[body].def.mass.m &&
+                       changed.def.mass.e == w->bodies[body].def.mass.e)) {
         return result;
     }
     state = world_now(w)->bodies[body];
@@ -224,8 +224,8 @@ int carom_body_mass(const struct carom_world *w, int body, uint32_t *mass_q20)
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    *mass_q20 = w->bodies[body].moving
-                    ? (uint32_t)fix_mul_scaled((int64_t)1 << 20, w->bodies[body].mass)
+    *mass_q20 = w->bodies[body].def.moving
+                    ? (uint32_t)fix_mul_scaled((int64_t)1 << 20, w->bodies[body].def.mass)
                     : 0;
     return CAROM_OK;
 }

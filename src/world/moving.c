@@ -56,7 +56,7 @@ static bool solid(const struct lift *l, uint32_t i, uint32_t k)
 
 static bool movable(const struct lift *l, uint32_t i)
 {
-    return l->w->bodies[i].mesh && l->w->bodies[i].moving && !l->states[i].out;
+    return l->w->bodies[i].def.mesh && l->w->bodies[i].def.moving && !l->states[i].out;
 }
 
 /* The islands of bodies that touched in the last step; each body's lift is none. */
@@ -66,8 +66,8 @@ static void find_islands(struct carom_world *w)
 
     island_find(w->bodies, w->body_count, now->touching, now->touching_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        PHASE_BEGIN(w->bodies[i].work_phase, BODY_LIFT);
-        w->bodies[i].lift_q32 = 0;
+        PHASE_BEGIN(w->bodies[i].solve.work_phase, BODY_LIFT);
+        w->bodies[i].solve.lift_q32 = 0;
     }
 }
 
@@ -113,7 +113,7 @@ static bool hits(struct lift *l, const struct candidate *c, struct boyse_hit *hi
 /* A body so much higher is above the surface. */
 static int64_t clear_q32(const struct lift *l, const struct body *b)
 {
-    return l->rise_q32 + ((int64_t)b->skin_q22 << 10);
+    return l->rise_q32 + ((int64_t)b->def.skin_q22 << 10);
 }
 
 /* How far each island stays above where it was when it comes down on the surface. */
@@ -124,7 +124,7 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
 
     for (uint32_t i = 0; i < n; i++) {
         const struct body *a = &l->w->bodies[l->w->pairs[c[i].pair].a];
-        struct body *island = &l->w->bodies[a->island];
+        struct body *island = &l->w->bodies[a->island.lowest];
 
         if (hits(l, &c[i], &hit)) {
             int64_t lift_q32 = fix_mul_q30(clear_q32(l, a), CAROM_ONE_Q30 - hit.t_q30);
@@ -182,7 +182,7 @@ static void visit_first(struct candidate_visitor *self, const struct candidate *
 
 static int64_t lift_of(const struct carom_world *w, uint32_t i)
 {
-    return *body_lift_q32(&w->bodies[w->bodies[i].island]);
+    return *body_lift_q32(&w->bodies[w->bodies[i].island.lowest]);
 }
 
 /* Pairs of bodies that are lifted differently and are near each other on the way. */
@@ -193,18 +193,18 @@ static int pair_lifted(struct lift *l)
 
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].mesh) {
+        if (w->bodies[i].def.mesh) {
             set_path(l, &w->bodies[i], &l->states[i], movable(l, i) ? lift_of(w, i) : 0);
         }
     }
     for (uint32_t a = 0; a < w->body_count; a++) {
         for (uint32_t b = 0; b < w->body_count && movable(l, a) && result == CAROM_OK; b++) {
-            bool pair = w->bodies[b].mesh && b != l->surface && !l->states[b].out &&
-                        (w->bodies[b].moving ? b < a : true) && solid(l, a, b);
+            bool pair = w->bodies[b].def.mesh && b != l->surface && !l->states[b].out &&
+                        (w->bodies[b].def.moving ? b < a : true) && solid(l, a, b);
             int64_t most = lift_of(w, a);
 
-            most = pair && w->bodies[b].moving && lift_of(w, b) > most ? lift_of(w, b) : most;
-            if (pair && most > 0 && (!w->bodies[b].moving || lift_of(w, b) != lift_of(w, a)) &&
+            most = pair && w->bodies[b].def.moving && lift_of(w, b) > most ? lift_of(w, b) : most;
+            if (pair && most > 0 && (!w->bodies[b].def.moving || lift_of(w, b) != lift_of(w, a)) &&
                 broad_near(&w->bodies[a], &l->states[a], &w->bodies[b], &l->states[b],
                            (int32_t)(most >> 10) + 1)) {
                 result = add_pair(w, a, b);
@@ -233,12 +233,12 @@ static int spread(struct lift *l)
             return result;
         }
         p = &w->pairs[l->hit.pair];
-        if (!w->bodies[p->b].moving) {
+        if (!w->bodies[p->b].def.moving) {
             return CAROM_ERR_BLOCKED;
         }
         most = lift_of(w, p->a) > lift_of(w, p->b) ? lift_of(w, p->a) : lift_of(w, p->b);
-        *body_lift_q32(&w->bodies[w->bodies[p->a].island]) = most;
-        *body_lift_q32(&w->bodies[w->bodies[p->b].island]) = most;
+        *body_lift_q32(&w->bodies[w->bodies[p->a].island.lowest]) = most;
+        *body_lift_q32(&w->bodies[w->bodies[p->b].island.lowest]) = most;
     }
     return CAROM_ERR_BLOCKED;
 }
@@ -302,7 +302,7 @@ static void forget_found(struct carom_world *w)
 {
     w->interfere.stale = true;
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].standing = false; /* paths, regions and boxes are others */
+        w->bodies[i].search.standing = false; /* paths, regions and boxes are others */
     }
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);
@@ -322,7 +322,7 @@ static int move(struct carom_world *w, int body, const int16_t (*vertices)[3], b
     if (!world_find_body(w, &body)) {
         return CAROM_ERR_BODY;
     }
-    s = w->bodies[body].mesh->surface;
+    s = w->bodies[body].def.mesh->surface;
     if (!s) {
         return CAROM_ERR_ARGUMENT;
     }
@@ -345,7 +345,7 @@ static int move(struct carom_world *w, int body, const int16_t (*vertices)[3], b
         return result;
     }
     mesh_surface_keep(s);
-    w->bodies[body].radius_q22 = s->mesh->radius_q22;
+    w->bodies[body].def.radius_q22 = s->mesh->radius_q22;
     if (drifts) {
         memcpy(world_now(w)->bodies, world_next(w)->bodies,
                w->body_count * sizeof *world_now(w)->bodies);
@@ -369,9 +369,9 @@ int carom_surface_set(struct carom_world *w, int body, const int16_t (*vertices)
 void world_halt_surfaces(struct carom_world *w)
 {
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (w->bodies[i].mesh && mesh_drift_most(w->bodies[i].mesh) > 0) {
-            mesh_surface_halt(w->bodies[i].mesh->surface);
-            w->bodies[i].standing = false; /* its region had room for the drift */
+        if (w->bodies[i].def.mesh && mesh_drift_most(w->bodies[i].def.mesh) > 0) {
+            mesh_surface_halt(w->bodies[i].def.mesh->surface);
+            w->bodies[i].search.standing = false; /* its region had room for the drift */
             w->interfere.stale = true;
         }
     }

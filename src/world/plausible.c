@@ -18,7 +18,7 @@
 /* What sleeps has no momenta, and is neither out nor woken since the last step. */
 static bool flags_plausible(const struct body *b, const struct body_state *s)
 {
-    if (!b->moving) {
+    if (!b->def.moving) {
         return (s->asleep | s->out | s->quiet | s->woken) == 0;
     }
     return s->asleep <= 1 && s->out <= 1 && s->woken <= 1 && s->quiet <= REST_QUIET_FRAMES &&
@@ -32,8 +32,9 @@ static bool body_plausible(const struct body *b, const struct body_state *s,
     const carom_v3_q40 *force = &forces->force;
 
     return world_is_unit(s->rotation.c, 4, ROTATION_BITS) && world_in_range(b, s) &&
-           flags_plausible(b, s) && (b->moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
-           (b->moving || !world_forces_need_extra(forces)) &&
+           flags_plausible(b, s) &&
+           (b->def.moving || (force->c[0] | force->c[1] | force->c[2]) == 0) &&
+           (b->def.moving || !world_forces_need_extra(forces)) &&
            world_check_forces(b, gravity, forces) == CAROM_OK;
 }
 
@@ -54,8 +55,8 @@ bool world_drive_plausible(const struct body *b, const struct body_state *s,
 /* As broad.h names a pair. */
 static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
 {
-    return a < w->body_count && b < w->body_count && w->bodies[a].moving && w->bodies[b].mesh &&
-           (a > b || !w->bodies[b].moving);
+    return a < w->body_count && b < w->body_count && w->bodies[a].def.moving &&
+           w->bodies[b].def.mesh && (a > b || !w->bodies[b].def.moving);
 }
 
 /* -1, 0 or 1 as the pair a, b comes before c, d or after it. */
@@ -70,9 +71,9 @@ static int64_t most_impulse_q40(const struct body *b)
     const int64_t most = (int64_t)1 << 60;
 
     /* the mass is below 2^(30 - e) */
-    return 40 + IMPULSE_BITS + 30 - b->mass.e > 60
+    return 40 + IMPULSE_BITS + 30 - b->def.mass.e > 60
                ? most
-               : fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), b->mass);
+               : fix_mul_scaled((int64_t)1 << (40 + IMPULSE_BITS), b->def.mass);
 }
 
 /*
@@ -85,7 +86,7 @@ FIX_APART static bool impulse_plausible(const struct carom_world *w, const struc
     const struct rest_warm_parts parts = rest_warm_parts(warm);
     int64_t most_q40 = most_impulse_q40(a), across_q40;
 
-    if (b->moving && most_impulse_q40(b) < most_q40) {
+    if (b->def.moving && most_impulse_q40(b) < most_q40) {
         most_q40 = most_impulse_q40(b);
     }
     if (parts.normal_q40 > most_q40 || parts.normal_q40 < -IMPULSE_NOISE_Q40) {
@@ -100,9 +101,9 @@ FIX_APART static bool impulse_plausible(const struct carom_world *w, const struc
 static bool arm_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
     const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
-    int32_t skin_q22 = a->skin_q22 > b->skin_q22 ? a->skin_q22 : b->skin_q22;
-    int32_t most_q22 =
-        a->radius_q22 + BODY_MARGIN_SKINS * skin_q22 + (b->mesh->surface ? SURFACE_GAP_Q22 : 0);
+    int32_t skin_q22 = a->def.skin_q22 > b->def.skin_q22 ? a->def.skin_q22 : b->def.skin_q22;
+    int32_t most_q22 = a->def.radius_q22 + BODY_MARGIN_SKINS * skin_q22 +
+                       (b->def.mesh->surface ? SURFACE_GAP_Q22 : 0);
     const int64_t arm[3] = {warm->arm.c[0], warm->arm.c[1], warm->arm.c[2]};
 
     return world_each_within(arm, most_q22);
@@ -161,11 +162,11 @@ struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body
     struct carom_forces f;
 
     memset(&f, 0, sizeof f);
-    f.force = b->velocity;
-    f.torque = b->saved_momentum;
-    f.gravity_scale_q16 = (int32_t)b->spin.c[0];
-    f.linear_damping_q30 = (int32_t)b->spin.c[1];
-    f.angular_damping_q30 = (int32_t)b->spin.c[2];
+    f.force = b->solve.velocity;
+    f.torque = b->solve.saved_momentum;
+    f.gravity_scale_q16 = (int32_t)b->solve.spin.c[0];
+    f.linear_damping_q30 = (int32_t)b->solve.spin.c[1];
+    f.angular_damping_q30 = (int32_t)b->solve.spin.c[2];
     return f;
 }
 
@@ -173,9 +174,10 @@ void world_keep_forces(const struct carom_world *w, uint32_t body, const struct 
 {
     struct body *b = &w->bodies[body];
 
-    b->velocity = f->force;
-    b->saved_momentum = f->torque;
-    b->spin = (carom_v3_q40){{f->gravity_scale_q16, f->linear_damping_q30, f->angular_damping_q30}};
+    b->solve.velocity = f->force;
+    b->solve.saved_momentum = f->torque;
+    b->solve.spin =
+        (carom_v3_q40){{f->gravity_scale_q16, f->linear_damping_q30, f->angular_damping_q30}};
 }
 
 bool world_plausible(const struct carom_world *w, const struct world_state *s,
@@ -187,7 +189,8 @@ bool world_plausible(const struct carom_world *w, const struct world_state *s,
     for (uint32_t i = 0; i < w->body_count; i++) {
         const struct carom_forces forces = world_forces_read(w, i);
 
-        if (w->bodies[i].mesh && !body_plausible(&w->bodies[i], &s->bodies[i], gravity, &forces)) {
+        if (w->bodies[i].def.mesh &&
+            !body_plausible(&w->bodies[i], &s->bodies[i], gravity, &forces)) {
             return false;
         }
     }

@@ -59,13 +59,14 @@ bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
     carom_v3_q40 sum = {{0, 0, 0}};
 
     /* the largest mass is 2^10, so the limit is below 2^52 and what passes it can be divided */
-    if (b->moving && !world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->mass))) {
+    if (b->def.moving &&
+        !world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->def.mass))) {
         return false;
     }
-    for (int k = 0; b->moving && k < 3; k++) {
+    for (int k = 0; b->def.moving && k < 3; k++) {
         sum.c[k] = gravity_scale_q16 == 1 << 16 ? gravity->c[k]
                                                 : fix_mul(gravity->c[k], gravity_scale_q16, 16);
-        sum.c[k] += fix_mul_scaled(force->c[k], b->inverse_mass);
+        sum.c[k] += fix_mul_scaled(force->c[k], b->def.inverse_mass);
     }
     *out = sum;
     return world_gravity_in_range(&sum);
@@ -75,17 +76,18 @@ void world_accelerate(struct carom_world *w, uint32_t body)
 {
     struct body *b = &w->bodies[body];
 
-    if (b->mesh) {
-        int32_t scale_q16 = b->extra ? b->extra->gravity_scale_q16 : 1 << 16;
+    if (b->def.mesh) {
+        int32_t scale_q16 = b->def.extra ? b->def.extra->gravity_scale_q16 : 1 << 16;
 
-        world_acceleration(b, scale_q16, &w->config.gravity, &b->force, &b->acceleration);
-        b->acceleration_q40 = fix_length(b->acceleration.c);
+        world_acceleration(b, scale_q16, &w->config.gravity, &b->def.force, &b->def.acceleration);
+        b->def.acceleration_q40 = fix_length(b->def.acceleration.c);
     }
 }
 
 int64_t world_most_angular_q40(const struct body *b)
 {
-    return fix_mul_scaled(fix_mul((int64_t)BODY_SPEED_LIMIT << 40, b->radius_q22, 22), b->mass);
+    return fix_mul_scaled(fix_mul((int64_t)BODY_SPEED_LIMIT << 40, b->def.radius_q22, 22),
+                          b->def.mass);
 }
 
 bool world_position_in_range(const carom_v3_q32 *p)
@@ -121,7 +123,7 @@ bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const ca
     }
     turn_q40 = exact_length(w->c);
     return turn_q40 < limit_q40 &&
-           exact_length(v->c) + fix_mul(turn_q40, b->radius_q22, 22) < limit_q40;
+           exact_length(v->c) + fix_mul(turn_q40, b->def.radius_q22, 22) < limit_q40;
 }
 
 void world_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
@@ -142,7 +144,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
 {
     const int64_t angular_limit_q40 = (int64_t)1 << 62;
     int64_t momentum_limit_q40 =
-        b->moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->mass) : 0;
+        b->def.moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->def.mass) : 0;
     carom_v3_q40 v, w;
     int64_t by_mass[3] = {0, 0, 0};
     struct fix_wide sum = {0, 0};
@@ -150,7 +152,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
 
     if (!world_position_in_range(&s->position) ||
         !world_each_within(s->momentum.c, momentum_limit_q40) ||
-        !world_each_within(s->angular.c, b->moving ? angular_limit_q40 - 1 : 0)) {
+        !world_each_within(s->angular.c, b->def.moving ? angular_limit_q40 - 1 : 0)) {
         return false;
     }
     /* a thin body may spin faster about its axis than any that is made */
@@ -158,12 +160,13 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     body_velocity(b, s, &v);
     if (!world_each_within(v.c, (int64_t)BODY_SPEED_LIMIT << 40) ||
         fix_length(v.c) >= (int64_t)BODY_SPEED_LIMIT << 40 ||
-        fix_length(s->angular.c) >= angular_limit_q40 || (b->moving && !body_spin_fits(b, s, &r))) {
+        fix_length(s->angular.c) >= angular_limit_q40 ||
+        (b->def.moving && !body_spin_fits(b, s, &r))) {
         return false;
     }
     body_spin(b, s, &r, &w);
-    for (int k = 0; b->moving && k < 3; k++) {
-        by_mass[k] = fix_mul_scaled(s->angular.c[k], b->inverse_mass);
+    for (int k = 0; b->def.moving && k < 3; k++) {
+        by_mass[k] = fix_mul_scaled(s->angular.c[k], b->def.inverse_mass);
     }
     fix_wide_add_dot(&sum, by_mass, w.c);
     return fix_wide_bits(&sum) <= 80 + SQUARE_BITS;

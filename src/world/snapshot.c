@@ -35,15 +35,15 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
     static const struct carom_forces forces = {.gravity_scale_q16 = 1 << 16};
     struct body *b = &w->bodies[i];
 
-    stream_expect(s, !b->mesh ? 0 : b->moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
-    if (b->mesh) {
+    stream_expect(s, !b->def.mesh ? 0 : b->def.moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
+    if (b->def.mesh) {
         stream_vector64(s, state->position.c);
         stream_vector64(s, state->momentum.c);
         stream_vector64(s, state->angular.c);
         if (s->loading) {
             world_keep_forces(w, i, &forces);
         }
-        stream_vector64(s, s->loading ? b->velocity.c : b->force.c);
+        stream_vector64(s, s->loading ? b->solve.velocity.c : b->def.force.c);
         stream_vector32(s, state->rotation.c, 4);
         stream_8(s, &state->asleep);
         stream_8(s, &state->out);
@@ -99,7 +99,7 @@ static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
     for (; i < w->body_count; i++) {
         struct carom_forces f = world_forces(&w->bodies[i]);
 
-        if (w->bodies[i].mesh && world_forces_need_extra(&f)) {
+        if (w->bodies[i].def.mesh && world_forces_need_extra(&f)) {
             break;
         }
     }
@@ -138,7 +138,7 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
         uint16_t body = (uint16_t)(s->loading ? 0 : next_acted_on(w, next));
 
         stream_16(s, &body);
-        if (body < next || body >= w->body_count || !w->bodies[body].mesh) {
+        if (body < next || body >= w->body_count || !w->bodies[body].def.mesh) {
             s->failed = true;
             return;
         }
@@ -149,7 +149,7 @@ static void stream_all_forces(struct stream *s, const struct carom_world *w)
 
 static bool has_filter(const struct body *b)
 {
-    return b->mesh && !(b->category == 1 && b->mask == 0xffff && b->group == 0);
+    return b->def.mesh && !(b->def.category == 1 && b->def.mask == 0xffff && b->def.group == 0);
 }
 
 /* Filters that are read wait in the box, which the next step sets anew, until all is read. */
@@ -163,18 +163,18 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
     any = stream_section(s, FILTERS, any);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
         struct body *b = &w->bodies[i];
-        uint16_t parts[3] = {b->category, b->mask, (uint16_t)b->group};
+        uint16_t parts[3] = {b->def.category, b->def.mask, (uint16_t)b->def.group};
 
         if (s->loading) {
             parts[0] = 1;
             parts[1] = 0xffff;
             parts[2] = 0;
         }
-        for (int k = 0; k < 3 && any && b->mesh; k++) {
+        for (int k = 0; k < 3 && any && b->def.mesh; k++) {
             stream_16(s, &parts[k]);
         }
         for (int k = 0; k < 3 && s->loading; k++) {
-            b->box_q18[0][k] = parts[k];
+            b->search.box_q18[0][k] = parts[k];
         }
     }
 }
@@ -182,9 +182,10 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
 /* A filter that was read becomes the body's. */
 static void keep_filter(struct body *b)
 {
-    b->category = (uint16_t)b->box_q18[0][0];
-    b->mask = (uint16_t)b->box_q18[0][1];
-    b->group = (int16_t)(b->box_q18[0][2] < 0x8000 ? b->box_q18[0][2] : b->box_q18[0][2] - 0x10000);
+    b->def.category = (uint16_t)b->search.box_q18[0][0];
+    b->def.mask = (uint16_t)b->search.box_q18[0][1];
+    b->def.group = (int16_t)(b->search.box_q18[0][2] < 0x8000 ? b->search.box_q18[0][2]
+                                                              : b->search.box_q18[0][2] - 0x10000);
 }
 
 static void stream_through(struct stream *s, const struct carom_world *w, struct world_state *state)
@@ -232,14 +233,14 @@ static void stream_drives(struct stream *s, const struct carom_world *w,
         struct body *b = &w->bodies[i];
         struct body_drive drive = {.kind = BODY_DRIVE_NONE};
 
-        if (!b->mesh || !world_is_kinematic(b)) {
+        if (!b->def.mesh || !world_is_kinematic(b)) {
             continue;
         }
-        drive = s->loading ? drive : b->extra->drive;
+        drive = s->loading ? drive : b->def.extra->drive;
         stream_drive(s, &drive);
         if (what == DRIVES_TAKE) {
-            b->extra->drive = drive;
-            b->goes = drive.kind != BODY_DRIVE_NONE;
+            b->def.extra->drive = drive;
+            b->def.goes = drive.kind != BODY_DRIVE_NONE;
         } else if (what == DRIVES_ASK) {
             s->failed |= !world_drive_plausible(b, &state->bodies[i], &drive);
         }
@@ -322,8 +323,8 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
         stream_16(s, &state->touching[i].b);
     }
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
-        if (w->bodies[i].mesh && w->bodies[i].mesh->surface) {
-            stream_surface(s, w->bodies[i].mesh);
+        if (w->bodies[i].def.mesh && w->bodies[i].def.mesh->surface) {
+            stream_surface(s, w->bodies[i].def.mesh);
         }
     }
     stream_drives(s, w, state, DRIVES_PASS);
@@ -399,7 +400,7 @@ static bool extras_suffice(const struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         const struct carom_forces f = world_forces_read(w, i);
 
-        missing += w->bodies[i].mesh && !w->bodies[i].extra && world_forces_need_extra(&f);
+        missing += w->bodies[i].def.mesh && !w->bodies[i].def.extra && world_forces_need_extra(&f);
     }
     return missing <= pool->size - pool->used;
 }
@@ -434,7 +435,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     }
     /* a step relies on what stands still being the same in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
-        if (good && w->bodies[i].mesh) {
+        if (good && w->bodies[i].def.mesh) {
             keep_filter(&w->bodies[i]);
             const struct carom_forces f = world_forces_read(w, i);
 

@@ -4,7 +4,7 @@
 
 struct pair world_name_pair(const struct carom_world *w, uint32_t i, uint32_t k)
 {
-    bool first = w->bodies[i].moving && (!w->bodies[k].moving || i > k);
+    bool first = w->bodies[i].def.moving && (!w->bodies[k].def.moving || i > k);
 
     return (struct pair){(uint16_t)(first ? i : k), (uint16_t)(first ? k : i)};
 }

@@ -13,7 +13,7 @@ static void find_islands(struct carom_world *w)
 
 static bool sleeps(const struct body *b, const struct body_state *s)
 {
-    return b->mesh && b->moving && s->asleep;
+    return b->def.mesh && b->def.moving && s->asleep;
 }
 
 /* Wake a body if it sleeps, and what is connected with it; islands must be known. */
@@ -22,11 +22,12 @@ static void wake_island(struct carom_world *w, struct body_state *states, uint32
     if (!sleeps(&w->bodies[body], &states[body])) {
         return;
     }
-    for (uint32_t i = w->bodies[body].island; i != ISLAND_END; i = w->bodies[i].next_in_island) {
+    for (uint32_t i = w->bodies[body].island.lowest; i != ISLAND_END;
+         i = w->bodies[i].island.next) {
         if (states[i].asleep) {
             states[i].asleep = states[i].quiet = 0;
             states[i].woken = 1;
-            w->bodies[i].woke = true;
+            w->bodies[i].clock.woke = true;
         }
     }
 }
@@ -63,7 +64,8 @@ void world_wake_around(struct carom_world *w, uint32_t body)
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
         const struct body *other = &w->bodies[i];
-        int32_t skin_q22 = b->skin_q22 > other->skin_q22 ? b->skin_q22 : other->skin_q22;
+        int32_t skin_q22 =
+            b->def.skin_q22 > other->def.skin_q22 ? b->def.skin_q22 : other->def.skin_q22;
 
         if (sleeps(other, &now->bodies[i]) && broad_may_touch(b, other) &&
             broad_near(b, &now->bodies[body], other, &now->bodies[i],

@@ -164,8 +164,8 @@ int carom_world_init(void *mem, size_t bytes, const struct carom_config *config,
 
 int world_set_mass(struct body *b, uint32_t mass_q20)
 {
-    int64_t mass_q32 = mass_q20 ? (int64_t)mass_q20 << 12 : b->mesh->mass.volume_q32;
-    const int32_t *inverse = b->mesh->inverse.m;
+    int64_t mass_q32 = mass_q20 ? (int64_t)mass_q20 << 12 : b->def.mesh->mass.volume_q32;
+    const int32_t *inverse = b->def.mesh->inverse.m;
 
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
@@ -198,21 +198,21 @@ static int make_body(struct body *b, struct body_state *s, const struct carom_bo
                               def->mesh->radius_q22 < BODY_RADIUS_MIN_Q22))) {
         return CAROM_ERR_RANGE;
     }
-    b->mesh = def->mesh;
-    b->user = def->user;
-    b->moving = b->goes = !def->stationary && !def->kinematic;
-    b->sensor = def->sensor;
-    b->one_way = (uint8_t)def->one_way & 7u;
+    b->def.mesh = def->mesh;
+    b->def.user = def->user;
+    b->def.moving = b->def.goes = !def->stationary && !def->kinematic;
+    b->def.sensor = def->sensor;
+    b->def.one_way = (uint8_t)def->one_way & 7u;
     world_filter(b, &def->filter);
-    b->restitution_q30 = def->restitution_q30;
-    b->friction_q16 = def->friction_q16;
-    b->radius_q22 = def->mesh->radius_q22;
+    b->def.restitution_q30 = def->restitution_q30;
+    b->def.friction_q16 = def->friction_q16;
+    b->def.radius_q22 = def->mesh->radius_q22;
     if (def->kinematic && !world_drive_in_range(b, &def->velocity, &def->spin)) {
         return CAROM_ERR_RANGE;
     }
-    if (b->moving) {
-        b->unit_bits = (int8_t)fix_bits((uint64_t)b->radius_q22);
-        b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
+    if (b->def.moving) {
+        b->def.unit_bits = (int8_t)fix_bits((uint64_t)b->def.radius_q22);
+        b->def.skin_q22 = b->def.radius_q22 >> 11 > 256 ? b->def.radius_q22 >> 11 : 256;
         if (!world_motion_in_range(b, &def->velocity, &def->spin)) {
             return CAROM_ERR_RANGE;
         }
@@ -257,15 +257,15 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
     if (pool_take(pool) < 0) {
         return CAROM_ERR_BODIES_FULL;
     }
-    while (place < w->body_count && w->bodies[place].mesh) {
+    while (place < w->body_count && w->bodies[place].def.mesh) {
         place++;
     }
     if (place == w->body_count) {
         w->body_count++;
     }
-    last = w->bodies[place].generation;
+    last = w->bodies[place].def.generation;
     w->bodies[place] = made;
-    w->bodies[place].generation = last < UINT16_MAX ? (uint16_t)(last + 1) : 1;
+    w->bodies[place].def.generation = last < UINT16_MAX ? (uint16_t)(last + 1) : 1;
     world_put(w, place, &state);
     if (def->kinematic) {
         struct body_drive drive = world_drive_on(&def->velocity, &def->spin);
@@ -273,11 +273,11 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
         world_extra(w, place)->kinematic = true;
         world_drive(w, place, &drive);
     }
-    if (made.mesh->surface) {
-        mesh_surface_halt(made.mesh->surface);
+    if (made.def.mesh->surface) {
+        mesh_surface_halt(made.def.mesh->surface);
     }
-    w->sensors = (uint16_t)(w->sensors + made.sensor);
-    w->passing |= made.sensor || made.one_way != CAROM_BOTH_WAYS;
+    w->sensors = (uint16_t)(w->sensors + made.def.sensor);
+    w->passing |= made.def.sensor || made.def.one_way != CAROM_BOTH_WAYS;
     if (def->overlap == CAROM_OVERLAP_PASS) {
         world_let_pass(w, place);
     }
@@ -288,7 +288,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
 void world_put(struct carom_world *w, uint32_t body, const struct body_state *state)
 {
     w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
-    w->bodies[body].standing = false;
+    w->bodies[body].search.standing = false;
     world_accelerate(w, body);
 }
 
@@ -324,11 +324,11 @@ int carom_body_remove(struct carom_world *w, int body)
     }
     interfere_forget_lists(&w->interfere);
     world_drop_through(w, s, (uint32_t)body);
-    w->sensors = (uint16_t)(w->sensors - w->bodies[body].sensor);
+    w->sensors = (uint16_t)(w->sensors - w->bodies[body].def.sensor);
     world_drop_extra(w, (uint32_t)body);
-    generation = w->bodies[body].generation;
+    generation = w->bodies[body].def.generation;
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    w->bodies[body].generation = generation; /* ids of it name no body from here on */
+    w->bodies[body].def.generation = generation; /* ids of it name no body from here on */
     for (int i = 0; i < 2; i++) {
         memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
     }
@@ -348,9 +348,9 @@ void world_motion(const struct body *b, const struct body_state *s, carom_v3_q40
 {
     carom_m3_q30 r;
 
-    if (world_is_kinematic(b) && b->extra->drive.kind == BODY_DRIVE_ON) {
-        *velocity = b->extra->drive.velocity;
-        *spin = b->extra->drive.spin;
+    if (world_is_kinematic(b) && b->def.extra->drive.kind == BODY_DRIVE_ON) {
+        *velocity = b->def.extra->drive.velocity;
+        *spin = b->def.extra->drive.spin;
         return;
     }
     fix_matrix(&r, &s->rotation);
@@ -389,16 +389,16 @@ int carom_body_look(const struct carom_world *w, int body, struct carom_body_loo
         return CAROM_ERR_BODY;
     }
     s = &world_now(w)->bodies[body];
-    out->mesh = w->bodies[body].mesh;
+    out->mesh = w->bodies[body].def.mesh;
     out->position = s->position;
     out->rotation = s->rotation;
-    out->moving = w->bodies[body].moving || world_is_kinematic(&w->bodies[body]);
+    out->moving = w->bodies[body].def.moving || world_is_kinematic(&w->bodies[body]);
     return CAROM_OK;
 }
 
 const struct carom_mesh *carom_body_mesh(const struct carom_world *w, int body)
 {
-    return w && world_find_body(w, &body) ? w->bodies[body].mesh : NULL;
+    return w && world_find_body(w, &body) ? w->bodies[body].def.mesh : NULL;
 }
 
 int carom_body_count(const struct carom_world *w)
@@ -433,14 +433,14 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
         return CAROM_ERR_ARGUMENT;
     }
     if (!world_position_in_range(&in->position) ||
-        (w->bodies[body].moving &&
+        (w->bodies[body].def.moving &&
          !world_motion_in_range(&w->bodies[body], &in->velocity, &in->spin)) ||
         (world_is_kinematic(&w->bodies[body]) &&
          !world_drive_in_range(&w->bodies[body], &in->velocity, &in->spin))) {
         return CAROM_ERR_RANGE;
     }
     state = world_now(w)->bodies[body];
-    if (!w->bodies[body].moving &&
+    if (!w->bodies[body].def.moving &&
         memcmp(&state.position, &in->position, sizeof state.position) == 0 &&
         memcmp(&state.rotation, &q, sizeof q) == 0) {
         lead_on(w, (uint32_t)body, in);
@@ -449,7 +449,7 @@ int carom_body_set(struct carom_world *w, int body, const struct carom_body_stat
     state.position = in->position;
     state.rotation = q;
     state.out = 0;
-    if (w->bodies[body].moving) {
+    if (w->bodies[body].def.moving) {
         world_set_motion(&w->bodies[body], &state, &in->velocity, &in->spin);
     }
     if (memcmp(&state.position, &world_now(w)->bodies[body].position, sizeof state.position) != 0 ||

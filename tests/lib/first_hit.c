@@ -244,7 +244,7 @@ static void go_to_hit(struct step *s, const struct first_hit_motion *motion,
     allowed += first_hit_speed(track) * ldexp(1, -29);
     step_close_window(s, 0, 0, window_end(s));
     for (uint32_t i = 0; i < 2; i++) {
-        s->w->bodies[i].member = true;
+        s->w->bodies[i].clock.member = true;
     }
     expect(step_search_members(s), "search");
     for (event = STEP_HIT; cut;) {

@@ -27,7 +27,7 @@ static struct first_hit_track track_of(const struct body *body, const struct bod
     for (int k = 0; k < 4; k++) {
         t.q[k] = lab_double(state->rotation.c[k], 30);
     }
-    t.radius = lab_double(body->radius_q22, 22);
+    t.radius = lab_double(body->def.radius_q22, 22);
     return t;
 }
 

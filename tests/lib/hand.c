@@ -14,8 +14,8 @@ static int64_t q40(double v)
 void hand_set_surface(double e, double mu)
 {
     for (int i = 0; i < HAND_BODIES; i++) {
-        hand.bodies[i].restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
-        hand.bodies[i].friction_q16 = (uint32_t)real_round(mu * 65536);
+        hand.bodies[i].def.restitution_q30 = (int32_t)real_round(e * CAROM_ONE_Q30);
+        hand.bodies[i].def.friction_q16 = (uint32_t)real_round(mu * 65536);
     }
 }
 
@@ -33,8 +33,8 @@ void hand_set_motion(int body, const double v[3], const double w[3])
 void hand_set_gravity(double x, double y, double z)
 {
     for (int i = 0; i < HAND_BODIES; i++) {
-        hand.bodies[i].acceleration = (carom_v3_q40){{q40(x), q40(y), q40(z)}};
-        hand.bodies[i].acceleration_q40 = fix_length(hand.bodies[i].acceleration.c);
+        hand.bodies[i].def.acceleration = (carom_v3_q40){{q40(x), q40(y), q40(z)}};
+        hand.bodies[i].def.acceleration_q40 = fix_length(hand.bodies[i].def.acceleration.c);
     }
 }
 
@@ -44,7 +44,7 @@ void hand_clear_contacts(void)
     hand.rest.sweeps = hand.rest.impacts = hand.rest.energy_rules = 0;
     for (int i = 0; i < HAND_BODIES; i++) {
         body_place(&hand.bodies[i], &hand.states[i]);
-        hand.bodies[i].in_contact = false;
+        hand.bodies[i].clock.in_contact = false;
     }
 }
 

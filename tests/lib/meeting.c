@@ -350,7 +350,7 @@ static void random_motion(struct meeting *m, struct test_random *r, const struct
         if (plan->turn) {
             random_vector(r, random_size(r, -9, -1), &w);
         }
-        if (m->body[s].moving) {
+        if (m->body[s].def.moving) {
             body_set_motion(&m->body[s], &m->state[s], &v, &w);
         }
     }
@@ -421,7 +421,8 @@ static long double path_length(const struct meeting *m)
             g[k] = fixed(path->g.c[k], 40);
             u[k] = fixed(path->u.c[k], 30);
         }
-        length += length_of(v) + length_of(g) + 2 * length_of(u) * fixed(m->body[s].radius_q22, 22);
+        length +=
+            length_of(v) + length_of(g) + 2 * length_of(u) * fixed(m->body[s].def.radius_q22, 22);
     }
     return length;
 }

@@ -176,15 +176,15 @@ void shape_body(const struct shape *s, bool moving, struct body *b, struct body_
     memset(b, 0, sizeof *b);
     memset(state, 0, sizeof *state);
     state->rotation.c[0] = CAROM_ONE_Q30;
-    b->category = 1;
-    b->mask = 0xffff;
-    b->mesh = &s->mesh;
-    b->moving = b->goes = moving;
-    b->radius_q22 = s->mesh.radius_q22;
+    b->def.category = 1;
+    b->def.mask = 0xffff;
+    b->def.mesh = &s->mesh;
+    b->def.moving = b->def.goes = moving;
+    b->def.radius_q22 = s->mesh.radius_q22;
     if (moving) {
         body_set_mass(b, fix_scale(s->mesh.mass.volume_q32, 32));
-        b->unit_bits = (int8_t)fix_bits((uint64_t)b->radius_q22);
-        b->skin_q22 = b->radius_q22 >> 11 > 256 ? b->radius_q22 >> 11 : 256;
+        b->def.unit_bits = (int8_t)fix_bits((uint64_t)b->def.radius_q22);
+        b->def.skin_q22 = b->def.radius_q22 >> 11 > 256 ? b->def.radius_q22 >> 11 : 256;
     }
     body_place(b, state);
 }

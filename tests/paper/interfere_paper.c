@@ -49,7 +49,7 @@ static bool vertex_counts(const struct carom_mesh *mesh, uint32_t v)
 static void visit_pair(struct paper_visitor *self, uint16_t face_a, uint16_t face_b)
 {
     struct interfere *w = ((struct gather *)self)->w;
-    const struct carom_mesh *ma = w->a->mesh, *mb = w->b->mesh;
+    const struct carom_mesh *ma = w->a->def.mesh, *mb = w->b->def.mesh;
 
     for (int i = 0; i < 3; i++) {
         uint32_t vertex_a = ma->raw.faces[face_a][i], vertex_b = mb->raw.faces[face_b][i];
@@ -73,12 +73,12 @@ static void visit_pair(struct paper_visitor *self, uint16_t face_a, uint16_t fac
 static void gather_pair(struct interfere *w)
 {
     struct body_sweep a, b;
-    struct paper_placed placed_a = {w->a->mesh, &a.end, {0, 0, 0}};
-    struct paper_placed placed_b = {w->b->mesh, &b.end, {0, 0, 0}};
+    struct paper_placed placed_a = {w->a->def.mesh, &a.end, {0, 0, 0}};
+    struct paper_placed placed_b = {w->b->def.mesh, &b.end, {0, 0, 0}};
     struct gather gather = {{visit_pair}, w};
 
-    body_region_sweep(&w->a->region, w->span.from_a_q30, w->span.time_q30, &a);
-    body_region_sweep(&w->b->region, w->span.from_b_q30, w->span.time_q30, &b);
+    body_region_sweep(&w->a->search.region, w->span.from_a_q30, w->span.time_q30, &a);
+    body_region_sweep(&w->b->search.region, w->span.from_b_q30, w->span.time_q30, &b);
     for (int k = 0; k < 3; k++) {
         int64_t at_q32 = b.at.c[k] - a.at.c[k] + ((b.way.c[k] - a.way.c[k]) >> 8);
 
