@@ -150,7 +150,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures zlists compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list the commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -191,7 +191,7 @@ test: ## every test, here and on a board, and a scene on every board; BOARD= all
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium \
 	    sdl2 xvfb xdotool
 	@tools/need npm:tools/web
-	@$(SUBMAKE) BOARD=host build/host/tests.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
+	@$(SUBMAKE) BOARD=host build/host/tests.elf build/host/zlists.elf $(HOST_TESTS) $(ACCURACY) $(WINDOW) build/tools/carom-mesh
 	@$(SUBMAKE) BOARD=host DEBUG=1 build/host-debug/tests.elf build/host-debug/host_fuzz.elf build/host-debug/host_replay.elf
 	@$(SUBMAKE) BOARD=mps2-an385 $(CORTEX_TESTS)
 	@$(if $(PAGE),$(SUBMAKE) BOARD=wasm $(PAGE))
@@ -263,6 +263,11 @@ figures: ## the paper's figures 6, 7 and 8, measured and drawn, to out/figures a
 	@$(MAKE) bench SCENES=$(subst $(space),$(comma),$(PAPER_SCENES))
 	@$(SUBMAKE) BOARD=host build/host/figures.elf
 	@tools/figures.py build/host/figures.elf
+
+zlists: ## the drawings of docs/z-lists.md, from a step of the head scene
+	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
+	@$(SUBMAKE) BOARD=host build/host/zlists.elf
+	@tools/zlists.py build/host/zlists.elf
 
 compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)
@@ -381,7 +386,9 @@ $(B)/figures.elf: $(call objects,examples/show.c)
 
 # What the page and the window show.
 VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)
-$(B)/host_view.elf $(B)/host_view_link.elf: $(VIEWER)
+$(B)/host_view.elf $(B)/host_view_link.elf $(B)/zlists.elf: $(VIEWER)
+# it looks at the gathers of the step
+$(B)/zlists.elf: private LDFLAGS += -Wl,--wrap=interfere_leaves
 
 # The page: one file with the module in it.
 $(B)/window.elf: $(call objects,port/sdl2/window.c port/sdl2/input.c) $(VIEWER) $(PROGRAM)
