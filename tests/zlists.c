@@ -59,8 +59,8 @@ static void meet(struct interfere *w, struct target *t)
     }
     step_meets(w, t);
     now.leaf = *w->leaf;
-    now.a = w->a->mesh;
-    now.b = w->b->mesh;
+    now.a = w->a->def.mesh;
+    now.b = w->b->def.mesh;
     now.met[t->number] = 1;
     now.found[t->number] = w->candidate_pool->used > before;
     now.candidates += w->candidate_pool->used - before;
