@@ -1,35 +1,27 @@
 /* SPDX-License-Identifier: MIT */
+#include "../num/sort.h"
 #include "contact.h"
 
 extern inline int contact_arm_bits(const struct body *b);
 extern inline carom_v3_q22 contact_arm(const struct contact *c);
 extern inline int32_t contact_arm_along(const struct contact *c, int k);
 
+static bool before(const void *contact, const void *key)
+{
+    return candidate_compare(&((const struct contact *)contact)->key, key) < 0;
+}
+
 /* The place in key order for a candidate; sets *same when it is there already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {
-    uint32_t low = 0, high = list->pool->used;
+    uint32_t used = list->pool->used, place = used;
 
-    *same = false;
-    /* pairs come in their order where a frame begins */
-    if (high > 0 && candidate_compare(&list->contacts[high - 1].key, key) < 0) {
-        return high;
+    /* pairs come in their order where a frame begins: most belong at the end */
+    if (used == 0 || !before(&list->contacts[used - 1], key)) {
+        place = sort_lower_bound(list->contacts, used, sizeof *list->contacts, key, before);
     }
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        int order = candidate_compare(&list->contacts[middle].key, key);
-
-        if (order == 0) {
-            *same = true;
-            return middle;
-        }
-        if (order < 0) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
+    *same = place < used && candidate_compare(&list->contacts[place].key, key) == 0;
+    return place;
 }
 
 /*

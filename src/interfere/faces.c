@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The list of interfering faces, its order, and the order of candidates. */
+#include "../num/sort.h"
 #include "narrow.h"
 
 /*
@@ -27,40 +28,14 @@ static uint32_t face_key(struct carom_face_ref f)
     return (uint32_t)f.body << 16 | f.face;
 }
 
-static void sift_down(struct carom_face_ref *heap, uint32_t at, uint32_t n)
-{
-    struct carom_face_ref moving = heap[at];
-
-    while (2 * at + 1 < n) {
-        uint32_t child = 2 * at + 1;
-
-        if (child + 1 < n && face_key(heap[child]) < face_key(heap[child + 1])) {
-            child++;
-        }
-        if (face_key(heap[child]) <= face_key(moving)) {
-            break;
-        }
-        heap[at] = heap[child];
-        at = child;
-    }
-    heap[at] = moving;
-}
+SORT_DEFINE(sort_faces, struct carom_face_ref, face_key)
 
 void interfere_finish(struct interfere *w)
 {
     struct carom_face_ref *f = w->faces;
     uint32_t n = w->face_pool->used, kept = 0;
 
-    for (uint32_t i = n / 2; i-- > 0;) {
-        sift_down(f, i, n);
-    }
-    for (uint32_t end = n; end-- > 1;) {
-        struct carom_face_ref top = f[0];
-
-        f[0] = f[end];
-        f[end] = top;
-        sift_down(f, 0, end);
-    }
+    sort_faces(f, n);
     for (uint32_t i = 0; i < n; i++) {
         if (kept == 0 || face_key(f[i]) != face_key(f[kept - 1])) {
             f[kept++] = f[i];
@@ -72,21 +47,19 @@ void interfere_finish(struct interfere *w)
     }
 }
 
+static bool face_before(const void *record, const void *key)
+{
+    return face_key(*(const struct carom_face_ref *)record) <
+           face_key(*(const struct carom_face_ref *)key);
+}
+
 /* True if the sorted list contains the face. */
 static bool has_face(const struct interfere *w, struct carom_face_ref face)
 {
-    uint32_t low = 0, high = w->face_pool->used;
+    uint32_t used = w->face_pool->used;
+    uint32_t place = sort_lower_bound(w->faces, used, sizeof *w->faces, &face, face_before);
 
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-
-        if (face_key(w->faces[middle]) < face_key(face)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low < w->face_pool->used && face_key(w->faces[low]) == face_key(face);
+    return place < used && face_key(w->faces[place]) == face_key(face);
 }
 
 /* True if the face is one of the last LAST_FACES in the list. */

@@ -1,7 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 #include "broad.h"
+#include "../num/sort.h"
 
 extern inline bool broad_active(const struct body *b, const struct body_state *s);
+
+static bool before(const void *record, const void *key)
+{
+    const struct pair *p = record, *q = key;
+
+    return p->a < q->a || (p->a == q->a && p->b < q->b);
+}
+
+uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uint32_t b)
+{
+    const struct pair key = {(uint16_t)a, (uint16_t)b};
+
+    return sort_lower_bound(list, count, sizeof *list, &key, before);
+}
 
 /* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
 static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)

@@ -18,23 +18,7 @@ struct pair {
 };
 
 /* Where a pair is in a list, which is in order, or belongs. */
-static inline uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a,
-                                      uint32_t b)
-{
-    uint32_t low = 0, high = count;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        const struct pair *at = &list[middle];
-
-        if (at->a < a || (at->a == a && at->b < b)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
+uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uint32_t b);
 
 /* What a step keeps of a pair while its bodies are near each other. */
 struct pair_work {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Impulses kept from frame to frame, and where the next solve starts from. */
+#include "../num/sort.h"
 #include "parts.h"
 
 /*
@@ -45,22 +46,18 @@ bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts)
     return rest_warm_parts(w).normal_q40 == parts->normal_q40;
 }
 
+static bool before(const void *record, const void *key)
+{
+    const struct rest_warm *w = record;
+    const struct pair *p = key;
+
+    return w->a < p->a || (w->a == p->a && w->b < p->b);
+}
+
 /* Where the impulses of a pair begin: they are in the order of pairs. */
 static uint32_t first_warm(const struct rest *r, const struct pair *p)
 {
-    uint32_t low = 0, high = r->warm_count;
-
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        const struct rest_warm *w = &r->warm[middle];
-
-        if (w->a < p->a || (w->a == p->a && w->b < p->b)) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
+    return sort_lower_bound(r->warm, r->warm_count, sizeof *r->warm, p, before);
 }
 
 /* The largest difference of two places along an axis, or `enough` when one is as large as that. */
