@@ -20,7 +20,7 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
     if (used == 0 || !before(&list->contacts[used - 1], key)) {
         place = sort_lower_bound(list->contacts, used, sizeof *list->contacts, key, before);
     }
-    *same = place < used && candidate_compare(&list->contacts[place].key, key) == 0;
+    *same = place < used && candidate_equal(&list->contacts[place].key, key);
     return place;
 }
 
@@ -274,46 +274,41 @@ void contact_merge(struct contact_list *list)
     }
 }
 
-/* Where the contacts of a pair begin and end. */
-static uint32_t range_of(const struct contact_list *list, uint16_t pair, uint32_t *end)
+struct contact_range contact_of_pair(const struct contact_list *list, uint16_t pair)
 {
     const struct candidate least = {pair, 0, 0, 0};
     bool same;
     uint32_t first = find_place(list, &least, &same);
 
-    *end = first;
-    while (*end < list->pool->used && list->contacts[*end].key.pair == pair) {
-        ++*end;
-    }
-    return first;
+    return (struct contact_range){first, contact_pair_end(list, pair, first)};
 }
 
 void contact_drop_pair(struct contact_list *list, uint16_t pair)
 {
-    uint32_t end, first = range_of(list, pair, &end);
+    struct contact_range own = contact_of_pair(list, pair);
 
-    memmove(&list->contacts[first], &list->contacts[end],
-            (list->pool->used - end) * sizeof *list->contacts);
-    list->pool->used -= end - first;
+    memmove(&list->contacts[own.first], &list->contacts[own.end],
+            (list->pool->used - own.end) * sizeof *list->contacts);
+    list->pool->used -= own.end - own.first;
 }
 
 void contact_doubt_pair(struct contact_list *list, uint16_t pair)
 {
-    uint32_t end, first = range_of(list, pair, &end);
+    struct contact_range own = contact_of_pair(list, pair);
 
-    for (uint32_t i = first; i < end; i++) {
+    for (uint32_t i = own.first; i < own.end; i++) {
         list->contacts[i].doubted = true;
     }
 }
 
 bool contact_has_pair(const struct contact_list *list, uint16_t pair)
 {
-    uint32_t end, first = range_of(list, pair, &end);
+    struct contact_range own = contact_of_pair(list, pair);
 
-    while (first < end && list->contacts[first].doubted) {
-        first++;
+    while (own.first < own.end && list->contacts[own.first].doubted) {
+        own.first++;
     }
-    return first < end;
+    return own.first < own.end;
 }
 
 void contact_drop_doubted(struct contact_list *list)

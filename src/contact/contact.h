@@ -237,7 +237,7 @@ inline int32_t contact_arm_along(const struct contact *c, int k)
 {
     int down = contact_arm_bits(c->side[0].body) - 22;
 
-    return (int32_t)(((int64_t)c->side[0].arm_q30[k] + ((int64_t)1 << down >> 1)) >> down);
+    return (int32_t)fix_round(c->side[0].arm_q30[k], down);
 }
 
 inline carom_v3_q22 contact_arm(const struct contact *c)
@@ -322,6 +322,21 @@ void contact_merge(struct contact_list *list);
  * others. Returns how many are left, at the beginning.
  */
 uint32_t contact_thin(struct contact *contacts, uint32_t n);
+
+/* The contacts of a pair follow each other: they are at first .. end - 1. */
+struct contact_range {
+    uint32_t first, end;
+};
+struct contact_range contact_of_pair(const struct contact_list *list, uint16_t pair);
+/* The end of the contacts of a pair that begin at `first`. */
+static inline uint32_t contact_pair_end(const struct contact_list *list, uint16_t pair,
+                                        uint32_t first)
+{
+    while (first < list->pool->used && list->contacts[first].key.pair == pair) {
+        first++;
+    }
+    return first;
+}
 
 /* Take out the contacts of a pair. */
 void contact_drop_pair(struct contact_list *list, uint16_t pair);

@@ -3,6 +3,7 @@
  * Can two features of faces near each other touch? Tests each by its place (beside, above) and by
  * the normal cones (paper, section 2).
  */
+#include "../num/plane.h"
 #include "narrow.h"
 
 static struct interfere_vec difference(const struct interfere_vec *a, const struct interfere_vec *b)
@@ -16,20 +17,15 @@ static struct interfere_vec difference(const struct interfere_vec *a, const stru
 static bool stays_beside(const struct interfere_leaf *l, const struct interfere_vec *p,
                          const struct interfere_vec *const t[3], const int32_t n[3])
 {
-    int32_t x = fix_abs32(n[0]), y = fix_abs32(n[1]), z = fix_abs32(n[2]);
-    int axis = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
-    int i = axis == 2 ? 0 : axis + 1, j = i == 2 ? 0 : i + 1;
+    const int axis = plane_axis(n), i = fix_next(axis), j = fix_next(i);
+    const int32_t reach[2] = {l->reach.c[i], l->reach.c[j]};
 
     for (int k = 0; k < 3; k++) {
         const int32_t *from = t[k]->c, *to = t[k == 2 ? 0 : k + 1]->c;
-        int32_t ex = to[i] - from[i], ey = to[j] - from[j];
-        int64_t inside = (int64_t)ex * (p->c[j] - from[j]) - (int64_t)ey * (p->c[i] - from[i]);
+        const int32_t edge[2] = {to[i] - from[i], to[j] - from[j]};
+        const int32_t off[2] = {p->c[i] - from[i], p->c[j] - from[j]};
 
-        if (n[axis] < 0) {
-            inside = -inside;
-        }
-        if (inside <
-            -((int64_t)fix_abs32(ex) * l->reach.c[j] + (int64_t)fix_abs32(ey) * l->reach.c[i])) {
+        if (plane_outside(edge, off, reach, n[axis] < 0)) {
             return true;
         }
     }

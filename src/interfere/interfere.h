@@ -43,6 +43,10 @@ struct candidate {
 
 /* Order of candidates, hits and contacts: by pair, kind, i, j. Negative when a comes first. */
 int candidate_compare(const struct candidate *a, const struct candidate *b);
+static inline bool candidate_equal(const struct candidate *a, const struct candidate *b)
+{
+    return a->j == b->j && a->i == b->i && a->kind == b->kind && a->pair == b->pair;
+}
 
 /* Receives every candidate of a gather, in one or more chunks. */
 struct candidate_visitor {

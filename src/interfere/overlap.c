@@ -8,6 +8,7 @@
  * few units of q20. A pair is dropped only if some direction separates it by more than that, so no
  * crossing pair is lost, however thin.
  */
+#include "../num/plane.h"
 #include "narrow.h"
 
 /* Margin when boxes of bodies are compared, q22: more than all truncation here. */
@@ -403,20 +404,6 @@ static bool place_probe(carom_v3_q22 *out, struct interfere_placed a, struct int
     return true;
 }
 
-/*
- * 1 if a point is left of an edge seen from above, else -1. A point on the edge's line counts as
- * shifted a little along x, and far less along y, the same for all edges: so no vertical line slips
- * between two faces or meets both. Bounds: lengths are below 2^30, products below 2^62.
- */
-static int side_of(const carom_v3_q22 *from, const carom_v3_q22 *to, const carom_v3_q22 *p)
-{
-    int64_t ex = (int64_t)to->c[0] - from->c[0], ey = (int64_t)to->c[1] - from->c[1];
-    int64_t left = ex * ((int64_t)p->c[1] - from->c[1]) - ey * ((int64_t)p->c[0] - from->c[0]);
-
-    left = left != 0 ? left : ey != 0 ? -ey : ex;
-    return left > 0 ? 1 : -1;
-}
-
 /* For a face above the point: 1 if it looks up, -1 if it looks down. 0 for any other face. */
 static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v3_q22 *p)
 {
@@ -431,8 +418,8 @@ static int face_over(const struct carom_mesh *mesh, uint16_t face, const carom_v
             corner[k].c[i] = quanta[i] * ((int32_t)1 << (22 - mesh->raw.quantum_bits));
         }
     }
-    side = side_of(&corner[0], &corner[1], p);
-    if (side_of(&corner[1], &corner[2], p) != side || side_of(&corner[2], &corner[0], p) != side) {
+    side = plane_over(corner[0].c, corner[1].c, corner[2].c, p->c);
+    if (side == 0) {
         return 0;
     }
     for (int k = 0; k < 3; k++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Questions about a mesh that several stages ask. */
+#include "../num/plane.h"
 #include "build.h"
 
 extern inline bool mesh_vertex_cone(const struct carom_mesh *mesh, uint32_t v,
@@ -10,9 +11,8 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
                     int32_t tolerance_q22)
 {
     const int32_t *n = mesh->faces[face].normal.c;
-    int32_t nx = fix_abs32(n[0]), ny = fix_abs32(n[1]), nz = fix_abs32(n[2]);
-    int axis = nx > ny ? (nx > nz ? 0 : 2) : (ny > nz ? 1 : 2);
-    int x = axis == 2 ? 0 : axis + 1, y = axis == 0 ? 2 : axis - 1;
+    const int axis = plane_axis(n), x = fix_next(axis), y = fix_next(x);
+    const int32_t reach[2] = {tolerance_q22, tolerance_q22};
     int32_t one = (int32_t)1 << (22 - mesh->raw.quantum_bits);
     int32_t px = p->c[x] + mesh->mass.centre.c[x], py = p->c[y] + mesh->mass.centre.c[y];
     const uint16_t *corner = mesh->raw.faces[face];
@@ -21,11 +21,10 @@ bool mesh_over_face(const struct carom_mesh *mesh, uint32_t face, const carom_v3
     /* edges in quanta, so that the products need no more than 48 bits */
     for (int k = 0; k < 3; k++) {
         const int16_t *to = mesh->raw.vertices[corner[k]];
-        int32_t ex = to[x] - from[x], ey = to[y] - from[y];
-        int64_t side = (int64_t)ex * (py - from[y] * one) - (int64_t)ey * (px - from[x] * one);
+        const int32_t edge[2] = {to[x] - from[x], to[y] - from[y]};
+        const int32_t off[2] = {px - from[x] * one, py - from[y] * one};
 
-        if ((n[axis] > 0 ? side : -side) <
-            -(int64_t)(fix_abs32(ex) + fix_abs32(ey)) * tolerance_q22) {
+        if (plane_outside(edge, off, reach, n[axis] <= 0)) {
             return false;
         }
         from = to;

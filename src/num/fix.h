@@ -136,6 +136,12 @@ inline int64_t fix_shift(int64_t v, int s)
     return s < 0 ? v >> -s : carom_shl(v, s);
 }
 
+/* carom_round that takes s = 0, too. */
+inline int64_t fix_round(int64_t v, int s)
+{
+    return (v + ((int64_t)1 << s >> 1)) >> s;
+}
+
 /* v 2^s, to nearest when s is negative, whatever s; the result must fit. */
 int64_t fix_round_shift(int64_t v, int s);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* fnv - 64-bit FNV-1a, a hash of bytes. */
+/* fnv - FNV-1a, a hash of bytes, of 64 and of 32 bits. */
 #ifndef CAROM_SRC_FNV_H
 #define CAROM_SRC_FNV_H
 
@@ -10,6 +10,13 @@
 static inline uint64_t fnv_add(uint64_t hash, uint8_t byte)
 {
     return (hash ^ byte) * 0x100000001b3u;
+}
+
+#define FNV32_START 0x811c9dc5u
+
+static inline uint32_t fnv32_add(uint32_t hash, uint8_t byte)
+{
+    return (hash ^ byte) * 0x01000193u;
 }
 
 #endif

@@ -18,6 +18,7 @@ extern inline int64_t fix_mul(int64_t a, int32_t b, int s);
 extern inline int64_t fix_mul_q30(int64_t a, int32_t b);
 extern inline int64_t fix_dot_q30(const int64_t v[3], const int32_t d_q30[3]);
 extern inline int64_t fix_shift(int64_t v, int s);
+extern inline int64_t fix_round(int64_t v, int s);
 extern inline uint64_t fix_sum(const int64_t v[3]);
 extern inline void fix_cross(int64_t out[3], const int32_t a[3], const int32_t b[3]);
 extern inline void fix_sym3_dot(int64_t out[3], const int32_t m[6], const int32_t v[3]);

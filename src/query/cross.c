@@ -4,6 +4,7 @@
  * rounded once, to integers as fine as 30 bits allow; b's vertices are integers there. From then on
  * everything is exact: signs of volumes and areas decide, and touching counts.
  */
+#include "../num/plane.h"
 #include "cross.h"
 
 typedef struct interfere_vec place;
@@ -226,29 +227,12 @@ void cross_begin(struct cross *c, struct interfere_placed a, struct interfere_pl
 
 /* ------------------------------------------------------------------ containment */
 
-/*
- * The side of the line from-to, seen from above, on which p lies. A p on the line counts as moved a
- * little along x, and far less along y, the same for all edges.
- */
-static int beside(const place *from, const place *to, const place *p)
-{
-    int side = side_of_line((struct seen){0, 1}, from, to, p);
-
-    if (side == 0) {
-        side = sign_of((int64_t)from->c[1] - to->c[1]);
-    }
-    return side != 0 ? side : sign_of((int64_t)to->c[0] - from->c[0]);
-}
-
 /* For a triangle above p: 1 if it looks up, -1 if it looks down. 0 for any other. */
 static int is_over(const place t[3], const place *p)
 {
-    int side = beside(&t[0], &t[1], p);
+    int side = plane_over(t[0].c, t[1].c, t[2].c, p->c);
 
-    if (beside(&t[1], &t[2], p) != side || beside(&t[2], &t[0], p) != side) {
-        return 0;
-    }
-    return side_of_plane(&t[0], &t[1], &t[2], p) == -side ? side : 0;
+    return side != 0 && side_of_plane(&t[0], &t[1], &t[2], p) == -side ? side : 0;
 }
 
 /* Winding number: upward minus downward faces above p, over all faces of a or b. */

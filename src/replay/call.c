@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Calls as bytes: one description of each call serves the writer and the reader. */
+#include "../num/fnv.h"
 #include "call.h"
 
 /* ------------------------------------------------------------------- numbers */
@@ -330,7 +331,7 @@ void replay_keep(struct carom_replay_memory *m, const uint8_t *bytes, size_t siz
 uint32_t replay_sum(uint32_t sum, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        sum = (sum ^ bytes[i]) * 0x01000193u;
+        sum = fnv32_add(sum, bytes[i]);
     }
     return sum;
 }

@@ -88,7 +88,6 @@ uint32_t replay_find(const struct carom_replay_memory *m, const uint8_t *bytes, 
 void replay_follow(struct carom_replay_memory *m, uint32_t slot);
 void replay_keep(struct carom_replay_memory *m, const uint8_t *bytes, size_t size);
 
-#define REPLAY_SUM_START 0x811c9dc5u
 /* 32-bit FNV-1a of a file's bytes. */
 uint32_t replay_sum(uint32_t sum, const uint8_t *bytes, size_t count);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Playing: make the calls of a file again and compare the results. No byte of the file is trusted. */
+#include "../num/fnv.h"
 #include "play.h"
 
 static bool next_is(const struct carom_replay *p, uint8_t token)
@@ -184,7 +185,7 @@ static int perform_new(struct carom_replay *p, uint8_t op)
 /* Check that the end fits the file. */
 static int end(struct carom_replay *p)
 {
-    const uint32_t sum = replay_sum(REPLAY_SUM_START, p->file, p->bytes >= 4 ? p->bytes - 4 : 0);
+    const uint32_t sum = replay_sum(FNV32_START, p->file, p->bytes >= 4 ? p->bytes - 4 : 0);
     struct replay_coder c = play_rest(p);
     const uint64_t frames = replay_fixed(&c, 0, 4), hash = replay_fixed(&c, 0, 8);
     const uint64_t wanted = replay_fixed(&c, 0, 4);

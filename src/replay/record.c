@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Recording: write each call and its result as it is made. */
+#include "../num/fnv.h"
 #include "record.h"
 
 /* ------------------------------------------------------------------ what is written */
@@ -258,7 +259,7 @@ int carom_record_begin(struct carom_record *r, carom_record_write *write, void *
     r->write = write;
     r->user = user;
     r->stages = stages;
-    r->sum = REPLAY_SUM_START;
+    r->sum = FNV32_START;
     while (note && length < REPLAY_NOTE_MAX && note[length] != 0) {
         length++;
     }

@@ -65,6 +65,12 @@ inline struct contact *rest_contact(const struct rest *r, uint32_t i)
     return &r->list.contacts[r->list.contacts[r->first + i].order];
 }
 
+/* True if contact n is there and belongs to the pair of contact i. */
+static inline bool rest_same_pair(const struct rest *r, uint32_t i, uint32_t n)
+{
+    return n < r->count && rest_contact(r, n)->key.pair == rest_contact(r, i)->key.pair;
+}
+
 /* Whether one body moves in the island, or two. */
 static inline bool rest_up_to_two(const struct rest *r)
 {
@@ -102,9 +108,10 @@ static inline uint32_t rest_add(int32_t *v, int32_t change)
 
 static inline int32_t turn_by(const struct contact_lever *lever, int k, const int32_t own[3], int s)
 {
-    return (int32_t)(((int64_t)lever->turn[0][k] * own[0] + (int64_t)lever->turn[1][k] * own[1] +
-                      (int64_t)lever->turn[2][k] * own[2] + ((int64_t)1 << s >> 1)) >>
-                     s);
+    return (int32_t)fix_round((int64_t)lever->turn[0][k] * own[0] +
+                                  (int64_t)lever->turn[1][k] * own[1] +
+                                  (int64_t)lever->turn[2][k] * own[2],
+                              s);
 }
 
 /* By how many bits products of turn and an impulse with so many fractional bits are finer than du. */

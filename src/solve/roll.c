@@ -23,16 +23,10 @@
 /* Rolling down the arm is whole at the speed that gravity gives in so many frames. */
 #define ROLL_FRAMES 2
 
-/* Whether contact n is of the pair of contact i. */
-static bool same_pair(const struct rest *r, uint32_t i, uint32_t n)
-{
-    return n < r->count && rest_contact(r, n)->key.pair == rest_contact(r, i)->key.pair;
-}
-
 /* Whether contact i is the first of its pair. */
 static bool leads(const struct rest *r, uint32_t i)
 {
-    return i == 0 || !same_pair(r, i, i - 1);
+    return i == 0 || !rest_same_pair(r, i, i - 1);
 }
 
 /*
@@ -44,7 +38,7 @@ static bool may_roll(const struct rest *r, uint32_t i)
 {
     uint32_t all = 0, pressed = 0;
 
-    for (uint32_t n = i; same_pair(r, i, n); n++) {
+    for (uint32_t n = i; rest_same_pair(r, i, n); n++) {
         all++;
         pressed += rest_contact(r, n)->work->normal_impulse > 0;
     }
@@ -73,7 +67,7 @@ static bool rolls_up(const struct rest *r, uint32_t i)
 {
     bool up = false;
 
-    for (uint32_t n = i; same_pair(r, i, n); n++) {
+    for (uint32_t n = i; rest_same_pair(r, i, n); n++) {
         const struct contact *c = rest_contact(r, n);
 
         if (c->work->normal_impulse > 0) {
@@ -255,7 +249,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
     int64_t pressure = 0, next[3], spin[3] = {roll->spin[0], roll->spin[1], roll->spin[2]};
     int32_t change[3], limit, moved;
 
-    for (uint32_t n = i; same_pair(r, i, n); n++) {
+    for (uint32_t n = i; rest_same_pair(r, i, n); n++) {
         pressure += rest_contact(r, n)->work->normal_impulse;
     }
     for (int s = 0; s < 2; s++) {

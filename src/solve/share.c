@@ -13,13 +13,12 @@
 /* True if the contact's pair rests on a face: it has three contacts in the island. */
 static bool on_face(const struct rest *r, uint32_t i)
 {
-    uint16_t pair = rest_contact(r, i)->key.pair;
     uint32_t first = i;
 
-    while (first > 0 && first + 2 > i && rest_contact(r, first - 1)->key.pair == pair) {
+    while (first > 0 && first + 2 > i && rest_same_pair(r, i, first - 1)) {
         first--;
     }
-    return first + 2 < r->count && rest_contact(r, first + 2)->key.pair == pair;
+    return rest_same_pair(r, i, first + 2);
 }
 
 /* True if `sign` other is as good a normal of the contact. */

@@ -81,21 +81,26 @@ void step_ask_contacts(struct step *s, bool members)
 {
     struct carom_world *w = s->w;
     const struct contact_list *list = &w->rest.list;
-    uint32_t i = 0, first = 0; /* of the pair at hand */
+    uint32_t first = 0; /* contact of the pair at hand */
 
-    while (i < list->pool->used) {
-        uint16_t pair = list->contacts[i].key.pair;
-        const struct pair *p = &w->pairs[pair];
+    while (first < list->pool->used) {
+        uint16_t number = list->contacts[first].key.pair;
+        const struct pair *p = &w->pairs[number];
+        uint32_t i = first, end = contact_pair_end(list, number, first);
 
-        first = i == 0 || list->contacts[i - 1].key.pair != pair ? i : first;
-        if ((!members || w->bodies[p->a].clock.member || w->bodies[p->b].clock.member) &&
-            !ask(s, &list->contacts[i])) {
-            w->meetings[pair].passes = true;
-            w->meetings[pair].hit_q30 = PAIRS_NEVER;
-            contact_drop_pair(&w->rest.list, pair);
-            i = first;
+        if (members && !w->bodies[p->a].clock.member && !w->bodies[p->b].clock.member) {
+            first = end;
             continue;
         }
-        i++;
+        while (i < end && ask(s, &list->contacts[i])) {
+            i++;
+        }
+        if (i == end) {
+            first = end;
+        } else {
+            w->meetings[number].passes = true;
+            w->meetings[number].hit_q30 = PAIRS_NEVER;
+            contact_drop_pair(&w->rest.list, number);
+        }
     }
 }

@@ -82,9 +82,7 @@ static void thin_out(struct step *s)
         uint16_t pair = list->contacts[i].key.pair;
         uint32_t n;
 
-        for (end = i; end < list->pool->used && list->contacts[end].key.pair == pair;) {
-            end++;
-        }
+        end = contact_pair_end(list, pair, i);
         n = s->w->meetings[pair].hits > 0 ? end - i : contact_thin(&list->contacts[i], end - i);
         if (kept < i) {
             memmove(&list->contacts[kept], &list->contacts[i], n * sizeof *list->contacts);
@@ -106,12 +104,11 @@ int step_settle_contacts(struct step *s, bool members)
         step_ask_contacts(s, members);
     }
     w->stats.contacts = list->pool->used;
-    for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK; i++) {
+    for (uint32_t i = 0; i < list->pool->used && result == CAROM_OK;) {
         uint16_t pair = list->contacts[i].key.pair;
 
-        if (i == 0 || list->contacts[i - 1].key.pair != pair) {
-            result = step_note_touching(s, &w->pairs[pair]);
-        }
+        result = step_note_touching(s, &w->pairs[pair]);
+        i = contact_pair_end(list, pair, i);
     }
     step_mark(w, CAROM_STAGE_CONTACT);
     return result;

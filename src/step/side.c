@@ -38,14 +38,17 @@ void step_drop_other_side(struct step *s, uint32_t number)
 {
     struct contact_list *list = &s->w->rest.list;
     const struct pair *p = &s->w->pairs[number];
-    uint32_t kept = 0;
+    struct contact_range own = contact_of_pair(list, (uint16_t)number);
+    uint32_t kept = own.first;
 
-    for (uint32_t i = 0; i < list->pool->used; i++) {
+    for (uint32_t i = own.first; i < own.end; i++) {
         struct contact *c = &list->contacts[i];
 
-        if (c->key.pair != number || c->doubted || step_solid_along(s, p, &c->normal, s->now_q30)) {
+        if (c->doubted || step_solid_along(s, p, &c->normal, s->now_q30)) {
             list->contacts[kept++] = *c;
         }
     }
-    list->pool->used = kept;
+    memmove(&list->contacts[kept], &list->contacts[own.end],
+            (list->pool->used - own.end) * sizeof *list->contacts);
+    list->pool->used -= own.end - kept;
 }
