@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a failed assertion of a debug build of the engine (CAROM_DEBUG) does: say so and leave. */
+/* A failed assertion of a debug build of the engine (CAROM_DEBUG): print it and leave. */
 #include "port.h"
 
 _Noreturn void carom_assert_failed(const char *text, const char *file, int line);

@@ -18,12 +18,10 @@ struct port_fb {
     int32_t width, height;
     int32_t stride; /* bytes a row */
     uint8_t format; /* enum port_pixels, the same numbers as enum carom_pixel_format */
-    /*
-     * The row function of struct carom_picture, for a display that is sent rows and keeps them; else NULL.
-     */
+    /* The row function of struct carom_picture, for a display that is sent rows and keeps them; otherwise NULL. */
     void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
     void (*palette)(
-        const uint32_t rgb[256]); /* sets what PORT_PALETTE8 shows; NULL: it cannot be set */
+        const uint32_t rgb[256]); /* sets the palette of PORT_PALETTE8; NULL: it is fixed */
 };
 
 /* Bring up clock, timer and display. Called once, first. */
@@ -32,7 +30,7 @@ void port_init(void);
 /* The framebuffer to draw into. */
 struct port_fb port_fb(void);
 
-/* Show what is in the framebuffer, or was drawn in rows, and return when it may be drawn into again. */
+/* Show the framebuffer, or the rows that were drawn. Returns when it may be drawn into again. */
 void port_present(void);
 
 /* A free-running counter that wraps at 2^32, and its rate. */
@@ -40,8 +38,8 @@ uint32_t port_ticks(void);
 extern const uint32_t port_ticks_hz;
 
 /*
- * Instructions that passed in `ticks` ticks: exact where an emulator counts instructions and its
- * timer is fast enough, 0 where that is not known. On the host ticks are nanoseconds and this is 0.
+ * Instructions executed in `ticks` ticks: exact if an emulator counts instructions and its timer is fast enough; 0 if unknown. On the
+ * host ticks are nanoseconds, and this is 0.
  */
 uint32_t port_instructions(uint32_t ticks);
 
@@ -49,12 +47,12 @@ uint32_t port_instructions(uint32_t ticks);
 void port_putc(char c);
 
 /*
- * printf over port_putc, in every port, with the conversions %s %d %u %x %ld %lu %lx and, before them, a
- * least number of digits: %08lx.
+ * printf over port_putc, the same in every port, with the conversions %s %d %u %x %ld %lu %lx and, before them, a least number of digits:
+ * %08lx.
  */
 void port_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Pad bits, of what is held; 0 where there is none. */
+/* Keys of the pad that are held; 0 without a pad. */
 enum port_pad {
     PORT_PAD_A = 1,
     PORT_PAD_B = 2,
@@ -68,27 +66,25 @@ enum port_pad {
 uint32_t port_input(void);
 
 /*
- * The n-th argument of the program, n = 0 being its name; NULL past the last, and for all of a program
- * that nobody gave any: one that is switched on, not run.
+ * The n-th argument of the program; n = 0 is its name. NULL past the last one, and for all n of a program that is switched on, not run.
  */
 const char *port_arg(int n);
 
 /*
- * The value of the first argument of the form name=value, or NULL. The same on every board, over
- * port_arg. A port itself knows one option: `pictures` asks it to let pictures out of port_present,
- * in a way that the board's folder describes.
+ * The value of the first argument of the form name=value, or NULL. It works over port_arg, the same on every board. A port itself
+ * knows one option, `pictures`: port_present then outputs pictures, in a way that the board's folder describes.
  */
 const char *port_option(const char *name);
-/* The same as a decimal number; `otherwise` without such an argument. */
+/* The same as a decimal number; `otherwise` if there is no such argument. */
 uint32_t port_number(const char *name, uint32_t otherwise);
 
 /*
- * A whole file that the board can read (semihosting, host): up to `max` bytes into `buffer`.
- * Returns the bytes read, or -1 where there is no such file or there are no files.
+ * Read a whole file (semihosting, host): up to `max` bytes into `buffer`. Returns the bytes read; -1 if there is no such file, or
+ * there are no files.
  */
 long port_read_file(const char *name, void *buffer, size_t max);
 
-/* Bytes of stack that were in use at most so far; 0 where that is not known. */
+/* Most bytes of stack that were in use so far; 0 if unknown. */
 uint32_t port_stack(void);
 
 /* Leave with an exit status. */

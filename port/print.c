@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What programs here print, on every board, straight to its console: a C library's own printf wants a
- * heap, and even its snprintf more memory than the smallest board has to spare.
+ * Printing on every board, straight to its console. A C library's printf needs a heap, and even its snprintf more memory than the smallest
+ * board can spare.
  */
 #include <stdarg.h>
 #include <stdbool.h>

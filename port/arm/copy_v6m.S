@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * memcpy for a processor that cannot read words at odd places (ARMv6-M): by words where both ends allow it.
- * The small C library's goes byte by byte.
+ * memcpy for a processor that cannot read words at odd addresses (ARMv6-M): by words where both addresses allow it. The small C
+ * library copies byte by byte.
  */
     .syntax unified
     .cpu cortex-m0
@@ -18,7 +18,7 @@ __aeabi_memcpy:
 __aeabi_memcpy4:
     .thumb_func
 __aeabi_memcpy8:
-    mov ip, r0      /* what is returned */
+    mov ip, r0      /* the result */
     movs r3, r0
     orrs r3, r1
     lsls r3, #30

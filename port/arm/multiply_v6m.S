@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The 64-bit product of a processor that multiplies 32 bits by 32 into 32 (ARMv6-M, Cortex-M0), which
- * is nearly all that the engine's arithmetic costs there: 24 instructions and no memory where libgcc
- * takes 41.
+ * The 64-bit product for a processor that multiplies 32 x 32 bits into 32 (ARMv6-M, Cortex-M0). The engine's arithmetic there
+ * costs nearly nothing else: 24 instructions and no memory; libgcc takes 41.
  *
  * (r1:r0) * (r3:r2), modulo 2^64, to r1:r0. Of the lower words a = a1:a0 and b = b1:b0, in halves,
  *
@@ -25,7 +24,7 @@ __muldi3:
     muls r1, r2
     muls r3, r0
     adds r1, r3
-    mov ip, r1      /* what the upper words add: no other register is free */
+    mov ip, r1      /* the part of the upper words: no other register is free */
     lsrs r3, r0, #16
     lsrs r1, r2, #16
     muls r1, r3     /* a1 b1 */
@@ -36,7 +35,7 @@ __muldi3:
     muls r1, r0     /* a0 b1 */
     muls r3, r2     /* a1 b0 */
     muls r2, r0     /* a0 b0 */
-    adds r3, r1     /* the middle, and its carry, which movs leaves alone */
+    adds r3, r1     /* the middle; movs keeps its carry */
     movs r1, #0
     adcs r1, r1
     lsls r1, #16

@@ -4,7 +4,7 @@
 
 #include "port.h"
 
-/* It counts down and has 24 bits. */
+/* The timer. It counts down and has 24 bits. */
 struct systick {
     uint32_t control, reload, value;
 };
@@ -24,8 +24,8 @@ void systick_start(void)
 }
 
 /*
- * What has passed since the call before, modulo 2^24, is added: right as long as no 2^24 ticks pass
- * between two calls. Every stage of a step calls.
+ * Add the ticks since the last call, modulo 2^24: right if fewer than 2^24 ticks pass between two calls. Every stage of a step
+ * calls.
  */
 uint32_t port_ticks(void)
 {

@@ -3,7 +3,7 @@
 #ifndef CAROM_PORT_ARM_SYSTICK_H
 #define CAROM_PORT_ARM_SYSTICK_H
 
-/* Let it run; port_ticks is in systick.c. */
+/* Start the timer; port_ticks is in systick.c. */
 void systick_start(void);
 
 #endif

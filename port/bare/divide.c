@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The 64-bit quotients of a processor that divides 32 bits by 32 at best (ARMv6-M, MIPS I), in place of libgcc's,
- * which finds one bit at a time, or is for a later processor.
+ * 64-bit quotients for a processor that divides 32 bits by 32 at best (ARMv6-M, MIPS I). libgcc's find one bit at a time, or are
+ * for a later processor.
  */
 #include <stdint.h>
 
 uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *rest);
 int64_t __gnu_ldivmod_helper(int64_t n, int64_t d, int64_t *rest);
 
-/* Two digits of 16 bits by one, d having its highest bit set; the rest is below d, and so is n's upper word. */
+/* Divide two digits of 16 bits by one. The highest bit of d is set; the rest and n's upper word are below d. */
 static uint32_t divide_digit(uint32_t *rest, uint32_t next, uint32_t d)
 {
     uint32_t q = *rest / (d >> 16), r = *rest - q * (d >> 16);
 
-    /* as d's lower digit was left out, q is too large by two at most: 2^16 + 1, and the product fits */
+    /* d's lower digit was left out, so q is too large by at most two: 2^16 + 1, and the product fits */
     while (q * (d & 0xffff) > (r << 16 | next)) {
         q--;
         r += d >> 16;
@@ -41,8 +41,8 @@ static uint32_t divide_words(uint32_t high, uint32_t low, uint32_t d)
 }
 
 /*
- * By 33 bits or more: half of n by the upper 32 of them, which is right or one too many when it is brought
- * back, so one is taken off and the rest tells.
+ * Divide by 33 bits or more. Half of n by the upper 32 bits of d is right or one too many when it is scaled back; so take one
+ * off, and the rest shows which.
  */
 static uint32_t divide_by_wide(uint64_t n, uint64_t d)
 {
@@ -75,7 +75,7 @@ uint64_t __udivmoddi4(uint64_t n, uint64_t d, uint64_t *rest)
     return q;
 }
 
-/* The helper of __aeabi_ldivmod, whose rest has the sign of n. */
+/* The helper of __aeabi_ldivmod. The rest has the sign of n. */
 int64_t __gnu_ldivmod_helper(int64_t n, int64_t d, int64_t *rest)
 {
     uint64_t r, size = n < 0 ? 0 - (uint64_t)n : (uint64_t)n;

@@ -87,12 +87,12 @@ long port_read_file(const char *name, void *buffer, size_t max)
     if (file == -1) {
         return -1;
     }
-    left = semihost_call(SYS_READ, block); /* the bytes that were not read */
+    left = semihost_call(SYS_READ, block); /* bytes that were not read */
     semihost_close(file);
     return (long)((intptr_t)max - left);
 }
 
-/* Put the arguments of a command line one behind the other, each ended by a zero; returns how many. */
+/* Put the arguments of a command line one after the other, each ended by a zero. Returns how many there are. */
 static int split(char *line)
 {
     char *end = line;

@@ -2,8 +2,8 @@
 /*
  * semihost.h - semihosting: the debugger or emulator does input and output for the program.
  *
- * semihost.c gives a bare board the console, arguments, files and exit status of port.h; what is
- * below is for the boards' own use.
+ * semihost.c gives a bare board the console, arguments, files and exit status of port.h. The functions below are for the boards
+ * themselves.
  */
 #ifndef CAROM_PORT_BARE_SEMIHOST_H
 #define CAROM_PORT_BARE_SEMIHOST_H
@@ -11,15 +11,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/*
- * The trap itself, which a family of processors brings: an operation on a block or a string; returns
- * its result.
- */
+/* The trap, which a family of processors defines: an operation on a block or a string. Returns its result. */
 intptr_t semihost_call(intptr_t operation, const void *block);
 
 /*
- * What port_present does on a board whose display the runner can photograph: with the option
- * pictures=..., print the line "picture" and wait for a character from the console.
+ * port_present of a board whose display the runner can photograph: with the option pictures=..., print the line "picture" and wait
+ * for a character from the console.
  */
 void semihost_picture(void);
 

@@ -12,7 +12,7 @@ extern char data_load[], data_start[], data_end[], bss_start[], bss_end[];
 extern char stack_bottom[], stack_top[];
 int main(void);
 
-/* What is painted and stays so was never in use. */
+/* Paint the stack: bytes that keep the paint were never in use. */
 uint32_t port_stack(void)
 {
     const volatile char *low = stack_bottom;

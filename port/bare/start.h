@@ -5,13 +5,13 @@
 
 #include <stdint.h>
 
-/* Fill memory, run main, leave with its status. The stack is set before. */
+/* Fill memory, run main, leave with its status. The stack is set already. */
 _Noreturn void start(void);
 
-/* Where a Cortex-M's vectors lead: a board's own function that ends in start(), else start() itself. */
+/* The reset vector of a Cortex-M: a board's own function that ends in start(), or start() itself. */
 _Noreturn void reset(void);
 
-/* Say where the processor stopped and leave with status 125. */
+/* Print where the processor stopped and leave with status 125. */
 _Noreturn void fault(uint32_t address);
 
 #endif

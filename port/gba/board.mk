@@ -2,8 +2,8 @@
 # Game Boy Advance in mGBA: ARM7TDMI, 240 x 160. The .gba files are what an emulator plays.
 CROSS := arm-none-eabi-
 NEED := arm newlib cc libc mgba
-# no scheduling: a load takes as long wherever it stands, and fewer registers are spilled; no loops written
-# out: fast.ld's functions must fit the RAM
+# no scheduling: a load takes the same time anywhere, and fewer registers are spilled; no unrolled loops: the functions of
+# fast.ld must fit the RAM
 ARCH := -mcpu=arm7tdmi -marm -mthumb-interwork -fno-schedule-insns -fno-schedule-insns2 -DFIX_UNROLL=
 PORT := port/gba/gba.c port/gba/memory.c port/gba/start.S port/bare/arguments.c port/newlib/syscalls.c port/bare/start.c
 FAMILY_LDFLAGS := --specs=nano.specs -Wl,--wrap=carom_draw_changes

@@ -2,10 +2,9 @@
 /*
  * Game Boy Advance: ARM7TDMI at 16.78 MHz, 240 x 160 pixels of 15 bits, ten keys.
  *
- * The console is the debug port of the emulator mGBA; on anything else what is printed is lost. A
- * line goes out in pieces, because mGBA cuts long ones; port_exit logs the status as an error and
- * stops. Arguments stand in the image (bare/arguments.c). With the option pictures=..., port_present prints
- * the line "picture" and lets two frames pass, in which the runner takes the picture.
+ * The console is the debug port of the emulator mGBA; on anything else its output is lost. A line goes out in pieces, because mGBA
+ * cuts long ones. port_exit logs the status as an error and stops. Arguments stand in the image (bare/arguments.c). With the
+ * option pictures=..., port_present prints the line "picture" and lets two frames pass, in which the runner takes the picture.
  */
 #include <string.h>
 
@@ -40,7 +39,7 @@ const uint32_t port_ticks_hz = 16777216;
 
 _Noreturn void gba_start(void);
 
-/* What start() does not know of: the code that runs from RAM, memcpy among it, and the wide RAM. */
+/* Memory that start() does not know: the code that runs from RAM, memcpy among it, and the wide RAM. */
 _Noreturn void gba_start(void)
 {
     WAIT_CONTROL = CARTRIDGE_FASTEST;
@@ -66,7 +65,7 @@ struct port_fb port_fb(void)
     return fb;
 }
 
-/* Until the last line is out; the next one begins a millisecond later. */
+/* Wait until the last line is out; the next one begins a millisecond later. */
 static void wait_for_blank(void)
 {
     while (DISPLAY_LINE >= HEIGHT) {
@@ -84,12 +83,12 @@ void port_present(void)
     }
 }
 
-/* Cycles: two timers of 16 bits, the second counting the first's turns. */
+/* Cycles: two timers of 16 bits; the second counts the wraps of the first. */
 uint32_t port_ticks(void)
 {
     uint32_t high = TIMER_COUNT(1), low = TIMER_COUNT(0), again = TIMER_COUNT(1);
 
-    /* the first may have turned in between: a small count belongs to the later reading */
+    /* the first may have wrapped in between: a small count belongs to the later reading */
     return (low < 0x8000 ? again : high) << 16 | low;
 }
 
@@ -126,7 +125,7 @@ void port_putc(char c)
     }
 }
 
-/* The keys as the hardware numbers them, a set bit for one that is held. */
+/* The keys as the hardware numbers them; a set bit is a held key. */
 uint32_t port_input(void)
 {
     return ~KEYS & 0x3ff;

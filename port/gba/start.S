@@ -2,8 +2,8 @@
 /*
  * The head of a Game Boy Advance cartridge, and the way from it to start().
  *
- * The place of the logo is empty: it is not ours to hand out. Emulators start without it; a console
- * wants it, and the check sum after it, which cartridge tools fill in (gbafix).
+ * The place of the logo is empty, because we may not hand it out. Emulators start without it; a console needs it and the check sum
+ * after it, which cartridge tools fill in (gbafix).
  */
     .section .vectors, "ax"
     .arm
@@ -20,7 +20,7 @@ reset:
     .byte 0                   /* check sum, by a cartridge tool */
     .space 2
 
-/* Interrupts are never enabled; the processor starts in system mode, whose stack is the only one. */
+/* Interrupts are never enabled. The processor starts in system mode, and uses no other stack. */
     .section .text, "ax"
 go:
     mov r0, #0x1f

@@ -2,11 +2,10 @@
 /*
  * The host: a framebuffer in memory; ticks are nanoseconds.
  *
- * With the option pictures=DIRECTORY, port_present writes the framebuffer as
- * DIRECTORY/frame-0001.png and so on.
+ * With the option pictures=DIRECTORY, port_present writes the framebuffer as DIRECTORY/frame-0001.png and so on.
  *
- * With press=N:KEYS,... the pad holds KEYS, a sum of enum port_pad, from the N-th time on that it is asked: a
- * program asks once a frame.
+ * With press=N:KEYS,... the pad holds KEYS, a sum of enum port_pad, from the N-th query on; a program queries the pad once a
+ * frame.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <png.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What Linux gives a program on any processor by the C library alone: a console, files, a way out. */
+/* Linux programs on any processor, over the C library alone: a console, files, a way out. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ enum { ARGUMENTS_MAX = 64, PAINT = 0xa5, PAINT_BYTES = 65536 };
 
 static uintptr_t paint_start;
 
-/* The array goes when this returns; what is called later has its stack in the same memory. */
+/* The array is gone when this returns; later calls have their stack in the same memory. */
 __attribute__((noinline)) static void paint_stack(void)
 {
     volatile uint8_t area[PAINT_BYTES];
@@ -20,7 +20,7 @@ __attribute__((noinline)) static void paint_stack(void)
     paint_start = (uintptr_t)area;
 }
 
-/* What is painted and stays so was never in use. */
+/* Bytes that keep the paint were never in use. */
 uint32_t port_stack(void)
 {
     const volatile uint8_t *low = (const volatile uint8_t *)paint_start;
@@ -43,7 +43,7 @@ void port_putc(char c)
     putchar(c);
 }
 
-/* main takes no arguments on any board; Linux keeps them, each ended by a zero, in a file. */
+/* main takes no arguments on any board; Linux keeps them in a file, each ended by a zero. */
 const char *port_arg(int n)
 {
     static char text[4096];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Executed instructions of a Linux program under tools/count.c, which leaves its count in memory that
- * both can see. Read there it is exact: no call is made and no clock is asked.
+ * Executed instructions of a Linux program under tools/count.c, which leaves its count in shared memory. Reading it there is exact:
+ * it makes no call and asks no clock.
  */
 #define _DEFAULT_SOURCE
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 #include "count.h"
 #include "port.h"
 
-const uint32_t port_ticks_hz = 1000000000; /* of no meaning: a tick is an instruction */
+const uint32_t port_ticks_hz = 1000000000; /* unused: a tick is an instruction */
 
 struct port_fb port_fb(void)
 {
@@ -22,7 +22,7 @@ void port_present(void)
 {
 }
 
-/* The low half of the count, which the machine that emulates keeps little-endian. */
+/* The low half of the count. The emulating machine keeps it little-endian. */
 uint32_t port_ticks(void)
 {
     static const volatile uint8_t *count;

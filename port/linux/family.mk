@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Other processors' Linux programs under QEMU's user mode, with the instructions that they execute counted.
+# Linux programs of other processors under QEMU's user mode, which counts their instructions.
 HOSTED := 1
 PORT += port/linux/console.c port/linux/counter.c
 FAMILY_LDFLAGS := -static

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Luminary's LM3S6965 evaluation board: Cortex-M3 at 50 MHz; an OLED of 128 x 64 pixels in 16 greys,
- * whose controller, an SSD0323, hangs on a serial bus.
+ * Luminary's LM3S6965 evaluation board: Cortex-M3 at 50 MHz; an OLED of 128 x 64 pixels in 16 greys, whose controller, an SSD0323,
+ * is on a serial bus.
  *
  * With the option pictures=..., the runner photographs the OLED at every frame (semihost.h).
  */
@@ -26,7 +26,7 @@ enum { WIDTH = 128, HEIGHT = 64 };
 #define PIN_CLOCKS    REGISTER(0x400fe108)
 #define PINS_A_C_D    13u
 
-/* Eight pins to a port; each has a data address of its own. */
+/* A port has eight pins; each pin has its own data address. */
 #define PORT_A           0x40004000u
 #define PORT_C           0x40006000u
 #define PORT_D           0x40007000u
@@ -34,8 +34,8 @@ enum { WIDTH = 128, HEIGHT = 64 };
 #define PIN_OUT(port)    REGISTER((port) + 0x400u)
 #define PIN_SERIAL(port) REGISTER((port) + 0x420u)
 #define PIN_ON(port)     REGISTER((port) + 0x51cu)
-#define IS_DATA          7 /* of C: what is sent is pixels and not a command */
-#define CARD_OFF         0 /* of D: the memory card, which is on the same bus, does not listen */
+#define IS_DATA          7 /* pin of port C: the bytes are pixels, not commands */
+#define CARD_OFF         0 /* pin of port D: the memory card, on the same bus, does not listen */
 
 struct serial {
     uint32_t frame, control, data, status, prescale;
@@ -66,7 +66,7 @@ static void send(uint8_t byte)
     while (SERIAL->status & SERIAL_BUSY) {
         /* A byte takes two microseconds. */
     }
-    (void)SERIAL->data; /* what came back, or the bus stops when it has room for no more */
+    (void)SERIAL->data; /* read the answer, or the bus stops when its buffer is full */
 }
 
 static void command(uint8_t byte)

@@ -5,7 +5,7 @@ ARCH := -mcpu=cortex-m3 -mthumb
 PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an385
 ICOUNT_SHIFT := 10
-# Loops unrolled for head at 15 frames a second; `make bench` counts at -O2.
+# Unrolled loops, for scene head at 15 frames a second. `make bench` counts at -O2.
 OPT := -O2 -funroll-loops
 CPU := Cortex-M3
 CLOCK_MHZ := 25

@@ -9,6 +9,6 @@ ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an386
 ICOUNT_SHIFT := 10
-# Loops unrolled for head at 15 frames a second.
+# Unrolled loops, for scene head at 15 frames a second.
 OPT := -O2 -funroll-loops
 PICTURES := 0

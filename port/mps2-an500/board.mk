@@ -9,6 +9,6 @@ ARCH := -mcpu=cortex-m7 -mthumb -mfloat-abi=soft
 PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M mps2-an500
 ICOUNT_SHIFT := 10
-# For head at 15 frames a second.
+# For scene head at 15 frames a second.
 OPT := -O3 -funroll-loops
 PICTURES := 0

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * ARM's MPS2 boards with a Cortex-M (application notes 385, 386, 500): no display that QEMU models,
- * so there is a framebuffer only when pictures of it are to be written (picture.h).
+ * ARM's MPS2 boards with a Cortex-M (application notes 385, 386, 500). QEMU models no display of theirs, so there is a
+ * framebuffer only when pictures are written (picture.h).
  */
 #include "picture.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * channel.h - the console of a Nintendo DS that is run by tools/retro_nds.c, in the pixels of its lower screen.
+ * channel.h - the console of a Nintendo DS under tools/retro_nds.c, in the pixels of its lower screen.
  *
- * A pixel holds 15 bits, red in the lowest. The rows from 1 on are a ring of characters, one a pixel. Row 0,
- * which is shown first, holds a mark, how many characters have been written, and at last the exit
- * status: what it counts is below it in the same frame.
+ * A pixel holds 15 bits, red in the lowest. The rows from 1 on are a ring of characters, one a pixel. Row 0 is shown first. It
+ * holds a mark, the count of characters written, and at last the exit status; the characters that it counts are below it in the
+ * same frame.
  */
 #ifndef CAROM_PORT_NDS_CHANNEL_H
 #define CAROM_PORT_NDS_CHANNEL_H
@@ -16,7 +16,7 @@ enum {
     CHANNEL_COUNT_AT = 1,
     CHANNEL_STATUS_AT = 2,
     CHANNEL_MARK = 0x2ca5,
-    CHANNEL_ENDED = 0x4000 /* beside the status */
+    CHANNEL_ENDED = 0x4000 /* added to the status */
 };
 
 #endif

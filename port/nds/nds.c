@@ -2,9 +2,9 @@
 /*
  * Nintendo DS: ARM946E-S at 67 MHz, two screens of 256 x 192 pixels of 15 bits, a pad.
  *
- * The upper screen shows a bank of memory as it is; pictures go there. The lower one is the console: a page of text, or,
- * for a program that was given arguments, the channel by which a runner reads it (channel.h). Then, with the option
- * pictures=..., port_present prints the line "picture" and lets a frame pass, which the runner takes.
+ * The upper screen shows a bank of memory, which holds the picture. The lower one is the console: a page of text, or, for a program
+ * with arguments, the channel that a runner reads (channel.h). Then, with the option pictures=..., port_present prints the
+ * line "picture" and lets a frame pass, which the runner takes.
  */
 #include <stdbool.h>
 
@@ -34,11 +34,11 @@ enum { WIDTH = 256, HEIGHT = 192 };
 #define POWER               REGISTER16(0x04000304)
 
 #define SHOW_BANK_A    0x00020000
-#define SHOW_BITMAP    0x00010805 /* background 3 as a bitmap that may be turned */
+#define SHOW_BITMAP    0x00010805 /* background 3 as a bitmap that can be rotated */
 #define BITMAP_15      0x4084     /* 256 x 256 pixels of 16 bits, from the start of the bank */
 #define BANK_PLAIN     0x80
 #define BANK_LOWER     0x84
-#define POWER_2D       0x8203 /* both screens and what draws them, the first to the upper one */
+#define POWER_2D       0x8203 /* both screens, and the engine that draws the upper one */
 #define ONE            0x100
 #define OPAQUE         0x8000
 #define TIMER_RUNS     0x80
@@ -47,7 +47,7 @@ enum { WIDTH = 256, HEIGHT = 192 };
 #define UPPER ((volatile uint16_t *)0x06800000)
 #define LOWER ((volatile uint16_t *)0x06200000)
 
-/* Twice what the timers count, which is the bus's half of the processor's rate. */
+/* Twice the rate of the timers, which count at the bus's half of the processor's rate. */
 const uint32_t port_ticks_hz = 67027964;
 
 static void fill(volatile uint16_t *pixels, int32_t rows)
@@ -88,7 +88,7 @@ struct port_fb port_fb(void)
     return fb;
 }
 
-/* Until the last line is out; the next frame begins four milliseconds later. */
+/* Wait until the last line is out; the next frame begins four milliseconds later. */
 static void wait_for_blank(void)
 {
     while (DISPLAY_LINE >= HEIGHT) {
@@ -97,7 +97,7 @@ static void wait_for_blank(void)
     }
 }
 
-/* What was in memory when this was called was shown whole. */
+/* Wait until the memory of this moment has been shown whole. */
 static void show_frame(void)
 {
     wait_for_blank();
@@ -112,12 +112,12 @@ void port_present(void)
     }
 }
 
-/* Two timers of 16 bits, the second counting the first's turns. */
+/* Two timers of 16 bits; the second counts the wraps of the first. */
 uint32_t port_ticks(void)
 {
     uint32_t high = TIMER_COUNT(1), low = TIMER_COUNT(0), again = TIMER_COUNT(1);
 
-    /* the first may have turned in between: a small count belongs to the later reading */
+    /* the first may have wrapped in between: a small count belongs to the later reading */
     return ((low < 0x8000 ? again : high) << 16 | low) << 1;
 }
 
@@ -134,7 +134,7 @@ static bool has_runner(void)
     return port_arg(0) != NULL;
 }
 
-/* By the channel. Before the ring turns over what is in it, it was shown. */
+/* Write to the channel. Wait, so that the ring is shown before it is overwritten. */
 static void send(char c)
 {
     static uint32_t count, seen;
@@ -149,7 +149,7 @@ static void send(char c)
     LOWER[CHANNEL_MARK_AT] = OPAQUE | CHANNEL_MARK;
 }
 
-/* A line of text below the last one; a page that is full begins again. */
+/* Write a line below the last one; a full page begins again. */
 static void write_line(const char *line)
 {
     static int32_t y;
@@ -191,7 +191,7 @@ void port_putc(char c)
     }
 }
 
-/* The keys as the hardware numbers them, a set bit for one that is held. */
+/* The keys as the hardware numbers them; a set bit is a held key. */
 uint32_t port_input(void)
 {
     return ~KEYS & 0x3ff;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start() on a Nintendo DS's ARM946E-S: caches, the two RAMs of the processor (ITCM for code,
- * DTCM for the stack) and its vectors. Nothing is taken for granted of what the loader left.
+ * From the loader to start() on a Nintendo DS's ARM946E-S: caches, the two RAMs of the processor (ITCM for code, DTCM for the
+ * stack) and its vectors. It relies on nothing that the loader left.
  */
     .section .vectors, "ax"
     .arm
@@ -11,7 +11,7 @@ reset:
     .space 60                 /* the room for arguments comes next (bare/arguments.c), at 64 */
 
     .section .text, "ax"
-/* What stands at address 0, where the ITCM is: every exception is a fault. */
+/* The code at address 0, where the ITCM is: every exception is a fault. */
 vectors:
     .rept 8
     ldr pc, handler
@@ -32,7 +32,7 @@ go:
     mov r0, #0xdf             /* system mode, no interrupts */
     msr cpsr_c, r0
 
-    /* what the data cache still holds of the image goes to memory: 32 lines of each of 4 sets */
+    /* write back what the data cache still holds of the image: 32 lines of each of 4 sets */
     mov r1, #0
 1:  mov r2, #0
 2:  orr r3, r1, r2

@@ -6,7 +6,7 @@ CLOCK_MHZ := 168
 SCENES := head:60 head450:60 box:60
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
-# Loops unrolled: a tenth faster, and the flash is there.
+# Unrolled loops: a tenth faster, and the flash has room.
 OPT := -O2 -funroll-loops
 PORT := port/netduinoplus2/netduino.c port/bare/picture.c port/arm/cortex_m.c
 QEMU := qemu-system-arm -M netduinoplus2

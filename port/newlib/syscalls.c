@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The few system calls that newlib asks for, over the port's functions.
+ * The system calls that newlib needs, over the port's functions.
  *
- * The heap has no bytes: _sbrk always refuses. snprintf of newlib nano works without one. Its
- * printf does not: it allocates the standard streams and writes through the NULL that it gets. So
- * there is no _write or _read here, and a program that uses printf fails to link instead of
- * overwriting memory; programs use snprintf and port_putc.
+ * There is no heap: _sbrk always refuses. snprintf of newlib nano works without one. Its printf does not: it allocates the standard
+ * streams and writes through the NULL that it gets. So there is no _write or _read here, and a program that uses printf fails
+ * to link instead of overwriting memory. Programs use snprintf and port_putc.
  */
 #include <errno.h>
 #include <stdint.h>
 
 #include "port.h"
 
-/* picolibc is of newlib's kin, and asks for these without the first character. */
+/* picolibc, a relative of newlib, needs these without the first character. */
 #ifdef __PICOLIBC__
 #define _sbrk   sbrk
 #define _getpid getpid

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What the engine and the scenes use of a C library, for processors that come without one. */
+/* The functions of a C library that the engine and the scenes use, for processors without a library. */
 #include <stdint.h>
 #include <string.h>
 
-/* Byte by byte through volatile, or the compiler would make calls of them to themselves. */
+/* Byte by byte through volatile, or the compiler would turn the loops into calls of these functions. */
 void *memmove(void *to, const void *from, size_t bytes)
 {
     volatile uint8_t *out = to;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Of <string.h>, what string.c has. */
+/* The part of <string.h> that string.c defines. */
 #ifndef CAROM_PORT_NOLIBC_STRING_H
 #define CAROM_PORT_NOLIBC_STRING_H
 

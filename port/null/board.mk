@@ -1,3 +1,3 @@
 # SPDX-License-Identifier: MIT
-# Compiles everywhere, does nothing. A board that runs bare also has linker/BOARD.ld.
+# A board that compiles everywhere and does nothing. A bare board also has linker/BOARD.ld.
 PORT := port/null/null.c

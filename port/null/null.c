@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The port that does nothing: copy this folder to bring up a board, and fill in what it has. What is weak gives way
- * to a function of the board's family: take the word away with what you fill in.
+ * The port that does nothing. To bring up a board, copy this folder and fill in what the board has. A weak function gives way to one
+ * of the board's family: remove WEAK from each function that you fill in.
  */
 #include "port.h"
 
@@ -68,6 +68,6 @@ WEAK _Noreturn void port_exit(int status)
 {
     (void)status;
     for (;;) {
-        /* A board without a way out stays here. */
+        /* a board without a way out stays here */
     }
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The paper's machine with an ARM9 of the same kind in its place, in QEMU's user mode (see port/paper-mips).
+# The paper's machine with an ARM9 in place of its processor, in QEMU's user mode (see port/paper-mips).
 CPU := ARM926EJ-S
 DISPLAY := none
 MIPS := 16.02

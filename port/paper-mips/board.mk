@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The processor of the paper's machine, an R3000 (MIPS I, big-endian), in QEMU's user mode. Measured
-# was what the machine did: 0.24 s for what took 3.84 million instructions; a 60 Hz frame of it is 267,000.
+# The processor of the paper's machine, an R3000 (MIPS I, big-endian), in QEMU's user mode. The machine took 0.24 s for 3.84
+# million instructions; a 60 Hz frame of it is 267,000.
 CPU := R3000, big-endian
 DISPLAY := none
 MIPS := 16.02

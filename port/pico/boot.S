@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What stands first in the flash: 256 bytes that the RP2040's boot ROM copies into RAM and runs, if the
- * last four are the check sum of the others (tools/uf2.py asks). They set up the memory-mapped
- * reading of the flash, which the ROM leaves off, and start what follows.
+ * The first 256 bytes of the flash. The RP2040's boot ROM copies them into RAM and runs them if the last four are the check sum
+ * of the others (tools/uf2.py checks it). They set up the memory-mapped reading of the flash, which the ROM leaves off, and start what
+ * follows.
  *
- * Any serial flash knows the command 03h: read, at an address of 24 bits. The datasheet's section 4.10
- * describes the interface.
+ * Any serial flash knows the command 03h: read, at an address of 24 bits. The datasheet's section 4.10 describes the interface.
  */
     .syntax unified
     .cpu cortex-m0plus
@@ -27,7 +26,7 @@ loader:
     str r1, [r0, #SSIENR]   /* off, while it changes */
     movs r1, #4
     str r1, [r0, #BAUDR]    /* a quarter of the system's clock: 31 MHz at 125; flashes take 50 */
-    ldr r1, =0x001f0300     /* one data line, words of 32 bits; a command, then as many bits as come back */
+    ldr r1, =0x001f0300     /* one data line, words of 32 bits; after a command as many bits come back */
     str r1, [r0, #CTRLR0]
     movs r1, #0
     str r1, [r0, #CTRLR1]   /* one word a command */
@@ -45,6 +44,6 @@ loader:
     .balign 4
     .pool
     .org 252
-    .word 0x983e81ee /* the check sum; tools/uf2.py says what it is to be */
+    .word 0x983e81ee /* the check sum; tools/uf2.py says what it must be */
 
     .section .note.GNU-stack, "", %progbits

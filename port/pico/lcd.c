@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The display's controller, Sitronix' ST7789, on SPI 1 at 62.5 MHz, the fastest that it takes. Of two rows
- * one is drawn while the other goes out by direct memory access.
+ * The display's controller, Sitronix' ST7789, on SPI 1 at 62.5 MHz, its fastest rate. There are two rows: one is drawn while direct
+ * memory access sends the other.
  */
 #include "lcd.h"
 
@@ -44,9 +44,9 @@ static struct {
     uint16_t rows[2][LCD_SIDE];
     uint32_t woken_us;
     bool is_on;
-    int drawn;              /* the row that is being drawn, or NOTHING; below, where it is to be */
+    int drawn;              /* the row that is being drawn, or NOTHING; its place follows */
     int32_t x0, x1, y;      /* its pixels */
-    int32_t from, to, next; /* columns of the window, and the row that it goes on with */
+    int32_t from, to, next; /* columns of the window, and its next row */
 } lcd;
 
 static void wait_us(uint32_t since_us, uint32_t us)
@@ -55,14 +55,14 @@ static void wait_us(uint32_t since_us, uint32_t us)
     }
 }
 
-/* Until the last bit is out. */
+/* Wait until the last bit is out. */
 static void drain(void)
 {
     while (DMA_START & DMA_BUSY || SPI_STATUS & SPI_BUSY) {
     }
 }
 
-/* Words of so many bits, once all before is out: the same wire says which of commands and data they are. */
+/* Set the word size, once all bits before are out. One wire tells commands from data. */
 static void prepare(uint32_t bits, bool is_data)
 {
     drain();
@@ -142,7 +142,7 @@ static void set_range(uint32_t which, int32_t first, int32_t last)
     send((uint32_t)last);
 }
 
-/* A window from the row at hand down: those below it go on without another. */
+/* Open a window from this row down; the rows below go on without another. */
 static void set_window(void)
 {
     set_range(COLUMNS, lcd.x0, lcd.x1 - 1);

@@ -7,13 +7,13 @@
 
 #define LCD_SIDE 240
 
-/* Begin to wake the display, which takes it 120 ms. */
+/* Begin to wake the display, which takes 120 ms. */
 void lcd_wake(void);
 
-/* Wait for that and turn it on, unless it is. */
+/* Wait for that and turn the display on, unless it is on. */
 void lcd_turn_on(void);
 
-/* The row function of port_fb: sends the row before while this one is drawn. */
+/* The row function of port_fb: sends the previous row while this one is drawn. */
 void *lcd_row(void *context, int32_t x0, int32_t x1, int32_t y);
 
 /* Send the last row and return when the display has it. */

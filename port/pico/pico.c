@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Raspberry Pi Pico with Waveshare's Pico-LCD-1.3 on it: an RP2040, of whose two Cortex-M0+ one works, at
- * 125 MHz; a display of 240 x 240 pixels (lcd.c), a stick and four keys.
+ * Raspberry Pi Pico with Waveshare's Pico-LCD-1.3: an RP2040 at 125 MHz, which uses one of its two Cortex-M0+; a display of
+ * 240 x 240 pixels (lcd.c), a stick and four keys.
  *
- * The console is UART 0 at 115200 baud, on pins 0 and 1. It ends with the character EOT and the exit
- * status as another. Arguments stand in the image (bare/arguments.c). With the option pictures=...,
- * port_present prints the line "picture" when the display has all of one.
+ * The console is UART 0 at 115200 baud, on pins 0 and 1. It ends with the character EOT and then the exit status as a
+ * character. Arguments stand in the image (bare/arguments.c). With the option pictures=..., port_present prints the line "picture"
+ * when the display has all of one.
  */
 #include "port.h"
 
@@ -70,7 +70,7 @@ void port_putc(char c)
     UART_DATA = (uint8_t)c;
 }
 
-/* A key that is held connects its pin to ground. */
+/* A held key connects its pin to ground. */
 uint32_t port_input(void)
 {
     uint32_t pins = PINS_IN, keys = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Quotients of 32 bits by the RP2040's divider, which takes 8 cycles (section 2.3.1.5 of the datasheet), in
- * place of libgcc's, which take a hundred. Nothing interrupts them, so they need not be kept for others.
+ * Quotients of 32 bits by the RP2040's divider, which takes 8 cycles (datasheet, section 2.3.1.5); libgcc's take a hundred. Nothing
+ * interrupts them, so the divider's registers need not be saved.
  */
     .syntax unified
     .cpu cortex-m0plus
@@ -15,7 +15,7 @@
     .equ QUOTIENT, 0x70
     .equ REMAINDER, 0x74
 
-/* r0 / r1 to r0, the remainder to r1. A branch to what is next takes two cycles. */
+/* r0 / r1 to r0, the remainder to r1. A branch to the next instruction takes two cycles. */
     .macro divide name, also, dividend, divisor
     .section .text.\name, "ax", %progbits
     .balign 4

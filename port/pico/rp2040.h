@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #define REGISTER(address) (*(volatile uint32_t *)(address))
-/* A peripheral's register again, where what is written sets or clears bits. */
+/* Aliases of a peripheral's registers, where a write sets or clears bits. */
 #define SET(address)   REGISTER((address) + 0x2000u)
 #define CLEAR(address) REGISTER((address) + 0x3000u)
 
@@ -21,13 +21,13 @@
 #define RESET_TIMER      (1u << 21)
 #define RESET_UART0      (1u << 22)
 
-/* Section 2.15, clocks. What a glitchless multiplexer has selected is a bit of SELECTED. */
+/* Section 2.15, clocks. SELECTED has a bit for the choice of a glitchless multiplexer. */
 #define CLK_REF_CTRL     0x40008030u
 #define CLK_REF_SELECTED REGISTER(0x40008038)
 #define CLK_REF_XOSC     2u
 #define CLK_SYS_CTRL     0x4000803cu
 #define CLK_SYS_SELECTED REGISTER(0x40008044)
-#define CLK_SYS_AUX      1u /* which is PLL_SYS */
+#define CLK_SYS_AUX      1u /* PLL_SYS */
 #define CLK_PERI_CTRL    REGISTER(0x40008048)
 #define CLK_PERI_ENABLE  (1u << 11) /* from the system's clock */
 
@@ -49,12 +49,12 @@
 #define PLL_FEEDBACK     REGISTER(0x40028008)
 #define PLL_DIVIDERS     REGISTER(0x4002800c)
 
-/* Sections 4.6 and 4.7: microseconds, which the watchdog's divider makes of the reference clock. */
+/* Sections 4.6 and 4.7: microseconds, which the watchdog divides from the reference clock. */
 #define WATCHDOG_TICK        REGISTER(0x4005802c)
 #define WATCHDOG_TICK_ENABLE (1u << 9)
 #define TIMER_MICROSECONDS   REGISTER(0x40054028)
 
-/* Section 2.19: what a pin is for, and its pad; section 2.3.1: pins by software. */
+/* Section 2.19: the function of a pin, and its pad; section 2.3.1: pins by software. */
 #define PIN_FUNCTION(pin) REGISTER(0x40014004u + 8u * (pin))
 #define PIN_PAD(pin)      REGISTER(0x4001c004u + 4u * (pin))
 #define PAD_KEY           0x4au /* input, pulled up, with a Schmitt trigger */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start(): the clocks, then the code that runs from RAM. The loader leaves the
- * processor on its ring oscillator, at some 6 MHz.
+ * From the loader to start(): the clocks, then the code that runs from RAM. The loader leaves the processor on its ring oscillator,
+ * at about 6 MHz.
  */
 #include "start.h"
 
@@ -19,10 +19,10 @@ static void release(uint32_t peripherals)
     }
 }
 
-/* The crystal's 12 MHz are the reference; the loop makes 1500 of them, and of these 125. */
+/* The crystal's 12 MHz are the reference. The loop makes 1500 MHz of them, and 125 MHz of these. */
 static void start_clocks(void)
 {
-    /* after a reset of the processor alone they may run from the loop */
+    /* after a reset of the processor alone the clocks may run from the loop */
     CLEAR(CLK_SYS_CTRL) = CLK_SYS_AUX;
     while (CLK_SYS_SELECTED != 1) {
     }
@@ -42,7 +42,7 @@ static void start_clocks(void)
     }
     PLL_DIVIDERS = 6u << 16 | 2u << 12;
     CLEAR(PLL_PWR) = PLL_DIVIDERS_OFF;
-    REGISTER(CLK_SYS_CTRL) = 0; /* the other source, while it is not in use: the loop */
+    REGISTER(CLK_SYS_CTRL) = 0; /* select the loop while this source is not in use */
     REGISTER(CLK_SYS_CTRL) = CLK_SYS_AUX;
     while (CLK_SYS_SELECTED != 1u << CLK_SYS_AUX) {
     }
@@ -50,7 +50,7 @@ static void start_clocks(void)
     WATCHDOG_TICK = WATCHDOG_TICK_ENABLE | 12;
 }
 
-/* In place of start() in the vectors; memcpy is among what it brings to RAM. */
+/* Takes the place of start() in the vectors. It copies memcpy to RAM, among other functions. */
 _Noreturn void reset(void)
 {
     volatile uint32_t *to = fast_start;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the compiler calls for numbers, by libgcc's names: Debian's libgcc for this processor's kin has instructions
- * that an R3000 has not.
+ * The functions that the compiler calls for arithmetic, by libgcc's names: Debian's libgcc for related processors has instructions that
+ * an R3000 lacks.
  */
 #include <stdint.h>
 
@@ -52,7 +52,7 @@ int64_t __moddi3(int64_t n, int64_t d)
     return (int64_t)(n < 0 ? 0 - rest : rest);
 }
 
-/* By 0 to 63; a word is shifted by 0 to 31. */
+/* Shift by 0 to 63; a word is shifted by 0 to 31. */
 uint64_t __ashldi3(uint64_t a, int by)
 {
     uint32_t high = (uint32_t)(a >> 32), low = (uint32_t)a;
@@ -81,7 +81,7 @@ uint64_t __lshrdi3(uint64_t a, int by)
     return (uint64_t)high << 32 | low;
 }
 
-/* What is shifted in has the sign: the complement of a negative number is shifted instead. */
+/* Shift in the sign: a negative number is complemented, shifted, and complemented again. */
 int64_t __ashrdi3(int64_t a, int by)
 {
     return a < 0 ? ~(int64_t)__lshrdi3(~(uint64_t)a, by) : (int64_t)__lshrdi3((uint64_t)a, by);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The display: a picture is drawn in the processor's memory, and sent to the graphics processor's when it is done,
- * into that half of it which is not shown.
+ * The display: a picture is drawn in the processor's memory; when it is complete, it is sent to the half of the graphics processor's
+ * memory that is not shown.
  */
 #include "port.h"
 #include "psx.h"
@@ -17,7 +17,7 @@ enum { WIDTH = 320, HEIGHT = 240, HALF = 256 /* rows from one picture to the oth
 #define DMA2_ADDRESS  REGISTER32(0x1f8010a0)
 #define DMA2_BLOCKS   REGISTER32(0x1f8010a4)
 #define DMA2_CONTROL  REGISTER32(0x1f8010a8)
-#define DMA2_SEND     0x01000201u /* blocks, when they are wanted */
+#define DMA2_SEND     0x01000201u /* blocks, as the device asks for them */
 #define DMA2_RUNS     0x01000000u
 #define BLOCK_WORDS   16u
 #define VERTICAL_SYNC 1u
@@ -59,7 +59,7 @@ struct port_fb port_fb(void)
     return fb;
 }
 
-/* The framebuffer to rows y and on of the graphics processor's memory. */
+/* Send the framebuffer to the rows from y on of the graphics processor's memory. */
 static void send(uint32_t y)
 {
     while (!(GPU_CONTROL & GPU_READY)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The pad in the first socket, a byte at a time: its address, "give me your state", and three bytes more, in which
- * it answers what it is and which keys are held.
+ * The pad in the first socket, a byte at a time: its address, "give me your state", and three bytes more, in which it answers with its
+ * kind and the keys that are held.
  */
 #include "port.h"
 #include "psx.h"
@@ -14,18 +14,18 @@
 #define CAN_SEND      (1u << 0)
 #define HAS_ANSWER    (1u << 1)
 #define ACKNOWLEDGED  (1u << 9)
-#define SELECTED      0x1003u /* it may answer, and ask for an interrupt with each byte */
+#define SELECTED      0x1003u /* the pad may answer, and raise an interrupt with each byte */
 #define TAKE_BACK     0x0010u
 #define RESET         0x0040u
 #define BITS_8        0x000du
 #define BAUD_250000   0x0088u
 #define PAD_INTERRUPT (1u << 7)
-#define WAITS_MOST    300 /* looks at the status: 100 microseconds and more */
+#define WAITS_MOST    300 /* reads of the status: 100 microseconds and more */
 
 enum { ADDRESS, ASK, SIGN, KEYS, MORE_KEYS, BYTES };
 #define PAD_SIGN 0x5a
 
-/* The pad's bits, the lowest first, 0 for those that a program does not know: its order, and that of port.h. */
+/* The pad's bits, the lowest first, by the bits of port.h; 0 for keys that programs do not know. */
 static const uint8_t keys_of[16] = {PORT_PAD_SELECT,
                                     0,
                                     0,
@@ -50,7 +50,7 @@ void pad_start(void)
     PAD_BAUD = BAUD_250000;
 }
 
-/* Whether a bit of the status came. */
+/* Wait for a bit of the status. True if it came. */
 static int wait_for(uint32_t bit)
 {
     for (int i = 0; i < WAITS_MOST; i++) {
@@ -61,7 +61,7 @@ static int wait_for(uint32_t bit)
     return 0;
 }
 
-/* Send a byte and get one; -1 if nobody answers. A pad acknowledges all but the last. */
+/* Send a byte and get one; -1 if nobody answers. A pad acknowledges all but the last byte. */
 static int exchange(uint8_t byte, int is_last)
 {
     int answer;

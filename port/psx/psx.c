@@ -2,9 +2,9 @@
 /*
  * PlayStation: R3000A at 33.87 MHz, 2 MB. Registers as in "Nocash PSX Specifications".
  *
- * The console is the BIOS's: a byte a call, which goes to the emulator's output, to a serial line, or nowhere. A
- * line begins with a byte by which tools/psx_run.py knows it from what the emulator says; the exit status is a line
- * of its own. Arguments stand in the image (bare/arguments.c).
+ * The console is the BIOS's: a byte a call, which goes to the emulator's output, to a serial line, or nowhere. The first byte of a line
+ * lets tools/psx_run.py tell it from what the emulator prints; the exit status is a line of its own. Arguments stand in the image
+ * (bare/arguments.c).
  */
 #include "psx.h"
 
@@ -44,7 +44,7 @@ static uint16_t next_line(void)
 
 void ticks_start(void)
 {
-    enum { LINES_MEASURED = 28 }; /* not quite a turn of the other counter */
+    enum { LINES_MEASURED = 28 }; /* nearly a wrap of the other counter */
     uint16_t start;
 
     LINES_MODE = COUNT_LINES;
@@ -57,15 +57,15 @@ void ticks_start(void)
 }
 
 /*
- * Cycles. The counter of cycles has 16 bits, a turn in 2 milliseconds; the lines that passed since the last call
- * say how many turns there were. It must be called at least once a second.
+ * Cycles. The counter of cycles has 16 bits and wraps in 2 milliseconds; the display lines since the last call tell how often. Call it
+ * at least once a second.
  */
 uint32_t port_ticks(void)
 {
     static uint32_t ticks, line_before, cycles_before;
     uint32_t line = LINES, cycles = CYCLES;
     uint32_t about = (line - line_before) % 65536 * line_cycles >> SHARE_BITS;
-    /* of all numbers that end as the counter does, the nearest */
+    /* the nearest of all numbers that end as the counter does */
     uint32_t more = (cycles - cycles_before - about) % 65536;
 
     ticks += about + more - (more >= 32768 ? 65536 : 0);
@@ -74,7 +74,7 @@ uint32_t port_ticks(void)
     return ticks;
 }
 
-/* pcsxr lets every instruction take two cycles; nothing else does. */
+/* pcsxr lets every instruction take two cycles, and counts nothing else. */
 uint32_t port_instructions(uint32_t ticks)
 {
     (void)ticks;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start(). The loader leaves the BIOS's interrupts on; nothing here waits for one, and a count
- * of cycles is not to have theirs in it.
+ * From the loader to start(). The loader leaves the BIOS's interrupts on. They are turned off: nothing here waits for one, and they would
+ * count as cycles.
  */
     .section .vectors, "ax"
     .set noreorder

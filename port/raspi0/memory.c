@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Data are cached only where a table of pages says so. This has sections of 1 MB, in the format of ARMv6
- * (ARM1176JZF-S Technical Reference Manual, chapter 6).
+ * Caches need a table of pages that says which memory they hold. This table has sections of 1 MB, in the format of ARMv6 (ARM1176JZF-S
+ * Technical Reference Manual, chapter 6).
  */
 #include "memory.h"
 
@@ -51,15 +51,15 @@ void memory_start(const void *framebuffer, size_t bytes)
     map(PERIPHERALS_FROM, PERIPHERALS_TO, DEVICE | EXECUTE_NEVER);
     memory_barrier();
     __asm__ volatile("mcr p15, 0, %1, c7, c7, 0\n" /* both caches are empty */
-                     "mcr p15, 0, %1, c8, c7, 0\n" /* and so is what is kept of the table */
+                     "mcr p15, 0, %1, c8, c7, 0\n" /* and what is cached of the table */
                      "mcr p15, 0, %2, c2, c0, 0\n"
-                     "mcr p15, 0, %1, c2, c0, 2\n"  /* which is the only one */
-                     "mcr p15, 0, %3, c3, c0, 0\n"  /* domain 0 goes by its permissions */
-                     "mcr p15, 0, %1, c7, c10, 4\n" /* the above is done */
+                     "mcr p15, 0, %1, c2, c0, 2\n"  /* which is the only table */
+                     "mcr p15, 0, %3, c3, c0, 0\n"  /* domain 0 obeys its permissions */
+                     "mcr p15, 0, %1, c7, c10, 4\n" /* wait until that is done */
                      "mrc p15, 0, %0, c1, c0, 0\n"
                      "orr %0, %0, %4\n"
                      "mcr p15, 0, %0, c1, c0, 0\n"
-                     "mcr p15, 0, %1, c7, c5, 4\n" /* what was fetched before is fetched again */
+                     "mcr p15, 0, %1, c7, c5, 4\n" /* refetch instructions */
                      : "=&r"(control)
                      : "r"(0), "r"(table), "r"(1),
                        "r"(MMU_ON | DATA_ON | BRANCHES_ON | CODE_ON | FORMAT_V6)

@@ -5,12 +5,12 @@
 
 #include <stddef.h>
 
-/* What was written is in memory before what is written next. */
+/* Order writes: earlier ones reach memory before later ones. */
 void memory_barrier(void);
 
 /*
- * Turn the caches on, for memory but not for the framebuffer of so many bytes, nor for registers. Addresses stay as
- * they are; what is none of these is a fault.
+ * Turn the caches on for memory, except a framebuffer of so many bytes, and except registers. Addresses do not change; an access to
+ * anything else is a fault.
  */
 void memory_start(const void *framebuffer, size_t bytes);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Raspberry Pi Zero: BCM2835, an ARM1176 with a VideoCore that has the display. Text, arguments and exit status go
- * by semihosting; on a board without an emulator they are lost, and the scene plays without end.
+ * Raspberry Pi Zero: BCM2835, an ARM1176 with a VideoCore that has the display. Text, arguments and exit status go through
+ * semihosting; on a board without an emulator they are lost, and the scene plays without end.
  *
  * Peripherals as in "BCM2835 ARM Peripherals", the mailbox as in the firmware's wiki.
  */
@@ -21,9 +21,9 @@ enum { WIDTH = 512, HEIGHT = 512 };
 #define MAIL_EMPTY        (1u << 30)
 #define PROPERTIES        8u          /* the channel, in the lowest bits */
 #define ANSWERED          0x80000000u /* all of it */
-#define ARM_ADDRESS       0x3fffffffu /* of what the VideoCore reaches by two more bits */
+#define ARM_ADDRESS       0x3fffffffu /* the VideoCore adds two more bits */
 
-/* What the VideoCore is asked for: a tag, bytes of its values, bytes that it gets, values. */
+/* A request to the VideoCore: a tag, bytes of its values, bytes that it gets, values. */
 static _Alignas(16) volatile struct {
     uint32_t bytes, state;
     uint32_t size[5], virtual_size[5], depth[4], order[4];
@@ -37,7 +37,7 @@ static _Alignas(16) volatile struct {
     .depth = {0x48005, 4, 4, 32},
     .order = {0x48006, 4, 4, 0}, /* blue in the lowest byte */
     .framebuffer = {0x40001, 8, 4},
-    .address = 4096, /* a multiple of it is asked for */
+    .address = 4096, /* asks for an address that is a multiple of it */
     .pitch = {0x40008, 4, 0},
 };
 
@@ -82,9 +82,9 @@ void port_present(void)
 }
 
 /*
- * Under QEMU's -icount shift=10 the n-th instruction is at 1024 n ns, and the timer has whole microseconds
- * of it. No two instructions share one, so the timer gives n back. A tick is half of an instruction, since
- * its own rate is no whole number of hertz.
+ * Under QEMU's -icount shift=10 the n-th instruction is at 1024 n ns, and the timer shows whole microseconds of that. No two
+ * instructions share one, so the timer yields n. A tick is half an instruction, since the rate of instructions is no whole number of
+ * hertz.
  */
 const uint32_t port_ticks_hz = 1953125;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * From the loader to start(), and the vectors. The program runs in system mode, whose stack pointer and
- * return address no exception touches.
+ * From the loader to start(), and the vectors. The program runs in system mode, whose stack pointer and return address no exception
+ * touches.
  */
     .section .vectors, "ax"
     .arm
@@ -22,10 +22,10 @@ go:
     msr cpsr_c, #0xdf /* system mode, no interrupts */
     ldr sp, =stack_top
     ldr r0, =vectors
-    mcr p15, 0, r0, c12, c0, 0 /* here, not at address 0 */
+    mcr p15, 0, r0, c12, c0, 0 /* the vectors are here, not at address 0 */
     b start
 
-/* On a board without an emulator nobody hears a semihosting call: it succeeds and does nothing. */
+/* On a board without an emulator nobody answers a semihosting call: it succeeds and does nothing. */
 no_host:
     mov r0, #0
     movs pc, lr

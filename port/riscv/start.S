@@ -4,11 +4,11 @@
     .global reset
 reset:
     .option push
-    .option norelax /* gp is what the linker's shorter addresses count from */
+    .option norelax /* the linker's short addresses are relative to gp */
     la gp, __global_pointer$
     .option pop
     la sp, stack_top
-    la tp, bss_start /* the only thread's own data come first */
+    la tp, bss_start /* data of the only thread come first */
     la t0, exception
     csrw mtvec, t0
     j start
@@ -21,8 +21,8 @@ exception:
     j fault
 
 /*
- * The semihosting trap: a breakpoint between two shifts that do nothing otherwise, which must lie in
- * one page and not be compressed. Arguments and result are where C has them.
+ * The semihosting trap: a breakpoint between two shifts that have no other effect. It must lie in one page and not be compressed.
+ * Arguments and result are where C has them.
  */
     .option push
     .option norvc

@@ -5,7 +5,7 @@
 
 enum { WIDTH = 320, HEIGHT = 240 };
 
-/* PCI: where a device of bus 0 is configured, and the window that its memory may be put in. */
+/* PCI: the configuration of a device of bus 0, and a window for its memory. */
 #define PCI_CONFIG(device) ((volatile uint32_t *)(0x30000000 + ((uintptr_t)(device) << 15)))
 #define PCI_DEVICES        32
 #define PCI_WINDOW         0x40000000u
@@ -17,7 +17,7 @@ enum { PCI_ID, PCI_COMMAND, PCI_BAR0 = 4, PCI_BAR2 = 6 };
 #define REGISTERS     (PCI_WINDOW + 0x01000000u) /* 4 KB */
 #define DISPI         ((volatile uint16_t *)(REGISTERS + 0x500u))
 enum { DISPI_WIDTH = 1, DISPI_HEIGHT, DISPI_BITS, DISPI_ENABLE };
-#define DISPI_ENABLED 0x41u /* and a linear framebuffer */
+#define DISPI_ENABLED 0x41u /* with a linear framebuffer */
 
 static void start_display(volatile uint32_t *config)
 {

@@ -117,7 +117,7 @@ static void key_down(SDL_Keycode key)
 
 /* ------------------------------------------------------------------- pointer */
 
-/* A pixel of the picture, which may be smaller than the window. */
+/* The pixel of the picture under a place of the window, which may be larger. */
 static SDL_Point in_picture(int x, int y)
 {
     int width, height;

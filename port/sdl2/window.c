@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A window of SDL2 on the viewer of examples/view.h: build/host/window.elf scene=NAME, or mesh=FILE (a blob of carom-mesh)
- * or link=TEXT. `make view` builds and starts it. What it says to a terminal: the link when K is pressed, and whether a
- * link that was followed ended in its state.
+ * A window of SDL2 on the viewer of examples/view.h: build/host/window.elf scene=NAME, or mesh=FILE (a blob of carom-mesh) or
+ * link=TEXT. `make view` builds and starts it. It prints the link when K is pressed, and whether a link that was followed ended in
+ * its state.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "window.h"
 
 #define SIDE_MAX      2048 /* of a picture */
-#define LATE_MAX      4    /* frames that are caught up with */
+#define LATE_MAX      4    /* late frames that are caught up with */
 #define MESH_VERTICES 24000
 #define MESH_BYTES    CAROM_BLOB_BYTES(MESH_VERTICES, 2 * MESH_VERTICES)
 #define LINK_BYTES    (1 << 18)
@@ -90,7 +90,7 @@ static void set_title(void)
     SDL_SetWindowTitle(the.window, title);
 }
 
-/* A scene began: as it looks best, with what the last one showed else. */
+/* Begin a scene with the toggles that suit it; the others stay. */
 static void began(void)
 {
     const uint32_t suits = VIEW_FACES | VIEW_SHADOWS;
@@ -110,7 +110,7 @@ static void open_scene(const char *name)
     began();
 }
 
-/* `user` is there with a mesh only. */
+/* `user` exists with a mesh only. */
 void window_next_scene(int way)
 {
     int count = 0;
@@ -131,7 +131,7 @@ void window_restart(void)
     began();
 }
 
-/* LINK, or LINK/FRAME/HASH as the page has it. */
+/* Read LINK, or LINK/FRAME/HASH as the page has it. */
 static void follow(const char *text)
 {
     static char link[LINK_BYTES];
@@ -178,7 +178,7 @@ void window_pause(bool paused)
     set_title();
 }
 
-/* At the frame of a link: whether the state is the link's. */
+/* At the frame of a link: compare the state with the link's. */
 static void compare(void)
 {
     char hash[17];
@@ -249,7 +249,7 @@ static void draw(void)
     the.changed = false;
 }
 
-/* A step each sixtieth of a second; what is more than LATE_MAX late is not caught up with. */
+/* Step each sixtieth of a second; of a longer delay only LATE_MAX frames are caught up with. */
 static void run(void)
 {
     const uint64_t hz = SDL_GetPerformanceFrequency();
@@ -273,7 +273,7 @@ static void run(void)
     }
 }
 
-/* SDL has drivers that show nothing, and takes one where there is no other: only who asks for it is to have it. */
+/* SDL has drivers that show nothing, and takes one if there is no other. Use such a driver only if it is asked for. */
 static bool has_display(void)
 {
     static const char *const blind[] = {"dummy", "offscreen", "evdev"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* window.h - what the two files of the window share: window.c has scenes, time and the picture, input.c keys and pointer. */
+/* window.h - what the two files of the window share. window.c: scenes, time, the picture. input.c: keys and pointer. */
 #ifndef CAROM_PORT_SDL2_WINDOW_H
 #define CAROM_PORT_SDL2_WINDOW_H
 
@@ -9,16 +9,16 @@
 
 struct window {
     SDL_Window *window;
-    SDL_Surface *picture; /* of pixels */
-    bool changed;         /* the picture is to be drawn again */
+    SDL_Surface *picture; /* of the viewer's pixels */
+    bool changed;         /* the picture must be drawn again */
     bool over;
-    int scene; /* of scene_name */
+    int scene; /* index of scene_name */
     uint32_t toggles, held;
     bool paused, help, user;
     int slow;
     bool grabs, turns, pans;
-    int stands; /* the error that the world stands still for */
-    bool aims;  /* at the state of a link */
+    int stands; /* the error at which the world stands still */
+    bool aims;  /* a link is followed to its state */
     int aim_frame;
     char aim_hash[17];
 };
@@ -28,7 +28,7 @@ void window_restart(void);
 void window_next_scene(int way);
 void window_say_link(void);
 void window_pause(bool paused);
-/* A step was tried: its result. */
+/* Note the result of a step. */
 void window_stepped(int result);
 void window_slow_down(int way);
 void window_size(void);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * SuperH-4 under Linux without a C library, by system calls: console, files, arguments. Debian's C
- * library for it hangs in QEMU 7.2: see tools/matrix.py.
+ * SuperH-4 under Linux without a C library, by system calls: console, files, arguments. Debian's C library for it hangs in QEMU
+ * 7.2: see tools/matrix.py.
  */
 #include <stddef.h>
 
@@ -12,7 +12,7 @@ enum { CONSOLE = 1, LINE_BYTES = 1024 };
 
 int main(void);
 
-/* What the kernel leaves on the stack: how many arguments, then where each is. */
+/* The stack at the start: the number of arguments, then their addresses. */
 static const uintptr_t *start_stack;
 static struct {
     char text[LINE_BYTES];

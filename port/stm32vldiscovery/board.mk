@@ -19,5 +19,5 @@ LINE_BYTES := 64
 PICTURES := 0
 SUITES := port fix arena scan zlist mass
 SUITE_IMAGES := 1
-# The program of the matrix is too large; make test BOARD=stm32vldiscovery compares the scene's hash.
+# The program of the matrix is too large; make test BOARD=stm32vldiscovery compares the hash of the scene instead.
 MATRIX := 0

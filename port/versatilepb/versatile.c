@@ -6,17 +6,17 @@
 
 enum { WIDTH = 512, HEIGHT = 512 };
 
-/* PL110 as the Versatile has it: control and interrupt mask are the other way round. */
+/* The PL110 of the Versatile: control and interrupt mask are swapped. */
 struct lcd {
     uint32_t timing[4];
     uint32_t upper_base, lower_base;
     uint32_t control, interrupts;
     uint32_t others[120];
-    uint32_t palette[128]; /* two colours a word, 5 bits each, red in the lowest */
+    uint32_t palette[128]; /* two colours a word, 5 bits a component, red in the lowest */
 };
 #define LCD        ((volatile struct lcd *)0x10120000)
 #define LCD_ENABLE 1u
-#define LCD_8_BITS (3u << 1) /* of the palette: a frame takes the fewest instructions to draw */
+#define LCD_8_BITS (3u << 1) /* 8 bits of palette: a frame takes the fewest instructions to draw */
 #define LCD_TFT    (1u << 5)
 #define LCD_POWER  (1u << 11)
 

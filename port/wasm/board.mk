@@ -10,7 +10,7 @@ SMOOTH := 1
 FAMILY_CFLAGS := -ffreestanding -Iport/nolibc
 FAMILY_LDFLAGS := -nostdlib -Wl,--no-entry,--export=main,-z,stack-size=262144
 RUNNER := port/wasm/run.mjs
-# The page of `make web`: what it calls besides page.c's own functions and memory.
+# The page of `make web`: the functions that it calls besides those of page.c, and its memory.
 PAGE_EXPORTS := view_open view_restart view_toggles view_usual view_orbit view_pan view_zoom view_home view_keys view_grab view_drag \
     view_drop view_pause view_single view_slow view_frame view_step_count view_hash view_scene view_says view_link \
     view_follow scene_name scene_text carom_result_text carom_stage_name \

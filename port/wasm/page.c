@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * page.c - the viewer of view.h in a page: memory for what goes between it and JavaScript. All else the page calls
- * itself: board.mk exports it. Text goes both ways in page_text, with a 0 at its end.
+ * page.c - the viewer of view.h in a page: memory for the data between it and JavaScript. Other functions the page calls directly:
+ * board.mk exports them. Text goes both ways in page_text, with a 0 at its end.
  */
 #include "port.h"
 #include "scene.h"
@@ -14,7 +14,7 @@
 #define VERTICES_MAX 24000 /* of a mesh that the page brings */
 #define FACES_MAX    (2 * VERTICES_MAX)
 
-/* Microseconds, by the browser's clock, which goes in steps of its own. */
+/* Microseconds, by the browser's clock, which advances in steps of its own. */
 IMPORT(ticks) uint32_t page_ticks(void);
 const uint32_t port_ticks_hz = 1000000;
 
@@ -26,13 +26,13 @@ uint32_t port_ticks(void)
 EXPORT char page_text[TEXT_BYTES];
 EXPORT int16_t page_vertices[VERTICES_MAX][3];
 EXPORT uint16_t page_faces[FACES_MAX][3];
-EXPORT uint32_t page_shown[PIXELS_MAX]; /* as a canvas has them: red in the lowest byte */
+EXPORT uint32_t page_shown[PIXELS_MAX]; /* in the order of a canvas: red in the lowest byte */
 
 static uint32_t pixels[PIXELS_MAX];
 static _Alignas(8) uint8_t mesh_check[CAROM_MESH_BYTES(VERTICES_MAX, FACES_MAX)];
 static struct carom_picture picture;
 
-/* How much there may be of things: text, vertices, faces, pixels; and how many stages a step has. */
+/* Room for text, vertices, faces and pixels; and the number of stages. */
 int page_room(int what)
 {
     static const int room[] = {TEXT_BYTES, VERTICES_MAX, FACES_MAX, PIXELS_MAX, CAROM_STAGE_COUNT};
@@ -40,7 +40,7 @@ int page_room(int what)
     return room[what];
 }
 
-/* The mesh that page_vertices and page_faces hold, with scene `user`; refused before the scene on show is gone. */
+/* Open scene `user` with the mesh in page_vertices and page_faces. A refused mesh leaves the scene on show. */
 int page_open_mesh(uint32_t vertices, uint32_t faces)
 {
     struct carom_mesh_raw raw = {page_vertices, page_faces, vertices, faces, 12, CAROM_SOLID};
@@ -78,7 +78,7 @@ int page_draw(void)
     return result;
 }
 
-/* What the last step took of a stage; of all of it past the last one. Microseconds. */
+/* Microseconds that the last step took for a stage; past the last stage, for all of it. */
 uint32_t page_took(int stage)
 {
     const struct carom_stats *stats = view_stats();
@@ -86,7 +86,7 @@ uint32_t page_took(int stage)
     return stage < CAROM_STAGE_COUNT ? stats->ticks[stage] : stats->total_ticks;
 }
 
-/* Whether the keys of a pad do something in the scene on show: it is a game. */
+/* True if the scene on show is a game, which obeys the keys of a pad. */
 int page_is_game(void)
 {
     return view_says()[0] != 0;

@@ -9,7 +9,7 @@ enum { ARGUMENTS_MAX = 16, ARGUMENT_BYTES = 256 };
 
 IMPORT(putc) void wasm_putc(int c);
 IMPORT(exit) _Noreturn void wasm_exit(int status);
-/* The n-th argument with a zero after it; its length, or -1 when it is not there or too long. */
+/* The n-th argument with a zero after it. Returns its length, or -1 if there is none or it is too long. */
 IMPORT(arg) int wasm_arg(int n, char *text, int max);
 IMPORT(read) int wasm_read(const char *name, void *buffer, size_t max);
 
