@@ -1,10 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Join Carom into two pairs of files, to be copied into a project: carom.h, carom.c, carom_draw.h, carom_draw.c.
+"""Join Carom into two pairs of files to copy into a project: carom.h, carom.c, carom_draw.h, carom_draw.c.
 
-amalgamate.py FOLDER. Sources are joined as they are, in the order of the stages, but for these: what only one source
-can see and another one calls by the same name is called NAME_in_SOURCE; a macro of a source ends with it; headers of the
-engine stand before all sources. Functions that one source calls in another keep their linkage, as in the library.
+usage: amalgamate.py FOLDER. Sources are joined as they are, in the order of the stages, except: a name that is private
+to one source and also defined by another becomes NAME_in_SOURCE; a macro of a source ends with it; the engine's
+headers stand before all sources. Functions that one source calls in another keep their linkage, as in the library.
 """
 import collections
 import os
@@ -21,7 +21,7 @@ BRANDS = """/* SPDX-License-Identifier: MIT */
 {licence}
  */
 """
-# As C++ the same text needs other words for four things, and warnings that are of use in C++ alone are not asked for.
+# In C++ the same text needs other words for four things, and some warnings apply to C++ only.
 OPEN = """
 #if defined __cplusplus
 #include <string.h>
@@ -57,7 +57,7 @@ CLOSE = """
 #pragma GCC diagnostic pop
 #endif
 """
-# Where size counts, the engine has the one body of each inline function, and has to see it first.
+# Where size counts, the engine holds the one body of each inline function, and must see it first.
 BODIES = """
 #if defined __OPTIMIZE_SIZE__ && defined CAROM_FIX_H && !defined CAROM_FIX_BODIES
 #error "carom.c stands before every carom.h of a source that includes it"
@@ -70,7 +70,7 @@ MEMORY = re.compile(r"((?:^(?:void \*|int )mem\w+\(.*\);\n)+)", re.M)
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(["<])([^">]+)[">].*\n', re.M)
 DIRECTIVE = re.compile(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", re.M)
-# a file's own names: of what it keeps to itself (static, under any macro for it), its tags, its types
+# names private to a file: static ones (under any macro for static), its tags, its types
 TAG = re.compile(r"\b(?:struct|union|enum)\s+(\w+)\s*\{")
 OWN = re.compile(r"\b(?:static|FORCE_INLINE|OUT_OF_LINE)\b")
 
@@ -87,7 +87,7 @@ def includes(path):
 
 
 def ordered(paths):
-    """The headers that files include, and those that these include, each after what it includes itself."""
+    """The headers that files include, with their own includes, each after those that it includes itself."""
     order = []
 
     def visit(path):
@@ -102,7 +102,7 @@ def ordered(paths):
 
 
 def top_level(text):
-    """The declarations of a file, with the inside of braces left out."""
+    """The declarations of a file, without the inside of braces."""
     text = DIRECTIVE.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), gate.code(text))
     out, depth = [], 0
     for part in re.split(r"([{}])", text):
@@ -134,7 +134,7 @@ def own_names(path):
 
 
 def renamed(path, clashing, taken):
-    """The text of a source in which those of its own names that clash have its name behind them."""
+    """The text of a source in which private names that clash get the source's name behind them."""
     text = read(path)
     stem = os.path.basename(path)[:-2]
     new = {}
@@ -161,7 +161,7 @@ def renamed(path, clashing, taken):
 
 
 def piece(path, text):
-    """A file as it stands in the whole: without its licence and includes, and without its macros once it ends."""
+    """A file as part of the whole: without its licence and includes; its macros end with it."""
     text = INCLUDE.sub("", text.replace("/* SPDX-License-Identifier: MIT */\n", "", 1))
     if path.endswith(".c"):
         macros = dict.fromkeys(re.findall(r"^#[ \t]*define[ \t]+(\w+)", text, re.M))
@@ -173,7 +173,7 @@ def piece(path, text):
 
 
 def bodies(paths):
-    """A table for C++ of the inline functions that sources declare extern: it has bodies of those alone that are used."""
+    """A table for C++ of the inline functions that sources declare extern: C++ has bodies only of those that are used."""
     names = re.findall(r"^extern inline [^(]*?(\w+)\(", "".join(map(read, paths)), re.M)
     rows = "".join("    (void (*)(void))%s,\n" % name for name in names)
     return ("\n#if defined __cplusplus\nextern void (*const carom_inline_bodies[])(void);\n"
@@ -210,7 +210,7 @@ def main():
     clashing = {name for name, count in times.items() if count > 1 or name in shared}
     taken = set(re.findall(r"\w+", "".join(map(read, engine + renderer + headers))))
 
-    # whatever a public header includes stands before it
+    # headers that a public header includes stand before it
     order = ordered(public)
     order += [path for path in public if path not in order]
     standard = "".join("#include <%s.h>\n" % name for name in ("limits", "stdbool", "stddef", "stdint"))

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: MIT
 """Instructions by stage of the scenes of tests/bench_scenes.csv, on a board that counts them.
 
-Every scene must end in its committed state, on the host and on the board, before its figures are
-used. They go to out/bench.csv (scene, phase, stage; mean, median, 99th percentile and worst frame);
-rows of scenes that do not run stay there. A label may have many throws of one body: one trajectory is
-one chaotic sample, and its worst frame says little. Phases: apart, the broad boxes of no two bodies overlap; near, they do but
-nothing touches; contact, bodies touch; asleep, all of them; all. Beside the stages: total;
-draw-WxH of the frames that are drawn; whole, total and the larger picture of the same frame;
-candidates, pairs of features handed to the collision test.
+Every scene must end in its committed state, on the host and on the board, before its figures are used. They go to
+out/bench.csv (scene, phase, stage; mean, median, 99th percentile and worst frame); rows of scenes that do not run stay
+there. A label may have many throws of one body: one trajectory is one chaotic sample, and its worst frame says little.
 
-With the label paper the images have the paper's way of interference. It may miss contacts, so its
-state is not the committed one: host and board must only agree.
+Phases: apart, no two broad boxes overlap; near, some do but nothing touches; contact, bodies touch; asleep, all bodies
+sleep; all. Beside the stages there are: total; draw-WxH of the frames that are drawn; whole, which is total and the
+larger picture of the same frame; candidates, pairs of features handed to the collision test.
+
+With the label paper the images use the paper's interference detection. It may miss contacts, so its state is not the
+committed one: host and board must only agree.
 """
 import argparse
 import collections
@@ -33,7 +33,7 @@ DISPLAY = "draw-512x512"
 
 Cost = collections.namedtuple("Cost", "mean p50 p99 worst")
 
-# scene, phase, stage, which of Cost, at most
+# scene, phase, stage, statistic of Cost, upper bound
 BARS = [
     ("head", "near", "total", "mean", 110000),
     ("head", "contact", "total", "mean", 267000),
@@ -53,21 +53,21 @@ BARS = [
     ("head", "contact", "draw-512x512", "mean", 2200000),
     ("head", "contact", "whole", "mean", 2600000),
 ]
-GROWTH = "growth-512", "growth-49928", 5  # the last below so many times the first, in contact
+GROWTH = "growth-512", "growth-49928", 5  # the second costs at most so many times the first, in contact
 RAM = 16384  # a world that just holds the head scene, and the stack
-# bytes of code at -Os: a program that builds meshes and makes steps, and all but drawing
+# bytes of code at -Os: a program that builds meshes and makes steps; and everything except drawing
 CODE_STEP = "carom_mesh_build carom_world_init carom_body_add carom_world_step carom_body_get"
 CODE = {"build + step": 60 * 1024, "all but drawing": 75 * 1024}
 BLOCKS = {"a world of 16 boxes in a heap": 40 * 1024,
           "a world of 32 mixed bodies in a heap": 80 * 1024, "a box as a mesh": 2 * 1024}
-GROWN = 1.01  # the gate's: a frame may cost so much of the committed one
+GROWN = 1.01  # the gate: a frame may cost so many times the committed one
 
-# The paper's table: seconds a frame on a machine of so many instructions a second
+# The paper's table: seconds a frame, on a machine of so many instructions a second
 PAPER = {"head": 0.24, "head450": 0.35, "espresso": 0.53}
 PAPER_RATE = 16e6
-PAPER_LABEL = "paper"  # its way of interference in place of Carom's
+PAPER_LABEL = "paper"  # its interference detection in place of Carom's
 PAPER_SCENES = [*PAPER, "growth-512", "growth-3034", "growth-12012"]  # a larger mesh does not fit
-PAPER_FRAMES = 200  # the first impacts; a frame takes some 40 million instructions
+PAPER_FRAMES = 200  # the first impacts; a frame takes about 40 million instructions
 
 
 def options_of(entry, *without):
@@ -83,7 +83,7 @@ def paper_entry(entry):
 
 
 def measure(entry, host, board):
-    """The rows of an entry of SCENES, from the board; the state must be as committed, if it is."""
+    """The rows of an entry of SCENES, from the board; the state must be the committed one, if there is one."""
     expected, source = entry["hash"], SCENES
     for image, options in [(host, options_of(entry, "draw=")), (board, options_of(entry, "-"))]:
         result = run_board.run(image, options)
@@ -107,7 +107,7 @@ def measure(entry, host, board):
 
 
 def cost(values):
-    """Of the frames that took `values`; a percentile is a frame's figure, not one between two."""
+    """The statistics of `values`, one for each frame; a percentile is a frame's figure, not one between two."""
     ordered = sorted(values)
     return Cost(round(sum(ordered) / len(ordered)), ordered[len(ordered) // 2],
                 ordered[len(ordered) * 99 // 100], ordered[-1])
@@ -129,7 +129,7 @@ COLUMNS = ["instructions_" + which for which in Cost._fields]
 
 
 def read_csv(path):
-    """(scene, phase, stage): Cost, in order; nothing when there is no such file, or an old one."""
+    """(scene, phase, stage): Cost, in order; empty if there is no such file, or an old one."""
     if not os.path.exists(path):
         return {}
     with open(path, newline="") as file:
@@ -150,7 +150,7 @@ def write_csv(path, found):
 
 
 def merged(old, new):
-    """The new figures in place of all old ones of the same scenes."""
+    """Replace all old figures of the scenes that ran."""
     scenes = {key[0] for key in new}
     return {**{key: value for key, value in old.items() if key[0] not in scenes}, **new}
 
@@ -181,8 +181,8 @@ def print_paper(figures):
 
 
 def head_ram(entry, host, room):
-    """Bytes and pools of the smallest world that takes the head scene to the same state; what the
-    room leaves holds candidates, and the faces of a gather that keeps so many."""
+    """Bytes and pools of the smallest world that takes the head scene to the same state. The rest of the room holds
+    candidates, and the faces of a gather that keeps so many."""
     def caps(contacts, faces, candidates):
         return "2,1,%d,%d,0,%d" % (contacts, faces, candidates)
 
@@ -192,7 +192,7 @@ def head_ram(entry, host, room):
         return int(result.said["world"]) if same else None
 
     def least(fits, most):
-        low, high = 0, most  # it does not, it does
+        low, high = 0, most  # `low` does not do it, `high` does
         while high - low > 1:
             middle = (low + high) // 2
             low, high = (low, middle) if fits(middle) else (middle, high)
@@ -213,7 +213,7 @@ def deepest_stack():
 
 
 def memory_bars(entries, host, board):
-    """(bar, limit, measured) of RAM, with what a frame takes in so little of it."""
+    """(bar, limit, measured) of RAM, and the cost of a frame in so little of it."""
     entry = next(e for e in entries if e["scene"] == "head")
     stack = deepest_stack()
     block, caps = head_ram(entry, host, RAM - stack)
@@ -227,7 +227,7 @@ def memory_bars(entries, host, board):
 
 
 def code_bars():
-    """(bar, limit, measured) of code: what a linker keeps of the engine."""
+    """(bar, limit, measured) of code: the part of the engine that a linker keeps."""
     uses = {name: size for name, size, _ in size_use.measure()}
     step = size_use.collected(size_use.compiled(), CODE_STEP.split())
     yield "code of build + step, -Os", CODE["build + step"], step
@@ -259,7 +259,7 @@ def print_bars(bars):
 
 
 def grown(figures, baseline):
-    """What the gate complains of: scenes whose frames cost more than the committed ones."""
+    """The gate's complaints: scenes whose frames cost more than the committed ones."""
     for key, now in figures.items():
         if key[1] == "all" and (key[2] == "total" or key[2].startswith("draw-")):
             before = baseline.get(key)

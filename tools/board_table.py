@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Write the table of boards in README.md, between its two comments.
 
-What a board is comes from its board.mk and its linker file, the figures from the files that
-`make budget` and `make size` leave in out/. A board that was not measured keeps the figures that the
-table has. tools/check_boards asks only whether the first part is as it should be.
+A board's board.mk and linker file say what it is; its figures come from the files that `make budget` and `make size`
+leave in out/. A board that was not measured keeps its figures in the table. tools/check_boards checks only the first part.
 """
 import os
 
@@ -20,7 +19,7 @@ STATIC = 5  # of the columns
 
 
 def bytes_text(number):
-    """As a person says it: 128 KB, 16 MB."""
+    """A number of bytes for people: 128 KB, 16 MB."""
     for unit, name in [(1 << 20, "MB"), (1 << 10, "KB")]:
         if number >= unit:
             value = "%.1f" % (number / unit)
@@ -45,7 +44,7 @@ def static_cells(board):
 
 
 def figures(board):
-    """Cells of what was measured; those that were not are None."""
+    """Cells of measured figures; None for those that were not measured."""
     def row(path, **wanted):
         return next((row for row in results.read(path)
                      if all(row[name] == value for name, value in wanted.items())), None)
@@ -62,7 +61,7 @@ def figures(board):
 
 
 def read_table():
-    """README.md before the table, its rows as cells by board, and what is behind it."""
+    """README.md before the table, the table's rows as cells by board, and README.md behind it."""
     with open(README) as file:
         before, _, rest = file.read().partition(BEGIN)
     table, _, after = rest.partition(END)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The worst frame of every scene that a board is to hold against what a frame may take there.
+"""The worst frame of every scene of a board against the time that a frame has there.
 
-A board's board.mk has its clock and SCENES := name:rate ...; run_board.budget() says what a frame may
-take. The cost of a frame is that of the step and, where there is a display, of its picture, by the
-board's own exact counter. out/budget.csv has a row a scene; out/budget_stages.csv what its stages
-take, out/budget_over.csv every frame that takes too much, with the stage that takes most of it.
+A board's board.mk has its clock and SCENES := name:rate ...; run_board.budget() computes what a frame may take. A frame
+costs its step and, where there is a display, its picture, by the board's own exact counter. out/budget.csv has a row a
+scene; out/budget_stages.csv has the cost of each stage; out/budget_over.csv has every frame that takes too much, with its
+costliest stage.
 
-For a machine whose rate was measured (MIPS, the paper's) the row's frames are those in contact, of
-which the paper speaks; the worst is that of all.
+For a machine whose rate was measured (MIPS, the paper's) the row shows frames in contact, as the paper does; the worst
+frame is that of all.
 """
 import argparse
 import collections
@@ -20,7 +20,7 @@ import run_board
 
 
 class Scene:
-    """A scene that ran on a board: its frames, what they cost, and what they may."""
+    """A scene that ran on a board: its frames, their cost, and their budget."""
 
     def __init__(self, board, name, rows, columns):
         self.board, self.name, self.rows = board, name, rows
@@ -35,14 +35,14 @@ class Scene:
         self.ok = self.worst <= self.budget
 
     def over(self):
-        """The frames that take too much: number, cost, dearest stage, what that takes."""
+        """Frames over the budget: number, cost, costliest stage, cost of that."""
         for row, cost in zip(self.rows, self.costs):
             if cost > self.budget:
                 stage = max(self.stages, key=lambda name: row[name])
                 yield row["frame"], cost, stage, row[stage]
 
     def summary(self):
-        """Phase, stage, frames, mean and worst; the stage "frame" is all of them."""
+        """Phase, stage, frames, mean and worst; the stage "frame" is the sum of all stages."""
         in_contact = [row for row in self.rows if row["contacts"] or row["hits"]]
         for phase, rows in [("all", self.rows), ("contact", in_contact)]:
             for stage in [*self.stages, "frame"]:
@@ -66,7 +66,7 @@ def measure(board, name, frames):
 
 
 def print_row(scene):
-    """A line of the table, and of a scene that takes too much the stages that do."""
+    """A line of the table; for a scene over its budget also the stages that cause it."""
     print("%-16s %-10s %6d %10d %10d %10d %10d  %s" % (
         scene.board, scene.name, len(scene.counted), mean(scene.costs), mean(scene.contact),
         scene.worst, scene.budget, "ok" if scene.ok else "over"), flush=True)

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom-compare - a moving mesh and one that stands still through Carom, ODE, Bullet and FCL.
+ * carom-compare - a moving mesh against a stationary one, through Carom, ODE, Bullet and FCL.
  *
- * Poses are recorded from Carom's own run of the scene `head` with these meshes. Its bodies never
- * cross, so there would be nothing to find where a frame ends: asked is where each frame would end
- * if nothing were in the way, which is what an engine that looks for overlaps is faced with.
+ * Poses are recorded from Carom's own run of the scene `head` with these meshes. Its bodies never cross, so the ends of
+ * frames would have no overlaps. The poses are where each frame would end if nothing were in the way: the question that an
+ * engine which looks for overlaps is given.
  *
- * tools/compare.py runs this and says what is made of the figures. Rows to the console:
+ * tools/compare.py runs this and explains the figures. Rows to the console:
  *
  *   phase,NAME,FRAMES                           apart, near, contact
  *   microseconds,PHASE,CONTENDER,MEAN
- *   agreement,POSES,CONTENDER,FRAMES,DISAGREE   on whether faces cross, with the judge
+ *   agreement,POSES,CONTENDER,FRAMES,DISAGREE   with the judge, on whether faces cross
  *   recall,POSES,CONTENDER,CROSSING,FOUND       crossing face pairs
  *
- * As `count` it runs under callgrind instead and labels what is counted PHASE,CONTENDER,FRAMES.
+ * As `count` it runs under callgrind instead, and labels the counts PHASE,CONTENDER,FRAMES.
  */
 #include <algorithm>
 #include <chrono>
@@ -41,7 +41,7 @@ namespace
 using namespace compare;
 
 constexpr int FRAMES = 240, ROUNDS = 9;
-/* A piercing of a billionth of a unit is one: 2^-30 is what rotations are rounded to. */
+/* Faces that pierce by a billionth of a unit cross: rotations are rounded to 2^-30. */
 constexpr double TOLERANCE = 1e-9;
 
 /* Memory that starts at a multiple of 8. */
@@ -110,7 +110,7 @@ Pose pose_of(const carom_body_state &state)
     return pose;
 }
 
-/* A world of a scene's moving body, over its ground or alone. */
+/* A world of a scene's moving body, with or without its ground. */
 struct World {
     Block block = make_block(SCENE_WORLD_BYTES);
     carom_world *world;
@@ -136,7 +136,7 @@ struct World {
     }
 };
 
-/* Where the frames of a run end, and where they would end if nothing were in the way. */
+/* The poses at the ends of frames, and the poses where frames would end if nothing were in the way. */
 struct Run {
     std::vector<Pose> committed, free;
 
@@ -277,7 +277,7 @@ void count_instructions(Contender &contender, const Phase &phase)
     CALLGRIND_DUMP_STATS_AT(label.c_str());
 }
 
-/* The mean of the best times of each query. */
+/* The mean over the queries of the best time of each. */
 void take_times(Contender &contender, const Phase &phase)
 {
     using Clock = std::chrono::steady_clock;
@@ -331,9 +331,8 @@ size_t crossing_found(const Judge &judge, const Pose &pose, const Contender &con
 }
 
 /*
- * Of those who tell face pairs: in how many frames they differ from FCL on whether any cross, and how
- * many of the crossing pairs they found. What a contender says is taken through the judge, as it may
- * hand over pairs that are only near.
+ * For contenders that report face pairs: the frames in which they differ from FCL on whether any pair crosses, and the number of
+ * crossing pairs that they found. The judge checks each reported pair, since some are only near.
  */
 void compare_findings(const Judge &judge, const char *which, const std::vector<Pose> &poses)
 {
@@ -391,7 +390,7 @@ int main(int argc, char **argv)
             }
             if (!measured.poses.empty()) {
                 contender->place(measured.poses[0]);
-                contender->query(); /* what a library does once, it does here */
+                contender->query(); /* do the library's one-time work here */
                 (counting ? count_instructions : take_times)(*contender, measured);
             }
         }

@@ -2,8 +2,8 @@
 /*
  * compare - Carom and others on the same meshes at the same poses.
  *
- * A contender is asked for all contacts of a moving mesh with one that stands still: as each
- * library does it by itself, its own test of boxes included, from poses that it already has.
+ * A contender finds all contacts of a moving mesh with a stationary one, in the way of each library, its own test of boxes
+ * included, from poses that it has already.
  */
 #ifndef CAROM_TOOLS_COMPARE_HPP
 #define CAROM_TOOLS_COMPARE_HPP
@@ -18,14 +18,14 @@
 namespace compare
 {
 
-/* A mesh for Carom, and the same vertices about its centre of mass in units, exactly. */
+/* A mesh for Carom, and the same vertices about its centre of mass, in units, exactly. */
 struct Mesh {
     struct carom_mesh carom;
     std::vector<std::array<double, 3>> vertices;
     std::vector<std::array<uint32_t, 3>> faces;
 };
 
-/* Where the moving body is, twice the same; the other is at the origin, unturned. */
+/* The pose of the moving body, in two forms; the other body is at the origin, unturned. */
 struct Pose {
     struct carom_body_state state;
     double position[3];
@@ -41,18 +41,18 @@ class Contender
   public:
     virtual ~Contender() = default;
     virtual const char *name() const = 0;
-    /* Take the moving body to a pose. Not measured. */
+    /* Set the pose of the moving body. Not measured. */
     virtual void place(const Pose &pose) = 0;
     /* Find the contacts. Measured. */
     virtual void query() = 0;
-    /* What the query found: contacts, face pairs or the like. */
+    /* The count of what the query found: contacts, face pairs or the like. */
     virtual size_t found() const = 0;
-    /* One that is slow is measured at every so many poses only. */
+    /* A slow contender is measured only at every so many poses. */
     virtual size_t stride() const
     {
         return 1;
     }
-    /* The face pairs among that; ODE and Bullet do not tell. */
+    /* The face pairs that were found; ODE and Bullet do not report them. */
     virtual std::vector<Pair> pairs() const
     {
         return {};
@@ -61,7 +61,7 @@ class Contender
 
 using Made = std::unique_ptr<Contender>;
 
-/* Meshes must outlive what is made of them. */
+/* Meshes must outlive the contenders made of them. */
 Made make_carom(const Mesh &moving, const Mesh &still);
 Made make_paper(const Mesh &moving, const Mesh &still);
 Made make_ode(const Mesh &moving, const Mesh &still);

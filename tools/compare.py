@@ -3,19 +3,18 @@
 """Carom beside the paper's way and other engines: queries, whole steps, heaps of boxes.
 
 usage: compare.py QUERIES HEAPS WASM SCENE=MOVING,STILL ...
-       compare.py --short HEAPS
+      compare.py --short HEAPS
 
-QUERIES is build/tools/carom-compare, the same meshes at the same poses: instructions are counted by
-callgrind, times are the best of several in one run; means of a phase. Phases: apart, the boxes of
-the bodies do not overlap; near, they do but no faces cross; contact, faces cross. How many of the
-crossing face pairs are found goes to out/recall.csv. Carom and the paper's way find face pairs, FCL
-pairs and points, ODE and Bullet points. HEAPS is build/tools/carom-heaps, WASM Carom's heap as
-WebAssembly (tools/compare_heaps.py). All figures go to out/compare.csv, those that are shown to
-docs/compare.csv, docs/compare.md and the table in README.md. With --short one heap is counted and
-held against the committed figures.
+QUERIES is build/tools/carom-compare: the same meshes at the same poses. Callgrind counts instructions; times are the
+best of several in one run; figures are means of a phase. Phases: apart, the boxes of the bodies do not overlap; near, they
+do but no faces cross; contact, faces cross. out/recall.csv has the part of the crossing face pairs that was found. Carom
+and the paper's way find face pairs, FCL pairs and points, ODE and Bullet points. HEAPS is build/tools/carom-heaps,
+WASM Carom's heap as WebAssembly (tools/compare_heaps.py). All figures go to out/compare.csv, those that are shown to
+docs/compare.csv, docs/compare.md and the table in README.md. With --short one heap is counted and compared with the
+committed figures.
 
-Fails when a query of Carom takes more than half of ODE's instructions, misses a crossing pair, or
-finds contact where FCL does not, or the other way; and when a heap takes more than its bound.
+It fails if a query of Carom takes more than half of ODE's instructions, misses a crossing pair, or disagrees with FCL on
+contact; and if a heap takes more than its bound.
 """
 import csv
 import os
@@ -38,7 +37,7 @@ def instructions(program, meshes):
 
 
 def scene_rows(program, scene, meshes):
-    """The queries and the rows of RECALL, and what is wrong."""
+    """The figures of the queries, the rows of RECALL, and the faults."""
     said = compare_heaps.run([program, "time", *meshes])
     counted = instructions(program, meshes)
     frames = {row[1]: row[2] for row in said if row[0] == "phase"}
@@ -65,7 +64,7 @@ def scene_rows(program, scene, meshes):
 
 
 def ratios(rows):
-    """Print every contender's cost by Carom's; returns what misses the bar."""
+    """Print the cost of every contender over Carom's; returns those that miss the bar."""
     costs = {(scene, phase, who): (count, time) for scene, phase, who, count, time in rows}
     wrong = []
     for (scene, phase, who), (count, time) in costs.items():
@@ -88,14 +87,14 @@ def write(path, columns, rows):
 
 
 def query_figures(rows):
-    """As the other figures are."""
+    """In the form of the other figures."""
     for scene, phase, who, count, time in rows:
         yield ["query", scene, phase, who, count, compare_heaps.UNIT]
         yield ["query", scene, phase, who, time, "us"]
 
 
 def queries(program, scenes):
-    """The figures of all queries, and what is wrong."""
+    """The figures of all queries, and the faults."""
     rows, recall, wrong = [], [], []
     for each in scenes:
         scene, meshes = each.split("=")
@@ -122,7 +121,7 @@ def main(program, heaps, image, *scenes):
     figures += compare_heaps.long(heaps) + compare_heaps.wasm(heaps, image)
     write(OUT, compare_table.COLUMNS, figures)
     wrong += compare_heaps.complaints(figures, [])
-    # times of queries differ from run to run, and nothing is to be had from bodies that are apart
+    # times of queries differ from run to run, and bodies that are apart teach nothing
     shown = [row for row in figures if row[-1] != "us" and row[2] != "apart"]
     compare_table.write(shown)
     print(compare_table.table(compare_table.read(), False), end="")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Carom: two bodies of a world, and which of their faces interfere where they are. */
+/* Carom: two bodies of a world, and their faces that interfere where the bodies are. */
 
 #include "compare.hpp"
 #include "expect.hpp"
@@ -9,7 +9,7 @@ namespace
 
 using namespace compare;
 
-/* A face or two of the head cross each of the ground's in the worst pose: there is room for all. */
+/* Room for all: in the worst pose a face or two of the head cross each face of the ground. */
 #define CAPS 2, 1, 64, 8192, 1, 1024
 constexpr uint32_t PAIRS = 65535;
 

@@ -14,20 +14,20 @@ import tempfile
 
 CONTENDERS = ["carom", "ode", "bullet"]
 PHASES = ["falling", "settling", "resting", "asleep"]
-SEEDS = {8: 4, 16: 4, 32: 3, 64: 2, 128: 2, 256: 1}  # by boxes: so many heaps, the mean of them
-ASLEEP = 32  # boxes: Carom's heap that sleeps
+SEEDS = {8: 4, 16: 4, 32: 3, 64: 2, 128: 2, 256: 1}  # heaps by number of boxes; the figure is their mean
+ASLEEP = 32  # boxes of Carom's heap that sleeps
 SHORT = 32  # boxes: the heap of seed 1 that CI counts
 WASM = 100  # boxes
 WASM_SEEDS = 4
-# Carom's instructions by ODE's, of the heap that CI counts: set by hand when the engine got better.
+# Carom's instructions over ODE's, for the heap that CI counts: set by hand when the engine gets better.
 BOUNDS = {"falling": 4.0, "resting": 0.9}
-NOISE = 1.03  # of the committed instructions: libraries differ a little from machine to machine
+NOISE = 1.03  # times the committed instructions: libraries differ a little from machine to machine
 TIMEOUT = 600  # seconds a run
 UNIT = "instructions"
 
 
 def run(command, **others):
-    """What a command prints, as cells; a command that fails ends the comparison."""
+    """The output of a command as cells; a command that fails ends the comparison."""
     done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True,
                           timeout=TIMEOUT, **others)
     if done.returncode:
@@ -36,12 +36,12 @@ def run(command, **others):
 
 
 def counted(command, *options):
-    """What callgrind counts: the total of every dump by its label, split at commas."""
+    """The counts of callgrind: the total of every dump by its label, split at commas."""
     found = {}
     with tempfile.TemporaryDirectory() as folder:
         run(["valgrind", "--quiet", "--tool=callgrind", "--collect-atstart=no", *options,
              "--callgrind-out-file=%s/out" % folder, *command],
-            # else the first call of a function includes the linker's search for it
+            # otherwise the first call of a function includes the linker's search for it
             env=dict(os.environ, LD_BIND_NOW="1"))
         for path in glob.glob(folder + "/out.*"):
             with open(path) as file:
@@ -54,14 +54,14 @@ def counted(command, *options):
 
 
 def steps(program, *arguments):
-    """{phase: instructions a step} of a run of carom-heaps."""
+    """{phase: instructions a step} for a run of carom-heaps."""
     found = counted([program, *arguments], "--instr-atstart=no")
     a_step = {phase: total / int(count) for (phase, count), total in found.items()}
     return {phase: a_step[phase] for phase in PHASES if phase in a_step}
 
 
 def all_steps(program, tasks):
-    """The steps() of tasks, in their order; the longest begin first."""
+    """The steps() of tasks, in their order; the longest start first."""
     order = sorted(tasks, key=lambda task: int(task[1]) if task[1].isdigit() else 0, reverse=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         found = dict(zip(order, pool.map(lambda task: steps(program, *task), order)))
@@ -69,7 +69,7 @@ def all_steps(program, tasks):
 
 
 def means(what, found):
-    """Figures of tasks, those that differ in nothing but the seed taken together."""
+    """Figures of tasks; tasks that differ only in the seed are combined."""
     groups = {}
     for (who, size, *_), phases in found:
         for phase, value in phases.items():
@@ -84,7 +84,7 @@ def short(program):
 
 
 def long(program):
-    """Figures of all heaps, of one asleep and of the scene `head`."""
+    """Figures of all heaps, of a sleeping one, and of the scene `head`."""
     heaps = [(who, str(boxes), str(seed)) for boxes, seeds in SEEDS.items()
              for seed in range(1, seeds + 1) for who in CONTENDERS]
     asleep = [("asleep", str(ASLEEP), "1")]
@@ -114,7 +114,7 @@ def wasm(program, image):
 
 
 def complaints(figures, committed):
-    """What is worse than the bounds allow, or than the committed figures, in the heap that CI counts."""
+    """Figures of the CI heap that exceed the bounds or the committed ones."""
     now, before = [{(phase, who): float(value) for what, _, phase, who, value, _ in rows
                     if what == "short"} for rows in (figures, committed)]
     wrong = []

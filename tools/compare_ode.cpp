@@ -8,11 +8,11 @@ namespace
 
 using namespace compare;
 
-/* ODE tests every pair of faces, whatever the room for points. */
+/* ODE tests every pair of faces, whatever room there is for points. */
 constexpr int POINTS = 64;
 
 struct Trimesh {
-    std::vector<float> vertices; /* it works with these anyway: 5 % faster than with doubles */
+    std::vector<float> vertices; /* ODE converts to float anyway: 5 % faster than with doubles */
     std::vector<dTriIndex> indices;
     dTriMeshDataID data;
     dGeomID geom;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The paper's own way of interference detection; see tests/paper. It is the engine's only by PAPER=1. */
+/* The paper's interference detection; see tests/paper. The engine uses it only with PAPER=1. */
 #include <cmath>
 
 #include "compare.hpp"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The table of the comparison, in README.md and in docs/compare.md, from docs/compare.csv.
 
-`make compare` writes all three. tools/check_compare asks whether the tables are those of the figures.
+`make compare` writes all three. tools/check_compare checks that the tables show the figures.
 """
 import csv
 import os
@@ -13,10 +13,10 @@ COLUMNS = ["what", "size", "phase", "contender", "value", "unit"]
 BEGIN, END = "<!-- compare -->\n", "<!-- end of compare -->\n"
 CONTENDERS = {"carom": "Carom", "ode": "ODE", "bullet": "Bullet", "fcl": "FCL", "rapier": "Rapier",
               "jolt": "Jolt"}
-BESIDE = ["ode", "rapier"]  # Carom's figure is divided by that of the first one there
+BESIDE = ["ode", "rapier"]  # Carom's figure is divided by that of the first of these that has one
 TITLES = {"query": "query, %s", "step": "step, %s", "heap": "step, %s boxes",
           "wasm": "step, %s boxes, WebAssembly"}
-# what README.md shows of all that
+# the part that README.md shows
 SHOWN = {"query": ["head"], "step": ["head"], "heap": ["8", "32", "128"], "wasm": ["100"]}
 NOT_SHOWN = ["settling"]
 
@@ -35,7 +35,7 @@ milliseconds. Each library has the settings that it comes with.
 
 
 def read():
-    """The committed figures; none when there are none."""
+    """The committed figures, or none."""
     if not os.path.exists(FIGURES):
         return []
     with open(FIGURES, newline="") as file:
@@ -43,7 +43,7 @@ def read():
 
 
 def value_text(value, unit):
-    """As a person says it: 94.2 k, 1.23 M, 0.45 ms."""
+    """A figure for people: 94.2 k, 1.23 M, 0.45 ms."""
     if unit == "ms":
         return "%.2f ms" % value
     for size, name in [(1e6, " M"), (1e3, " k")]:
@@ -54,7 +54,7 @@ def value_text(value, unit):
 
 
 def ratio_text(costs):
-    """Carom's figure by that of another."""
+    """Carom's figure over that of another."""
     for who in BESIDE:
         if who in costs:
             return "%.2g of %s's" % (costs["carom"] / costs[who], CONTENDERS[who])
@@ -62,7 +62,7 @@ def ratio_text(costs):
 
 
 def table(figures, short):
-    """The lines of a table; those that README.md shows when short."""
+    """The lines of a table; if short, only those that README.md shows."""
     rows, units = {}, {}
     for what, size, phase, who, value, unit in figures:
         shown = size in SHOWN.get(what, []) and phase not in NOT_SHOWN
@@ -80,7 +80,7 @@ def table(figures, short):
 
 
 def expected(figures):
-    """{path: the text that it is to have}."""
+    """{path: the text that the file is to have}."""
     with open(README) as file:
         before, _, rest = file.read().partition(BEGIN)
     return {README: before + BEGIN + table(figures, True) + END + rest.partition(END)[2],

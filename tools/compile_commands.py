@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What editors ask for: compile_commands.json, from the commands of `make -Bn` on standard input."""
+"""Write compile_commands.json, which editors read, from the commands of `make -Bn` on standard input."""
 import json
 import os
 import shlex

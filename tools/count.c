@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A plugin of QEMU (qemu-mips -plugin count.so PROGRAM) that counts the instructions which a program
- * executes and lets the program read the count while it runs.
+ * A plugin of QEMU (qemu-mips -plugin count.so PROGRAM) that counts the instructions of a program and lets the program read
+ * the count while it runs.
  *
- * QEMU translates a program in blocks, which are always executed from their first instruction on. A
- * block adds its length to the count when it begins, so two readings by the same instruction are
- * exactly as far apart as there were instructions in between. What is used of the interface is
- * declared here, as QEMU's documentation of its TCG plugins has it (version 1).
+ * QEMU translates a program in blocks, which always run from their first instruction on. A block adds its length to the count
+ * when it begins, so two readings by the same instruction differ by exactly the instructions in between. The parts of the
+ * interface that are used are declared here, as in QEMU's documentation of its TCG plugins (version 1).
  */
 #define _GNU_SOURCE
 #include <stddef.h>

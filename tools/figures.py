@@ -1,10 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The paper's figures 6, 7 and 8 as they are measured here, beside what the paper says: tools/figures.py PROGRAM
+"""The paper's figures 6, 7 and 8, measured, beside the paper's numbers: tools/figures.py PROGRAM
 
-6: a picture of examples/figures.c, the interfering faces coloured just before the impact, and their counts.
-7: what a frame in contact costs against the number of polygons. 8: the paper's other two scenes. Costs come from
-out/bench.csv. Everything goes to out/figures, the page and its small pictures to docs/ as well.
+6: a picture of examples/figures.c with the interfering faces coloured just before the impact, and their counts.
+7: the cost of a frame in contact over the number of polygons. 8: the paper's other two scenes. Costs come from
+out/bench.csv. Everything goes to out/figures; the page and its small pictures also go to docs/.
 """
 import os
 import subprocess
@@ -18,18 +18,18 @@ import run_board
 OUT, DOCS = "out/figures", "docs"
 FIELDS = [512, 3034, 12012, 49928]  # faces, of the growth of figure 7
 HEAD = 1876
-# The paper: seconds a frame are bench.PAPER
+# The paper's seconds a frame are in bench.PAPER
 POLYGONS = {"head": (1875, 3032), "head450": (450, 386), "espresso": (836, 512)}
 TITLES = {"head": "a head on a height field", "head450": "450 + 386", "espresso": "836 + 512"}
 PAPER_TOTAL = {scene: seconds * bench.PAPER_RATE for scene, seconds in bench.PAPER.items()}
 
-# part of a frame: stages, colour
+# a part of a frame: its stages, its colour
 PARTS = {
     "detection": (["predict", "broad", "interfere", "boyse"], "#1f78b4"),
     "dynamics": (["contact", "impact", "rest", "advance", "commit"], "#33a02c"),
     "display": ([bench.DISPLAY], "#e08214"),
 }
-RED = "#d00000"  # the paper's
+RED = "#d00000"  # the paper's colour
 
 STYLE = """
 set terminal pngcairo size 900,520 font "sans,12" background "#ffffff"
@@ -40,7 +40,7 @@ set grid ytics lc rgb "#dddddd" lt 1
 
 
 class Page:
-    """What a figure is made of, as Markdown."""
+    """The sources of a figure, as Markdown."""
 
     def __init__(self):
         self.lines = ["<!-- SPDX-License-Identifier: MIT -->"]
@@ -61,7 +61,7 @@ class Page:
 
 
 def save(image, name):
-    """A picture of 256 colours, the rare ones too, for the page in either place."""
+    """A picture of 256 colours, rare ones included, for the page in either place."""
     few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     for folder in (OUT, DOCS):
         few.save(os.path.join(folder, name), optimize=True)
@@ -72,7 +72,7 @@ def million(instructions):
 
 
 def parts_of(figures, scene):
-    """What each part of a frame in contact takes; nothing when it was not measured."""
+    """The cost of each part of a frame in contact; nothing if it was not measured."""
     keys = {part: [(scene, "contact", stage) for stage in stages] for part, (stages, _) in PARTS.items()}
     if not all(key in figures for every in keys.values() for key in every):
         sys.exit("%s: %s is not in it" % (bench.OUT, scene))
@@ -82,7 +82,7 @@ def parts_of(figures, scene):
 # ------------------------------------------------------------------ pictures
 
 def photograph(program, scene):
-    """Run examples/figures.c; returns what it said, and its pictures."""
+    """Run examples/figures.c; returns its output and its pictures."""
     folder = os.path.join(OUT, scene)
     os.makedirs(folder, exist_ok=True)
     done = run_board.run(program, ["scene=" + scene, "pictures=" + folder])
@@ -133,7 +133,7 @@ def figure7(page, figures):
     costs = {HEAD + field: parts_of(figures, "growth-%d" % field) for field in FIELDS}
     blocks, plots = [], []
     series = [(part, colour, "lw 2 ps 1.2 pt 7") for part, (_, colour) in PARTS.items()]
-    # over the line of the display, which is nearly all of it
+    # above the line of the display, which is nearly all of it
     for part, colour, style in series + [("all of it", "#000000", "lw 2 ps 1.6 pt 6 dt 2")]:
         rows = ["%d %f" % (polygons, cost.get(part, sum(cost.values())) / 1e6) for polygons, cost in costs.items()]
         blocks.append("$p%d << EOD\n%s\nEOD\n" % (len(blocks), "\n".join(rows)))

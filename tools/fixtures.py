@@ -1,10 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Run every fixture in a process of its own: tools/fixtures.py PROGRAM [NAME...]
+"""Run every fixture in its own process: tools/fixtures.py PROGRAM [NAME...]
 
-Rows go to out/fixtures.csv, where those of scenes that were not asked for stay, and when it has all to
-the table in docs/fixtures.md. A scene that hangs or crashes is a row that says so. The exit status is
-1 when any that ran does not do what it should.
+Rows go to out/fixtures.csv, where the rows of other scenes stay; when all scenes ran, the table in docs/fixtures.md is
+written. A scene that hangs or crashes gets a row that says so. The exit status is 1 if a scene that ran fails.
 """
 import csv
 import os

@@ -12,7 +12,7 @@ os.chdir(ROOT)
 
 # The folders of src/, a stage each; each may use only those before it.
 STAGES = "num mesh body pairs interfere boyse contact solve world step query replay draw".split()
-# A library of its own: from folders other than these it takes what the public headers declare.
+# A library of its own: of folders other than these it uses only what the public headers declare.
 ALONE = {"draw": ["num", "mesh"]}
 
 PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",
@@ -32,7 +32,7 @@ def need(*things):
 
 
 def output(command):
-    """What a command prints; a command that fails ends the gate."""
+    """The output of a command; a command that fails ends the gate."""
     done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, errors="replace")
     if done.returncode:
@@ -41,7 +41,7 @@ def output(command):
 
 
 def complaints(commands):
-    """Run commands side by side; returns what those that failed printed, in order."""
+    """Run commands side by side; returns the output of those that failed, in order."""
     def run(command):
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace")
@@ -126,7 +126,7 @@ def version():
 
 
 def finish(failures, verdict):
-    """Say what was found and end the gate; its last line begins with "pass:" when it holds."""
+    """Print the failures and end the gate; its last line begins with "pass:" if there are none."""
     for failure in failures:
         print("FAIL " + failure)
     print("%d failures" % len(failures) if failures else "pass: " + verdict)

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""The shape of a human head, as a field whose zero is its surface, and that surface in small triangles.
+"""The shape of a human head: a field that is zero on its surface, and that surface in small triangles.
 
-A head looks along -y, z is up, 0 the height of the eyes; top and chin are 1 unit from there. Only x >= 0 is
-described, the other half is its mirror image. Nothing but sums, products, quotients and square roots is
-used, which every machine rounds alike.
+A head looks along -y, z is up, and 0 is the height of the eyes; top and chin are 1 unit from there. Only x >= 0 is
+described; the other half is its mirror image. It uses only sums, products, quotients and square roots, which every
+machine rounds alike.
 """
 from math import sqrt
 
-CENTRE = 0.0, 0.08, -0.12  # sees all of the surface
+CENTRE = 0.0, 0.08, -0.12  # all of the surface is visible from here
 
 
 def ellipsoid(centre, radii, turn=None):
-    """About the distance to an ellipsoid; turn: its three axes, as rows."""
+    """Approximate distance to an ellipsoid; turn: its three axes, as rows."""
     cx, cy, cz = centre
     a, b, c = (1 / r for r in radii)
 
@@ -28,7 +28,7 @@ def ellipsoid(centre, radii, turn=None):
 
 
 def capsule(start, end, first, last):
-    """The distance to a rod from start to end, whose radius goes from first to last."""
+    """Distance to a rod from start to end, whose radius goes from first to last."""
     sx, sy, sz = start
     dx, dy, dz = (e - s for s, e in zip(start, end))
     square = 1 / (dx * dx + dy * dy + dz * dz)
@@ -64,8 +64,8 @@ EAR_OUT = unit(0.92, -0.39, 0.0)
 EAR_UP = unit(0.0, 0.22, 0.975)
 EAR_TURN = EAR_OUT, unit(*cross(EAR_UP, EAR_OUT)), unit(*cross(EAR_OUT, cross(EAR_UP, EAR_OUT)))
 
-# Where a part matters: the middle and the radius of a ball; None: everywhere. Then the distance to the
-# part, how it is joined ('+' put on, '-' cut out) and how wide the fillet is.
+# The parts. First where a part matters: the middle and the radius of a ball; None: everywhere. Then the distance to the part,
+# how it is joined ('+' put on, '-' cut out), and the width of the fillet.
 PARTS = [
     # skull, forehead, face, neck, jaw, chin, cheekbone, what is behind the lips
     (None, ellipsoid((0, 0.12, 0.24), (0.68, 0.84, 0.77)), "+", 0.1),
@@ -102,7 +102,7 @@ BOTTOM = -1.32
 
 
 def field(x, y, z):
-    """Less than 0 inside."""
+    """The field: below 0 inside."""
     value = 9.0
     for near, part, how, width in PARTS:
         if near:
@@ -116,7 +116,7 @@ def field(x, y, z):
 
 
 def on_surface(x, y, z):
-    """Where the surface is on the ray from CENTRE through a point: the outermost place."""
+    """The outermost place of the surface on the ray from CENTRE through a point."""
     cx, cy, cz = CENTRE
     x, y, z = unit(x - cx, y - cy, z - cz)
 
@@ -137,7 +137,7 @@ def on_surface(x, y, z):
 
 
 def settled(x, y, z, middle):
-    """The place on the surface next to a point that is near it; middle: it stays in the plane x = 0."""
+    """The place of the surface next to a point near it; middle: it stays in the plane x = 0."""
     step = 0.004
     for _ in range(2):
         d = field(x, y, z)
@@ -150,7 +150,7 @@ def settled(x, y, z, middle):
 
 
 def detail(x, y, z):
-    """How long the edges of small triangles may be at a point."""
+    """The largest length of an edge of a small triangle at a point."""
     if y < -0.55 and z > -0.75 and z < 0.3 and x < 0.5:
         return 0.037
     if x > 0.5 and y > -0.2 and y < 0.4 and z > -0.5 and z < 0.25:
@@ -184,7 +184,7 @@ def surface():
 
 
 def relaxed(points, faces):
-    """Each point half the way to the middle of its neighbours, then back on the surface."""
+    """Move each point half way to the middle of its neighbours, then back onto the surface."""
     sums = [[0.0, 0.0, 0.0, 0] for _ in points]
     for face in faces:
         for p, q in zip(face, face[1:] + face[:1]):
@@ -201,11 +201,11 @@ def relaxed(points, faces):
 
 
 def split(face, index, points):
-    """A face whose edges in `index` have a point in the middle."""
+    """Split a face whose edges in `index` have a point in the middle."""
     a, b, c = face
     while (a, b) not in index and (b, c) in index or (c, a) in index and (a, b) not in index:
         a, b, c = b, c, a
-    # now a-b has a point, when any edge has one
+    # turned so that a-b has a point, if any edge has one
     ab, bc, ca = index.get((a, b)), index.get((b, c)), index.get((c, a))
     if ab is None:
         return [(a, b, c)]
@@ -226,7 +226,7 @@ def split(face, index, points):
     return first + rest
 
 
-# How much places matter to who looks at the head: the middle and the radius of a ball, and how much.
+# How much places matter to the eye: the middle and the radius of a ball, and a weight.
 MATTER = [
     ((0.28, -0.76, -0.01), 0.2, 30.0),  # eye
     ((0.10, -0.85, -0.62), 0.2, 30.0),  # lips

@@ -6,11 +6,10 @@
  *        carom-heaps CONTENDER head
  *        carom-heaps layout BOXES SEED
  *
- * `head` is the scene of that name, whole steps of it. `layout` prints where the boxes begin, a box a
- * line. Under callgrind with --instr-atstart=no --collect-atstart=no instructions are counted in phases
- * of 60 steps, which are labelled PHASE,STEPS: falling, settling, resting; or asleep, of a heap of
- * Carom's that sleeps. To the console: how high the bodies lie on average, how many lie under z = 0,
- * and how many steps went wrong by the library's own report.
+ * `head` runs whole steps of the scene of that name. `layout` prints the places where boxes begin, a box a line. Under callgrind
+ * with --instr-atstart=no --collect-atstart=no, instructions are counted in phases of 60 steps, labelled PHASE,STEPS: falling,
+ * settling, resting; or asleep, of a heap of Carom's that sleeps. To the console: the mean height of the bodies, how many lie under
+ * z = 0, and how many steps went wrong by the library's own report.
  */
 #include <cmath>
 #include <cstdio>
@@ -24,7 +23,7 @@
 namespace
 {
 
-/* Uniform in +-1: the same everywhere. */
+/* Uniform in +-1; the same on every machine. */
 double chance(unsigned &state)
 {
     state = state * 1664525u + 1013904223u;
@@ -94,7 +93,7 @@ heaps::Made make_heap(const std::string &name, const std::vector<heaps::Start> &
     return nullptr;
 }
 
-/* Positions, then quaternions, for programs that make the same heap. */
+/* Print positions, then quaternions, for programs that make the same heap. */
 void print_layout(const std::vector<heaps::Start> &boxes)
 {
     for (const heaps::Start &start : boxes) {
@@ -105,7 +104,7 @@ void print_layout(const std::vector<heaps::Start> &boxes)
     }
 }
 
-/* Only what is measured is instrumented: the rest runs many times faster. */
+/* Instrument only what is measured: the rest runs many times faster. */
 void measure(heaps::Heap &heap, const char *label, int steps)
 {
     char text[64];

@@ -2,9 +2,9 @@
 /*
  * heaps - many boxes that fall on each other, through Carom and others.
  *
- * Unit boxes of mass 1 in layers over a plane at z = 0, a little turned and beside their places; gravity
- * 9.81 m/s^2, 60 steps a second, friction 0.5, no restitution, nobody sleeps. Each library with the
- * settings that it comes with. And the scene `head` of Carom's examples, nobody asleep either.
+ * Unit boxes of mass 1 in layers over a plane at z = 0, slightly turned and displaced; gravity 9.81 m/s^2, 60 steps a second,
+ * friction 0.5, no restitution, nobody sleeps. Each library has its default settings. And the scene `head` of Carom's examples,
+ * without sleep either.
  */
 #ifndef CAROM_TOOLS_HEAPS_HPP
 #define CAROM_TOOLS_HEAPS_HPP
@@ -24,7 +24,7 @@ struct Start {
     double quaternion[4]; /* w, x, y, z; of length 1 */
 };
 
-/* Where the boxes of a heap begin: the same for every library, another heap for each seed. */
+/* Where the boxes of a heap begin: the same for every library; each seed gives another heap. */
 std::vector<Start> layout(int boxes, unsigned seed);
 
 class Heap
@@ -33,9 +33,9 @@ class Heap
     virtual ~Heap() = default;
     virtual const char *name() const = 0;
     virtual void step() = 0;
-    /* How high the centre of a box is. */
+    /* The height of a box's centre. */
     virtual double height(int box) const = 0;
-    /* How many steps have not gone as they should, by what the library says. */
+    /* Steps that went wrong, by the library's own report. */
     virtual int troubled() const
     {
         return 0;
@@ -45,7 +45,7 @@ class Heap
 using Made = std::unique_ptr<Heap>;
 
 Made make_carom(const std::vector<Start> &boxes);
-/* Carom's with sleep, when all boxes are asleep; null when they are not after a while. */
+/* Carom's heap with sleep, when all boxes sleep; null if they do not after a while. */
 Made make_asleep(const std::vector<Start> &boxes);
 Made make_ode(const std::vector<Start> &boxes);
 Made make_bullet(const std::vector<Start> &boxes);
@@ -68,7 +68,7 @@ struct Scene {
 Made make_carom_head();
 Made make_ode_head(const Scene &scene);
 Made make_bullet_head(const Scene &scene);
-/* As Carom's examples have it. */
+/* As in Carom's examples. */
 Scene head_scene();
 
 } // namespace heaps

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The scene `head`: Carom's world of it, and what other libraries make theirs of. */
+/* The scene `head`: Carom's world, and its data for other libraries. */
 #include <cmath>
 
 #include "expect.hpp"

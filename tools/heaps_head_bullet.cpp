@@ -46,7 +46,8 @@ class Bullet : public Heap
         btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
         world_.setGravity(btVector3(0, 0, static_cast<btScalar>(GRAVITY)));
         for (btRigidBody *body : {&ground_, &body_}) {
-            body->setFriction(static_cast<btScalar>(std::sqrt(scene_.friction))); /* multiplied */
+            body->setFriction(
+                static_cast<btScalar>(std::sqrt(scene_.friction))); /* Bullet multiplies the two */
             body->setRestitution(static_cast<btScalar>(std::sqrt(scene_.restitution)));
             body->setActivationState(DISABLE_DEACTIVATION);
         }

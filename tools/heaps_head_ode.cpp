@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: the scene `head` of two trimeshes, a contact joint at each point that it finds. */
+/* ODE: the scene `head` of two trimeshes, with a contact joint at each point found. */
 #include "heaps.hpp"
 #include "ode.hpp"
 
@@ -20,7 +20,7 @@ dSurfaceParameters surface_of(const Scene &scene)
     return surface;
 }
 
-/* The meshes' data, which geoms refer to. */
+/* The data of the meshes, which geoms refer to. */
 struct Meshes {
     std::vector<dTriMeshDataID> data;
 
@@ -68,7 +68,7 @@ class Ode : private ode::Library, public Heap
 
   private:
     const Scene scene_;
-    Meshes meshes_; /* longer than the world */
+    Meshes meshes_; /* must outlive the world */
     ode::World world_;
     dBodyID body_;
 

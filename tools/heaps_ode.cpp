@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ODE: its quick stepper with the settings it comes with. */
+/* ODE: its quick stepper with its default settings. */
 #include "heaps.hpp"
 #include "ode.hpp"
 

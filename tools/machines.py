@@ -5,19 +5,19 @@ from math import acos, atan2, cos, pi, sin, tan
 
 from solids import pierced, rings
 
-MODULE = 0.1  # a wheel's radius, where it rolls on the next one, is half of that a tooth
-PRESSURE = 25 * pi / 180  # between the line on which teeth press and the way that they go
-BACKLASH = 0.006  # units along the rolling circle, of each tooth
+MODULE = 0.1  # the radius at which a wheel rolls on the next is half of this times its teeth
+PRESSURE = 25 * pi / 180  # the pressure angle
+BACKLASH = 0.006  # units along the rolling circle, for each tooth
 
 
 def circle(x, y, radius, sides, turn=0.0):
-    """Clockwise: a hole."""
+    """A hole: clockwise."""
     return [(x + radius * cos(turn - 2 * pi * k / sides), y + radius * sin(turn - 2 * pi * k / sides))
             for k in range(sides)]
 
 
 def flank(teeth):
-    """Of half a tooth, from its root to its tip: radius, and angle from the middle of the tooth. An involute in two pieces."""
+    """Half a tooth, from its root to its tip, as an involute in two pieces: radius, and angle from the middle of the tooth."""
     rolling = MODULE * teeth / 2
     base, root, tip = rolling * cos(PRESSURE), rolling - 1.15 * MODULE, rolling + 0.85 * MODULE
 
@@ -33,7 +33,7 @@ def flank(teeth):
 
 
 def gear(teeth, turn=0.0, holes=0, half=0.15):
-    """A wheel about the y axis, twice `half` thick, with a square bore and round holes; the middle of a tooth is at `turn` from x towards z."""
+    """A wheel about the y axis, twice `half` thick, with a square bore and round holes; `turn` puts the middle of a tooth from x towards z."""
     side, outline = flank(teeth), []
     for k in range(teeth):
         middle = turn + 2 * pi * k / teeth
@@ -47,33 +47,33 @@ def gear(teeth, turn=0.0, holes=0, half=0.15):
     return pierced(loops, -half, half)
 
 
-# Teeth of wheels that turn each other one after the other, and where their axles are: x, z (examples/scene_gears.c).
+# Teeth of wheels that turn each other in order, and their axles: x, z (examples/scene_gears.c).
 TRAIN = ((10, -1.5, 0.95), (24, 0, 1.75), (16, 1.6, 2.95), (12, 2.44, 1.83))
 
 
 def train():
-    """Meshes by name, each turned so that its teeth are between those of the one before."""
+    """Meshes by name, each turned so that its teeth lie between those of the wheel before."""
     wheels, turn = {}, 0.0
     for i, (teeth, x, z) in enumerate(TRAIN):
         if i > 0:
             before, from_x, from_z = TRAIN[i - 1]
             way = atan2(z - from_z, x - from_x)
-            # in teeth: where the one before is on the way here, and so half a tooth less on the way back
+            # in teeth: the phase of the wheel before at this place, less half a tooth
             part = 0.5 - (way - turn) * before / (2 * pi)
             turn = way + pi - part * 2 * pi / teeth
-        half = 0.15 if i % 2 else 0.12  # edges that lie on each other would have more to test
+        half = 0.15 if i % 2 else 0.12  # edges that lie on each other would cost more tests
         wheels["gear%d" % teeth] = partial(gear, teeth, turn, {16: 4, 24: 5}.get(teeth, 0), half)
     return wheels
 
 
-# A thread winds up by a pitch a turn. A pitch is four rows, at these heights and radii.
+# A thread rises by a pitch in a turn. A pitch has four rows, at these heights and radii.
 PITCH, SEGMENTS, LOOSE = 0.4, 18, 0.012
 ROWS = ((0, 0.30), (0.06, 0.42), (0.15, 0.42), (0.21, 0.30))
 
 
 class Thread:
-    """Column i of row m is at angle i of SEGMENTS and i / SEGMENTS of a pitch above row m of column 0, which has four rows
-    more than the others: column SEGMENTS is column 0, four rows up, and each end has a step there."""
+    """Column i of row m is at angle i of SEGMENTS, i / SEGMENTS of a pitch above row m of column 0. Column 0 has four rows more
+    than the others: column SEGMENTS is column 0, four rows up, and each end has a step there."""
 
     def __init__(self, rows, count):
         self.count, self.points = count, []
@@ -91,7 +91,7 @@ class Thread:
         return m + 4 if i == SEGMENTS else m if i == 0 else self.count + 4 + (i - 1) * self.count + m
 
     def faces(self):
-        """Seen from outside. The diagonals run the same way in bolt and nut, as these lie on each other."""
+        """Faces seen from outside. The diagonals run the same way in bolt and nut, because these lie on each other."""
         for i in range(SEGMENTS):
             for m in range(self.count - 1):
                 a, b, c, d = self.at(i, m), self.at(i + 1, m), self.at(i + 1, m + 1), self.at(i, m + 1)
@@ -111,7 +111,7 @@ def bolt():
 
 
 def nut():
-    """Six-sided outside, with flat ends."""
+    """The nut: six-sided outside, with flat ends."""
     rows = [(z + (LOOSE if m > 1 else -LOOSE), (radius + LOOSE) / cos(pi / SEGMENTS)) for m, (z, radius) in enumerate(ROWS)]
     thread = Thread(rows, 4)
     last = thread.count - 1

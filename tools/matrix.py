@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: MIT
 """One answer from every instruction set, compiler and option: tests/matrix.c, built in many ways.
 
-Every build plays the scenes of tests/lib/plays.c and must print the same hash for each. What cannot be
-built or run is a failure, as is a hash that differs; then the first frame that differs is looked for,
-and in it the stage that left something else. Snapshots that one build takes on the way are gone on
-with by another, of the other byte order or word length, for as many frames. A row a build and scene goes to
-out/matrix.csv.
+Every build plays the scenes of tests/lib/plays.c and must print the same hash for each. A build that cannot be made or run
+fails, and so does one with a different hash; then the first frame that differs is searched, and in it the stage that left a
+different result. Another build, of the other byte order or word length, continues from snapshots that a build takes on the
+way, for as many frames. out/matrix.csv has a row a build and scene.
 """
 import argparse
 import concurrent.futures
@@ -31,9 +30,9 @@ OUT = "out/matrix.csv"
 DOCS = "docs/matrix.md"
 WORK = "build/matrix"
 TIMEOUT = 900  # seconds a command
-FRAMES = 2000, 1000  # of a scene; of one in the short form
+FRAMES = 2000, 1000  # of a scene; of a scene in the short form
 AT = 500  # the frame whose snapshot is handed on
-CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that are gone on with elsewhere
+CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that another build continues
 
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Werror".split()
 INCLUDES = ["-I%s/%s" % (ROOT, name) for name in "include src port examples tests".split()]
@@ -42,7 +41,7 @@ PROGRAM = ["tests/matrix.c", "tests/lib/plays.c", "port/option.c"] + sorted(
     if not name.endswith(("_rom.c", "_play.c")))
 SCENE_MESHES = ["build/gen/*_mesh.c", "build/gen/*_ramps.c"]  # constants: compiled once a target
 
-# Undefined behaviour ends the program; a trap needs no library, so that runs everywhere.
+# Undefined behaviour ends the program. A trap needs no library, so it works everywhere.
 GCC_TRAP = "-O1 -fsanitize=undefined -fsanitize-undefined-trap-on-error"
 CLANG_TRAP = "-O1 -fsanitize=undefined -fsanitize-trap=undefined"
 SANITIZE = "-fsanitize=address,undefined -fno-sanitize-recover=all -DCAROM_DEBUG"
@@ -55,7 +54,7 @@ NATIVE = {"gcc": GCC + ["-O1 " + SANITIZE, "-O3 " + SANITIZE],
           "clang": LEVELS + MORE + ["-O2 -flto -fuse-ld=lld", CLANG_TRAP, "-O1 " + SANITIZE]}
 WASM = LEVELS + MORE + ["-Oz"]
 
-# name: triple of the GNU tools, emulator, bits, byte order, whether clang 14 makes code for it
+# name: triple of the GNU tools, emulator, bits, byte order, if clang 14 generates code for it
 LINUX = {
     "i686": ("i686-linux-gnu", "i386", 32, "little", True),
     "armel": ("arm-linux-gnueabi", "arm", 32, "little", True),
@@ -76,21 +75,20 @@ LINUX = {
     "alpha": ("alpha-linux-gnu", "alpha", 64, "little", False),
     "sh4": ("sh4-linux-gnu", "sh4", 32, "little", False),
 }
-# For MIPS32 clang before 15 makes msub of (int64_t)a * b - c, which is c - a * b: LLVM issue 50458.
-# MIPS II has no msub.
+# For MIPS32 clang before 15 makes msub of (int64_t)a * b - c, which is c - a * b: LLVM issue 50458. MIPS II has no msub.
 CLANG_ARCH = {"mips": ["-march=mips2"], "mipsel": ["-march=mips2"]}
-SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # instruction sets that nothing else has
+SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # instruction sets that no other target has
 ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
-       for size in (1, 2) for order in (1, 2)}  # bits and byte order by a header's bytes
+       for size in (1, 2) for order in (1, 2)}  # bits and byte order, by two bytes of an ELF header
 DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
-# GCC 12.2 for SuperH loses comparisons before a branch when it optimises (int f(const int *p) that
-# calls something p[2] times lacks the first). The C library that it made hangs.
+# GCC 12.2 for SuperH loses comparisons before a branch when it optimises (int f(const int *p) that calls something p[2] times
+# lacks the first). The C library that it compiled hangs.
 ONLY = {"sh4": ["-O0", "-O0 -fwrapv", "-O0 -funsigned-char"]}
 NO_LIBRARY = {"sh4": "port/sh4/sh4.c"}
 NO_LIBRARY_PORT = ["port/nolibc/string.c"]
 NO_LIBRARY_OPTIONS = ["-ffreestanding", "-I%s/port/nolibc" % ROOT]
 MESHES = {}  # by target: objects
-MAKING = threading.Lock()  # boards have tools and meshes in common
+MAKING = threading.Lock()  # boards share tools and meshes
 
 DOCS_HEAD = """<!-- SPDX-License-Identifier: MIT -->
 # One answer on every machine
@@ -112,11 +110,11 @@ comparisons there.
 
 
 class Failure(Exception):
-    """What went wrong with a build, in words."""
+    """The failure of a build, in words."""
 
 
 def call(command, what, folder=ROOT):
-    """Run a command; returns what it prints, or raises a Failure that ends with its last lines."""
+    """Run a command; returns its output, or raises a Failure that ends with its last lines."""
     try:
         done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -132,9 +130,9 @@ def call(command, what, folder=ROOT):
 
 
 class Build:
-    """One way to make the program, and what it said."""
-    need = []  # what tools/need is asked for
-    where = ""  # what runs it, for people
+    """One way to make the program, and its output."""
+    need = []  # things for tools/need
+    where = ""  # the name of the runner, for people
     libraries = []  # after the objects
 
     def __init__(self, target, compiler, options, bits, order):
@@ -150,7 +148,7 @@ class Build:
         return " ".join([self.target, self.compiler, self.options])
 
     def compile(self, sources, *options):
-        """Objects of sources in the build's folder; clang warns of what only a linker takes."""
+        """Objects of sources in the build's folder; clang warns of options that only a linker takes."""
         of_compiler = [word for word in self.options.split() if not word.startswith("-fuse-ld")]
         call([*self.command, "-std=c11", *of_compiler, *INCLUDES, *options, "-c",
               *[os.path.join(ROOT, source) for source in sources]], "compile", self.folder)
@@ -167,12 +165,12 @@ class Build:
             os.remove(path)
 
     def run(self, *options):
-        """The words of every line that it prints."""
+        """The words of every line of the output."""
         text = call([*self.runner, self.elf, *options], "run")
         return [line.split() for line in text.splitlines()]
 
     def play(self, *options):
-        """Play scenes: what it says of each, and the snapshots."""
+        """Play scenes; returns the result of each, and the snapshots."""
         for words in self.run(*options, "save=1"):
             if words[0] == "scene":
                 self.scenes[words[1]] = words[2:]
@@ -201,7 +199,7 @@ class Linux(Build):
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
             ["clang"] + (["--target=" + triple] if triple else []) + CLANG_ARCH.get(target, [])
-        # Debian's clang does not find every cross linker: there gcc links what clang has compiled
+        # Debian's clang does not find every cross linker: there gcc links what clang compiled
         self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
         self.linker = self.linker + static if triple else self.linker
         self.runner = ["qemu-" + emulator] if triple else []
@@ -274,13 +272,13 @@ def every_build(short):
 # ------------------------------------------------------------------ what differs
 
 def lines(build, kind, scene, frames, option):
-    """The words of every line of a kind that a build prints with an option."""
+    """The words of every line of a kind, from a build with an option."""
     said = build.run("scene=" + scene, "frames=%d" % frames, option)
     return [words for words in said if words[0] == kind]
 
 
 def first_difference(build, other, scene, frames):
-    """In words: the first frame of a scene after which two builds differ, and the stage in it."""
+    """In words: the first frame of a scene after which two builds differ, and the stage that differs."""
     pairs = zip(lines(build, "frame", scene, frames, "each=1"),
                 lines(other, "frame", scene, frames, "each=1"))
     frame = next((int(mine[1]) for mine, theirs in pairs if mine != theirs), None)
@@ -297,7 +295,7 @@ def first_difference(build, other, scene, frames):
 
 
 def compared(build, first):
-    """What is wrong with a build beside the first, a line each."""
+    """The faults of a build compared with the first, a line each."""
     for scene, words in build.scenes.items():
         if words != first.scenes[scene]:
             try:
@@ -330,7 +328,7 @@ def snapshot_path(build, scene):
 
 
 def cross(source, to, scene):
-    """What is wrong with going on from another's snapshot, or None."""
+    """The fault of continuing from another build's snapshot, or None."""
     frames = min(2 * AT, int(source.scenes[scene][0]))
     words = to.run("scene=" + scene, "at=%d" % AT, "frames=%d" % frames,
                    "load=" + snapshot_path(source, scene))[-1]
@@ -343,7 +341,7 @@ def cross(source, to, scene):
 # ----------------------------------------------------------------------------- all
 
 def make_meshes(build):
-    """The scenes' meshes, for every build of a target."""
+    """The meshes of the scenes, for every build of a target."""
     folder = os.path.join(WORK, build.target, "meshes")
     os.makedirs(folder, exist_ok=True)
     call([*build.command, "-c", "-O0", *INCLUDES,
@@ -352,7 +350,7 @@ def make_meshes(build):
 
 
 def attempt(action, build, *arguments):
-    """None, or what went wrong."""
+    """None, or the failure."""
     try:
         action(*arguments)
     except Failure as failure:
@@ -375,7 +373,7 @@ def do(build, number, play):
 
 
 def do_all(builds, play, jobs):
-    """Make and run all builds; returns what is wrong, a line each."""
+    """Make and run all builds; returns the faults, a line each."""
     failures = []
     targets = {build.target: build for build in builds if not isinstance(build, Board)}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -392,7 +390,7 @@ def do_all(builds, play, jobs):
 
 
 def cross_all(kept, jobs):
-    """Go on with snapshots elsewhere; returns what is wrong, and how many did by kind."""
+    """Continue snapshots on other builds; returns the faults, and how many continued by kind."""
     tasks = [(source, to, kind, scene) for source, to, kind in other_kinds(kept)
              for scene in CROSSED if scene in source.snapshots and scene in to.snapshots]
     found = {}
@@ -454,7 +452,7 @@ def compiler_version(build):
 
 
 def docs_rows(builds):
-    """A row a target and compiler."""
+    """A row for each target and compiler."""
     for (target, compiler), group in itertools.groupby(
             builds, lambda build: (build.target, build.compiler)):
         group = list(group)
@@ -465,7 +463,7 @@ def docs_rows(builds):
 
 
 def write_docs(builds, crossings):
-    """What was found, for people: the targets, the options and the hashes, each once."""
+    """A summary for people: the targets, the options and the hashes, each once."""
     scenes = builds[0].scenes
     with open(DOCS, "w") as file:
         file.write(DOCS_HEAD % (len(builds), len(scenes), sum(crossings.values())))
@@ -485,7 +483,7 @@ def write_docs(builds, crossings):
 
 
 def chosen(arguments):
-    """The builds that are asked for."""
+    """The builds that were asked for."""
     builds = list(every_build(arguments.short))
     if arguments.targets:
         builds = [build for build in builds if build.target in arguments.targets.split(",")]

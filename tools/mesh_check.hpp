@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_check - the last part of the mesh converter: whether a surface is a height field, and the
- * mass of a solid.
+ * mesh_check - the last part of the mesh converter: checks that a surface is a height field, and computes the mass of a solid.
  */
 #ifndef CAROM_TOOLS_MESH_CHECK_HPP
 #define CAROM_TOOLS_MESH_CHECK_HPP
@@ -13,7 +12,7 @@ namespace mend
 
 /* ------------------------------------------------------------------- surfaces */
 
-/* Whether two faces, both counter-clockwise from above, cover a common area seen from above. */
+/* True if two faces, both counter-clockwise from above, share an area seen from above. */
 inline bool overlap_xy(const Mesh &mesh, const Face &f, const Face &g)
 {
     const Face *pair[2] = {&f, &g};
@@ -50,7 +49,7 @@ inline void check_looks_up(const Mesh &mesh)
     }
 }
 
-/* No two faces of a surface may lie above each other: those in a common cell are compared. */
+/* No two faces of a surface may lie above each other: compare those in a common cell. */
 inline void check_single_layer(const Mesh &mesh)
 {
     Vertex low = mesh.vertices[0], high = low;
@@ -106,7 +105,7 @@ struct Mass {
     std::array<double, 6> inertia; /* xx yy zz xy yz zx about the centre, divided by the mass */
 };
 
-/* By tetrahedra from the first vertex, which keeps the terms of a far-off mesh small. */
+/* By tetrahedra from the first vertex, so that the terms of a far-off mesh stay small. */
 inline Mass mass_of(const Mesh &mesh)
 {
     const Point origin = in_units(mesh, 0);
@@ -159,7 +158,7 @@ inline Mass mass_of(const Mesh &mesh)
     return mass;
 }
 
-/* What the file's own corners enclose, before they are snapped. */
+/* The volume that the file's own corners enclose, before they are snapped. */
 inline double volume_of(const Soup &soup)
 {
     double volume = 0;
@@ -181,8 +180,8 @@ inline double volume_of(const Soup &soup)
 }
 
 /*
- * A warning when quanta bend the volume by more than a hundredth; empty: they do not. A file with
- * faces twice or turned against each other, holes or parts within parts has no volume to compare.
+ * A warning if quanta change the volume by more than a hundredth; otherwise empty. A file with double or turned faces, holes or
+ * parts within parts has no volume to compare with.
  */
 inline std::string doubt_about_volume(const Soup &soup, const Mesh &mesh)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_close - closes the flat holes of a mesh: the loops of open edges that lie in one plane are
- * filled. A loop within another that runs the other way round bounds a ring with it.
+ * mesh_close - fills the flat holes of a mesh: loops of open edges that lie in one plane. A loop within another that runs the
+ * other way round bounds a ring with it.
  */
 #ifndef CAROM_TOOLS_MESH_CLOSE_HPP
 #define CAROM_TOOLS_MESH_CLOSE_HPP
@@ -11,17 +11,17 @@
 namespace mend
 {
 
-constexpr size_t loop_max = 10000; /* edges; filling takes time with their square */
+constexpr size_t loop_max = 10000; /* edges; the time to fill grows with their square */
 
-/* A loop of open edges: vertices in the order that a face over it has. */
+/* A loop of open edges: vertices in the order of a face that fills it. */
 struct Hole {
     std::vector<uint32_t> vertices;
     Normal normal; /* twice the area along the plane's normal */
     double offset; /* of the plane from the origin along the normal, quanta */
-    Loop flat;     /* seen from where it runs counter-clockwise */
+    Loop flat;     /* seen from the side where it runs counter-clockwise */
 };
 
-/* The open edges against the windings of their faces, from each vertex. */
+/* The open edges from each vertex, against the windings of their faces. */
 inline std::map<uint32_t, std::vector<uint32_t>> open_ways(const EdgeUses &uses)
 {
     std::map<uint32_t, std::vector<uint32_t>> ways;
@@ -36,7 +36,7 @@ inline std::map<uint32_t, std::vector<uint32_t>> open_ways(const EdgeUses &uses)
     return ways;
 }
 
-/* Loops that touch no other at a vertex; the rest is named. */
+/* Loops that touch no other loop at a vertex; the others are reported. */
 inline std::vector<Hole> loops_of(const Mesh &mesh, const EdgeUses &uses,
                                   std::vector<std::string> &left)
 {
@@ -66,7 +66,7 @@ inline std::vector<Hole> loops_of(const Mesh &mesh, const EdgeUses &uses,
     return found;
 }
 
-/* Find the plane of a hole; returns how far the farthest vertex is from it, in quanta. */
+/* Find the plane of a hole; returns the largest distance of a vertex from it, in quanta. */
 inline double find_plane(const Mesh &mesh, Hole &hole)
 {
     const Vertex &origin = mesh.vertices[hole.vertices[0]];
@@ -100,7 +100,7 @@ inline double find_plane(const Mesh &mesh, Hole &hole)
     return (high - low) / 2;
 }
 
-/* Seen along the axis that is most upright to the plane. */
+/* Project along the axis that is nearest to the plane's normal. */
 inline void flatten(const Mesh &mesh, Hole &hole)
 {
     size_t axis = 0;
@@ -116,7 +116,7 @@ inline void flatten(const Mesh &mesh, Hole &hole)
     }
 }
 
-/* Whether a hole is flat and its loop simple; otherwise it is named. */
+/* True if a hole is flat and its loop simple; otherwise it is reported. */
 inline bool can_fill(const Mesh &mesh, Hole &hole, std::vector<std::string> &left)
 {
     const std::string where = "at " + place(in_units(mesh, hole.vertices[0])) + ", " +
@@ -140,7 +140,7 @@ inline bool can_fill(const Mesh &mesh, Hole &hole, std::vector<std::string> &lef
     return false;
 }
 
-/* Whether a hole lies in the plane of another, within its loop, and runs the other way round. */
+/* True if a hole lies in the plane of another, within its loop, and runs the other way round. */
 inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
 {
     double along = 0, length[2] = {0, 0};
@@ -153,7 +153,7 @@ inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
     if (along > -0.99 * std::sqrt(length[0] * length[1])) {
         return false;
     }
-    Hole seen; /* the inner loop, seen as the outer one is */
+    Hole seen; /* the inner loop, projected as the outer one */
     double off = 0;
 
     seen.vertices = inner.vertices;
@@ -171,7 +171,7 @@ inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
                                    [&](const Corner &c) { return is_within(outer.flat, c); });
 }
 
-/* For each hole the smallest that it makes a ring with; its own number: none. */
+/* For each hole the smallest one that it forms a ring with; its own number: none. */
 inline std::vector<size_t> rings(const Mesh &mesh, const std::vector<Hole> &found)
 {
     std::vector<size_t> outer(found.size());
@@ -188,7 +188,7 @@ inline std::vector<size_t> rings(const Mesh &mesh, const std::vector<Hole> &foun
     return outer;
 }
 
-/* Faces are within a loop that nothing or a ring is around. */
+/* Faces lie within a loop that is outermost, or within a ring. */
 inline bool is_filled(const std::vector<size_t> &outer, size_t number)
 {
     bool filled = true;
@@ -200,7 +200,7 @@ inline bool is_filled(const std::vector<size_t> &outer, size_t number)
     return filled;
 }
 
-/* Fill one hole and those that make rings with it; false: it cannot be. */
+/* Fill one hole and those that form rings with it; false if that is impossible. */
 inline bool close_hole(Mesh &mesh, const std::vector<Hole> &found, const std::vector<size_t> &outer,
                        size_t number)
 {
@@ -222,7 +222,7 @@ inline bool close_hole(Mesh &mesh, const std::vector<Hole> &found, const std::ve
     return !faces.empty();
 }
 
-/* Fill all flat holes, or refuse with those that are not. */
+/* Fill all flat holes, or refuse and report those that are not flat. */
 inline void close_holes(Mesh &mesh, const EdgeUses &uses)
 {
     const size_t before = mesh.faces.size();

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Half of a symmetric mesh with fewer faces: the edge whose loss changes the surface least goes first.
 
-How much a vertex's place differs from the surface is the sum of squares of its distances to the planes of the
-faces that went into it, each weighed by area and by how much the place matters (Garland and Heckbert, "Surface
-simplification using quadric error metrics", 1997). The mesh is the half with x >= 0; vertices of its rim stay in
-the plane x = 0, and both halves together stay a closed surface without handles.
+The error of a vertex's place is the sum of squares of its distances to the planes of the faces that were merged into it,
+weighted by area and by how much the place matters (Garland and Heckbert, "Surface simplification using quadric error
+metrics", 1997). The mesh is the half with x >= 0. Vertices of its rim stay in the plane x = 0, and both halves together
+stay a closed surface without handles.
 """
 import heapq
 from math import sqrt
 
 
 def normal(p, q, r):
-    """Twice the area long."""
+    """The normal of a face, twice its area long."""
     ax, ay, az = q[0] - p[0], q[1] - p[1], q[2] - p[2]
     bx, by, bz = r[0] - p[0], r[1] - p[1], r[2] - p[2]
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -30,7 +30,7 @@ def shape(p, q, r):
 
 
 def plane(n, p, weight):
-    """The weighed square of the distance to a plane, as coefficients of xx xy xz yy yz zz x y z 1."""
+    """The weighted square of the distance to a plane, as coefficients of xx xy xz yy yz zz x y z 1."""
     x, y, z = n
     d = -(x * p[0] + y * p[1] + z * p[2])
     return [weight * c for c in (x * x, x * y, x * z, y * y, y * z, z * z, x * d, y * d, z * d, d * d)]
@@ -44,7 +44,7 @@ def error(quadric, p):
 
 
 def best(quadric, middle):
-    """Where the error is least, drawn a little to `middle`; in the plane x = 0 when that is."""
+    """The place of the least error, drawn a little to `middle`; in the plane x = 0 if `middle` is."""
     xx, xy, xz, yy, yz, zz, x, y, z, _ = quadric
     pull = 0.002 * (xx + yy + zz) + 1e-12
     mx, my, mz = middle
@@ -64,7 +64,7 @@ class Half:
     def __init__(self, points, faces, weight):
         self.points = list(points)
         self.faces = [list(face) for face in faces]
-        self.around = [set() for _ in points]  # faces of a vertex
+        self.around = [set() for _ in points]  # faces of each vertex
         self.quadrics = [[0.0] * 10 for _ in points]
         self.count = len(faces)
         self.stamp = [0] * len(points)
@@ -101,19 +101,19 @@ class Half:
         return {u for i in self.around[v] for u in self.faces[i]} - {v}
 
     def offer(self, v, w):
-        """Put what the loss of an edge costs into the heap."""
+        """Add the cost of losing an edge to the heap."""
         p, q = self.points[v], self.points[w]
         quadric = [a + b for a, b in zip(self.quadrics[v], self.quadrics[w])]
         rim = p[0] == 0 or q[0] == 0
         middle = (0.0 if rim else (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2)
         place = best(quadric, middle)
         cost = error(quadric, place)
-        # of edges that cost nothing much the shortest first, which makes even triangles
+        # of edges that cost about nothing the shortest goes first, which makes even triangles
         cost += 1e-5 * (quadric[0] + quadric[3] + quadric[5]) * square(p, q)
         heapq.heappush(self.heap, (cost, v, w, self.stamp[v], self.stamp[w], place))
 
     def allowed(self, v, w, place, worst, fold):
-        """Whether the surface stays one without folds and slivers."""
+        """True if the surface stays one, without folds and slivers."""
         points, faces = self.points, self.faces
         shared = self.around[v] & self.around[w]
         on_rim = points[v][0] == 0, points[w][0] == 0
@@ -145,7 +145,7 @@ class Half:
         return True
 
     def collapse(self, v, w, place):
-        """w goes into v."""
+        """Merge w into v."""
         for i in self.around[v] & self.around[w]:
             for u in self.faces[i]:
                 self.around[u].discard(i)
@@ -163,7 +163,7 @@ class Half:
             self.offer(min(u, v), max(u, v))
 
     def reduce(self, count):
-        """To so many faces."""
+        """Collapse edges until so many faces are left."""
         refused, worst, fold = [], 0.35, 0.3
         while self.count > count:
             if not self.heap:

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom-mesh - turns a mesh file of any format that assimp reads, a grid of heights or a shape's name
- * into a mesh for Carom.
+ * carom-mesh - turns a mesh file of any format that assimp reads, a grid of heights or a shape's name into a mesh for Carom.
  *
  *   read     every mesh of the file with its node's transform, polygons cut into triangles; or a grid, or a shape
- *   soup     corners snapped to whole quanta of 2^-N units, equal corners made one vertex
+ *   soup     corners snapped to whole quanta of 2^-N units, equal corners united into one vertex
  *   mend     faces without area, double faces, windings; open holes and too many faces, if asked to
- *   check    what carom_mesh_check would refuse, told with places and a way out
+ *   check    reports what carom_mesh_check would refuse, with places and a remedy
  *   write    a C source, a binary blob, a picture; nothing unless all went well
  *
  * It runs on the host, so it may use floating point.
@@ -30,7 +29,7 @@ using namespace mend;
 
 /* -------------------------------------------------------------------- making */
 
-/* y up to z up: a quarter of a turn about x. */
+/* y up to z up: a quarter turn about x. */
 void turn_up(std::vector<Point> &points)
 {
     for (Point &p : points) {
@@ -38,7 +37,7 @@ void turn_up(std::vector<Point> &points)
     }
 }
 
-/* Few things that fall are 30 m long, and many files count millimetres. */
+/* Few falling things are 30 m long, and many files count millimetres. */
 std::string doubt_about_unit(const std::vector<Point> &points)
 {
     const double largest = largest_coordinate(points);
@@ -57,7 +56,7 @@ void add_doubt(std::string &doubt, const std::string &more)
 
 /* --------------------------------------------------------------------- parts */
 
-/* A mesh that is written by itself, and how it came to be. */
+/* A mesh that is written by itself, and its origin. */
 struct Product {
     std::string name; /* an identifier of C */
     Soup soup;
@@ -94,7 +93,7 @@ std::vector<std::string> symbols_of(const std::string &name)
     return symbols;
 }
 
-/* An identifier from an object's name, numbered when another object has it. */
+/* An identifier from an object's name, numbered if another object has it. */
 std::string name_part(const std::string &object, std::set<std::string> &taken)
 {
     const std::string plain = identifier_from(object);
@@ -125,7 +124,7 @@ void make_part(Product &part, const Options &options)
         add_doubt(part.doubt, doubt_about_unit(soup.points));
     }
     part.mesh = make_mesh(soup, options.surface, options.bits, options.repairs);
-    Indexed engine(part.mesh); /* which may refuse it */
+    Indexed engine(part.mesh); /* the engine may refuse it */
 
     if (!options.surface) {
         add_doubt(part.doubt, doubt_about_volume(soup, part.mesh));
@@ -134,7 +133,7 @@ void make_part(Product &part, const Options &options)
 
 /* ------------------------------------------------------------------- writing */
 
-/* The path of a file that holds one part: FILE.crm, or FILE.NAME.crm where each object has its own. */
+/* The path of a file that holds one part: FILE.crm, or FILE.NAME.crm if each object has its own. */
 std::string path_of(const std::string &path, const Options &options, const Product &part)
 {
     const std::filesystem::path plain(path);
@@ -186,7 +185,7 @@ void print_report(const Options &options, const Product &part)
         "%s: %s%s, quantum 2^-%d units\n", options.in.c_str(),
         options.objects ? ("object '" + soup.objects[0] + "' as " + part.name + ": ").c_str() : "",
         mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
-    if (mesh.polygons) { /* of an object by itself they are not counted */
+    if (mesh.polygons) { /* they are not counted for a single object */
         std::printf("  file      %zu polygons, %zu triangles\n", mesh.polygons, mesh.triangles);
     }
     std::printf("  mesh      %zu faces, %zu edges, %zu vertices\n", mesh.faces.size(), mesh.edges,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_cross - whether two closed sets of faces cross, and whether one lies within the other; exact.
+ * mesh_cross - decides exactly if two closed sets of faces cross, and if one lies within the other.
  *
- * Coordinates are below 2^15: a normal is below 2^34, a corner's distance from a plane times that
- * normal below 2^52. Fractions of those are compared in 128 bits.
+ * Coordinates are below 2^15: a normal is below 2^34, the product of a corner's distance from a plane and that normal below 2^52.
+ * Fractions of those are compared in 128 bits.
  */
 #ifndef CAROM_TOOLS_MESH_CROSS_HPP
 #define CAROM_TOOLS_MESH_CROSS_HPP
@@ -33,7 +33,7 @@ inline bool operator<(const Fraction &a, const Fraction &b)
     return a.above * b.below < b.above * a.below;
 }
 
-/* How far the corners of a face are from the plane of another, times the length of its normal. */
+/* Distances of the corners of a face from the plane of another, times the length of its normal. */
 inline std::array<int64_t, 3> distances(const Mesh &mesh, const Face &face, const Normal &n,
                                         const Vertex &on)
 {
@@ -54,7 +54,7 @@ inline bool on_both_sides(const std::array<int64_t, 3> &d)
     return *low < 0 && *high > 0;
 }
 
-/* Where a face meets a plane that it has corners on both sides of: two places along an axis. */
+/* Where a face meets a plane with corners on both sides: two places along an axis. */
 inline std::pair<Fraction, Fraction> cut_along(const Mesh &mesh, const Face &face,
                                                const std::array<int64_t, 3> &d, size_t axis)
 {
@@ -76,8 +76,8 @@ inline std::pair<Fraction, Fraction> cut_along(const Mesh &mesh, const Face &fac
 }
 
 /*
- * Whether the inner points of two faces meet, and their planes are not parallel. Two solids whose
- * faces meet so hold a volume in common; those that only touch do not.
+ * True if the interiors of two faces meet and their planes are not parallel. Two solids with such faces share a volume; solids that
+ * only touch do not.
  */
 inline bool faces_cross(const Mesh &mesh, const Face &f, const Face &g)
 {
@@ -92,7 +92,7 @@ inline bool faces_cross(const Mesh &mesh, const Face &f, const Face &g)
     if (!on_both_sides(of_g)) {
         return false;
     }
-    size_t axis = 0; /* one that the common line of the two planes is not upright to */
+    size_t axis = 0; /* an axis that is not perpendicular to the common line of the two planes */
 
     while (axis < 2 && Wide(m[(axis + 1) % 3]) * n[(axis + 2) % 3] ==
                            Wide(m[(axis + 2) % 3]) * n[(axis + 1) % 3]) {
@@ -146,7 +146,7 @@ inline std::vector<Boxed> faces_in_box(const Mesh &mesh, const Part &part, const
     return found;
 }
 
-/* Along x, each face is compared with those of the other part that begin before it ends. */
+/* Sweep along x: each face is compared with those of the other part that begin before it ends. */
 inline bool parts_cross(const Mesh &mesh, const Part &a, const Part &b)
 {
     const std::vector<Boxed> of_a = faces_in_box(mesh, a, b), of_b = faces_in_box(mesh, b, a);
@@ -175,8 +175,8 @@ inline bool parts_cross(const Mesh &mesh, const Part &a, const Part &b)
 enum class Place { outside, on, inside };
 
 /*
- * Which side of an edge a point is on, seen from above; never 0 but for an edge seen end on. A
- * point on the edge is taken to be moved by a little along x and by much less along y.
+ * The side of an edge on which a point lies, seen from above; 0 only for an edge seen end on. A point on the edge counts as moved by a
+ * little along x and by much less along y.
  */
 inline int64_t side_of_edge(const Vertex &a, const Vertex &b, const Vertex &p3)
 {
@@ -187,8 +187,8 @@ inline int64_t side_of_edge(const Vertex &a, const Vertex &b, const Vertex &p3)
 }
 
 /*
- * Where the third of a point is with respect to a part: a ray upwards from it counts the faces.
- * The third makes the middle of a face a whole number.
+ * The place of a point in thirds with respect to a part: a ray upwards from it counts the faces. Thirds make the middle of a face a
+ * whole number.
  */
 inline Place place_of(const Mesh &mesh, const Part &part, const Vertex &p3)
 {
@@ -204,7 +204,7 @@ inline Place place_of(const Mesh &mesh, const Part &part, const Vertex &p3)
         size_t axis = 0;
         int left = 0, right = 0;
 
-        if (height == 0) { /* on the plane: is it on the face, seen along its normal? */
+        if (height == 0) { /* on the plane: test if it is on the face, seen along its normal */
             for (size_t k = 1; k < 3; k++) {
                 axis = std::abs(n[k]) > std::abs(n[axis]) ? k : axis;
             }
@@ -236,10 +236,10 @@ inline Place place_of(const Mesh &mesh, const Part &part, const Vertex &p3)
 
 enum class Relation { apart, within, overlap };
 
-/* The middles of the faces of a part, all or some of them, against another part. */
+/* Compare the middles of the faces of a part, all or some of them, with another part. */
 inline Relation sampled(const Mesh &mesh, const Part &part, const Part &other)
 {
-    const size_t work = 20000000; /* comparisons, below a second */
+    const size_t work = 20000000; /* comparisons, less than a second */
     const size_t samples = std::max<size_t>(16, work / other.faces.size());
     const size_t step = 1 + part.faces.size() / samples;
     bool inside = false, outside = false;
@@ -262,7 +262,7 @@ inline Relation sampled(const Mesh &mesh, const Part &part, const Part &other)
     return inside ? Relation::within : Relation::apart;
 }
 
-/* What a part is to another; `within`: the first lies in the second. */
+/* The relation of a part to another; `within`: the first lies in the second. */
 inline Relation relation(const Mesh &mesh, const Part &part, const Part &other)
 {
     return boxes_cross(part.low, part.high, other.low, other.high) ? sampled(mesh, part, other)

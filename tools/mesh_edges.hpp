@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_edges - exact measures of the faces of a welded mesh, and its edges: which faces
- * share each, which bound nothing.
+ * mesh_edges - exact measures of the faces of a welded mesh, and its edges: the faces of each, and the edges that bound nothing.
  *
- * Coordinates are below 2^15, so a cross product of two edges is below 2^34 and a determinant of
- * three corners below 2^51.
+ * Coordinates are below 2^15, so a cross product of two edges is below 2^34 and a determinant of three corners below 2^51.
  */
 #ifndef CAROM_TOOLS_MESH_EDGES_HPP
 #define CAROM_TOOLS_MESH_EDGES_HPP
@@ -61,7 +59,7 @@ inline EdgeUses edges_of(const Mesh &mesh)
     return uses;
 }
 
-/* Open edges, those of a hole behind one another: edges that share a vertex are of one hole. */
+/* Open edges, sorted by hole: edges that share a vertex belong to one hole. */
 inline std::vector<std::string> holes(const Mesh &mesh, const EdgeUses &uses)
 {
     std::map<uint32_t, std::vector<Edge>> at;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_fill - cuts a flat polygon, with holes or without, into triangles: ears are clipped, in whole
- * numbers. It uses every corner and adds none.
+ * mesh_fill - cuts a flat polygon, with or without holes, into triangles: ears are clipped, in whole numbers. It uses every corner
+ * and adds none.
  */
 #ifndef CAROM_TOOLS_MESH_FILL_HPP
 #define CAROM_TOOLS_MESH_FILL_HPP
@@ -42,14 +42,14 @@ inline int64_t area_of(const Loop &loop)
     return area;
 }
 
-/* Whether p is on the line from a to b, ends included. */
+/* True if p is on the segment from a to b, ends included. */
 inline bool is_between(const Corner &a, const Corner &b, const Corner &p)
 {
     return side_of(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
            std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
 }
 
-/* Whether two lines have a point in common; a corner that both have does not count. */
+/* True if two segments have a point in common; a shared corner does not count. */
 inline bool lines_meet(const Corner &a, const Corner &b, const Corner &c, const Corner &d)
 {
     if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x)) {
@@ -75,7 +75,7 @@ inline bool meets_loop(const Corner &a, const Corner &b, const Loop &loop)
     return false;
 }
 
-/* Whether the edges of a loop meet nowhere but at its corners, and no corner is twice in it. */
+/* True if the edges of a loop meet only at its corners, and no corner is in it twice. */
 inline bool is_simple(const Loop &loop)
 {
     std::set<std::pair<int64_t, int64_t>> places;
@@ -93,7 +93,7 @@ inline bool is_simple(const Loop &loop)
     return true;
 }
 
-/* Whether a point lies within a loop; on its line counts as within. */
+/* True if a point lies within a loop or on it. */
 inline bool is_within(const Loop &loop, const Corner &p)
 {
     bool inside = false;
@@ -111,7 +111,7 @@ inline bool is_within(const Loop &loop, const Corner &p)
     return inside;
 }
 
-/* Whether a line from corner i of a counter-clockwise loop sets out into the loop. */
+/* True if a line from corner i of a counter-clockwise loop starts into the loop. */
 inline bool enters(const Loop &loop, size_t i, const Corner &p)
 {
     const Corner &before = loop[(i + loop.size() - 1) % loop.size()], &at = loop[i],
@@ -121,7 +121,7 @@ inline bool enters(const Loop &loop, size_t i, const Corner &p)
                                           : side_of(before, at, p) > 0 || side_of(at, after, p) > 0;
 }
 
-/* Join a clockwise hole to the loop around it by a cut, there and back. False: no cut is free. */
+/* Join a clockwise hole to the loop around it by a cut, there and back. False if no cut is free. */
 inline bool join_hole(Loop &loop, const Loop &hole, const std::vector<Loop> &others)
 {
     const auto first = std::max_element(hole.begin(), hole.end(),
@@ -151,7 +151,7 @@ inline bool join_hole(Loop &loop, const Loop &hole, const std::vector<Loop> &oth
     return false;
 }
 
-/* Whether the triangle at corner i can be cut off: it has an area and nothing lies in it. */
+/* True if the triangle at corner i can be cut off: it has an area and contains no corner. */
 inline bool is_ear(const Loop &loop, size_t i)
 {
     const Corner &a = loop[(i + loop.size() - 1) % loop.size()], &b = loop[i],
@@ -169,7 +169,7 @@ inline bool is_ear(const Loop &loop, size_t i)
     return loop.size() == 3 || !meets_loop(c, a, loop);
 }
 
-/* Cut a counter-clockwise loop and the clockwise holes in it into triangles; none: it cannot be cut. */
+/* Cut a counter-clockwise loop and the clockwise holes in it into triangles; none if that is impossible. */
 inline std::vector<Face> fill(Loop loop, std::vector<Loop> inner)
 {
     std::vector<Face> faces;
@@ -192,7 +192,7 @@ inline std::vector<Face> fill(Loop loop, std::vector<Loop> inner)
         faces.push_back({loop[(i + loop.size() - 1) % loop.size()].vertex, loop[i].vertex,
                          loop[(i + 1) % loop.size()].vertex});
         loop.erase(loop.begin() + std::ptrdiff_t(i));
-        i++; /* not twice at one corner: long thin fans */
+        i++; /* not twice at one corner: fans would be long and thin */
         passed = 0;
     }
     return loop.size() == 2 ? faces : std::vector<Face>();

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_heights - a grid of heights, a grey PNG or rows of numbers, as a soup of triangles. The first row lies
- * farthest to the north (+y), the first column farthest to the west (-x), and the middle of the grid at x = y = 0.
- * Each square is cut from its south-west to its north-east corner.
+ * mesh_heights - a grid of heights (a grey PNG or rows of numbers) as a soup of triangles. The first row is farthest north (+y), the
+ * first column farthest west (-x), and the middle of the grid at x = y = 0. Each square is cut from its south-west to its north-east
+ * corner.
  */
 #ifndef CAROM_TOOLS_MESH_HEIGHTS_HPP
 #define CAROM_TOOLS_MESH_HEIGHTS_HPP
@@ -18,11 +18,11 @@
 namespace mend
 {
 
-constexpr double white_height = 10; /* units, unless --height says another */
+constexpr double white_height = 10; /* units, unless --height sets another */
 
 /* ----------------------------------------------------------------------- text */
 
-/* What a file holds, fit for a message. */
+/* The contents of a file, for a message. */
 inline std::string shown(const std::string &cell)
 {
     std::string text = cell.substr(0, 20);
@@ -40,7 +40,7 @@ inline std::string trimmed(const std::string &text)
     return from == std::string::npos ? "" : text.substr(from, to - from + 1);
 }
 
-/* A line with a semicolon is separated by them, one with a comma by those, any other by blanks. */
+/* Columns are separated by semicolons if the line has one, otherwise by commas, otherwise by blanks. */
 inline std::vector<std::string> cells_of(const std::string &line)
 {
     const size_t mark = line.find(';') != std::string::npos ? line.find(';') : line.find(',');
@@ -88,7 +88,7 @@ inline Grid read_rows_of_numbers(const std::string &path)
 
     for (size_t number = 1; std::getline(file, line); number++) {
         if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0) {
-            line.erase(0, 3); /* the mark that some editors put before UTF-8 */
+            line.erase(0, 3); /* the byte order mark that some editors put before UTF-8 */
         }
         const std::vector<std::string> cells = cells_of(trimmed(line));
 
@@ -122,7 +122,7 @@ inline size_t thinned(size_t count, size_t every)
     return (count - 1) / every + 1;
 }
 
-/* Whether a grid of so many samples is within the limits of a mesh. */
+/* True if a grid of so many samples is within the limits of a mesh. */
 inline bool few_enough(size_t columns, size_t rows)
 {
     return columns * rows <= count_max && 2 * (columns - 1) * (rows - 1) <= count_max;

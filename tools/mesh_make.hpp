@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* mesh_make - the steps from what a file holds to a mesh that the engine takes. */
+/* mesh_make - the steps from the contents of a file to a mesh that the engine takes. */
 #ifndef CAROM_TOOLS_MESH_MAKE_HPP
 #define CAROM_TOOLS_MESH_MAKE_HPP
 
@@ -26,7 +26,7 @@ inline void close_mesh(Mesh &mesh)
     const EdgeUses uses = edges_of(mesh);
 
     check_crowded(mesh, uses);
-    parts_of(mesh, uses); /* the windings tell a ring from two discs */
+    parts_of(mesh, uses); /* the windings distinguish a ring from two discs */
     close_holes(mesh, uses);
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_mend - what the mesh converter does to single faces of a welded mesh: it mends those
- * without area and those given twice, and refuses what it cannot mend.
+ * mesh_mend - mends single faces of a welded mesh: faces without area and faces given twice. It refuses what it cannot mend.
  */
 #ifndef CAROM_TOOLS_MESH_MEND_HPP
 #define CAROM_TOOLS_MESH_MEND_HPP
@@ -26,7 +25,7 @@ inline void drop_collapsed_faces(Mesh &mesh)
     }
 }
 
-/* The same three corners can be listed in two windings; this tells them apart. */
+/* The same three corners have two windings; this distinguishes them. */
 inline bool winding(Face f)
 {
     std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
@@ -34,8 +33,8 @@ inline bool winding(Face f)
 }
 
 /*
- * Of faces with the same corners, two of the same winding are one face given twice, and two of
- * opposite windings are a plate that the weld made flat, which bounds nothing: both go.
+ * Faces with the same corners: two of one winding are a face given twice. Two of opposite windings are a plate that the weld made
+ * flat; it bounds nothing, and both go.
  */
 inline void drop_double_faces(Mesh &mesh)
 {
@@ -73,9 +72,9 @@ inline void drop_double_faces(Mesh &mesh)
 }
 
 /*
- * Mend one face whose corners lie on a line. Its middle corner lies on the edge of the other two,
- * so the neighbour over that edge is cut there in two, and the second half takes the face's place.
- * At a border there is no neighbour and the face just goes: its other two edges are the border.
+ * Mend one face whose corners lie on a line. Its middle corner lies on the edge of the other two, so the neighbour over that edge is
+ * cut in two there, and the second half takes the face's place. At a border there is no neighbour, and the face goes: its other two
+ * edges are the border.
  */
 inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::vector<bool> &gone,
                         std::vector<bool> &touched)
@@ -86,7 +85,7 @@ inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::
               [&](uint32_t a, uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
 
     if (touched[sliver]) {
-        return false; /* it has other edges than `uses` knows: the next round takes it */
+        return false; /* its edges are newer than `uses`: the next round mends it */
     }
 
     const uint32_t low = corners[0], middle = corners[1], high = corners[2];

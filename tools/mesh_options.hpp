@@ -19,7 +19,7 @@ struct Heights {
     double cell = 1; /* units from one sample to the next */
     double height = 0, offset = 0;
     bool height_said = false;
-    size_t every = 1; /* takes every so many samples, along both sides */
+    size_t every = 1; /* take every n-th sample, along both sides */
 };
 
 struct Options {
@@ -27,7 +27,7 @@ struct Options {
     bool surface = false, check_only = false, indexed = false;
     bool grid = false, objects = false;
     Heights heights;
-    bool heights_said = false; /* an option that is of use with --heights only */
+    bool heights_said = false; /* an option was given that needs --heights */
     int bits = 0;              /* 0: choose */
     double scale = 1;
     Repairs repairs;
@@ -130,7 +130,7 @@ inline int whole_number(const char *option, const char *text, int least, int mos
     return int(number);
 }
 
-/* Whether a text is the first of two words; it must be one of them. */
+/* True for the first of two words, false for the second; another word is an error. */
 inline bool is_first(const char *option, const std::string &text, const std::string &first,
                      const std::string &second)
 {
@@ -235,7 +235,7 @@ inline void take(Options &options, int letter, const char *text)
     }
 }
 
-/* Options that say nothing together. */
+/* Refuse options that contradict each other. */
 inline void check_together(const Options &options)
 {
     const bool from_file = !options.grid && options.shape.empty();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_parts - connected sets of faces: gives each one winding, turns it outwards, and finds
- * which lie within others or overlap them.
+ * mesh_parts - connected sets of faces: gives each one winding, turns it outwards, and finds parts that lie within others or overlap
+ * them.
  */
 #ifndef CAROM_TOOLS_MESH_PARTS_HPP
 #define CAROM_TOOLS_MESH_PARTS_HPP
@@ -30,7 +30,7 @@ inline Part orient_part(Mesh &mesh, const EdgeUses &uses, uint32_t seed, std::ve
                         size_t &turned)
 {
     Part part;
-    std::map<uint32_t, bool> against; /* the seed's winding, as the file has it */
+    std::map<uint32_t, bool> against; /* against the winding of the seed, as the file has it */
     size_t count = 0;
 
     part.faces.push_back(seed);
@@ -129,7 +129,7 @@ inline std::string box_of(const Mesh &mesh, const Part &part)
     return place(low) + " - " + place(high);
 }
 
-/* For each part, those that it lies in; pairs that overlap are refused, or noted if that is allowed. */
+/* For each part, the parts that it lies in. Pairs that overlap are refused, or noted if that is allowed. */
 inline std::vector<std::vector<size_t>> nesting(Mesh &mesh, const std::vector<Part> &parts,
                                                 bool allow)
 {
@@ -192,9 +192,9 @@ inline void drop_parts(Mesh &mesh, const std::vector<Part> &parts, const std::ve
 }
 
 /*
- * Turn parts outwards and drop those that count already. Outermost parts come first: `full` counts
- * how often a place is solid before a part is looked at. A part of negative volume in a place that
- * is solid once is a cavity and stays; a full part in a solid place adds nothing.
+ * Turn parts outwards and drop those that add nothing. Outermost parts come first: `full` counts how often a place is solid before a part
+ * is looked at. A part of negative volume in a place that is solid once is a cavity and stays; a full part in a solid place adds
+ * nothing.
  */
 inline void arrange_solid(Mesh &mesh, std::vector<Part> &parts, bool allow_overlaps)
 {

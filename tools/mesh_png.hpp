@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* mesh_png - grey pictures read, and colour pictures made, by libpng. */
+/* mesh_png - reads grey pictures and writes colour pictures, by libpng. */
 #ifndef CAROM_TOOLS_MESH_PNG_HPP
 #define CAROM_TOOLS_MESH_PNG_HPP
 
@@ -17,7 +17,7 @@ namespace mend
 struct Grid {
     size_t columns = 0;
     std::vector<double> samples;
-    double most = 0; /* the largest that a sample of this kind may be; 0: any */
+    double most = 0; /* largest value of a sample of this kind; 0: no limit */
 
     size_t rows() const
     {
@@ -25,7 +25,7 @@ struct Grid {
     }
 };
 
-constexpr size_t samples_max = size_t(1) << 26; /* what is read, before --every */
+constexpr size_t samples_max = size_t(1) << 26; /* limit on what is read, before --every */
 
 namespace png
 {
@@ -68,7 +68,7 @@ struct Reader {
     }
 };
 
-/* libpng leaves by a long jump: nothing with a destructor may be made between here and there. */
+/* libpng leaves by a long jump: construct nothing with a destructor between here and there. */
 inline bool read_head(Reader &reader)
 {
     if (setjmp(png_jmpbuf(reader.png))) {
@@ -105,7 +105,7 @@ inline void check_head(const Reader &reader)
     }
 }
 
-/* The numbers as the file has them: no gamma is applied. */
+/* The numbers as the file has them, without gamma. */
 inline Grid read_grey(const std::string &path)
 {
     Reader reader(path);
@@ -139,7 +139,7 @@ inline Grid read_grey(const std::string &path)
     return grid;
 }
 
-/* A whole file of 8-bit red, green and blue. */
+/* Write a file of 8-bit red, green and blue. */
 inline std::string written(const std::vector<uint8_t> &rgb, uint32_t width, uint32_t height)
 {
     png_image image;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_preview - a picture of a mesh by Carom's own renderer: from the front, above, and beside it from the back, below
- * (a SURFACE, which is seen from above only, from the back, above). Each view fits the mesh, whatever its size.
+ * mesh_preview - a picture of a mesh by Carom's own renderer: from the front, above; and beside it from the back, below (a SURFACE, which
+ * is visible from above only, from the back, above). Each view fits the mesh, whatever its size.
  */
 #ifndef CAROM_TOOLS_MESH_PREVIEW_HPP
 #define CAROM_TOOLS_MESH_PREVIEW_HPP
@@ -16,13 +16,15 @@ namespace mend
 namespace picture
 {
 
-constexpr int32_t side = 600, fineness = 2; /* pixels of a view; drawn so many times as fine */
+constexpr int32_t side = 600,
+                  fineness = 2; /* pixels of a view; drawn at so many times the resolution */
 constexpr int32_t drawn = side * fineness;
-constexpr double focal = 2;     /* picture heights: a long lens bends little */
-constexpr double margin = 0.42; /* of a picture's side, from its middle, that a mesh may fill */
-constexpr int bits = 11;        /* quanta of the enlarged mesh: it is about 32 units long */
+constexpr double focal = 2; /* picture heights: a long lens bends little */
+constexpr double margin =
+    0.42;                /* part of a picture's side, from its middle, that a mesh may fill */
+constexpr int bits = 11; /* quanta of the enlarged mesh, which is about 32 units long */
 constexpr size_t lines_max = 4096;
-constexpr double sharp = 0.94; /* cosine of 20 degrees: what is flatter is no edge of a fine mesh */
+constexpr double sharp = 0.94; /* cosine of 20 degrees: a fine mesh shows only sharper edges */
 
 inline double dot(const Point &a, const Point &b)
 {
@@ -55,7 +57,7 @@ template <typename Vector> Vector fixed(const Point &p, int fraction)
     return v;
 }
 
-/* The mesh around the origin and as large as whole quanta allow: the renderer draws nothing that is very near. */
+/* The mesh around the origin, as large as whole quanta allow, because the renderer draws nothing that is very near. */
 inline Mesh enlarged(const Mesh &mesh)
 {
     Mesh large = mesh;
@@ -81,7 +83,7 @@ inline Mesh enlarged(const Mesh &mesh)
     return large;
 }
 
-/* A view: the way from the mesh to the eye, and what is right and up in the picture. */
+/* A view: the direction from the mesh to the eye, and right and up in the picture. */
 struct View {
     Point back, right, up;
     Point target = {0, 0, 0};
@@ -99,7 +101,7 @@ struct View {
     }
 };
 
-/* As near as the mesh fits, and its picture in the middle: a few steps of both. */
+/* Move the eye as near as the mesh fits, and the target to the middle of the picture, in a few steps of both. */
 inline void fit(View &view, const Mesh &mesh)
 {
     for (int step = 0; step < 12; step++) {
@@ -129,7 +131,7 @@ inline void fit(View &view, const Mesh &mesh)
     view.distance *= 1.01; /* the last step moved the target */
 }
 
-/* Where a surface looks on the whole: one that slopes away from the eye would show no face. */
+/* The mean direction of a surface: one that slopes away from the eye would show no face. */
 inline Point mean_normal(const Mesh &mesh)
 {
     Point total = {0, 0, 0};
@@ -159,7 +161,7 @@ inline Point sides_of(const Mesh &mesh)
     return sides;
 }
 
-/* What is as thin as a pixel shows nothing but its edges, and black ones would not be seen. */
+/* A mesh as thin as a pixel shows nothing but its edges, and black ones would not be seen. */
 inline bool is_needle(const Mesh &mesh)
 {
     Point sides = sides_of(mesh);
@@ -168,7 +170,7 @@ inline bool is_needle(const Mesh &mesh)
     return sides[1] * 150 < sides[2];
 }
 
-/* The edges that are drawn: all, or of a mesh that has too many those that are sharp or open. */
+/* The edges to draw: all, or of a mesh with too many edges the sharp and open ones. */
 inline std::vector<carom_paint_line> lines_of(const Mesh &mesh)
 {
     std::vector<carom_paint_line> lines;
@@ -204,7 +206,7 @@ inline void expect(int result)
     }
 }
 
-/* A world that holds only the mesh, its coordinates those of the world. */
+/* A world that holds only the mesh, in the mesh's coordinates. */
 class Scene
 {
   public:
@@ -278,7 +280,7 @@ class Scene
     carom_world *world_ = nullptr;
 };
 
-/* Put a view into its half of the picture, each pixel the mean of those that it was drawn of. */
+/* Put a view into its half of the picture; each pixel is the mean of those that were drawn for it. */
 inline void put_half(std::vector<uint8_t> &rgb, const std::vector<uint32_t> &pixels, int32_t half)
 {
     for (int32_t y = 0; y < side; y++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_read - reads a mesh file of any format through assimp and joins all meshes in it, each with
- * the transform of its node. What assimp takes for whole though it is not is found out first.
+ * mesh_read - reads a mesh file of any format through assimp and joins all its meshes, each with the transform of its node. It first
+ * detects incomplete files that assimp takes for whole.
  */
 #ifndef CAROM_TOOLS_MESH_READ_HPP
 #define CAROM_TOOLS_MESH_READ_HPP
@@ -46,7 +46,7 @@ inline std::string extension(const std::string &path)
 
 constexpr char truncated[] = "the file is truncated: export the mesh again";
 
-/* assimp takes a text STL that stops early for a whole one. */
+/* assimp takes a text STL that stops early for whole. */
 inline void check_stl_is_whole(const std::string &path)
 {
     std::ifstream file(path);
@@ -160,7 +160,7 @@ inline bool skip_ply_items(std::istream &file, PlyFormat format, size_t size, ui
     return true;
 }
 
-/* assimp fills what a short PLY lacks with zeros, or reads past its end. */
+/* assimp fills in zeros where a PLY is too short, or reads past its end. */
 inline void check_ply_is_whole(const std::string &path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -181,7 +181,7 @@ inline void check_ply_is_whole(const std::string &path)
     }
 }
 
-/* An OBJ has no end that could be missing, but its last line should have one. */
+/* The end of an OBJ cannot be missing, but its last line should have a line end. */
 inline std::string doubt_about_obj(const std::string &path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -241,12 +241,12 @@ inline void join_nodes(Soup &soup, const aiScene &scene, const aiNode &node,
         join_mesh(soup, *scene.mMeshes[node.mMeshes[i]], transform, scale);
     }
     for (unsigned i = 0; i < node.mNumChildren; i++) {
-        /* all below an object belongs to it */
+        /* all nodes below an object belong to it */
         join_nodes(soup, scene, *node.mChildren[i], transform, scale, taken ? "" : object);
     }
 }
 
-/* Each node that has faces, as a soup of its own. */
+/* Each node that has faces, as its own soup. */
 inline void part_nodes(std::vector<Soup> &parts, const Soup &file, const aiScene &scene,
                        const aiNode &node, const aiMatrix4x4 &parent, double scale)
 {
@@ -282,7 +282,7 @@ inline size_t count_polygons(const aiScene &scene, const aiNode &node)
     return count;
 }
 
-/* assimp gives an OBJ's corners in the order of the faces; its `v` lines tell their own order. */
+/* assimp gives an OBJ's corners in the order of the faces; its `v` lines have the file's own order. */
 inline std::vector<Point> obj_vertex_order(const std::string &path, double scale)
 {
     std::ifstream file(path);
@@ -305,7 +305,7 @@ inline std::vector<Point> obj_vertex_order(const std::string &path, double scale
 
 /* ------------------------------------------------------------------- reading */
 
-/* Keeps what assimp complains about, to be shown with a refusal. */
+/* Keeps assimp's complaints, for a refusal. */
 class Complaints : public Assimp::LogStream
 {
   public:
@@ -331,7 +331,7 @@ struct LoggerEnd {
     }
 };
 
-/* What can be told of a file before assimp reads it: its doubts, and its vertices in its own order. */
+/* What is known of a file before assimp reads it: doubts, and its vertices in its own order. */
 inline Soup examine(const std::string &path, double scale)
 {
     const std::string kind = extension(path);
@@ -349,12 +349,12 @@ inline Soup examine(const std::string &path, double scale)
     return soup;
 }
 
-/* The scene of a file, its polygons cut into triangles, and how many they were. */
+/* The scene of a file, its polygons cut into triangles, and their number. */
 inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &path,
                                  size_t &polygons)
 {
     std::string complaints;
-    const LoggerEnd end; /* before the text that the logger writes to goes */
+    const LoggerEnd end; /* before the text that the logger writes to is gone */
 
     Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(new Complaints(complaints),

@@ -68,7 +68,7 @@ std::string leaf(const carom_leaf &l)
     return text + "}";
 }
 
-/* How many vertices and faces the leaves name, all together. */
+/* The sums of vertices and faces that the leaves name. */
 size_t leaf_vertices(const carom_mesh &mesh)
 {
     const carom_leaf &last = mesh.leaves[mesh.leaf_count - 1];

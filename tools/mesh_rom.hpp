@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * An indexed mesh as C: constant arrays and the struct carom_mesh that refers to them, for a board
- * that has no memory to index meshes in. The index is made by carom_mesh_build on the host.
+ * mesh_rom - an indexed mesh as C: constant arrays and the struct carom_mesh that refers to them, for a board that has no memory to
+ * index meshes in. carom_mesh_build makes the index on the host.
  */
 #ifndef CAROM_TOOLS_MESH_ROM_HPP
 #define CAROM_TOOLS_MESH_ROM_HPP
@@ -19,7 +19,7 @@ int index(carom_mesh &mesh, const carom_mesh_raw &raw, std::vector<uint64_t> &me
 
 /*
  * Definitions of the mesh's arrays and, under its name, of the mesh itself.
- *   is_static  whether the mesh is for this source file only
+ *   is_static  the mesh is for this source file only
  */
 std::string c_source(const carom_mesh &mesh, const std::string &name, bool is_static);
 

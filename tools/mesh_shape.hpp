@@ -12,7 +12,7 @@ namespace mend
 struct ShapeKind {
     const char *name, *form;
     size_t lengths; /* numbers before the sides */
-    bool round;     /* the last number is its sides */
+    bool round;     /* the last number is the number of sides */
 };
 
 inline const ShapeKind &shape_kind(const std::string &name)
@@ -59,7 +59,7 @@ inline std::vector<double> shape_numbers(const ShapeKind &kind, const std::strin
     return numbers;
 }
 
-/* Half of what lies along each length: what carom_shapes.h takes. A radius is its own. */
+/* Half of each length, as carom_shapes.h takes it; a radius as it is. */
 inline std::vector<double> halves(const ShapeKind &kind, std::vector<double> numbers, double scale)
 {
     numbers.resize(kind.lengths);
@@ -79,7 +79,7 @@ inline int call_shape(carom_mesh_raw &raw, const carom_shape_room &room, const s
                                 : carom_shape_cone(&raw, &room, half[0], half[1], sides);
 }
 
-/* A box has the quanta of its own grid, if it has one; what is round has the finest that fit. */
+/* A box has the quanta of its own grid, if it has one; a round shape the finest that fit. */
 inline int shape_bits(const ShapeKind &kind, const std::vector<double> &half, int asked)
 {
     const bool capsule = std::string(kind.name) == "capsule";
@@ -94,7 +94,7 @@ inline int shape_bits(const ShapeKind &kind, const std::vector<double> &half, in
     return bits;
 }
 
-/* Make the shape that a text names; `bits` is the quantum asked for, or 0, and becomes the one that it has. */
+/* Make the shape that a text names; `bits` is the quantum asked for, or 0, and becomes the quantum used. */
 inline Soup read_shape(const std::string &text, double scale, int &bits)
 {
     const size_t colon = std::min(text.find(':'), text.size());

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_simplify - brings a welded mesh down to a number of faces, with meshoptimizer. It leaves out
- * vertices and moves none, so what is left lies on the quanta of the mesh.
+ * mesh_simplify - reduces a welded mesh to a number of faces, with meshoptimizer. It removes vertices and moves none, so the rest lies on
+ * the quanta of the mesh.
  */
 #ifndef CAROM_TOOLS_MESH_SIMPLIFY_HPP
 #define CAROM_TOOLS_MESH_SIMPLIFY_HPP
@@ -14,7 +14,7 @@
 namespace mend
 {
 
-/* What meshoptimizer makes of a mesh; `error` gets the distance that it tells, in units. */
+/* The mesh that meshoptimizer makes; `error` gets the distance that it reports, in units. */
 inline Mesh simplified(const Mesh &mesh, size_t target, double &error)
 {
     std::vector<float> positions;
@@ -42,7 +42,7 @@ inline Mesh simplified(const Mesh &mesh, size_t target, double &error)
     return result;
 }
 
-/* For each face a number that it shares with those it hangs together with by edges of two faces. */
+/* For each face a number that it shares with the faces connected to it by edges of two faces. */
 inline std::vector<uint32_t> sheets_of(const Mesh &mesh, const EdgeUses &uses)
 {
     std::vector<uint32_t> sheet(mesh.faces.size());
@@ -68,8 +68,8 @@ inline std::vector<uint32_t> sheets_of(const Mesh &mesh, const EdgeUses &uses)
 }
 
 /*
- * The library may pinch a small bubble off, which then hangs at one edge of four faces: of the
- * sheets that meet at an edge of more than two faces all go but the largest.
+ * The library may pinch off a small bubble, which then hangs at one edge of four faces: of the sheets that meet at an edge of more than
+ * two faces only the largest stays.
  */
 inline void drop_bubbles(Mesh &mesh)
 {
@@ -108,7 +108,7 @@ inline int64_t euler_number(const Mesh &mesh, const EdgeUses &uses)
     return int64_t(mesh.vertices.size()) - int64_t(uses.size()) + int64_t(mesh.faces.size());
 }
 
-/* Whether all edges are as they must be, all faces have an area, and no part or handle is lost. */
+/* True if all edges are sound, all faces have an area, and no part or handle is lost. */
 inline bool is_sound(const Mesh &mesh, size_t parts, int64_t euler)
 {
     try {
@@ -134,7 +134,7 @@ inline double measure_of(const std::vector<Part> &parts)
     return sum;
 }
 
-/* Simplify and mend what is left; false: it is not sound. */
+/* Simplify and mend; false if the result is not sound. */
 inline bool try_simplify(Mesh &less, const Mesh &mesh, size_t parts, size_t target, double &error)
 {
     const int64_t euler = euler_number(mesh, edges_of(mesh));
@@ -165,8 +165,8 @@ inline bool try_simplify(Mesh &less, const Mesh &mesh, size_t parts, size_t targ
 }
 
 /*
- * Bring a mesh to at most so many faces. Where what is left is not sound (two sheets that came to
- * share an edge), fewer faces are tried: the library then takes other vertices away.
+ * Reduce a mesh to at most so many faces. If the result is not sound (two sheets that came to share an edge), try fewer faces: the library
+ * then removes other vertices.
  *   parts  those of the mesh as it is
  */
 inline void simplify(Mesh &mesh, const std::vector<Part> &parts, size_t most)

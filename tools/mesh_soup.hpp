@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_soup - what the mesh converter works on: a soup of triangles as a file holds it, and the
- * mesh that it becomes when its corners are snapped to whole quanta and welded.
+ * mesh_soup - the data of the mesh converter: a soup of triangles as a file holds it, and the mesh that it becomes when its corners are
+ * snapped to whole quanta and welded.
  */
 #ifndef CAROM_TOOLS_MESH_SOUP_HPP
 #define CAROM_TOOLS_MESH_SOUP_HPP
@@ -33,14 +33,14 @@ constexpr double side_max = 256, diagonal_max = 384; /* units, of carom_mesh_bui
 constexpr int32_t coordinate_max = 32767;
 constexpr size_t listed_max = 100; /* places that a message lists */
 
-/* Why a mesh cannot be used, and what to do. */
+/* Why a mesh cannot be used, and the remedy. */
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/* What a file holds, joined. */
+/* The contents of a file, joined. */
 struct Soup {
-    std::vector<Point> order; /* vertices in the file's own order, where the reader loses it */
+    std::vector<Point> order; /* vertices in the file's own order, if the reader loses it */
     std::vector<Point> points;
     std::vector<Face> faces;
     size_t polygons = 0;
@@ -57,14 +57,14 @@ struct Mesh {
     size_t polygons = 0, triangles = 0; /* of the file */
     size_t edges = 0;
     std::vector<std::string> mended; /* what was done, in words */
-    std::vector<std::string> notes;  /* what may not be as it was meant */
+    std::vector<std::string> notes;  /* what may not be as intended */
 };
 
-/* What is done to a mesh only when it is asked for. */
+/* Changes that are made only on request. */
 struct Repairs {
     bool close = false;    /* fill flat holes */
     bool overlaps = false; /* allow parts that overlap */
-    size_t most_faces = 0; /* bring the mesh down to so many; 0: leave it */
+    size_t most_faces = 0; /* reduce the mesh to so many; 0: leave it */
 };
 
 /* --------------------------------------------------------------------- texts */
@@ -113,7 +113,7 @@ inline std::string describe(const Mesh &mesh, const Face &face)
            place(in_units(mesh, face[2]));
 }
 
-/* One line a thing, as many as anyone would read. */
+/* One line a thing, at most as many as anyone would read. */
 inline std::string listed(const std::vector<std::string> &lines)
 {
     std::string text;
@@ -146,7 +146,7 @@ inline bool fits(double largest, int bits)
     return std::round(std::ldexp(largest, bits)) <= coordinate_max;
 }
 
-/* Whether every coordinate is a whole number of quanta, but for the rounding of a file's text. */
+/* True if every coordinate is a whole number of quanta, apart from the rounding of a file's text. */
 inline bool exact_on(const std::vector<Point> &points, double largest, int bits)
 {
     const double tolerance = std::ldexp(largest, bits - 20);
@@ -160,7 +160,7 @@ inline bool exact_on(const std::vector<Point> &points, double largest, int bits)
     });
 }
 
-/* The quantum: the one asked for, else the file's own grid, else the finest that fits. */
+/* The quantum: the one asked for, otherwise the file's own grid, otherwise the finest that fits. */
 inline int choose_bits(const std::vector<Point> &points, int asked)
 {
     const double largest = largest_coordinate(points);
@@ -202,7 +202,7 @@ inline Vertex snap(const Point &p, int bits)
     return v;
 }
 
-/* Drop the vertices that no face uses; the others keep their order. */
+/* Drop unused vertices; the others keep their order. */
 inline void drop_unused_vertices(Mesh &mesh)
 {
     std::vector<uint32_t> number(mesh.vertices.size(), 0);
@@ -249,7 +249,7 @@ inline Mesh weld(const Soup &soup, bool surface, int bits)
     mesh.polygons = soup.polygons;
     mesh.triangles = soup.faces.size();
     for (const Point &p : soup.order) {
-        if (fits(largest_coordinate({p}), bits)) { /* one that no face uses may be anywhere */
+        if (fits(largest_coordinate({p}), bits)) { /* an unused vertex may be anywhere */
             number_of(p);
         }
     }

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * mesh_write - a mesh as a C source, indexed or not, or as a binary blob; and files that are whole or absent.
- */
+/* mesh_write - a mesh as a C source, indexed or not, or as a binary blob; files are whole or absent. */
 #ifndef CAROM_TOOLS_MESH_WRITE_HPP
 #define CAROM_TOOLS_MESH_WRITE_HPP
 
@@ -53,7 +51,7 @@ inline std::string c_source(const Mesh &mesh, const std::string &name, const std
     return out.str();
 }
 
-/* A mesh as the engine indexes it, with all that it refers to. */
+/* A mesh as the engine indexes it, with the memory that it refers to. */
 struct Indexed {
     std::vector<std::array<int16_t, 3>> vertices;
     std::vector<std::array<uint16_t, 3>> faces;
@@ -98,7 +96,7 @@ inline void put(std::string &blob, uint64_t number, int bytes)
     }
 }
 
-/* The layout that carom_mesh_read takes; see src/mesh/blob.c. */
+/* The layout that carom_mesh_read reads; see src/mesh/blob.c. */
 inline std::string binary_blob(const Mesh &mesh)
 {
     std::string blob = "CRM1";
@@ -143,7 +141,7 @@ struct Output {
     std::string path, content;
 };
 
-/* All or none. */
+/* Write all files or none. */
 inline void write_files(const std::vector<Output> &outputs)
 {
     size_t written = 0;

@@ -1,16 +1,16 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make a program a file that a Nintendo DS starts: tools/nds.py IMAGE.bin
+"""Make a file that a Nintendo DS starts from a program: tools/nds.py IMAGE.bin
 
-IMAGE.nds is a header of 512 bytes, the program for the first processor (ARM9) and one for the second (ARM7),
-which sleeps. The program begins before 0x4000, where a cartridge has encrypted parts, so there are none: emulators and
-flash cards start such a file. The places of the maker's logo and of its check sum are empty: it is not ours to hand out.
+IMAGE.nds is a header of 512 bytes, the program for the first processor (ARM9) and one for the second (ARM7), which sleeps.
+The program begins before 0x4000, where a cartridge has encrypted parts, so there are none: emulators and flash cards start
+such a file. The places of the maker's logo and of its check sum are empty, because we may not hand it out.
 """
 import struct
 import sys
 
 HEADER, PAGE, MOST = 0x200, 512, 0x3bfe00  # bytes: the most that a loader brings to main memory
-ARM9, ARM7 = 0x02000000, 0x03800000  # where they go, and begin
+ARM9, ARM7 = 0x02000000, 0x03800000  # load addresses and entry points
 SLEEP = struct.pack("<4I",
                     0xe3a00301,  # mov r0, #0x04000000
                     0xe5800208,  # str r0, [r0, #0x208]: interrupts off
@@ -34,7 +34,7 @@ def padded(data):
 
 
 def cartridge(program):
-    """The whole file. Fields of the header by their places: GBATEK, "DS Cartridge Header"."""
+    """The whole file. Fields of the header by their addresses: GBATEK, "DS Cartridge Header"."""
     first, second = padded(program), padded(SLEEP)
     used = HEADER + len(first) + len(second)
     header = bytearray(HEADER)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ode - what all that ask ODE share: the library, ready once; a world that steps with contact joints. */
+/* ode - what all tools with ODE share: the library, initialised once; a world that steps with contact joints. */
 #ifndef CAROM_TOOLS_ODE_HPP
 #define CAROM_TOOLS_ODE_HPP
 
@@ -10,7 +10,7 @@
 namespace ode
 {
 
-/* The library is there before the first object of it. */
+/* Initialise the library before its first object. */
 struct Library {
     Library()
     {

@@ -1,9 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html; its size, to README.md: --readme
+"""Make the page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html; its size, into README.md: --readme
 
-The module, the states of the boards that tests/bench_scenes.csv has, style and scripts go into
-examples/web/page.html, so that it works from a folder, without a server.
+The module, the boards' states of tests/bench_scenes.csv, style and scripts go into examples/web/page.html, so that it works
+from a folder, without a server.
 """
 import base64
 import csv
@@ -25,7 +25,7 @@ def read(name):
 
 
 def boards_states():
-    """The frame and state of each scene that the boards ran as it is."""
+    """Frame and state of each scene that the boards ran unchanged."""
     states = {}
     with open(os.path.join(ROOT, "tests", "bench_scenes.csv")) as file:
         for row in csv.DictReader(file):
@@ -36,7 +36,7 @@ def boards_states():
 
 
 def write_size():
-    """The sizes of the page and of the module, between two comments of README.md."""
+    """Write the sizes of the page and of the module between two comments of README.md."""
     if not os.path.exists(MODULE) or not os.path.exists(PAGE):
         return
     with open(MODULE, "rb") as file:

@@ -1,9 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make an image a program that a PlayStation's loader takes: tools/psx_exe.py IMAGE.bin
+"""Make a program that a PlayStation's loader takes from an image: tools/psx_exe.py IMAGE.bin
 
-IMAGE.exe has a head of one sector, 2048 bytes, that says where the rest goes and where it starts, and the image in
-whole sectors. The image starts with its first instruction, at the lowest address that is not the BIOS's.
+IMAGE.exe has a head of one sector, 2048 bytes, with the load address and the entry point, and the image in whole sectors.
+The image starts with its first instruction, at the lowest address above the BIOS's.
 """
 import struct
 import sys
@@ -19,7 +19,7 @@ def main():
     with open(sys.argv[1], "rb") as file:
         image = file.read()
     image += bytes(-len(image) % SECTOR)
-    # the first instruction, the global pointer, where the image goes, its bytes; the stack
+    # entry point, global pointer, load address, bytes; the stack
     head = struct.pack("<8s8xIIII", b"PS-X EXE", START, 0, START, len(image)).ljust(0x30, b"\0")
     head = (head + struct.pack("<I", STACK)).ljust(SECTOR, b"\0")
     with open(sys.argv[1].removesuffix(".bin") + ".exe", "wb") as file:

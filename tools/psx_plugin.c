@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What tools/psx_run.py puts into the PlayStation emulator pcsxr: a display without a window, and a pad that is played
- * by a script. Built as build/tools/psx_plugin.so.
+ * Plugins of tools/psx_run.py for the PlayStation emulator pcsxr: a display without a window, and a pad that a script plays. Built as
+ * build/tools/psx_plugin.so.
  *
- * The graphics processor is that of pcsxr's own plugin DFXVideo, which this is linked to: what is not defined
- * here is found there. Its memory holds exactly what the program sent. Two variables of the environment ask for more:
+ * The graphics processor is that of pcsxr's own plugin DFXVideo, which this is linked to and which defines the rest. Its memory holds
+ * exactly what the program sent. Two variables of the environment ask for more:
  *
- *   PSX_PICTURES=DIRECTORY  write what is shown as DIRECTORY/frame-0001.ppm each time the program shows another part of
- *                           that memory
+ *   PSX_PICTURES=DIRECTORY  write the shown part of that memory as DIRECTORY/frame-0001.ppm each time the program shows another part
  *   PSX_PRESS=N:KEYS,...    hold KEYS (a sum of port.h's bits) from the N-th such picture on
  *
- * Of the plugins' interface, which is that of PSEmu Pro, only what is used here is declared.
+ * Of the plugins' interface, PSEmu Pro's, only the used parts are declared.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -71,7 +70,7 @@ long GPUclose(void)
     return 0;
 }
 
-/* A frame is over: nobody looks, and nobody waits for the clock on the wall. */
+/* The end of a frame: there is no window, and no wait for the clock on the wall. */
 void GPUupdateLace(void)
 {
 }
@@ -153,13 +152,13 @@ long PADclose(void)
     return 0;
 }
 
-/* It is in the first socket. */
+/* The pad is in the first socket. */
 long PADquery(void)
 {
     return 1;
 }
 
-/* The keys that are held: of the last entry of the script whose picture has come. */
+/* The keys held: those of the last entry of the script whose picture has come. */
 static unsigned held(void)
 {
     unsigned keys = 0, from;
@@ -180,7 +179,7 @@ static unsigned held(void)
 
 long PADreadPort1(struct pad_state *pad)
 {
-    /* where the pad has A (its cross), B (its circle), select, start, right, left, up, down */
+    /* the pad's bits of A (its cross), B (its circle), select, start, right, left, up, down */
     static const uint8_t bit[KEYS] = {14, 13, 0, 3, 5, 7, 4, 6};
     unsigned keys = held();
 

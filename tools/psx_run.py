@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Run a PlayStation program in pcsxr, without a window: psx_run IMAGE.elf [ARGUMENT...]
 
-make puts this, with tools/psx_plugin.c and tools/psx_preload.c as libraries beside it, into build/tools. pcsxr has its own BIOS and gets
-a folder of its own to keep its files in. The program is the .exe file beside the .elf; the arguments are
-written into the room that port/psx/start.S leaves for them. The lines that the program prints go to stdout,
-its exit status is passed on. Two arguments are also for the plugin, which says what they are: pictures=DIRECTORY
-and press=N:KEYS,...
+make puts this into build/tools, beside tools/psx_plugin.c and tools/psx_preload.c as libraries. pcsxr has its own BIOS and gets
+its own folder for files. The program is the .exe file beside the .elf; the arguments are written into the room that
+port/psx/start.S leaves for them. The lines that the program prints go to stdout; its exit status is passed on. Two arguments
+are also for the plugin, which describes them: pictures=DIRECTORY and press=N:KEYS,...
 """
 import os
 import select
@@ -20,7 +19,7 @@ SOUND, DISC, SERIAL = "libDFSound.so", "libDFCdrom.so", "libBladeSio1.so"
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLUGIN, PRELOAD = os.path.join(HERE, "psx_plugin.so"), os.path.join(HERE, "psx_preload.so")
 HEAD, ARGUMENTS_AT, ARGUMENTS_BYTES = 2048, 16, 256
-LINE, STATUS = " * \x02", " * \x03"  # what pcsxr makes of the bytes by which port/psx/psx.c begins a line
+LINE, STATUS = " * \x02", " * \x03"  # pcsxr's output for the bytes that begin a line of port/psx/psx.c
 SILENT_SECONDS, NEVER_ENDED = 120, 124
 
 INTERPRETER = 1
@@ -58,7 +57,7 @@ def program(image, arguments):
 
 
 def prepare(home, image, arguments):
-    """Fill pcsxr's folder; returns where the program is."""
+    """Fill pcsxr's folder; returns the path of the program."""
     plugins = os.path.join(home, ".pcsxr", "plugins")
     os.makedirs(plugins)
     shutil.copy(PLUGIN, plugins)
@@ -73,7 +72,7 @@ def prepare(home, image, arguments):
 
 
 def environment(home, arguments):
-    """pcsxr's: its home, no display, and what the plugin is to do."""
+    """The environment of pcsxr: its home, no display, orders for the plugin."""
     new = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
     new["HOME"], new["LD_PRELOAD"] = home, PRELOAD
     for argument in arguments:
@@ -84,7 +83,7 @@ def environment(home, arguments):
 
 
 def follow(process):
-    """Pass on what the program prints; its exit status, or None if it says none."""
+    """Pass on the program's output; returns its exit status, or None without one."""
     rest = b""
     while select.select([process.stdout], [], [], SILENT_SECONDS)[0]:
         some = os.read(process.stdout.fileno(), 65536)

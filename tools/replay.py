@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Play a recording on the host and on boards: tools/replay.py FILE [--board BOARD]... [--against FILE]
 
-Names the first frame and stage that differ; where two machines differ, the first body, too. With --against,
-two recordings of one game, as of two players in lockstep, are compared frame by frame on the host. The exit status
-is 0 if all is the same, 1 for a difference, 2 for a file that cannot be played.
+It names the first frame and stage that differ, and the first body if two machines differ. With --against, it compares two
+recordings of one game, as of two players in lockstep, frame by frame on the host. The exit status is 0 if all is the same, 1
+for a difference, 2 for a file that cannot be played.
 """
 import argparse
 import itertools
@@ -23,7 +23,7 @@ def play(board, file, *more):
 
 
 def first_difference(one, other):
-    """The number of the first lines that differ, and both; None."""
+    """The number of the first lines that differ, and both; or None."""
     for number, pair in enumerate(itertools.zip_longest(one, other, fillvalue="nothing")):
         if pair[0] != pair[1]:
             return (number, *pair)
@@ -31,7 +31,7 @@ def first_difference(one, other):
 
 
 def name_machines(file, board, frame):
-    """What of a frame differs between the host and a board."""
+    """The difference in a frame between the host and a board."""
     trace = "trace=%d" % frame
     mine, theirs = play("host", file, trace)[1], play(board, file, trace)[1]
     for kind in ["stage", "body"]:
@@ -42,7 +42,7 @@ def name_machines(file, board, frame):
 
 
 def compare(file, other):
-    """Two recordings, each played on the host: where their states or their calls part."""
+    """Play two recordings on the host: where do their states or their calls part?"""
     found = first_difference(play("host", file, "each=1")[1], play("host", other, "each=1")[1])
     if not found:
         print("both recordings are the same")

@@ -5,7 +5,7 @@ import os
 
 
 def read(path):
-    """The rows of a file by column; none when there is no such file."""
+    """The rows of a file by column; none if there is no such file."""
     if not os.path.exists(path):
         return []
     with open(path, newline="") as file:
@@ -13,8 +13,8 @@ def read(path):
 
 
 def write(path, columns, rows, measured=None):
-    """Rows in the order of columns, the first being the board; sorted by it. When only some boards were
-    measured, the rows of the others stay."""
+    """Write rows in the order of columns, sorted by the first one, the board. If only some boards were measured, the rows of
+    the others stay."""
     kept = [] if measured is None else \
         [list(row.values()) for row in read(path) if row["board"] not in measured]
     os.makedirs(os.path.dirname(path), exist_ok=True)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Game Boy Advance in mGBA. The program's lines come by mGBA's debug port, cut in pieces: a piece that is not the
- * last of its line as a warning, the exit status as an error.
+ * Game Boy Advance in mGBA. The program's lines come by mGBA's debug port, cut in pieces: each piece but the last of a line is a
+ * warning, the exit status an error.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static void take_log(int level, const char *text)
     }
 }
 
-/* Loops that wait must take the time they take. */
+/* Waiting loops must take their time. */
 static const struct option options[] = {{"mgba_idle_optimization", "Don't Remove"}, {0}};
 
 const struct machine retro_gba = {.suffix = ".gba",

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Nintendo DS in DeSmuME, which logs nothing that a program says and hands out no memory. The console is in the
- * pixels of the lower screen: port/nds/channel.h says how. Its first row was shown before the others, so that
- * all characters it counts are there.
+ * Nintendo DS in DeSmuME, which logs no output of a program and exposes no memory. The console is in the pixels of the lower screen:
+ * port/nds/channel.h has its format. Its first row was shown before the others, so all characters that it counts are there.
  */
 #include "../port/nds/channel.h"
 #include "retro_run.h"
@@ -35,7 +34,7 @@ static void look(const struct frame *frame)
     }
 }
 
-/* Those that it has otherwise when it is not told. */
+/* Options whose defaults differ. */
 static const struct option options[] = {
     {"desmume_cpu_mode", "interpreter"}, {"desmume_load_to_memory", "enable"}, {0}};
 

@@ -2,9 +2,9 @@
 /*
  * Run an image for a games machine in an emulator, without a window: retro_run IMAGE.elf [ARGUMENT...]
  *
- * The emulator comes as a libretro core, which this loads. What is run is the file beside the .elf that has
- * the suffix of a machine; the arguments are written into the room that the image has for them. What the program says goes to
- * stdout, its exit status is passed on. Two arguments are also this program's own:
+ * The emulator is a libretro core, which this loads. The image is the file beside the .elf with the suffix of a machine; the
+ * arguments are written into the room that the image has for them. The program's output goes to stdout, and its exit status is passed
+ * on. Two arguments are also this program's own:
  *
  *   pictures=DIRECTORY  write the screen as DIRECTORY/frame-0001.ppm when the program asks for it
  *   press=N:KEYS,...    hold KEYS (a sum of the pad's bits) from the N-th such picture on
@@ -49,9 +49,9 @@ static struct {
     const struct machine *machine;
     uint8_t rom[ROM_BYTES_MAX];
     char name[512], folder[64], copy[128];
-    struct frame frame; /* that was shown last */
+    struct frame frame; /* the frame shown last */
     const char *directory, *presses;
-    FILE *out;              /* stdout, while cores that print are kept from it */
+    FILE *out;              /* the real stdout; cores that print do not get it */
     unsigned pictures, age; /* frames since a picture was asked for */
     bool wants_picture, ended;
     int status, silent_frames;
@@ -65,7 +65,7 @@ _Noreturn void retro_die(const char *what, const char *why)
 
 /* --------------------------------------------------- what the machines call */
 
-/* A line goes out when it is whole. */
+/* Write out a line when it is complete. */
 void retro_putc(char c)
 {
     static char line[4096];
@@ -170,7 +170,7 @@ static void poll_pad(void)
 {
 }
 
-/* The keys that are held: of the last entry of `press` whose picture has come. */
+/* The keys held: those of the last entry of `press` whose picture has come. */
 static unsigned held(void)
 {
     unsigned keys = 0, from;
@@ -226,7 +226,7 @@ static void write_picture(void)
     fclose(file);
 }
 
-/* The image beside the program, and the machine that it is for. */
+/* The image beside the program, and its machine. */
 static size_t read_rom(const char *image)
 {
     size_t length = strlen(image), bytes;
@@ -283,8 +283,8 @@ static void remove_folder(void)
 }
 
 /*
- * Some cores read a file: the image with its arguments, in a folder that is there while it runs. They may
- * write to it what a cartridge saves.
+ * For cores that read a file: the image with its arguments, in a folder that lives as long as the run. A core may write a cartridge's
+ * saved data to it.
  */
 static void write_rom(size_t bytes)
 {
@@ -302,7 +302,7 @@ static void write_rom(size_t bytes)
     }
 }
 
-/* Some cores print what they do. */
+/* Some cores print. */
 static void keep_stdout(void)
 {
     run.out = fdopen(dup(STDOUT_FILENO), "w");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rom_scene NAME: the meshes of a scene of examples/scene.h, indexed, as a C source that defines
- * struct scene_rom rom_NAME. What is no letter or digit in the name becomes an underscore.
+ * rom_scene NAME: the meshes of a scene of examples/scene.h, indexed, as a C source that defines struct scene_rom rom_NAME. Other
+ * characters than letters and digits of the name become underscores.
  */
 #include <cstdio>
 #include <cstdlib>

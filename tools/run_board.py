@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Run a program on a board: tools/run_board.py IMAGE [ARGUMENT...]
 
-The board is the name of the folder that holds the image: build/BOARD/program.elf, or
-build/BOARD-debug, or build/BOARD-joined. The program's text goes to stdout, its exit status is
-passed on. On a QEMU board one instruction takes exactly 2^ICOUNT_SHIFT ns of virtual time; one that
-QEMU does not have names a RUNNER of its own.
+The name of the image's folder names the board: build/BOARD/program.elf, build/BOARD-debug, or build/BOARD-joined. The
+program's text goes to stdout, and its exit status is passed on. On a QEMU board one instruction takes exactly 2^ICOUNT_SHIFT ns
+of virtual time; a board that QEMU does not have names a RUNNER.
 """
 import os
 import re
@@ -20,7 +19,7 @@ def board_of(image):
 
 
 def variables(path):
-    """What a file of the Makefile's sets with := and nothing computed."""
+    """A variable of a Makefile that is set with := and computes nothing."""
     with open(os.path.join(ROOT, "port", path)) as file:
         return dict(re.findall(r"^(\w+) *:= *(.*?) *$", file.read(), re.M))
 
@@ -39,15 +38,15 @@ def boards():
 
 
 def scenes(board):
-    """{scene: frames a second}, the first being what a board shows when it is not told; 0: no rate."""
+    """{scene: frames a second}; the first scene is the board's default; 0: no rate."""
     pairs = (text.partition(":") for text in settings(board).get("SCENES", "").split())
     return {scene: int(rate or 0) for scene, _, rate in pairs}
 
 
 def budget(board, scene):
     """
-    What a frame of a scene may take on a board: half of it, the other half being the program's own; the
-    whole where CYCLES are modelled, or where MIPS is what a machine was measured to do. None: no rate.
+    The budget of a frame of a scene on a board: half of the frame, since the other half is the program's own; the whole frame
+    where CYCLES are modelled, or where MIPS is a measured rate. None: no rate.
     """
     its, rate = settings(board), scenes(board).get(scene)
     if not rate:
@@ -58,7 +57,7 @@ def budget(board, scene):
 
 
 class Result:
-    """What a program said that ran a scene: its exit status, a row a frame, and the rest by its first word."""
+    """The output of a program that ran a scene: its exit status, a row a frame, and the rest by its first word."""
 
     def __init__(self, done):
         words = [line.partition(" ") for line in done.stdout.splitlines()]
@@ -70,7 +69,7 @@ class Result:
 
 
 def number(text):
-    """A number of a row, or the word that it is: a state hash has 16 digits, and is none."""
+    """A number of a row, or a word: a state hash has 16 digits, and is no number."""
     return int(text) if text.isdecimal() and len(text) < 16 else text
 
 

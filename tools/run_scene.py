@@ -1,10 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Run a scene on a board and say what it took: a table, frames.csv, pictures, an animation.
+"""Run a scene on a board and report: a table, frames.csv, pictures, an animation.
 
-The program (examples/head.c) prints lines that begin with a word: "columns" and "frame" are the
-rows of frames.csv, "usage" a pool, "hash" the final state, "unit" what the stages are counted in,
-"picture" asks for a photograph of the LCD and waits. Everything else is passed through.
+The program (examples/head.c) prints lines that begin with a word: "columns" and "frame" are the rows of frames.csv, "usage" a
+pool, "hash" the final state, "unit" the unit of the stages; "picture" asks for a photograph of the LCD and waits. Other lines
+are passed through.
 """
 import argparse
 import concurrent.futures
@@ -26,11 +26,11 @@ import terminal
 GIF_EVERY = 3  # frames
 GIF_WIDTH = 256  # pixels
 GIF_SECONDS = 0.05  # a picture
-WAITING_MOST = 32  # pictures that are not compressed yet
+WAITING_MOST = 32  # pictures that wait for compression
 
 
 class Camera:
-    """QEMU's monitor, asked for what the LCD shows."""
+    """QEMU's monitor, which photographs the LCD."""
 
     def __init__(self, path):
         self.socket = socket.socket(socket.AF_UNIX)
@@ -62,7 +62,7 @@ class Camera:
 
 
 class Run:
-    """What the program has said."""
+    """The output of the program."""
 
     def __init__(self):
         self.columns, self.rows, self.usage = [], [], []
@@ -79,7 +79,7 @@ def ppm_name(out, frame):
 
 
 class Album:
-    """Pictures that a board or the emulator wrote become PNG files, and some of them an animation, while it goes on."""
+    """Turn pictures of a board or the emulator into PNG files, and some of them into an animation, during the run."""
 
     def __init__(self, out):
         self.out = out
@@ -105,7 +105,7 @@ class Album:
             self.small[frame] = image.convert("RGB").resize(size, Image.LANCZOS, reducing_gap=1)
 
     def finish(self, name):
-        """Write the animation, when all are there; a board may have written PNG files itself."""
+        """Write the animation when all pictures are there; a board may have written PNG files itself."""
         for task in self.waiting:
             task.result()
         paths = pictures(self.out)
@@ -123,7 +123,7 @@ class Album:
 
 
 def follow(process, camera, album, frames):
-    """Read what the program prints until it ends."""
+    """Read the program's output until it ends."""
     run = Run()
     progress = terminal.Progress(frames)
     pictures = 0
@@ -182,7 +182,7 @@ def stages(run):
 
 
 def write_csv(run, out, budget):
-    """A row a frame; with a budget, whether the frame held it."""
+    """Write a row a frame; with a budget, if the frame held it."""
     columns, rows = list(run.columns), run.rows
     if budget:
         rows = [row + [int(cost <= budget)] for row, cost in zip(rows, costs(run))]
@@ -199,7 +199,7 @@ def pictures(out):
 
 
 def show_result(out):
-    """The last picture, where the terminal can, and where the rest is."""
+    """Show the last picture, if the terminal can, and say where the rest is."""
     paths = pictures(out)
     if paths:
         terminal.show_picture(Image.open(paths[-1]))
@@ -212,7 +212,7 @@ def column(run, name):
 
 
 def costs(run):
-    """Of a frame: the step and, where there is a display, its picture."""
+    """The cost of a frame: the step and, where there is a display, its picture."""
     return [sum(pair) for pair in zip(column(run, "total"), column(run, "draw"))]
 
 

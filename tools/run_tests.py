@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Run programs and scripts that print TAP, and count: tools/run_tests.py [--select PART] FILE...
 
-A .elf file is run by run_board.py, on the board it was built for. The last line is
-"N passed, M failed"; the exit status is 1 when M > 0 or N = 0. With --select, the runner of the
-suites (tests.elf) runs the tests whose names contain PART; of the other files only those run whose
-own names match it.
+run_board.py runs a .elf file on the board that it was built for. The last line is "N passed, M failed"; the exit status is 1 if
+M > 0 or N = 0. With --select, the runner of the suites (tests.elf) runs the tests whose names contain PART; other files run only
+if their own names match it.
 
-With --boards, every scene of those boards (or with --first the first one) runs there and on the
-host, and after so many frames both must be in the same state.
+With --boards, every scene of those boards (or with --first the first one) runs there and on the host, and after so many frames
+both must be in the same state.
 """
 import argparse
 import os
@@ -27,7 +26,7 @@ def stem(path):
 
 
 def is_runner(path):
-    """Whether a program has the runner of the suites, which takes the selection itself."""
+    """True if a program is the runner of the suites, which selects tests itself."""
     return stem(path) == "tests" or stem(path).startswith("suite_")
 
 
@@ -46,8 +45,8 @@ def command(path, select):
 
 
 def run(path, select):
-    """Run one file, pass its lines on; returns how many tests passed and failed, and how many cases were
-    left out because they are known to fail (tests/lib/open_cases.c)."""
+    """Run one file and pass its lines on; returns how many tests passed and failed, and how many cases were left out because
+    they are known to fail (tests/lib/open_cases.c)."""
     passed = failed = left_out = 0
     nothing_selected = False
     process = subprocess.Popen(command(path, select), stdin=subprocess.DEVNULL,
@@ -70,7 +69,7 @@ def run(path, select):
 
 
 def scene_ends(board, scene, frames):
-    """The state that a scene ends in on a board, or what went wrong."""
+    """The state in which a scene ends on a board, or the failure."""
     image = os.path.join(run_board.ROOT, "build", board, "head.elf")
     result = run_board.run(image, ["scene=" + scene, "frames=%d" % frames], SECONDS)
     if result.status or len(result.rows) != frames:

@@ -1,9 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The scenes, a line each, and a thumbnail of each that the host shows, at a frame that tells what it is.
+"""List the scenes, with a thumbnail of each that the host shows, at a frame that is typical of it.
 
-In a terminal that can, the thumbnails are shown in characters. The folder gets NAME.png of each, index.html with all
-of them, and scenes.png, one small picture with all of them.
+A terminal with colours shows the thumbnails in characters. The folder gets NAME.png of each, index.html with all of them, and
+scenes.png, one small picture with all of them.
 """
 import argparse
 import concurrent.futures
@@ -20,7 +20,7 @@ from PIL import Image, ImageDraw, ImageFont
 import run_board
 import terminal
 
-FRAME = 90  # of a scene that is not named here
+FRAME = 90  # of a scene without an entry here
 FRAMES = {"head": 16, "pile": 120, "sheet": 150, "box": 40, "car": 170, "walker": 150, "door": 60, "chain": 60,
           "crusher": 108, "conveyor": 60, "gears": 100, "screw": 240, "pour": 310, "espresso": 60, "espresso-fine": 100, "newton": 60, "dominoes": 120,
           "cards": 285, "arch": 290, "bowl": 60, "lockstep": 120}
@@ -50,13 +50,13 @@ ITEM = '<li><img src="%s.png" alt="" width="512" height="512"><b>%s</b>: %s (fra
 
 
 def scenes(program):
-    """Name and line of every scene that there is, in order."""
+    """Name and description of every scene, in order."""
     said = subprocess.run([program, "scenes=1"], check=True, capture_output=True, text=True).stdout
     return dict(line[len("scene "):].split(": ", 1) for line in said.splitlines() if line.startswith("scene "))
 
 
 def shown():
-    """Those that have a thumbnail: what port/host/board.mk names."""
+    """The scenes with a thumbnail: those of port/host/board.mk."""
     return list(run_board.scenes("host"))
 
 
@@ -80,7 +80,7 @@ def write_page(out, names, texts):
 
 
 def write_sheet(out, names, texts):
-    """One picture: thumbnails in rows, under each its name and its line."""
+    """One picture: thumbnails in rows, each with its name and description below."""
     wide, high = THUMBNAIL + GAP, THUMBNAIL + LABEL + GAP
     sheet = Image.new("RGB", (ACROSS * wide + GAP, -(-len(names) // ACROSS) * high + GAP), "white")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default()
@@ -94,7 +94,7 @@ def write_sheet(out, names, texts):
 
 
 def show(out, names, stream=sys.stdout, environment=os.environ):
-    """Rows of thumbnails with their names, as many as are side by side in the terminal."""
+    """Print rows of thumbnails with their names, as many side by side as the terminal holds."""
     columns, count = terminal.shows(stream, environment)
     across = max(1, columns // (CHARACTERS + 1))
     for first in range(0, len(names) if count else 0, across):

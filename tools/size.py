@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Code, data and stack of the program that `make run` runs, board by board.
 
-out/size.csv has a row a board: the program's sections, and the deepest stack while it ran the board's
-first scene, by painting. out/size_parts.csv beside it: the engine's archive alone, the scene's world,
-and what the whole program takes of the board's ROM and RAM, as much of the stack as was used included.
+out/size.csv has a row a board: the program's sections, and the deepest stack of the board's first scene, by painting.
+out/size_parts.csv has: the engine's archive alone, the scene's world, and the ROM and RAM of the whole program, with as much of the
+stack as was used.
 """
 import argparse
 import os
@@ -17,7 +17,7 @@ import run_board
 
 
 def sections(path):
-    """Name, type, address, bytes and flags of the sections of an ELF file or of all in an archive."""
+    """Name, type, address, bytes and flags of the sections of an ELF file, or of all in an archive."""
     said = subprocess.run(["readelf", "-SW", path], check=True, stdout=subprocess.PIPE, text=True,
                           stderr=subprocess.DEVNULL).stdout
     for name, kind, address, size, flags in re.findall(
@@ -28,7 +28,7 @@ def sections(path):
 
 
 def kinds(path):
-    """Bytes of text, rodata, data and bss; the stack is none of them."""
+    """Bytes of text, rodata, data and bss, without the stack."""
     total = dict.fromkeys(["text", "rodata", "data", "bss"], 0)
     for name, kind, _, size, flags in sections(path):
         if name != ".stack":
@@ -38,7 +38,7 @@ def kinds(path):
 
 
 def memory(board, image, stack):
-    """Bytes of ROM and RAM; what starts in RAM with a value is in both. Of a bare board only."""
+    """Bytes of ROM and RAM, for a bare board; RAM with an initial value counts in both."""
     places = linker(board)
     if not places:
         return "", ""
@@ -52,7 +52,7 @@ def memory(board, image, stack):
 
 
 def linker(board):
-    """The five numbers of a board's linker file; nothing for one without."""
+    """The five numbers of a board's linker file; nothing for a board without one."""
     path = os.path.join(run_board.ROOT, "linker", board + ".ld")
     if not os.path.exists(path):
         return {}

@@ -1,18 +1,16 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What a program pays for what it uses of the engine: Thumb-2 at -Os, linked and collected.
+"""What a program pays for each use of the engine: Thumb-2 at -Os, linked and collected.
 
-Programs of growing use, each with the calls of the one before it. The engine is compiled for a
-Cortex-M3, a function a section, and linked to calls alone; the linker drops what none of them
-reaches. The bytes are code and constants, what the compiler's library adds to the engine (64-bit
-division) included; memcpy and its like are the program's own, and are left out.
+Programs of growing use, each with the calls of the one before. The engine is compiled for a Cortex-M3, a function a section, and
+linked to calls alone; the linker drops what none of them reaches. The bytes are code and constants, with what the compiler's
+library adds for the engine (64-bit division), without memcpy and its like, which are the program's own.
 
-The blocks of memory that a program gives to the engine come behind them, where a pointer has 32 bits:
-worlds of the head scene and of heaps in what these use up, and meshes that are built.
+Behind them come the blocks of memory that a program gives to the engine, where a pointer has 32 bits: worlds of the head scene and
+of heaps, as large as these need, and built meshes.
 
-out/size_of_use.csv and out/blocks.csv have the tables. tests/size_of_use.csv and tests/blocks.csv have
-the committed ones. No row of the code may be larger than there by more than 1 %, for other releases
-of a compiler differ by as much; no block may be larger at all.
+out/size_of_use.csv and out/blocks.csv have the tables; tests/size_of_use.csv and tests/blocks.csv have the committed ones. No row of
+the code may be larger than there by more than 1 %, because releases of a compiler differ by as much; no block may be larger at all.
 """
 import argparse
 import csv
@@ -30,7 +28,7 @@ TARGET = ["arm-none-eabi-gcc", "-std=c11", "-mcpu=cortex-m3", "-mthumb", "-Os", 
 SECTIONS = ["-ffunction-sections", "-fdata-sections"]
 LIBRARY = ["memcpy", "memmove", "memset", "memcmp"]
 
-# What a program does besides the one before it, and the functions that it calls for that.
+# The uses: what a program does besides the one before it, and the functions that it calls for that.
 USES = [
     ("a world and its step with meshes in ROM", "carom_world_bytes carom_world_init carom_body_add "
      "carom_world_step carom_body_get"),
@@ -139,7 +137,7 @@ def compiled():
 
 
 def measure():
-    """The rows of the table: use, bytes, and what it adds to the use before it."""
+    """The rows of the table: use, bytes, and bytes added to the use before it."""
     made = compiled()
     calls, rows, before = [], [], 0
     for use, names in USES:
@@ -154,7 +152,7 @@ def measure():
 
 
 def grown(rows, file_name, allowed):
-    """What the gate complains of: rows with more bytes than the committed ones."""
+    """The gate's complaints: rows with more bytes than the committed ones."""
     with open("tests/" + file_name, newline="") as file:
         committed = {row[0]: row[1] for row in csv.reader(file)}
     for name, size, *_ in rows:

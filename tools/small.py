@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Small things that are not convex, 0.4 across, to be poured, and what they are poured out of and into."""
+"""Small non-convex things, 0.4 across, to be poured, and the bucket and tray for them."""
 from math import cos, pi, sin
 
 from solids import ears, extrude, rings
@@ -10,7 +10,7 @@ def polygon(sides, radius, z):
 
 
 def ring():
-    """Six-sided, of square section: the two outlines at one height and the two at the other, around."""
+    """Six-sided, of square section: the two outlines at one height and the two at the other."""
     outlines = [polygon(6, radius, z) for radius, z in ((0.2, -0.05), (0.2, 0.05), (0.11, 0.05), (0.11, -0.05))]
     points, faces = [p for outline in outlines for p in outline], []
     for k in range(6):
@@ -36,7 +36,7 @@ def beaker():
 
 
 def box(x, y, z, wall):
-    """Open above; x, y and z are those of the inside, from the middle and up from 0."""
+    """A box open above; x, y and z are those of the inside, from the middle and up from 0."""
     def outline(more, height):
         return [(i * (x + more), j * (y + more), height) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
 

@@ -1,12 +1,11 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Run random worlds by number and put what came of them together: tools/soak.py PROGRAM.
+"""Run random worlds by number and summarise them: tools/soak.py PROGRAM.
 
-PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, called 12, m12 and w12: bodies alone, machines,
-and wild machines. Every world is a row of out/soak.csv; the summary is printed and,
-with --docs, written into docs/soak.md, bodies and machines each between two comments. A world that ends the program, or that
-takes longer than it may, is a row of its own: the others are run without it. A line a failing world
-says how to run it alone, frame by frame. The exit status is 1 when anything is not as it should be.
+PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, called 12, m12 and w12: bodies alone, machines, and wild
+machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and machines
+each between two comments. A world that ends the program, or takes too long, is a row of its own, and the others are run without it.
+For each failing world a line says how to run it alone, frame by frame. The exit status is 1 if anything is wrong.
 """
 import argparse
 import concurrent.futures
@@ -21,17 +20,17 @@ import gate
 
 OUT, DOCS = "out/soak.csv", "docs/soak.md"
 CHUNK = 20  # worlds a process
-SECONDS = 150  # for a world, in which its steps may take 60
+SECONDS = 150  # for a world; its steps may take 60
 CUT_ALLOWED = 0.01  # of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
           "much work", "joint", "sensor", "other hash"]
 KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
 SHARES = {"": 1, "m": 0.2, "w": 0.02}  # of the worlds asked for
-LOST = "lost"  # the program ended, or did not
+LOST = "lost"  # the program ended early, or did not end
 
 
 def lines_of(command):
-    """The whole lines that a program prints until it ends, or takes too long for one; and its end."""
+    """The complete lines of a program until it ends, or takes too long for one; and how it ended."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     lines, late = [], False
 
@@ -53,7 +52,7 @@ def lines_of(command):
 
 
 def rows_of(program, kind, first, count):
-    """The rows of some worlds of a kind, in their order."""
+    """The rows of some worlds of a kind, in order."""
     found = []
     while count > 0:
         lines, end = lines_of([program, "rows", kind + str(first), str(count)])
@@ -67,7 +66,7 @@ def rows_of(program, kind, first, count):
 
 
 def run(program, kind, first, count, jobs):
-    """All rows of a kind; chunks go to whoever is free."""
+    """All rows of a kind; a free process takes the next chunk."""
     starts = list(range(first, first + count, CHUNK))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         parts = pool.map(lambda start: rows_of(program, kind, start, min(CHUNK, first + count - start)),
@@ -88,7 +87,7 @@ def most(rows, column):
 
 
 def figure(rows, column):
-    """The largest of a column, and whose."""
+    """The largest value of a column, and its world."""
     row = most(rows, column)
     return "%.2g (%s)" % (number(row, column), row["seed"])
 
@@ -122,7 +121,7 @@ def summary(kind, rows, wall):
 
 
 def joints(kind, rows):
-    """What there is to say of machines."""
+    """The remarks about machines."""
     return [
         ("kind", KINDS[kind]),
         ("joints", "%d" % sum(number(row, "joints") for row in rows)),
@@ -175,7 +174,7 @@ def write_docs(name, lines):
 
 
 def document(by_kind):
-    """Write what was run of the two sorts of worlds."""
+    """Write the page of the two kinds of worlds that were run."""
     if "" in by_kind:
         rows, wall = by_kind[""]
         write_docs("soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
@@ -216,7 +215,7 @@ def main():
     write_csv(rows)
     if arguments.docs:
         document(by_kind)
-    # frames cut short are counted over all worlds: one of them alone is no failure
+    # frames cut short are counted over all worlds: one alone is no failure
     failing = [row for row in rows if set(row["faults"].split("; ")) - {"", "cut short"}]
     for row in failing:
         print("%s %s: %s" % (arguments.program, row["seed"], row["faults"] +

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ways to make a closed mesh of outlines: points, and faces that are counter-clockwise seen from outside."""
+"""Ways to make a closed mesh from outlines: points, and faces that are counter-clockwise seen from outside."""
 
 
 def extrude(outline, low, high, triangles=None):
@@ -34,7 +34,7 @@ def ears(outline):
 
 
 def rings(outlines):
-    """Outlines of as many corners each, joined from one to the next, and the first and last closed as quads or fans."""
+    """Outlines of as many corners each, joined from one to the next; the first and last closed as quads or fans."""
     n = len(outlines[0])
     points = [p for outline in outlines for p in outline]
     faces = [(0, k + 1, k) for k in range(1, n - 1)]
@@ -47,7 +47,7 @@ def rings(outlines):
 
 
 def joined(loops):
-    """One outline of the first loop and the holes in it, as places in the list of all their corners, by the shortest bridges."""
+    """Join the first loop and the holes in it into one outline by the shortest bridges, as indices into all their corners."""
     places, first = [], 0
     for loop in loops:
         places.append(list(range(first, first + len(loop))))
@@ -69,7 +69,7 @@ def joined(loops):
 
 
 def pierced(loops, low, high):
-    """A prism along y over an outline in x, z with holes, which are clockwise. Its sides come first, in the order of the corners."""
+    """A prism along y over an outline in x, z with clockwise holes. Its sides come first, in the order of the corners."""
     corners = [p for loop in loops for p in loop]
     whole = joined(loops)
     n, first, faces = len(corners), 0, []

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""For someone who watches a terminal: how far a run is, how long it will still take, and a picture in characters."""
+"""For a person at a terminal: the progress of a run, the time left, and a picture in characters."""
 import os
 import sys
 import time
 
 COLUMNS_MOST = 72  # characters of a picture
-LINES_BELOW = 5  # that are to be seen together with it
+LINES_BELOW = 5  # that stay visible below it
 LINES_LEAST = 10  # of a picture, however low the terminal
-UPPER_HALF = "\u2580"  # its upper half has the colour of the text, its lower half that of the paper
+UPPER_HALF = "\u2580"  # the upper half has the text's colour, the lower half the background's
 SURE_AFTER = 0.5  # seconds until a guess of the time left is worth reading
 
 
 class Progress:
-    """A line that is written over, frame by frame; where nobody watches, a line for every hundred."""
+    """A line that is overwritten frame by frame; without a terminal, a line for every hundred frames."""
 
     def __init__(self, frames, stream=sys.stdout, clock=time.monotonic):
         self.frames, self.stream, self.clock = frames, stream, clock
@@ -38,7 +38,7 @@ class Progress:
 
 
 def colours(environment):
-    """How many colours a terminal has, by what it says of itself: 2^24, 256, or 0 for too few."""
+    """The number of colours of a terminal, by its own description: 2^24, 256, or 0 for too few."""
     if environment.get("NO_COLOR"):
         return 0
     if environment.get("COLORTERM") in ("truecolor", "24bit"):
@@ -47,7 +47,7 @@ def colours(environment):
 
 
 def colour(rgb, count):
-    """The end of an escape sequence that names a colour; of 256 the nearest of their cube of 6 x 6 x 6."""
+    """The end of an escape sequence for a colour; of 256 the nearest in their cube of 6 x 6 x 6."""
     if count > 256:
         return "2;%d;%d;%d" % rgb
     red, green, blue = (min(range(6), key=lambda i: abs(part - (i and 55 + 40 * i))) for part in rgb)
@@ -55,7 +55,7 @@ def colour(rgb, count):
 
 
 def picture(image, columns, count):
-    """Lines of characters for an image of Pillow's, two rows of pixels to a line."""
+    """Lines of characters for an image of Pillow's, two rows of pixels a line."""
     rows = max(1, columns * image.height // image.width // 2)
     small = image.convert("RGB").resize((columns, 2 * rows))
     for y in range(0, 2 * rows, 2):
@@ -66,7 +66,7 @@ def picture(image, columns, count):
 
 
 def shows(stream=sys.stdout, environment=os.environ):
-    """How many columns and colours there are for pictures; none where the stream is no terminal that takes the character."""
+    """Columns and colours for pictures; none if the stream is no terminal that takes the character."""
     count = colours(environment)
     if not stream.isatty() or count == 0 or "utf" not in (stream.encoding or "").lower():
         return 0, 0
@@ -74,13 +74,13 @@ def shows(stream=sys.stdout, environment=os.environ):
 
 
 def columns_for(image, columns, lines):
-    """How wide a picture may be in a terminal of that size, all of it being seen; 0 lines: it does not say how many."""
+    """The largest width at which a picture of that size is visible as a whole; 0 lines: height unknown."""
     fit = max(LINES_LEAST, lines - LINES_BELOW) if lines else COLUMNS_MOST
     return max(1, min(COLUMNS_MOST, columns, 2 * fit * image.width // image.height))
 
 
 def show_picture(image, stream=sys.stdout, environment=os.environ):
-    """Show an image where the stream is a terminal with colours that takes the character; whether it was."""
+    """Show an image if the stream is a terminal with colours that takes the character. True if it was shown."""
     columns, count = shows(stream, environment)
     if not count:
         return False

@@ -1,23 +1,22 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make a flash image for a Raspberry Pi Pico a file that its boot ROM takes: tools/uf2.py IMAGE.bin
+"""Make a file that a Raspberry Pi Pico's boot ROM takes from a flash image: tools/uf2.py IMAGE.bin
 
-IMAGE.uf2 has a block of 512 bytes for each 256 of the image. The ROM runs the first 256 only when the
-last four of them are the check sum of the others; an image of which that is not so is refused, and
-nothing written.
+IMAGE.uf2 has a block of 512 bytes for each 256 of the image. The ROM runs the first 256 only if the last four of them are the check
+sum of the others; an image without it is refused, and nothing is written.
 """
 import struct
 import sys
 
 FLASH = 0x10000000
-PAYLOAD, ROOM = 256, 476  # bytes of a block that are used, and that it has
-MAGIC = 0x0a324655, 0x9e5d5157, 0x0ab16f30  # two before, one behind
+PAYLOAD, ROOM = 256, 476  # bytes of a block that are used, and its room
+MAGIC = 0x0a324655, 0x9e5d5157, 0x0ab16f30  # two before the data, one behind
 HAS_FAMILY, RP2040 = 0x2000, 0xe48bff56
 LOADER = 252
 
 
 def crc32(data):
-    """As the RP2040's datasheet has it (2.8.1.3.1): not reflected, all ones before, not inverted."""
+    """The check sum of the RP2040's datasheet (2.8.1.3.1): not reflected, starts with all ones, not inverted."""
     crc = 0xffffffff
     for byte in data:
         crc ^= byte << 24

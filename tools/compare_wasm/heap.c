@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Carom's heap of boxes for WebAssembly, as tools/heaps_carom.cpp makes it. */
+/* Carom's heap of boxes for WebAssembly, made as in tools/heaps_carom.cpp. */
 #include "../heaps_box.h"
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
@@ -12,7 +12,7 @@ static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)], box_block[CAROM_MESH_
 static struct carom_mesh box, plane;
 static struct carom_world *world;
 
-/* An empty world over the plane; an error is below zero. */
+/* Make an empty world over the plane; an error is negative. */
 int EXPORT(begin)(void)
 {
     const struct carom_config config = {

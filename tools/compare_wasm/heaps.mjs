@@ -3,10 +3,10 @@
 //
 //   node heaps.mjs CAROM.wasm LAYOUT...
 //
-// A layout is what `carom-heaps layout` prints. Unit boxes of mass 1 over a plane at z = 0, gravity 9.81
-// m/s^2, 60 steps a second, friction 0.5, no restitution, nobody sleeps; else each library with the
-// settings that it comes with. Rows to the console: PHASE,CONTENDER,MILLISECONDS, the median of the
-// steps of that phase in all layouts, and end,CONTENDER,HEIGHT, how high the boxes lie on average.
+// `carom-heaps layout` prints a layout. Unit boxes of mass 1 over a plane at z = 0, gravity 9.81 m/s^2, 60 steps a second,
+// friction 0.5, no restitution, nobody sleeps; otherwise each library has its default settings. Rows to the console:
+// PHASE,CONTENDER,MILLISECONDS, the median of the steps of that phase in all layouts, and end,CONTENDER,HEIGHT, the mean height
+// of the boxes.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
@@ -81,7 +81,7 @@ function joltSystem() {
 function makeJolt(boxes) {
     const made = joltSystem();
     const bodies = made.GetPhysicsSystem().GetBodyInterface();
-    // it has no plane without an edge: a slab of 64 x 64 x 2
+    // it has no infinite plane: a slab of 64 x 64 x 2
     const add = (shape, at, turn, type, layer) => {
         const settings = new jolt.BodyCreationSettings(shape, new jolt.RVec3(...at),
             new jolt.Quat(...turn), type, layer);
@@ -139,7 +139,7 @@ function play(boxes, keep) {
 
 const heaps = layouts.map((path) => readFileSync(path, "utf8").trim().split("\n")
     .map((line) => line.split(",").map(Number)));
-play(heaps[0], false); // what a machine compiles only once it runs often
+play(heaps[0], false); // warm up: a machine compiles code only once it runs often
 heaps.forEach((boxes) => play(boxes, true));
 for (const [phase, by] of Object.entries(times)) {
     for (const [name, all] of Object.entries(by)) {

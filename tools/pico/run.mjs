@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: MIT
 // Run a program of a Raspberry Pi Pico in rp2040js: tools/pico/run.mjs IMAGE.elf [ARGUMENT...]
 //
-// The image is the .uf2 file beside the .elf. As rp2040js brings no boot ROM, this does its work: it
-// asks the loader's check sum, copies the loader into RAM and begins there. The arguments are written
-// into the room that port/bare/arguments.c leaves for them. What the program sends by UART 0 goes to
-// stdout, up to EOT and its exit status. Two arguments are also this program's own:
+// The image is the .uf2 file beside the .elf. rp2040js has no boot ROM, so this does its work: it checks the loader's check sum,
+// copies the loader into RAM and begins there. The arguments are written into the room that port/bare/arguments.c leaves for them.
+// The output of UART 0 goes to stdout, up to EOT and the exit status. Two arguments are also this program's own:
 //
 //   pictures=DIRECTORY  write the display as DIRECTORY/frame-0001.ppm when the program asks for it
 //   press=N:KEYS,...    hold KEYS (a sum of the pad's bits) from the N-th such picture on
 //
-// A register that rp2040js does not know ends the run, as does what the display does not understand.
+// A register that rp2040js does not know ends the run, and so do bytes that the display does not understand.
 
 import { createRequire } from "module";
 import fs from "fs";
@@ -55,7 +54,7 @@ function checkSum(bytes) {
     return crc >>> 0;
 }
 
-// What the boot ROM does with a flash.
+// The work of the boot ROM with a flash.
 function boot(mcu) {
     const loader = mcu.flash.subarray(0, LOADER);
     if (checkSum(loader) !== mcu.flashView.getUint32(LOADER, true)) {
@@ -76,7 +75,7 @@ function writeArguments(flash, words) {
 
 // ------------------------------------------------------------------ what is connected
 
-// The display: words of the serial bus, each as long under way as its bits take.
+// The display: words of the serial bus, each under way for as long as its bits take.
 function connectDisplay(mcu) {
     const spi = mcu.spi[1], display = new Display(() => mcu.clock.nanos);
     const arrived = mcu.clock.createAlarm(() => spi.completeTransmit(0));
@@ -95,7 +94,7 @@ function connectDisplay(mcu) {
     return display;
 }
 
-// The keys that are held: of the last entry whose picture has come.
+// The keys held: those of the last entry whose picture has come.
 function hold(mcu, presses, pictures) {
     let keys = 0;
     for (const entry of presses ? presses.split(",") : []) {
@@ -105,7 +104,7 @@ function hold(mcu, presses, pictures) {
     KEY_PINS.forEach((pin, i) => mcu.gpio[pin].setInputValue(!(keys >> i & 1)));
 }
 
-// The console: what is to be done at the end of a line, and at the end of all.
+// The console: acts at the end of a line, and at the end of all.
 function connectConsole(mcu, takeLine, end) {
     let line = "", ended = false;
     mcu.uart[0].onByte = byte => {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a display of 240 x 240 pixels with Sitronix' ST7789 shows of the bytes that it is sent.
+// The picture of a display of 240 x 240 pixels with Sitronix' ST7789, from the bytes that it is sent.
 //
-// Of the controller there is what a program needs that fills windows with pixels of 16 bits. Anything else is an
-// error, as is what the datasheet forbids: a command too soon after a reset or the end of sleep. How
-// the panel is turned against its module (MADCTL) is not asked: the first row is the upper one.
+// It models what a program needs that fills windows with pixels of 16 bits. Anything else is an error, and so is what the datasheet
+// forbids: a command too soon after a reset or the end of sleep. The orientation of the panel in its module (MADCTL) is ignored: the
+// first row is the upper one.
 
 const SIDE = 240;
 const LINES = 320; // of the controller's memory
@@ -97,7 +97,7 @@ export class Display {
         }
     }
 
-    // A PPM file of what is to be seen; nothing but black when it is not on.
+    // A PPM file of the visible picture, black if the display is off.
     picture() {
         const rgb = Buffer.alloc(3 * SIDE * SIDE);
         const shows = this.awake && this.on && this.is16;
