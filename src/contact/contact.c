@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The list of contacts: test candidates, insert, merge, and find those of a pair. */
 #include "../num/sort.h"
 #include "contact.h"
 
@@ -11,12 +12,12 @@ static bool before(const void *contact, const void *key)
     return candidate_compare(&((const struct contact *)contact)->key, key) < 0;
 }
 
-/* The place in key order for a candidate; sets *same when it is there already. */
+/* The place in key order for a candidate; sets *same if it is in the list already. */
 static uint32_t find_place(const struct contact_list *list, const struct candidate *key, bool *same)
 {
     uint32_t used = list->pool->used, place = used;
 
-    /* pairs come in their order where a frame begins: most belong at the end */
+    /* at the start of a frame pairs come in order: most belong at the end */
     if (used == 0 || !before(&list->contacts[used - 1], key)) {
         place = sort_lower_bound(list->contacts, used, sizeof *list->contacts, key, before);
     }
@@ -25,8 +26,8 @@ static uint32_t find_place(const struct contact_list *list, const struct candida
 }
 
 /*
- * Make room at a place, in a list that is not full: up to the next contact in doubt, whose room it takes. What
- * the solver does not set for each that it takes up is cleared.
+ * Make room at a place, in a list that is not full: up to the next contact in doubt, whose room it
+ * takes. Clears what the solver does not set.
  */
 static struct contact *insert(struct contact_list *list, uint32_t place)
 {
@@ -37,7 +38,7 @@ static struct contact *insert(struct contact_list *list, uint32_t place)
         to++;
     }
     list->pool->used += to == end;
-    /* one by one: a memmove that overlaps upwards may go byte by byte */
+    /* one by one, because a memmove that overlaps upwards may go byte by byte */
     for (; to > c; to--) {
         *to = to[-1];
     }
@@ -55,7 +56,7 @@ static void set_arm(struct contact_side *side, const carom_v3_q40 *arm)
     for (int k = 0; down > 0 && k < 3; k++) {
         side->arm_q30[k] = (int32_t)carom_round(arm->c[k], down);
     }
-    /* a body of a radius of less than 2^-10 units */
+    /* for radii below 2^-10 units */
     for (int k = 0; down <= 0 && k < 3; k++) {
         side->arm_q30[k] = (int32_t)carom_shl(arm->c[k], -down);
     }
@@ -82,7 +83,7 @@ carom_v3_q32 contact_point(const struct contact *c)
     return point;
 }
 
-/* Surfaces that move and materials give a contact its drift, and another e and mu. */
+/* Set a contact's drift by moving surfaces and materials, and its own e and mu. */
 FIX_APART static void set_drift(struct contact_list *list, const struct boyse_pair *pair,
                                 struct contact *c, const carom_v3_q40 *arm)
 {
@@ -111,7 +112,7 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
     if (full) {
         contact_drop_doubted(list);
         if (list->pool->used == list->pool->size) {
-            contact_merge(list); /* most of a full list are the same place again */
+            contact_merge(list); /* a full list is mostly repeated places */
         }
         if (list->pool->used == list->pool->size) {
             list->pool->refused++;
@@ -135,8 +136,8 @@ bool contact_insert(struct contact_list *list, const struct boyse_pair *pair,
 }
 
 /*
- * How much of a gap a surface made when it moved: what lay on it and is going to follow it down still
- * is where it was, and what it threw up is ahead of it.
+ * The part of a gap that a moving surface made: a body that lay on it and will follow it down is
+ * still where it was, and a body thrown up is ahead of it.
  */
 static int64_t drifted_q22(const struct boyse_pair *pair, const struct candidate *c,
                            const carom_v3_q30 *normal, const carom_v3_q40 *arm)
@@ -172,7 +173,7 @@ static int64_t cosine_q30(const carom_v3_q30 *a, const carom_v3_q30 *b)
     return carom_dot(a->c, b->c) >> 30;
 }
 
-/* Whether a contact is nearer to a place than a distance, along the axes of the world. */
+/* True if a contact is nearer to a place than a distance, in the L1 norm of world axes. */
 static bool is_within(const struct contact *c, const carom_v3_q22 *place, int64_t distance_q22)
 {
     for (int k = 0; k < 3 && distance_q22 > 0; k++) {
@@ -182,8 +183,9 @@ static bool is_within(const struct contact *c, const carom_v3_q22 *place, int64_
 }
 
 /*
- * A vertex on faces that are nearly coplanar: wherever the path would have had it, it is here. Edges
- * have the normal of the faces that they border here, along which they may not approach.
+ * True if candidates count as the same feature. A vertex may be on nearly coplanar faces: wherever
+ * its path would have had it, it is here. Edges count singly: they have the normal of the faces
+ * that they border here, along which they may not approach.
  */
 static bool same_feature(const struct candidate *p, const struct candidate *q)
 {
@@ -199,9 +201,8 @@ static void take_out(struct contact_list *list, uint32_t place)
 }
 
 /*
- * What hits takes the place of what its vertex touches now: the faces of a field may differ by less
- * than what makes normals the same, and a body that slides from one onto the other runs into the
- * other alone.
+ * A hit replaces contacts of its vertex: the faces of a field may differ by less than what makes
+ * normals equal, and a body that slides from one onto the other runs into the other alone.
  */
 bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
                    const struct boyse_hit *hit)
@@ -239,7 +240,7 @@ bool contact_force(struct contact_list *list, const struct boyse_pair *pair,
 
 void contact_merge(struct contact_list *list)
 {
-    uint32_t kept = 0, first = 0; /* what is kept, and of the pair at hand */
+    uint32_t kept = 0, first = 0; /* kept contacts; the first kept one of the present pair */
 
     for (uint32_t i = 0; i < list->pool->used; i++) {
         struct contact *c = &list->contacts[i];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How a surface or a body that the caller moves does so at a contact. */
+/* The drift at a contact: how a surface or a body that the caller moves goes there. */
 #include "contact.h"
 
 void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
@@ -33,7 +33,7 @@ void contact_drift(const struct boyse_pair *pair, const struct candidate *key,
     fix_rotate(drift->c, &b->path.start.r, drift->c);
 }
 
-/* Whether a contact in the list has that one. */
+/* True if a contact in the list uses that drift. */
 static bool is_kept(const struct contact_list *list, const carom_v3_q40 *drift)
 {
     for (uint32_t i = 0; i < list->pool->used; i++) {
@@ -44,7 +44,7 @@ static bool is_kept(const struct contact_list *list, const carom_v3_q40 *drift)
     return false;
 }
 
-/* The contacts may go, be moved and be copied over: what none of them has is free. */
+/* Contacts may be removed, moved or copied over: a drift that none of them uses is free. */
 void contact_keep_drift(struct contact_list *list, struct contact *c, const carom_v3_q40 *drift,
                         const struct contact_mixed *mixed)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Faces that lie on each other. Where their borders cross, N is along the product of two edges in
- * nearly the same plane, which leans by what the faces are off parallel over the sine of the edges'
- * angle. Under a heavy body that squeezes a light one out.
+ * nearly the same plane, and leans by the faces' angle over the sine of the edges' angle. Under a
+ * heavy body that would squeeze a light one out.
  */
 #include "contact.h"
 
-/* The world normal of a face. */
+/* A face's normal in world axes. */
 static void normal_of(const struct body *b, uint16_t face, int32_t normal[3])
 {
     carom_rotate(normal, &b->path.start.r, b->def.mesh->faces[face].normal.c);
@@ -22,7 +22,7 @@ static bool opposite(const int32_t a[3], const int32_t b[3])
     return true;
 }
 
-/* The world normals of b's faces at an edge that are nearly N; returns how many. */
+/* Set the world normals of b's faces at an edge that are nearly N; returns how many. */
 static int nearly_along(const struct body *b, const struct carom_edge *edge,
                         const carom_v3_q30 *normal, int32_t along[2][3])
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Materials of two bodies are mixed at a contact. */
+/* Mix the materials of two bodies at a contact. */
 #include "contact.h"
 
 int32_t contact_mix_restitution(const struct contact_list *list, int32_t a_q30, int32_t b_q30)
@@ -57,7 +57,7 @@ static void look_at_edge(const struct carom_mesh *mesh, uint32_t edge, const int
 uint32_t contact_face(const struct body *b, const struct candidate *key, int side,
                       const carom_v3_q30 *normal)
 {
-    /* a vertex is i, of a or of b; a face is j, of the other; of edges i is a's */
+    /* key->i is a vertex, of a or b, and key->j a face of the other; of edges i is a's */
     bool vertex = key->kind == (side == 0 ? CANDIDATE_VERTEX_FACE : CANDIDATE_FACE_VERTEX);
     const struct carom_mesh *mesh = b->def.mesh;
     uint32_t best = CAROM_NO_FACE;
@@ -81,7 +81,7 @@ uint32_t contact_face(const struct body *b, const struct candidate *key, int sid
     return best;
 }
 
-/* A side's material at a contact, where its faces have some. */
+/* The material of a side's face at a contact; NULL if the body has none by face. */
 static const struct carom_material *material(const struct body *b, const struct candidate *key,
                                              int side, const carom_v3_q30 *normal)
 {
@@ -92,7 +92,7 @@ static const struct carom_material *material(const struct body *b, const struct 
                 ->materials[b->def.extra->face_material[contact_face(b, key, side, normal)]];
 }
 
-/* Add sign times how a surface moves, in world axes. */
+/* Add sign times the velocity of a body's surface, in world axes. */
 static void add_surface(const struct body *b, const struct carom_material *m, int sign,
                         carom_v3_q40 *sum)
 {
@@ -119,7 +119,7 @@ bool contact_mix_materials(const struct contact_list *list, const struct boyse_p
 
     add_surface(a, of_a, -1, &along);
     add_surface(b, of_b, 1, &along);
-    /* along the contact alone: what points out of it would lift */
+    /* along the contact only: a part out of it would lift */
     out_q40 = fix_dot_q30(along.c, normal->c);
     for (int k = 0; k < 3; k++) {
         drift->c[k] += along.c[k] - fix_mul_q30(out_q40, normal->c[k]);

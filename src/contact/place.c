@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The place of a contact to more digits than the collision test needs: an impulse is as good as its
- * arms. Mesh coordinates are exact in q22; turned into the world they are rounded once, to q40.
+ * The place of a contact, to more digits than the collision test needs: an impulse is as good as
+ * its arms. Mesh coordinates are exact in q22; turned into the world they are rounded once, to q40.
  */
 #include "contact.h"
 
-/* Sine of the angle below which edges are nearly parallel, and near each other far off both: 1/512. */
+/* Below this sine, 1/512, edges are nearly parallel, and nearest to each other far off both. */
 #define PARALLEL_Q30 (1 << 21)
-/* Below this one, 2^-20, where they come nearest is rounding's. */
+/* Below this sine, 2^-20, rounding decides where edges are nearest. */
 #define ROUNDING_Q30 (1 << 10)
 
-/* A point of a body's mesh about its centre, in world axes. */
+/* A point of a body's mesh from its centre, in world axes. */
 static carom_v3_q40 turned(const struct body *b, carom_v3_q22 local)
 {
     const carom_m3_q30 *r = &b->path.start.r;
@@ -30,7 +30,7 @@ static carom_v3_q40 along(carom_v3_q40 to, int64_t s_q40, const int32_t d_q30[3]
     return to;
 }
 
-/* From b's centre to a's. */
+/* The way from b's centre to a's. */
 static carom_v3_q40 between(const struct boyse_pair *pair)
 {
     const struct body_path *a = &pair->a->path, *b = &pair->b->path;
@@ -44,7 +44,7 @@ static carom_v3_q40 between(const struct boyse_pair *pair)
     return d;
 }
 
-/* Whether the edges with the product w are so parallel that it says little. */
+/* True if edges with the product w are so parallel that w says little. */
 static bool is_small(const int64_t w_q60[3], int64_t sine_q30)
 {
     return carom_abs(w_q60[0]) >> 30 < sine_q30 && carom_abs(w_q60[1]) >> 30 < sine_q30 &&
@@ -58,9 +58,9 @@ static int64_t cross_part(const carom_v3_q40 *d, const int32_t f[3], int i, int 
 }
 
 /*
- * How far along a's edge e it comes nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
- * b's start to a's. With |d| < 2^10 units, d x f is below 2^51; the products fit 128 bits. Of edges that
- * are parallel but for rounding it is the middle of a's.
+ * How far along a's edge e it is nearest to b's edge f: s = -d.(f x w) / |w|^2, w = e x f, d from
+ * b's start to a's. Bounds: |d| < 2^10 units, so d x f is below 2^51; products fit 128 bits. The
+ * middle of a's edge if the edges are parallel but for rounding.
  */
 static int64_t nearest_q40(const carom_v3_q40 *d, const int64_t w_q60[3], const int32_t f[3],
                            int32_t length_q22)
@@ -88,8 +88,9 @@ static int64_t limited(int64_t s, int64_t one, int64_t other)
 }
 
 /*
- * The same where it is on both. Edges that are nearly parallel come nearest to each other far off the one or
- * the other until they lie over each other: what is on both is nearer to where they will meet, and in range.
+ * nearest_q40, limited to a place on both edges. Nearly parallel edges are nearest to each other
+ * far off one of them until they lie over each other; a place on both is nearer to where they will
+ * meet, and in range.
  */
 static int64_t on_both_q40(const carom_v3_q40 *d, const int32_t e[3], const int32_t f[3],
                            int32_t length_a_q22, int32_t length_b_q22)
@@ -108,7 +109,10 @@ static int64_t on_both_q40(const carom_v3_q40 *d, const int32_t e[3], const int3
     return s_q40;
 }
 
-/* The point of a's edge; b's start is relative to b's centre, which is `apart` from a's. */
+/*
+ * The point on a's edge. Sets b's start, from b's centre; `apart` is the way from b's centre to
+ * a's.
+ */
 static carom_v3_q40 edge_point(const struct boyse_pair *pair, const struct candidate *c,
                                const carom_v3_q40 *apart, carom_v3_q40 *start_b)
 {
@@ -131,7 +135,7 @@ void contact_place(const struct boyse_pair *pair, const struct candidate *c,
                    const carom_v3_q30 *normal, carom_v3_q40 arm[2])
 {
     carom_v3_q40 apart = between(pair), on[2], gap;
-    int known = 0; /* the side whose point is known; of the other's, only the plane */
+    int known = 0; /* the side whose point is known; of the other side only the plane is */
 
     if (c->kind == CANDIDATE_EDGE_EDGE) {
         on[0] = edge_point(pair, c, &apart, &on[1]);

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Contacts that hold nothing. Where two faces lie on each other the places of contact are the corners of a
- * polygon: eight for two boxes. A corner that hardly stands out between two others carries no more than these
- * do. A body that tips over it hits there, and then it is a contact again.
+ * Drop contacts that carry nothing. Where two faces lie on each other contacts are the corners of a
+ * polygon: eight for two boxes. A corner that hardly stands out between two others carries no more
+ * than these do. A body that tips over it hits there, and then it is a contact again.
  */
 #include "contact.h"
 
-/* A corner hardly stands out when it does so by less than this part of the way between the two. */
+/*
+ * A corner hardly stands out if it does so by less than this part of the distance between the other
+ * two.
+ */
 #define STANDS_OUT_DIVISOR 32
-/* So many contacts hold a face: none of them is dispensable. */
+/* A face needs this many contacts: none of them is dropped. */
 #define ENOUGH 4
-/* Nor are any of more than so many. */
+/* Pairs with more contacts than this are left alone. */
 #define MOST 16
-/* Lengths are compared with so many bits. */
+/* Lengths are compared with this many bits. */
 #define LENGTH_BITS 13
 
-/* Where a contact is from the first of them, in units of which none is more than 2^13 away along an axis. */
+/* The place of a contact relative to the first, in units in which no component is above 2^13. */
 struct place {
     int32_t c[3];
 };
@@ -47,7 +50,7 @@ static void find_places(const struct contact *contacts, uint32_t n, struct place
     }
 }
 
-/* Whether a place lies between two others, and hardly stands out. */
+/* True if a place lies between two others and hardly stands out. */
 static bool is_between(const struct place *at, const struct place *one, const struct place *other)
 {
     int32_t d[3], e[3];
@@ -60,13 +63,13 @@ static bool is_between(const struct place *at, const struct place *one, const st
         return false;
     }
     square = carom_dot(d, d);
-    /* along an axis it is 2^14 at most, so all of this is below 2^60 */
+    /* at most 2^14 along an axis, so all of this is below 2^60 */
     off2 = carom_dot(e, e) * square - along * along;
     square /= STANDS_OUT_DIVISOR;
     return along < square * STANDS_OUT_DIVISOR && off2 < square * square;
 }
 
-/* Whether two contacts are of the same two faces. */
+/* True if two contacts are of the same two faces. */
 static bool on_one_plane(const struct contact *a, const struct contact *b)
 {
     for (int k = 0; k < 3; k++) {
@@ -95,7 +98,7 @@ static uint32_t nearest(const struct place *places, uint32_t n, uint32_t i)
     return best;
 }
 
-/* Whether the i-th hardly stands out between the one nearest to it and any other. */
+/* True if the i-th contact hardly stands out between the one nearest to it and any other. */
 static bool is_dispensable(const struct contact *contacts, const struct place *places, uint32_t n,
                            uint32_t i)
 {
@@ -125,7 +128,7 @@ uint32_t contact_thin(struct contact *contacts, uint32_t n)
         return n;
     }
     find_places(contacts, n, places);
-    /* the crossings of edges, which come and go; they are the last ones */
+    /* crossings of edges, which come and go; they are last in key order */
     for (uint32_t i = n; i > 0 && n > ENOUGH && contacts[i - 1].key.kind == CANDIDATE_EDGE_EDGE;
          i--) {
         if (is_dispensable(contacts, places, n, i - 1)) {

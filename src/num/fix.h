@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * fix - division, square root, normalisation and products wider than 64 bits.
+ * fix - division, square root, normalisation, and products wider than 64 bits.
  *
- * What is short enough to inline everywhere is in carom_fix.h; this is the rest.
+ * Functions short enough to be inline everywhere are in carom_fix.h; the rest is here.
  */
 #ifndef CAROM_SRC_FIX_H
 #define CAROM_SRC_FIX_H
@@ -10,8 +10,8 @@
 #include "carom_fix.h"
 
 /*
- * Before a loop of three: GCC counts it at -O2, which takes as long as the loop has to do. A board where room
- * for code is short has it empty.
+ * Before a loop of three. At -O2 GCC counts such loops, which takes as long as their work. Empty on
+ * boards that are short of room for code.
  */
 #ifndef FIX_UNROLL
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)
@@ -21,7 +21,10 @@
 #endif
 #endif
 
-/* Before a function that GCC would copy into its callers where that takes more room than calls of it. */
+/*
+ * Before a function that GCC would copy into its callers where that takes more room than calling
+ * it.
+ */
 #if defined __GNUC__ && defined __OPTIMIZE_SIZE__
 #define FIX_APART __attribute__((noinline))
 #else

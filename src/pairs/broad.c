@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Boxes of bodies, and the pairs whose boxes overlap. */
 #include "broad.h"
 #include "../num/sort.h"
 
@@ -18,14 +19,17 @@ uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uin
     return sort_lower_bound(list, count, sizeof *list, &key, before);
 }
 
-/* One side of a box, rounded outwards. The world, a mesh and a reach are within 2^13 units. */
+/*
+ * Set one side of a box, rounded outwards. Bounds: the world, a mesh and a reach are within 2^13
+ * units.
+ */
 static void set_side(int32_t box_q18[2][3], int k, int64_t middle_q22, int64_t half_q22)
 {
     box_q18[0][k] = (int32_t)((middle_q22 - half_q22) >> 4);
     box_q18[1][k] = (int32_t)((middle_q22 + half_q22) >> 4) + 1;
 }
 
-/* The box of a body in world axes, grown by its reach. */
+/* The box of a body's mesh in world axes, grown by its reach. */
 static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_quat_q30 *q,
                    int32_t reach_q22, int32_t box_q18[2][3])
 {
@@ -43,7 +47,7 @@ static void bounds(const struct body *b, const carom_v3_q32 *at, const carom_qua
     }
     for (int k = 0; k < 3; k++) {
         int64_t m = carom_round(at->c[k], 10);
-        int64_t h = reach_q22 + 8; /* 8: the roundings of this function */
+        int64_t h = reach_q22 + 8; /* 8: roundings of this function */
 
         for (int j = 0; j < 3; j++) {
             m += fix_mul_q30(middle[j], r.c[k][j]);

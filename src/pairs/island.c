@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Islands: moving bodies that are connected by touching. */
+/* Islands: moving bodies connected by touching. */
 #include "island.h"
 
 void island_begin(struct body *bodies, uint32_t body_count)
@@ -9,7 +9,7 @@ void island_begin(struct body *bodies, uint32_t body_count)
     }
 }
 
-/* The lowest body that is known to be connected with this one; halves the way for the next. */
+/* The lowest body known to be connected with this one; shortens the way for the next call. */
 static uint16_t lowest(struct body *bodies, uint16_t i)
 {
     while (bodies[i].island.lowest != i) {
@@ -30,7 +30,7 @@ void island_join(struct body *bodies, const struct pair *p)
 
 void island_end(struct body *bodies, uint32_t body_count)
 {
-    /* a body is connected through lower ones, which know their island by then */
+    /* a body is connected through lower ones, which know their island already */
     for (uint32_t i = 0; i < body_count; i++) {
         bodies[i].island.lowest = bodies[bodies[i].island.lowest].island.lowest;
         bodies[i].island.next = ISLAND_END;

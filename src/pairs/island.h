@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * island - moving bodies that are connected by pairs: begin, join each pair, end. Then body.island is
- * the lowest number in a body's island; the others follow by next_in_island.
+ * island - moving bodies that pairs connect: begin, join each pair, end. Then body.island is the
+ * lowest number in a body's island, and the others follow by next_in_island.
  */
 #ifndef CAROM_SRC_ISLAND_H
 #define CAROM_SRC_ISLAND_H
@@ -14,7 +14,7 @@ void island_begin(struct body *bodies, uint32_t body_count);
 void island_join(struct body *bodies, const struct pair *p);
 void island_end(struct body *bodies, uint32_t body_count);
 
-/* All of that for a list of pairs. */
+/* All three for a list of pairs. */
 void island_find(struct body *bodies, uint32_t body_count, const struct pair *pairs,
                  uint32_t pair_count);
 

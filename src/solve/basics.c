@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Velocities and impulses at a contact, and vectors cut to a length: every solver uses them. */
+/* Velocities and impulses at a contact, and vectors cut to a length, for every solver here. */
 #include "sweep.h"
 
 extern inline struct contact *rest_contact(const struct rest *r, uint32_t i);
@@ -21,7 +21,7 @@ int32_t rest_within(int64_t v, int32_t most)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-/* The largest e, and mu, of a body's faces, where these are of several materials. */
+/* The largest e, and mu, of a body's faces, which may be of several materials. */
 static int32_t most_restitution(const struct body *b)
 {
     return b->def.extra && b->def.extra->materials ? b->def.extra->most_restitution_q30
@@ -59,13 +59,16 @@ uint32_t rest_mixed_friction(const struct rest *r, const struct contact *c)
     return mixed ? mixed->friction_q16 : rest_friction(r, rest_body(r, c, 0), rest_body(r, c, 1));
 }
 
-/* v times an arm to nearest, where the product is below 2^62 */
+/* v times an arm, to nearest, if the product is below 2^62. */
 static inline int64_t short_product(int64_t v, int32_t arm, int bits)
 {
     return carom_round(v * arm, bits);
 }
 
-/* v x arm, each product to nearest. Those of a v below 2^31 fit 62 bits: at rest nearly all are. */
+/*
+ * v x arm, each product to nearest. If v is below 2^31, as at rest nearly always, products fit 62
+ * bits.
+ */
 static void cross_arm(int64_t out[3], const int64_t v[3], const struct contact_side *side)
 {
     const int32_t *arm = side->arm_q30;
@@ -169,7 +172,7 @@ int32_t rest_gain(struct contact *c, const struct rest_change *g)
     rest_accumulate(c->work, g);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        /* a contact by itself, of which nobody asks, may wrap */
+        /* wraps for a lone contact, whose gain nobody reads */
         gain[k] = (int32_t)((uint32_t)gain[k] + (uint32_t)g->whole[k]);
     }
     rest_push(c, g->whole);

@@ -7,7 +7,7 @@
  * In: both bodies' masses, inertias and arms, N, V, the target of V'.N. Out: the impulse P.
  *
  * Steps, and the files that hold them:
- *   impact.c         impact_solve: stick; if that leaves the friction cone slide; then the energy rule
+ *   impact.c         impact_solve: stick; if that leaves the friction cone, slide; energy rule
  *   rows.c           the equations as rows in units near 1; solve and refine them
  *   friction.c       Coulomb's limit
  *   impact_energy.c  the energy rule of a single impact

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The joints of an island, for whoever solves it. */
+/* The joints of an island, as a solve calls them (struct joint_calls). */
 #include "joint_parts.h"
 
 #define FOR_JOINTS(r, j) for (struct joint *j = at(r, (r)->joints.first); j; j = at(r, j->next))
@@ -28,7 +28,10 @@ static void join(struct rest *r, const struct body_state *states)
     }
 }
 
-/* Those of a solve: what its joints do not move has no velocity at hand. */
+/*
+ * Join islands by the joints that are solved now: a body that its joints do not move has no
+ * velocity loaded.
+ */
 static void join_solved(struct rest *r)
 {
     for (uint32_t i = 0; i < r->joints.count; i++) {
@@ -43,7 +46,7 @@ static void join_solved(struct rest *r)
     }
 }
 
-/* Velocities of bodies that joints hold, where no contact asked for them. */
+/* Load velocities of bodies that joints hold, unless a contact has loaded them. */
 static void load_velocities(struct rest *r)
 {
     for (uint32_t i = 0; i < r->joints.count; i++) {
@@ -62,7 +65,7 @@ static void load_velocities(struct rest *r)
     }
 }
 
-/* The island of a joint that is to be solved: one of its bodies may be out of the world. */
+/* The island of a joint to be solved; one of its bodies may be out of the world. */
 static uint16_t island_of(const struct joint *j)
 {
     const struct joint_lever *lever = j->work.lever;
@@ -99,7 +102,10 @@ static bool take_next(struct rest *r)
     return false;
 }
 
-/* Bodies that joints connect take gravity together, or what hangs on the others would be left behind. */
+/*
+ * Bodies that joints connect take gravity together; else a body that hangs on others would be left
+ * behind.
+ */
 static void enter(struct rest *r)
 {
     bool again = true;
@@ -210,7 +216,10 @@ static void enlarge(struct rest *r, const struct rest_sweep *sw, int bits)
     }
 }
 
-/* All that always holds at once; each joint whose coordinate is driven besides, or each joint where there is no room. */
+/*
+ * First each joint with a driven coordinate, or each joint if there was no room to factor; then all
+ * held rows at once.
+ */
 static int64_t sweep(struct rest *r, int32_t quiet)
 {
     int64_t most = 0;
@@ -279,7 +288,7 @@ static void apply(struct rest *r)
     }
 }
 
-/* The velocities of a joint's bodies after a solve. */
+/* Reload the velocities of a joint's bodies after a solve. */
 static void refresh(const struct rest *r, struct joint *j)
 {
     for (int s = 0; s < 2; s++) {
@@ -293,8 +302,9 @@ static void refresh(const struct rest *r, struct joint *j)
 }
 
 /*
- * The last row's impulse does work: all of a motor's is booked. A spring's own is not, for add_springs2 counts it. Limits and
- * damping take energy alone: if they would give any, the frame's end takes it back.
+ * Book the work of the last row's impulse. All of a motor's counts. A spring's own does not, since
+ * add_springs2 counts it. Limits and damping only take energy: if they gave any, the end of the
+ * frame would take it back.
  */
 static void book_drive(struct rest *r, const struct joint *j)
 {
@@ -322,8 +332,9 @@ static void book_drive(struct rest *r, const struct joint *j)
 }
 
 /*
- * A kinematic body does work by whatever holds the other one to it: an impulse P changes twice the kinetic energy of the
- * bodies that answer by P (V + V'), without the kinematic body's part of V. Of the last row book_drive has the rest.
+ * Book the work of a kinematic body through a joint. An impulse P changes twice the kinetic energy
+ * of the bodies that answer by P (V + V'), without the kinematic body's part of V. book_drive books
+ * the other half of the last row.
  */
 static void book_led(struct rest *r, const struct joint *j)
 {

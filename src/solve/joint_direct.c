@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * All held rows of an island's joints at once: A x = what they lack, A_rs being what an impulse along row s changes V of row r by. A is
- * symmetric and positive definite, and most of it is 0: joints meet where they share a body. Cholesky's factors of it, A = C
- * C^T, are kept by rows from the first joint that shares a body on, so that a chain takes six numbers a row. With a
+ * Solve all held rows of an island's joints at once: A x = the velocities that they lack, A_rs the
+ * change of V of row r by an impulse along row s. A is symmetric, positive definite and mostly 0:
+ * joints couple only where they share a body. Cholesky's factor C, A = C C^T, is kept by rows, each
+ * from the first joint that shares a body on, so that a chain takes six numbers a row. With a
  * diagonal near 1 no entry of C is above 1.
  *
- * Where the room is short, joints are swept one by one.
+ * If the room is too small joints are swept one by one.
  */
 #include "joint_parts.h"
 
 /*
- * A pivot below this is rounding: the row says nothing that the rows before it do not, as in loops or in two joints between the same
- * bodies. It has no impulse of its own; to divide by what is left of it would give impulses without measure.
+ * A pivot below this is rounding: the row repeats rows before it, as in loops or two joints between
+ * the same bodies. It gets no impulse of its own; dividing by such a pivot would give impulses
+ * without measure.
  */
 #define PIVOT_MIN_Q60 ((int64_t)1 << (60 - 24))
 
@@ -37,7 +39,10 @@ static bool shares_body(const struct joint_work *a, const struct joint_work *b)
     return false;
 }
 
-/* The place of each row and the first that it meets. Returns false when the room is short. */
+/*
+ * Set the place of each row, and the first row that it couples to. Returns false if the room is too
+ * small.
+ */
 static bool lay_out(struct rest *r)
 {
     uint32_t place = 0, used = 0;
@@ -61,7 +66,7 @@ static bool lay_out(struct rest *r)
     return used <= r->joints.room_size;
 }
 
-/* Sum of products of the rows i and k from the first column of both up to `end`. */
+/* Sum of products of rows i and k, from the first column of both up to `end`. */
 static int64_t product_q60(const struct rest *r, const struct joint_row *i,
                            const struct joint_row *k, uint32_t end)
 {
@@ -77,7 +82,7 @@ static int64_t product_q60(const struct rest *r, const struct joint_row *i,
     return sum;
 }
 
-/* Row i of joint j, whose rows before it are done. */
+/* Factor row i of joint j; the rows before it are done. */
 static void factor_row(struct rest *r, const struct joint *j, int i)
 {
     const struct joint_work *w = &j->work;
@@ -124,7 +129,7 @@ bool joint_factor(struct rest *r)
     return true;
 }
 
-/* x with C C^T x = what rows hold, in place. */
+/* Solve C C^T x = the rows' x, in place. */
 static void substitute(struct rest *r, uint32_t n)
 {
     struct joint_row *rows = r->joints.rows;
@@ -148,7 +153,7 @@ static void substitute(struct rest *r, uint32_t n)
     }
 }
 
-/* The changes of a joint's impulses. */
+/* The changes of a joint's impulses by the solution. */
 static void changes_of(const struct rest *r, const struct joint *j, int64_t change[JOINT_ROWS])
 {
     for (int i = 0; i < JOINT_ROWS; i++) {
@@ -156,7 +161,7 @@ static void changes_of(const struct rest *r, const struct joint *j, int64_t chan
     }
 }
 
-/* What impulses, or their changes, do to a body. */
+/* The effect on a body of all impulses, or of their changes. */
 static struct joint_sum sum_of(const struct rest *r, const struct body *b, bool changes)
 {
     struct joint_sum sum = {{0, 0, 0}, {0, 0, 0}};

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* The rows of a joint before the sweeps: levers, K and its inverse, velocities; and impulses after them. */
+/*
+ * A joint's rows before the sweeps: levers, K and its inverse, velocities in the unit; and impulses
+ * after them.
+ */
 #include "joint_parts.h"
 
 #define TURN_BITS_MAX 14
-/* A pivot below this part of the largest one: the row says nothing that others do not. */
+/* A pivot below this part of the largest one: the row repeats others. */
 #define PIVOT_MIN_Q30 (1 << 8)
 
 /* ------------------------------------------------------------------------ levers */
 
 /*
- * V of a row by du, with 31 - turn_bits fractional bits. A linear row: d.(column x arm); an angular one:
- * d.column at the arm of 2^length_bits.
+ * V of a row by du, with 31 - turn_bits fractional bits. For a linear row d.(column x arm); for an
+ * angular row d.column at the arm of 2^length_bits.
  */
 static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lever, int row, int j)
 {
@@ -33,7 +36,10 @@ static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lev
     }
 }
 
-/* Returns false when a place moves by more than turn_bits say: then all must be prepared anew. */
+/*
+ * Set a lever's turns. Returns false if turn_bits had to be raised: then everything must be
+ * prepared anew.
+ */
 static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
 {
     for (int row = 0; row < w->rows; row++) {
@@ -53,7 +59,7 @@ static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
     return true;
 }
 
-/* Each body's share of the lightest one's mass. */
+/* Set each body's share of the lightest one's mass. */
 static void prepare_joint_shares(struct joint_work *w, const struct body *lightest)
 {
     int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->def.mass);
@@ -100,7 +106,7 @@ int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_wo
     return sum;
 }
 
-/* By how many bits the largest diagonal entry of the linear or the angular rows is above 1. */
+/* Bits by which the largest diagonal entry of the linear, or of the angular, rows is above 1. */
 static int bits_above(const struct joint_work *w, bool angular)
 {
     int64_t most = 0;
@@ -122,9 +128,9 @@ static int half_up(int n)
 }
 
 /*
- * Turn a positive definite matrix into its inverse, in place: pivot by pivot, d = 1 / m_kk, m_ij -= m_ik m_kj d.
- * The entries of the inverse are below 2^30 over the least eigenvalue, which PIVOT_MIN_Q30 bounds. A row whose pivot is too
- * small gets none.
+ * Invert a positive definite matrix in place, pivot by pivot: d = 1 / m_kk, m_ij -= m_ik m_kj d.
+ * Entries of the inverse are below 2^30 over the least eigenvalue, which PIVOT_MIN_Q30 bounds. A
+ * row whose pivot is too small becomes 0.
  */
 static void invert(int64_t m[JOINT_ROWS][JOINT_ROWS], int n)
 {
@@ -167,7 +173,7 @@ static void invert(int64_t m[JOINT_ROWS][JOINT_ROWS], int n)
     }
 }
 
-/* K^-1, to 30 bits of its largest entry. */
+/* Set K^-1, to 30 bits of its largest entry. */
 static void invert_k(struct joint_work *w)
 {
     int64_t k_q30[JOINT_ROWS][JOINT_ROWS];
@@ -193,7 +199,10 @@ static void invert_k(struct joint_work *w)
         }
     }
     for (int i = 0; i < n && w->held < n; i++) {
-        /* a row of K^-1 is no longer than some 2^3 times the last one's own entry where K is near 1 */
+        /*
+         * if K is near 1 a row of K^-1 is at most some 2^3 times as long as the last row's own
+         * entry
+         */
         w->ratio_q28[i] =
             w->inverse[last][last] > 0
                 ? rest_clamp(carom_shl(w->inverse[i][last], 28) / w->inverse[last][last])
@@ -229,7 +238,7 @@ bool joint_prepare(struct joint *j, const struct body *lightest)
 
 /* -------------------------------------------------------------------- velocities */
 
-/* w x r at a lever */
+/* w x r at a lever. */
 static void turn_velocity(const struct joint_lever *lever, const int64_t spin_q40[3],
                           int64_t out[3])
 {
@@ -241,7 +250,7 @@ static void turn_velocity(const struct joint_lever *lever, const int64_t spin_q4
     }
 }
 
-/* The velocity of a body that answers at a lever, or its spin. */
+/* The velocity at a lever of a body that answers, or its spin. */
 static void own_velocity(const struct joint_lever *lever, bool angular, int64_t out[3])
 {
     const struct body *b = lever->body;
@@ -290,7 +299,7 @@ int64_t joint_speed_q40(const struct joint_work *w, int row)
 
 /* --------------------------------------------------------------------------- units */
 
-/* By how many bits a row's velocities are scaled. */
+/* Bits by which a row's velocities are scaled. */
 static int row_shift(const struct joint_work *w, int row)
 {
     return joint_is_angular(w, row) ? w->length_bits - 22 : -w->down;
@@ -321,7 +330,7 @@ static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int 
         1 << 27);
 }
 
-/* An impulse of a row in the solver's units, and back. */
+/* An impulse of a row in solver units. */
 static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
 {
     struct fix_scaled by = w->lightest->def.inverse_mass;
@@ -334,7 +343,10 @@ static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q
     return fix_mul_scaled(p_q40, by);
 }
 
-/* A spring's part of the impulse that leads to its own velocity: k / (k + M), M being the impulse a unit of velocity. */
+/*
+ * The spring's part of the impulse that leads to the spring's own velocity: k / (k + M), M being
+ * the impulse for a unit of velocity.
+ */
 static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
 {
     int last = w->rows - 1, bits = -2 * row_shift(w, last);
@@ -349,7 +361,7 @@ static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
     return (int32_t)fix_mul_scaled(CAROM_ONE_Q30, fix_ratio(k_q40, k_q40 + own_q40));
 }
 
-/* Velocities to solver units; no impulses yet. */
+/* Set a joint's velocities in solver units, and no impulses. */
 void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
 {
     struct joint_work *w = &j->work;
@@ -378,7 +390,7 @@ void joint_load(struct joint *j, const struct joint_state *state, const struct r
     }
 }
 
-/* An impulse of a row to momentum, at most 2^57. */
+/* An impulse of a row as momentum, at most 2^57. */
 static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
 {
     const int64_t most = (int64_t)1 << 57;

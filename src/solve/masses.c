@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* What an impulse at a contact changes: K, and steps of the sweeps. */
+/* What an impulse at a contact changes: K, shares and steps of the sweeps. */
 #include "rows.h"
 #include "parts.h"
 
-/* So K fits: what would reach farther counts as reaching so far. */
+/* Bounds K: a place that would turn farther counts as turning so far. */
 #define TURN_BITS_MAX 14
 
 void rest_prepare_body(struct body *b)
@@ -28,7 +28,9 @@ static inline bool too_long(int64_t turn)
     return turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30;
 }
 
-/* How du turns the place of a contact on one side. Returns false when that takes more turn_bits. */
+/*
+ * Set how du moves the place of a contact on one side. Returns false if that takes more turn_bits.
+ */
 static bool prepare_turn(const struct contact_side *side, struct contact_lever *lever)
 {
     struct body *b = side->body;
@@ -93,7 +95,7 @@ static void find_k(const struct contact *c, int64_t k_q30[6])
     }
 }
 
-/* The lighter body's mass, and each body's share of it. */
+/* Set the lighter body, and each body's share of its mass. */
 static void prepare_shares(struct contact *c)
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
@@ -123,8 +125,8 @@ static void prepare_shares(struct contact *c)
 }
 
 /*
- * Impulses have a finer unit than velocities, by 5 bits and what K has above 1: what a place needs that
- * gives way easily is small.
+ * Impulses have a finer unit than velocities, by 5 bits and those that K has above 1: a place that
+ * gives way easily needs small impulses.
  */
 static void refine_unit(struct contact *c, const int64_t k_q30[6])
 {
@@ -137,7 +139,7 @@ static inline int32_t minor_q30(int32_t a, int32_t b, int32_t c, int32_t d)
     return (int32_t)carom_round((int64_t)a * b - (int64_t)c * d, 30);
 }
 
-/* The adjugate of K in 30 bits, and its determinant. */
+/* The adjugate of K, 30 bits; returns the determinant. */
 static int32_t adjugate(int32_t out_q30[6], const int32_t k[6])
 {
     out_q30[0] = minor_q30(k[1], k[2], k[4], k[4]);
@@ -158,10 +160,10 @@ static void multiply(int32_t out[3], const int32_t m[6], const int32_t v[3])
     }
 }
 
-/* K with 29 bits, so that minors fit; returns by how many bits it was cut. */
+/* Shorten K to 29 bits, so that minors fit; returns the shift. */
 static int shorten(const int64_t k_q30[6], int32_t k[6])
 {
-    /* K is at least 1, the lighter body alone gives that */
+    /* K is at least 1, by the lighter body alone */
     int shift = fix_bits((uint64_t)(k_q30[0] | k_q30[1] | k_q30[2])) - 29;
 
     for (int i = 0; i < 6; i++) {
@@ -203,7 +205,7 @@ void rest_invert(struct contact *c)
         int up = 30 - fix_bits32((uint32_t)det);
         int32_t inverse = (int32_t)(((int64_t)1 << 59) / carom_shl(det, up)); /* 30 bits */
 
-        /* up is at most 20 for a determinant of 10 bits, k_shift at least 2 */
+        /* up is at most 20 for a determinant of 10 bits; k_shift is at least 2 */
         for (int i = 0; i < 6; i++) {
             k[i] = (int32_t)carom_round((int64_t)adjoint[i] * inverse, 29 + c->work->k_shift - up);
         }
@@ -211,8 +213,8 @@ void rest_invert(struct contact *c)
 }
 
 /*
- * The larger eigenvalue of K across N never overshoots: with T = trace and D = N.adj(K) N that is
- * T/2 + sqrt(T^2/4 - D).
+ * Set step and drag for sliding. A step of one over the larger eigenvalue of K across N never
+ * overshoots; with T = trace and D = N.adj(K) N the eigenvalue is T/2 + sqrt(T^2/4 - D).
  */
 void rest_prepare_slide(struct contact *c)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Steps beyond sweeps: momentum. */
+/* Momentum: a step beyond each sweep, longer while sweeps agree. */
 #include "sweep.h"
 
-/* The last sweep and the step beyond the one before it, together, stay below this. */
+/* The last sweep and the step beyond the one before must sum to less than this. */
 #define WAY_MAX (CAROM_ONE_Q30 / 2)
 
-/* Whether the last sweep went on in the way that the last step beyond a sweep had gone. */
+/* True if the last sweep went on in the direction of the last step beyond a sweep. */
 static bool agrees(const struct rest *r)
 {
     int64_t sum = 0;
@@ -20,7 +20,7 @@ static bool agrees(const struct rest *r)
             if (x > WAY_MAX || x < -WAY_MAX) {
                 return false;
             }
-            sum += c->gain[k] * x >> 13; /* up to 2^47, of at most 4096 contacts */
+            sum += c->gain[k] * x >> 13; /* up to 2^47, from at most 4096 contacts */
         }
     }
     if (rest_has_joints(r)) {
@@ -38,7 +38,7 @@ static uint32_t go_on(int32_t *v, int32_t *last, int32_t part_q30)
     return rest_add(v, carom_mul_q30(change, part_q30));
 }
 
-/* Bodies go beyond as their contacts do: velocities are linear in impulses. */
+/* Step the bodies beyond, too: velocities are linear in impulses. */
 static void bodies_beyond(struct rest *r, int32_t part_q30)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
@@ -52,7 +52,7 @@ static void bodies_beyond(struct rest *r, int32_t part_q30)
     }
 }
 
-/* Where a contact would pull it has no impulse. */
+/* Take a contact's impulse away: it would pull. */
 static void let_go(struct contact *c)
 {
     struct rest_change g;
@@ -68,7 +68,7 @@ static void let_go(struct contact *c)
     c->gain[0] = c->gain[1] = c->gain[2] = 0;
 }
 
-/* Go beyond the last sweep by a part of the way it came. */
+/* Step a contact's impulse beyond the last sweep, by a part of the way that it came. */
 static void go_beyond(struct contact *c, int32_t part_q30)
 {
     struct contact_work *in = c->work;
@@ -88,7 +88,7 @@ static void go_beyond(struct contact *c, int32_t part_q30)
     }
 }
 
-/* Begin the steps beyond sweeps anew. */
+/* Start the steps beyond sweeps anew. */
 static void stay(struct contact *c)
 {
     FIX_UNROLL

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The contacts in the order of their islands. */
+/* List the contacts in the order of their islands. */
 #include "parts.h"
 
-/* The first body of the island that a contact belongs to: a of a pair moves. */
+/* The island of a contact: a of a pair moves. */
 static uint16_t island_of(const struct rest *r, const struct contact *c)
 {
     return rest_body(r, c, 0)->island.lowest;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What sweeps leave when they run out. With friction they need not settle, however many there are,
- * and places that still approach would hit again at once, without end.
+ * Part bodies that still approach after sweeps ran out. With friction sweeps need not settle,
+ * however many there are, and places that still approach would hit again at once, without end.
  */
 #include "parts.h"
 
-/* An approach by less than this part of a skin a frame leaves the gap open for many of them. */
+/* An approach slower than this part of a skin a frame leaves the gap open for many frames. */
 #define SLOW_DIVISOR 32
 
-/* Velocities of the island's bodies: as they are by now, or as they were before the solve. */
+/* Load velocities of the island's bodies: the present ones, or those before the solve. */
 static void load(struct rest *r, bool before)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {

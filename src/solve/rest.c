@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+/* Solve all islands of a list of contacts: rest_solve; rest_project and rest_enter_contact. */
 #include "parts.h"
 
-/* A body moves that goes or turns by more than so many skins a frame: far more than sweeps leave over, */
+/*
+ * A body counts as moving if it goes or turns by more than this many skins a frame, far above the
+ * residual of sweeps.
+ */
 #define MOVES_SKINS 8
-/* and then a change of velocity by this part of a skin a frame is as good as none. */
+/* Then a change of velocity below this part of a skin a frame counts as none. */
 #define LOOSE_DIVISOR 8
 
 void rest_load_contacts(struct rest *r)
@@ -30,7 +34,10 @@ void rest_load_contacts(struct rest *r)
     }
 }
 
-/* Velocities of all bodies to be solved, by contacts and by joints: the solve is going to change them. */
+/*
+ * Load velocities of all bodies to be solved, by contacts and by joints. They are stale after the
+ * solve.
+ */
 static void load_velocities(struct rest *r)
 {
     rest_load_contacts(r);
@@ -78,7 +85,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     in.velocity = *contact_velocity(c);
     in.target_q40 = c->work->target_q40;
     in.friction_q16 = rest_friction_at(r, c);
-    c->work = NULL; /* the elimination takes its room */
+    c->work = NULL; /* elimination uses its room */
     result = impact_solve(r->gauss, &in, &out);
     if (result == CAROM_OK) {
         PHASE_BEGIN(c->phase, CONTACT_IMPULSE);
@@ -88,7 +95,7 @@ static int solve_impact(struct rest *r, struct contact *c)
     return result;
 }
 
-/* What impulses at the contacts change. */
+/* Set what impulses change, until every body's turn_bits suffice. */
 static void prepare_masses(struct rest *r)
 {
     bool fit;
@@ -102,7 +109,7 @@ static void prepare_masses(struct rest *r)
     } while (!fit);
 }
 
-/* Whether any contact is an impact; also fills in what the solvers need of each. */
+/* Set everything that solvers need of the contacts. Returns true if any contact is an impact. */
 static bool prepare(struct rest *r, int32_t tau_q30)
 {
     bool any = false;
@@ -127,7 +134,7 @@ static bool prepare(struct rest *r, int32_t tau_q30)
     return any;
 }
 
-/* Whether the island has a lasting contact. */
+/* True if the island has a lasting contact. */
 static bool lasts(const struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
@@ -145,7 +152,10 @@ static void note_unsettled(struct rest *r, bool unsettled)
     }
 }
 
-/* How what the caller moves does so under the island: at one of its contacts. */
+/*
+ * The drift of a surface or kinematic body under the island, at one of its contacts; 0 if there is
+ * none.
+ */
 static const carom_v3_q40 *island_drift(const struct rest *r)
 {
     static const carom_v3_q40 none = {{0, 0, 0}};
@@ -161,8 +171,9 @@ static const carom_v3_q40 *island_drift(const struct rest *r)
 }
 
 /*
- * A change of velocity that is as good as none where bodies move: so many of them move nothing by a skin.
- * 0 for an island that is all but still where the frame starts: what is left of it there it creeps by.
+ * A change of velocity that counts as none if bodies move: many of them together move nothing by a
+ * skin. 0 for an island that is all but still at the start of a frame, since it would creep by the
+ * residual.
  */
 static int64_t loose_q40(const struct rest *r, bool start)
 {
@@ -186,7 +197,7 @@ static int64_t loose_q40(const struct rest *r, bool start)
     return moves ? carom_shl(skin_q22, 18) / LOOSE_DIVISOR : 0;
 }
 
-/* The island at hand. */
+/* Solve the island at hand. */
 static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
 {
     bool few = r->count <= REST_FEW || rest_up_to_two(r);
@@ -214,10 +225,10 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     sw.loose_q40 = few || impacts || rest_has_joints(r) ? 0 : loose_q40(r, warm);
     rest_solve_sweeps(r, &sw, warm);
     rest_apply(r);
-    if (rest_has_joints(r)) { /* the frame's end answers for their energy */
+    if (rest_has_joints(r)) { /* the end of the frame takes care of their energy */
         r->joints.calls->book(r);
         if (sw.ran_out && rest_approaches(r)) {
-            r->joints.first = 0; /* nothing may cross, whatever that pulls apart */
+            r->joints.first = 0; /* nothing may cross, even if that pulls joints apart */
             rest_part(r);
         }
         note_unsettled(r, sw.ran_out && rest_approaches(r));
@@ -231,7 +242,7 @@ static int solve_island(struct rest *r, int32_t tau_q30, bool warm)
     return CAROM_OK;
 }
 
-/* Whoever asks for the contacts after the step is told where they are by this. */
+/* Contacts may be asked for after the step; their places are measured from the origins set here. */
 static void place_origins(struct rest *r)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
@@ -239,7 +250,7 @@ static void place_origins(struct rest *r)
     }
 }
 
-/* What surfaces that move have done on the island at hand: 2 P.drift. */
+/* Book the work of moving surfaces on the island at hand: 2 P.drift. */
 static void book_work(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
@@ -289,14 +300,14 @@ int rest_project(struct rest *r)
     return CAROM_OK;
 }
 
-/* Whether a contact has a body that moves and has not taken gravity. */
+/* True if a contact has a moving body that has not taken gravity. */
 static bool may_enter(const struct contact *c)
 {
     return (c->side[0].body && !c->side[0].body->clock.in_contact) ||
            (c->side[1].body && !c->side[1].body->clock.in_contact);
 }
 
-/* Whether a body is on a side of the contact that newly took gravity. */
+/* True if a body of the contact newly took gravity. */
 static bool enters(const struct contact *c)
 {
     return (c->side[0].body && c->side[0].body->clock.entering) ||

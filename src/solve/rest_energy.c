@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The rule that several contacts together never gain energy. */
+/* The energy rule: several contacts together never gain energy. */
 #include "parts.h"
 
-/* Momenta are rounded: a rise below 2^-26 is not one. */
+/* Momenta are rounded, so a rise below 2^-26 of the energy is none. */
 #define ROUNDING_BITS 26
-/* Lasting contact may take that for what paths bend by. */
+/* Lasting contact may take 2^-8 of it, for what paths bend by. */
 #define LASTING_BITS 8
 
 void rest_save_momenta(struct rest *r)
@@ -57,7 +57,10 @@ void rest_add_work2(struct fix_wide *sum, const struct contact *c, int times)
     }
 }
 
-/* The work of a kinematic body by a part of the impulse that was wanted more than the plastic one. */
+/*
+ * Subtract twice the work of kinematic bodies by k of the difference between wanted and plastic
+ * impulses.
+ */
 FIX_APART static void subtract_blend2(const struct rest *r, struct fix_wide *sum, int32_t k_q30)
 {
     for (uint32_t i = 0; i < r->count; i++) {
@@ -72,8 +75,8 @@ FIX_APART static void subtract_blend2(const struct rest *r, struct fix_wide *sum
 }
 
 /*
- * Whether the energy, by all its digits or by a bound of it, is above `limit` and what is moved by the caller
- * has added; that with a blend of impulses, if k is not 0.
+ * True if the energy exceeds `limit` plus the work of surfaces and kinematic bodies. exactly: with
+ * all digits, else by a bound. k: for a blend of impulses, if not 0.
  */
 static bool rises(const struct rest *r, const struct fix_wide *limit, bool exactly, int32_t k_q30)
 {
@@ -98,7 +101,7 @@ static bool rises(const struct rest *r, const struct fix_wide *limit, bool exact
     return fix_wide_sign(&sum) > 0;
 }
 
-/* Add the most that resting contacts may add to twice the energy of the island at hand. */
+/* Add the most that resting contacts may add to twice the energy of the island. */
 static void add_lift2(const struct rest *r, struct fix_wide *sum)
 {
     for (uint32_t i = r->island; i != ISLAND_END; i = r->bodies[i].island.next) {
@@ -133,7 +136,7 @@ void rest_energy_rule(struct rest *r, bool lifts, bool lasting)
         add_lift2(r, &limit);
     }
     if (!rises(r, &limit, false, 0)) {
-        return; /* whatever it was before: not below 0 */
+        return; /* below the limit even if the energy before was 0 */
     }
     add_before2(r, &limit);
     slack = fix_wide_down(&limit, bits);
@@ -146,7 +149,7 @@ void rest_energy_rule(struct rest *r, bool lifts, bool lasting)
         rest_want(rest_contact(r, i));
     }
     rest_solve_sweeps(r, &plastic, false);
-    /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: one crossing */
+    /* energy is a convex quadratic in k, below the limit at 0 and above it at 1: it crosses once */
     while (high - low > 1) {
         int32_t k_q30 = low + (high - low) / 2;
 

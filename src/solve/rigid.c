@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The motion that an island has as one rigid body: all of its momentum and angular momentum are in
- * it, so it stays when energy is taken out of the rest.
+ * The motion of an island as one rigid body: it has all of the island's momentum and angular
+ * momentum, so it stays when energy is taken out of the rest.
  *
  * Sums are in units of the island: masses over a power of two above the heaviest, lengths over one
- * above the longest, in q30. A body then adds at most 2^32, and 2^16 bodies fit in 64 bits. Only
- * 30 bits of the motion are right: whoever uses it makes up for what that leaves of the momenta.
+ * above the longest, in q30. So a body adds at most 2^32, and 2^16 bodies fit in 64 bits. The
+ * motion is right to 30 bits; whoever uses it makes up for the difference in momenta.
  */
 #include "rigid.h"
 #include "rows.h"
@@ -24,7 +24,7 @@ uint32_t rest_island_first(const struct rest *r, uint32_t island)
                                                                 : rest_island_next(r, island);
 }
 
-/* From the island's centre to a body's, in the unit of length. */
+/* From the island's centre to a body's centre, in the unit of length. */
 static void arm_q30(const struct rest *r, const struct rest_rigid *rigid, uint32_t i,
                     int32_t out[3])
 {
@@ -43,7 +43,10 @@ static int32_t share_q30(const struct rest *r, const struct rest_rigid *rigid, u
     return (int32_t)fix_round_shift(mass->m, rigid->mass_e - mass->e);
 }
 
-/* The centre is within the extent of the others as seen from the first: one bit more will do. */
+/*
+ * Set the units. The centre is within the extent of the bodies as seen from the first: one bit more
+ * suffices.
+ */
 static void choose_units(const struct rest *r, struct rest_rigid *rigid)
 {
     uint64_t length_q32 = 0;
@@ -66,7 +69,7 @@ static void choose_units(const struct rest *r, struct rest_rigid *rigid)
     rigid->length_bits = fix_bits(length_q32) + 1;
 }
 
-/* The centre of mass; before, the centre is the first body's. */
+/* Find the centre of mass; until then the centre is the first body's. */
 static void find_centre(const struct rest *r, struct rest_rigid *rigid)
 {
     int64_t moment_q30[3] = {0, 0, 0};
@@ -107,7 +110,7 @@ static void add_angular(const struct rest *r, const carom_v3_q32 *about, uint32_
     }
 }
 
-/* All of an island's momentum, and angular momentum about its centre. */
+/* An island's momentum, and its angular momentum about its centre. */
 struct momenta {
     struct fix_wide linear_q40[3], angular_q72[3];
 };
@@ -126,7 +129,7 @@ static struct momenta sum_momenta(const struct rest *r, const struct rest_rigid 
     return sum;
 }
 
-/* What an island's momenta lack to what they were. */
+/* The momenta that an island has lost since `before`. */
 static struct momenta lost(const struct rest *r, const struct rest_rigid *rigid,
                            const struct momenta *before)
 {
@@ -164,7 +167,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
     }
 }
 
-/* Inertia times spin is the angular momentum about the centre. */
+/* Find the spin: inertia times spin is the angular momentum about the centre. */
 static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
                       const struct fix_wide angular_q72[3])
 {
@@ -192,7 +195,7 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
     if (gauss_solve(w, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
         return false;
     }
-    /* q72 over q30, in units of mass and of length squared */
+    /* q72 over q30, in units of mass and squared length */
     up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
     for (int k = 0; k < 3; k++) {
         rigid->spin.c[k] = fix_round_shift(w->x_q40[k], up);
@@ -200,7 +203,7 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
     return true;
 }
 
-/* The rigid motion that has these momenta. */
+/* Find the rigid motion that has these momenta. */
 static bool find_motion(const struct rest *r, struct rest_rigid *rigid, const struct momenta *of)
 {
     for (int k = 0; k < 3; k++) {
@@ -256,7 +259,7 @@ static void scale_about(struct body_state *to, const struct body_state *from, in
     }
 }
 
-/* A heavy body gets what rounding took of the momenta. */
+/* Give a heavy body what rounding took of the momenta. */
 static void make_up(struct rest *r, const struct rest_rigid *rigid, const struct momenta *before)
 {
     struct body_state *heavy = &r->states[rigid->heavy];
@@ -292,7 +295,7 @@ void rest_scale_grounded(struct rest *r, uint32_t island, int32_t factor_q30)
     }
 }
 
-/* Give every body what it has of a rigid motion, beside what it has. */
+/* Add to each body its momenta in a rigid motion. */
 static void add_motion(struct rest *r, const struct rest_rigid *rigid)
 {
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(r, i)) {
@@ -305,14 +308,14 @@ static void add_motion(struct rest *r, const struct rest_rigid *rigid)
     }
 }
 
-/* An island in the air. */
+/* rest_unite for an island in the air. */
 static void unite_free(struct rest *r, struct rest_rigid *rigid)
 {
     struct momenta before = sum_momenta(r, rigid), rest;
 
     rest_scale_grounded(r, rigid->first, 0);
     add_motion(r, rigid);
-    /* the motion has 30 bits, and so has what makes up for the rest of it */
+    /* the motion has 30 bits, and so has each correction of it */
     for (int round = 0; round < 2; round++) {
         rest = lost(r, rigid, &before);
         if (find_motion(r, rigid, &rest)) {

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rolling friction. Where bodies press on each other they touch over a patch, and the middle of
- * the pressure can lie anywhere in it: besides an impulse the contact carries a moment of up to
- * the patch's radius times the normal impulse, against the spin of one body relative to the other.
- * Without it a body of many small faces rolls to and fro in a hollow for a long time.
+ * Rolling friction. Bodies that press on each other touch over a patch, and the middle of the
+ * pressure can lie anywhere in it. So besides an impulse the contact carries a moment of up to the
+ * patch's radius times the normal impulse, against the relative spin. Without it a body of many
+ * small faces rolls to and fro in a hollow for a long time.
  */
 #include "rows.h"
 #include "parts.h"
 
 /*
- * The arm of that moment in skins, 1/64 of a body's radius. A body of radius r that lies one skin,
- * r / 2048, deep in what gives way has a patch of radius r / 32; nothing springs back at rest, so
- * it is carried by the half of the patch that it rolls into, whose middle is half as far out.
+ * The arm of that moment in skins; 32 are 1/64 of a body's radius. A body of radius r that lies one
+ * skin, r / 2048, deep in soft ground has a patch of radius r / 32. At rest nothing springs back,
+ * so the half of the patch that it rolls into carries it, whose middle is half as far out.
  */
 #define ROLL_SKINS 32
 /*
- * A body that is to right itself rolls down from rest, where a whole arm would hold it. So the arm is
- * this small for what begins to roll down, and grows with its speed. What rolls up has a whole one:
- * what rocks in a hollow comes to rest by that.
+ * A body that must right itself begins to roll down from rest, and a whole arm would hold it. So
+ * the arm is this small for a body that begins to roll down, and grows with its speed. A body that
+ * rolls up has the whole arm, which brings a rocking body to rest.
  */
 #define ROLL_SKINS_DOWN 2
-/* Rolling down the arm is whole at the speed that gravity gives in so many frames. */
+/* Rolling down the arm is whole at the speed that gravity gives in this many frames. */
 #define ROLL_FRAMES 2
 
 /* Whether contact i is the first of its pair. */
@@ -30,9 +30,9 @@ static bool leads(const struct rest *r, uint32_t i)
 }
 
 /*
- * A body rolls over one contact or two. Where three or more carry it, they resist rolling by the
- * width of what they span, and a moment besides would only make the solution ambiguous. Which carry
- * it is known from the last frame.
+ * True if rolling friction applies: a body rolls over one contact or two. Three or more resist
+ * rolling by the width that they span, and a moment besides would only make the solution ambiguous.
+ * The last frame's impulses tell which contacts carry.
  */
 static bool may_roll(const struct rest *r, uint32_t i)
 {
@@ -45,7 +45,7 @@ static bool may_roll(const struct rest *r, uint32_t i)
     return all <= 2 || (pressed > 0 && pressed <= 2);
 }
 
-/* Whether a body that turns about the contact rises: its centre goes by arm x w. */
+/* True if a body that turns about the contact rises: its centre moves by arm x w. */
 static bool rises(const struct contact_side *side)
 {
     const struct body *b = side->body;
@@ -62,7 +62,7 @@ static bool rises(const struct contact_side *side)
     return fix_wide_sign(&sum) < 0;
 }
 
-/* Whether the pair of contact i rolls up on all that pressed in the last frame. */
+/* True if the pair of contact i rolls up on all contacts that pressed in the last frame. */
 static bool rolls_up(const struct rest *r, uint32_t i)
 {
     bool up = false;
@@ -80,7 +80,7 @@ static bool rolls_up(const struct rest *r, uint32_t i)
     return up;
 }
 
-/* Rolling friction of a pair: so much of a radius for the arm, where ROLL_SKINS are CAROM_ROLLING_Q16. */
+/* Rolling friction of a pair: CAROM_ROLLING_Q16 stands for an arm of ROLL_SKINS. */
 static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
 {
     const struct body_extra *a, *b;
@@ -97,7 +97,7 @@ static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
     return product < 1 << 16 ? (uint32_t)product : 1 << 16;
 }
 
-/* The arm of the pair of contact i, of ordinary rolling friction. */
+/* The arm of the pair of contact i at ordinary rolling friction. */
 FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
 {
     const struct contact *c = rest_contact(r, i);
@@ -125,15 +125,15 @@ FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
     return ROLL_SKINS_DOWN * (int64_t)c->skin_q22 + grown;
 }
 
-/* What fractional bits a column of R H has by the pair's unit of length. */
+/* Fractional bits of a column of R H in the pair's unit of length. */
 static int column_bits(const struct contact *c, const struct body *b, int j)
 {
     return b->def.mesh->spread.e[j] + 22 - c->work->roll->unit_bits;
 }
 
 /*
- * The largest sum of a row of R J^-1 R^T is not below its largest eigenvalue; by the share of an impulse
- * that the body takes.
+ * Bound on the largest eigenvalue of R J^-1 R^T, its largest row sum, times the body's share of an
+ * impulse.
  */
 static int64_t turning_q30(const struct contact *c, int s)
 {
@@ -175,7 +175,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
     PHASE_BEGIN(roll->phase, CONTACT_ROLLING);
     roll->unit_bits =
         (b && b->def.unit_bits < a->def.unit_bits) ? b->def.unit_bits : a->def.unit_bits;
-    /* an arm is below 2^21 and becomes 64 times as long at most */
+    /* an arm is below 2^21 and becomes at most 64 times as long */
     roll->arm_q30 = rest_clamp(
         carom_shl(arm_q22(r, i) * rolling_q16(r, c) / CAROM_ROLLING_Q16, 30 - roll->unit_bits));
     for (int s = 0; s < 2; s++) {
@@ -228,7 +228,7 @@ static void twist(struct contact *c, const int32_t moment[3])
     }
 }
 
-/* The spin of a body by now, beyond the one before the solve. */
+/* The change of a body's spin since the start of the solve. */
 static void spin_by_now(const struct contact *c, const struct body *b, int64_t out[3])
 {
     out[0] = out[1] = out[2] = 0;
@@ -263,7 +263,7 @@ int64_t rest_roll_sweep(struct rest *r, uint32_t i, int32_t quiet)
             }
         }
     }
-    /* so a component of the moment stays within 2^30 */
+    /* so that a moment's components stay within 2^30 */
     limit = rest_clamp(fix_mul_q30(pressure, roll->arm_q30));
     limit = limit < CAROM_ONE_Q30 ? limit : CAROM_ONE_Q30;
     FIX_UNROLL
@@ -319,7 +319,7 @@ void rest_roll_accelerate(struct contact *c, int32_t part_q30)
     for (int k = 0; k < 3; k++) {
         int32_t way = carom_mul_q30(rest_clamp((int64_t)roll->way[k] + roll->gain[k]), part_q30);
 
-        /* a component of a moment is at most 2^30; the bodies have gone all the way */
+        /* a moment's component is at most 2^30; the bodies have gone all the way already */
         roll->way[k] = rest_within((int64_t)roll->moment[k] + way, CAROM_ONE_Q30) - roll->moment[k];
         gain[k] = roll->way[k] - way;
         roll->moment[k] += roll->way[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sleep: what has been quiet for a while stops being computed, island by island. */
+/* Sleep: a body that has been quiet for a while is no longer computed; whole islands at a time. */
 #include "parts.h"
 
 static bool is_quiet(const struct body *b, const struct body_state *s)
@@ -12,9 +12,9 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
         return false;
     }
     /*
-     * A small part of what gravity gives in a frame: what falls is never that slow for long. At an
-     * eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20 does,
-     * and no drop takes more than a few frames longer.
+     * A small part of what gravity gives in a frame: a falling body is never that slow for long. At
+     * an eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20
+     * does, and no drop takes more than a few frames longer.
      */
     limit_q40 = b->def.acceleration_q40 / 32;
     fix_matrix(&m, &s->rotation);
@@ -23,7 +23,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     return fix_length(v.c) + fix_mul(fix_length(w.c), b->def.radius_q22, 22) < limit_q40;
 }
 
-/* Whether every active body of an island is quiet: one that is not keeps its neighbours awake. */
+/* True if every active body of an island is quiet: one that is not keeps the others awake. */
 static bool island_quiet(const struct body *bodies, const struct body_state *states, uint32_t first)
 {
     for (uint32_t i = first; i != ISLAND_END; i = bodies[i].island.next) {

@@ -1,31 +1,36 @@
 /* SPDX-License-Identifier: MIT */
-/* Sweeps over accumulated, clamped impulses. */
+/* Sweep over accumulated, clamped impulses until the residual is reached. */
 #include "sweep.h"
 
-/* So often sweeps may outgrow their unit; with momentum, and from the impulses that they had. */
+/*
+ * How often sweeps may outgrow their unit; how often with momentum and from their present impulses.
+ */
 #define OUTGREW_MAX     6
 #define OUTGREW_HURRIED 2
 
 /*
- * Contacts that are slower than this part of the residual are left alone. With all of it they
- * would never get below it, and sweeps would run on.
+ * Contacts slower than this part of the residual are left alone. With the whole residual as limit
+ * they would never get below it, and sweeps would run on.
  */
 #define DEAD_DIVISOR 8
 
-/* So many contacts, or fewer, are swept without momentum. */
+/* Up to this many contacts are swept without momentum. */
 #define UNHURRIED 3
 
-/* Each push rounds dv and du: so often an exact solve forms them anew from the impulses, and goes on. */
+/*
+ * Each push rounds dv and du. An exact solve forms them anew from the impulses this often, and goes
+ * on.
+ */
 #define EXACT_SUMS 2
 
-/* 2^32 times what du makes of a place's velocity, modulo 2^64: what is too large begins anew. */
+/* 2^32 times a place's velocity by du, modulo 2^64: one that is too large begins anew. */
 static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
     return (uint64_t)((int64_t)turn[0] * du[0]) + (uint64_t)((int64_t)turn[1] * du[1]) +
            (uint64_t)((int64_t)turn[2] * du[2]);
 }
 
-/* V - wanted N by now. */
+/* V - wanted N at present. */
 static void present_velocity(const struct contact *c, int32_t v[3])
 {
     const struct body *a = c->side[0].body, *b = c->side[1].body;
@@ -47,7 +52,10 @@ static void present_velocity(const struct contact *c, int32_t v[3])
     }
 }
 
-/* Friction is not against slip that closing a gap asks for. */
+/*
+ * Remove from v the slip that closing a gap asks for, up to the band: friction does not act against
+ * it.
+ */
 static void leave_band(const struct contact *c, int32_t error, int32_t v[3])
 {
     int32_t slip[3], ratio_q30 = CAROM_ONE_Q30;
@@ -72,7 +80,7 @@ static int64_t friction_limit(const struct contact *c, int64_t normal_impulse)
     return fix_mul(normal_impulse, (int32_t)c->work->friction_q16, 16);
 }
 
-/* Whether an impulse is within the friction cone; mu is at most 4. */
+/* True if an impulse is within the friction cone; mu is at most 4. */
 static bool in_cone(const struct contact *c, int64_t normal, const int64_t tangent[3])
 {
     int64_t all[4] = {tangent[0], tangent[1], tangent[2], normal}, limit;
@@ -88,9 +96,9 @@ static bool in_cone(const struct contact *c, int64_t normal, const int64_t tange
 }
 
 /*
- * What ends all motion of the contact; false when that lies outside of the friction cone. Large
- * velocities are shifted down: the next visit finds what is left over. As K is at least 1 the change
- * is then below 2^30.
+ * Set the change that ends all motion of the contact. Returns false if that leaves the friction
+ * cone. Large velocities are shifted down first, and the next visit finds the rest. K is at least
+ * 1, so the change is then below 2^30.
  */
 static bool stick(const struct contact *c, const int32_t v[3], struct rest_change *g)
 {
@@ -127,8 +135,8 @@ static bool stick(const struct contact *c, const int32_t v[3], struct rest_chang
 }
 
 /*
- * How much longer a step along N is when friction at its limit follows it: N.K N over N.K (N + mu t),
- * t being the unit vector along v. Where a contact nearly wedges, 8.
+ * How much longer a step along N is if friction at its limit follows it: N.K N over N.K (N + mu t),
+ * t the unit vector along v. At most 8, for a contact that nearly wedges.
  */
 static int32_t following_q15(const struct contact *c, const int64_t v[3])
 {
@@ -137,7 +145,7 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
     int64_t drag = 0;
     int32_t mass_q11;
 
-    /* 15 bits will do: this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
+    /* 15 bits suffice, since this only sets the pace. |t| |drag| is below 2^16 2^31.8 */
     rest_shrink(t, 15);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -152,8 +160,8 @@ static int32_t following_q15(const struct contact *c, const int64_t v[3])
 }
 
 /*
- * Change V.N by dvn, never pulling, and end what that leaves of the slip, as far as friction does.
- * Returns whether it does not.
+ * Set the change that changes V.N by dvn, never pulling, and ends the remaining slip as far as
+ * friction can. Returns true if friction is at its limit.
  */
 static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3],
                      struct rest_change *g)
@@ -178,7 +186,10 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
     for (int k = 0; k < 3; k++) {
         change[k] -= in->tangent_impulse[k];
     }
-    /* if that is too large for one push a part of all of it: from one place in the cone to another */
+    /*
+     * if it is too large for one push, push a part of all of it: from one place in the cone to
+     * another
+     */
     rest_shrink(change, 29);
     g->along = (int32_t)change[3];
     FIX_UNROLL
@@ -189,7 +200,7 @@ static bool slide_by(const struct contact *c, int32_t dvn, const int32_t slip[3]
     return limited;
 }
 
-/* Along N first; then across towards no slip, within the friction cone. */
+/* Slide: along N first, then across towards no slip, within the friction cone. */
 static void slide(struct contact *c, int32_t error, const int32_t v[3], struct rest_change *g)
 {
     int64_t pushed[3];
@@ -211,8 +222,8 @@ static void slide(struct contact *c, int32_t error, const int32_t v[3], struct r
 }
 
 /*
- * One contact; returns how much a velocity moved. One that is slower than `quiet`, a
- * power of 2, is at rest.
+ * Visit a contact; returns how much a velocity moved. A contact slower than `quiet`, a power of 2,
+ * counts as at rest.
  */
 static int64_t visit(struct contact *c, int32_t quiet)
 {
@@ -241,7 +252,10 @@ static int64_t visit(struct contact *c, int32_t quiet)
     return ((int64_t)c->work->mass_q24 * rest_gain(c, &g)) >> 24;
 }
 
-/* The last visit of a contact may not have gone all its way, or found it as good as at rest out there. */
+/*
+ * Put impulses into their cones: the last visit may not have gone all its way, or may have skipped
+ * a contact outside.
+ */
 static void into_cones(struct rest *r)
 {
     for (uint32_t i = 0; i < r->count; i++) {
@@ -269,7 +283,7 @@ FIX_APART static int most_rounds(const struct rest *r, const struct rest_sweep *
     return r->sweep_cap > 0 && r->sweep_cap < rounds ? r->sweep_cap : rounds;
 }
 
-/* Whether a body's velocities have outgrown their bits. */
+/* True if a body's velocities have outgrown their bits. */
 static bool outgrown(const struct rest *r)
 {
     uint32_t used = 0;
@@ -280,14 +294,14 @@ static bool outgrown(const struct rest *r)
     return used >> REST_USED_BITS;
 }
 
-/* Returns whether they ran out before the residual was reached, or a body has outgrown its bits. */
+/* Returns true if sweeps ran out before the residual was reached, or a body outgrew its bits. */
 static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
 {
     uint32_t n = r->count;
     bool joints = rest_has_joints(r);
     /*
-     * A few contacts settle as soon without momentum. From no impulses on, sweeps without it take energy
-     * away one by one, wherever they end: so the rule about energy has its plastic solution.
+     * A few contacts settle as fast without momentum. From no impulses on, each sweep without it
+     * takes energy away, wherever the sweeps end: so the energy rule has its plastic solution.
      */
     bool hurries = may_hurry && !sw->calm && (n > UNHURRIED || joints);
     const int32_t quiet = sw->calm ? 0 : sw->residual / DEAD_DIVISOR;
@@ -347,8 +361,9 @@ static void drop(struct rest *r)
 }
 
 /*
- * Where velocities outgrow their unit sweeps go on in a larger one. With friction and momentum they may grow
- * without end: so from then on it is without momentum, from no impulses, and in the end without any.
+ * If velocities outgrow their unit sweep on in a larger one. With friction and momentum they may
+ * grow without end: so after OUTGREW_HURRIED times sweep without momentum and from no impulses, and
+ * at last give up.
  */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
 {

@@ -1,28 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* The velocity that a solve asks for at a contact: rest, with its gap kept, or an impact's rebound. */
+/*
+ * The velocity that a solve asks for at a contact: rest with its gap kept, or an impact's rebound.
+ */
 #include "parts.h"
 
 /*
- * A gap from half a skin to this much more than a skin is as good as closed. A rigid body cannot
- * follow targets that differ by a hair at each of its contacts: nothing is asked for there, or the
- * sweeps would shift its weight from corner to corner without end, and each time it would slip a
- * little downhill.
+ * A gap from half a skin to this much more than a skin counts as closed, with target 0. A rigid
+ * body cannot follow targets that differ by a hair at each of its contacts: sweeps would shift its
+ * weight from corner to corner without end, and each time it would slip a little downhill.
  */
 #define NEAR_DIVISOR 8
-/* A nearer gap is opened by 1/64 of a skin a frame, evenly for the same reason ... */
+/* A nearer gap is opened by 1/64 of a skin a frame, evenly, for the same reason ... */
 #define LIFT_DIVISOR 64
-/* ... and by a fifth of what is missing to half a skin besides. */
+/* ... and by a fifth of what is missing to half a skin. */
 #define RECOVERY_DIVISOR 5
-/* An impact at a gap below a quarter of a skin opens it again: hits stop at half of one. */
+/* An impact at a gap below a quarter of a skin opens it again: hits stop at half a skin. */
 #define TOO_NEAR_DIVISOR 4
-/* In lasting contact an approach by less than this part of a skin a frame is no impact. */
+/* In lasting contact an approach below this part of a skin a frame is no impact. */
 #define LASTING_DIVISOR 4
-/* Where bodies bounce for ever they come to rest below this part of what gravity gives in a frame. */
+/* Bodies that bounce for ever come to rest below this part of what gravity gives in a frame. */
 #define CALM_DIVISOR 8
-/* The shortest time in which a gap may be closed, 1/170 of a frame: bounds the wanted velocity. */
+/* The shortest time in which a gap may be closed, 1/170 of a frame; bounds the wanted velocity. */
 #define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
 
-/* Where bodies bounce for ever they rest when they lie already, or hit again and again. */
+/*
+ * True if bodies may rest. If they bounce for ever (e = 1) they may once they lie, or hit again and
+ * again.
+ */
 static bool may_rest(const struct contact *c, int32_t e_q30)
 {
     return e_q30 < CAROM_ONE_Q30 || c->lasting ||
@@ -30,7 +34,7 @@ static bool may_rest(const struct contact *c, int32_t e_q30)
            (c->side[1].body && c->side[1].body->clock.in_contact);
 }
 
-/* The velocity that gravity gives in a frame. */
+/* The larger velocity that gravity and force give either body in a frame. */
 FIX_APART static int64_t pull_q40(const struct contact *c)
 {
     int64_t largest_q40 = 0;
@@ -46,8 +50,8 @@ FIX_APART static int64_t pull_q40(const struct contact *c)
 }
 
 /*
- * An approach slower than this is no impact: 4 g h, or none where bodies bounce for ever. In lasting
- * contact it is a part of the skin, too, for without gravity nothing else tells impacts from rest.
+ * An approach slower than this is no impact: 4 g h, or 0 if bodies bounce for ever. In lasting
+ * contact also a part of the skin, because without gravity nothing else tells impacts from rest.
  */
 static int64_t slow_q40(const struct contact *c, bool rests)
 {
@@ -58,10 +62,10 @@ static int64_t slow_q40(const struct contact *c, bool rests)
 }
 
 /*
- * Newton's e. Where no gravity tells an impact from rest a body may come back again and again: what its
- * path is going to bend back by must be there to begin with, and what lacks to the event gap besides, or
- * it would come nearer each time. A path that does not bend opens a gap that is all but closed. Neither
- * is more than the approach, so it takes no energy from anywhere.
+ * Newton's e. Without gravity to tell impact from rest a body may come back again and again, nearer
+ * each time. So V.N must at least make up for what the path will bend back, plus what the gap lacks
+ * to the event gap; if the path does not bend it opens a gap that is all but closed. Neither
+ * exceeds the approach, so no energy is added.
  */
 static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 {
@@ -78,7 +82,7 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
     return target_q40 > back_q40 ? target_q40 : back_q40;
 }
 
-/* A way, at least 0, over a time; a surface that moves may leave a gap of some units. */
+/* A way, at least 0, over a time. A moving surface may leave a gap of some units. */
 FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 {
     int more = way_q22 < 1 << 22 ? 10 : 0;
@@ -87,8 +91,8 @@ FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 }
 
 /*
- * The surface stands still within a step, where it will be at its end: nobody can follow it farther
- * down than that. A body that would have to counts the surface as standing still along the normal.
+ * Within a step the surface stands where it will be at the step's end, and no body can follow it
+ * farther down. A body that would have to counts the surface as standing still along the normal.
  */
 static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
 {
@@ -108,7 +112,10 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     c->work->target_q40 = least_q40;
 }
 
-/* A lasting contact that is near opens by a part of its skin in each slice, of half a radian. */
+/*
+ * The speed at which a lasting contact that is near opens: a part of its skin in each slice, which
+ * turns half a radian.
+ */
 static int64_t lift_q40(const struct contact *c)
 {
     int64_t spin_q40 = 0;
@@ -121,7 +128,7 @@ static int64_t lift_q40(const struct contact *c)
     return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
 }
 
-/* The part of V.N that the path takes back: it must be there to begin with. */
+/* The part of V.N that the path takes back; the target must include it. */
 static int64_t taken_back_q40(const struct contact *c, int64_t rise_q40)
 {
     int64_t more_q40 =
@@ -134,10 +141,10 @@ void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q3
 {
     int32_t e_q30 = rest_restitution_at(r, c);
     bool rests = may_rest(c, e_q30);
-    /* a surface stands still within the step, and a kinematic body goes on */
+    /* a surface stands still within the step; a kinematic body goes on */
     int64_t rise_q40 =
         c->drift && !rest_body(r, c, 1)->def.goes ? contact_rise_q40(c->drift, &c->normal) : 0;
-    /* a surface that goes down has left behind what is going to follow it */
+    /* a sinking surface has left behind a body that will follow it */
     int64_t left_behind_q22 = rise_q40 < 0 ? fix_mul(rise_q40, tau_q30, 48) : 0;
     int64_t open_q22 = (int64_t)c->gap_q22 + left_behind_q22 - c->skin_q22;
 
@@ -149,7 +156,7 @@ void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q3
     } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
-        /* may come nearer until the skins touch; q22 to q40 over the time */
+        /* may close until the skins touch; q22 to q40 over the time */
         int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
 
         c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;

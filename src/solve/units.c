@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* What sweeps begin and end with: the unit of velocity, velocities and kept impulses in it, and back. */
+/*
+ * Begin and end of sweeps: the unit of velocity, velocities and kept impulses in it, and back to
+ * momentum.
+ */
 #include "rows.h"
 #include "parts.h"
 
-/* Sweeps follow a slip of 13 V*. */
+/* Sweeps follow a slip of up to 13 V*. */
 #define SLIP_MAX ((int64_t)13 << REST_BITS)
-/* A slip is not cut when no part of it has more bits. */
+/* A slip is not cut if none of its components has more bits. */
 #define SLIP_SURE_BITS (REST_BITS + 2)
-/* Velocities or impulses that outgrow their bits begin again with a unit so many bits larger. */
+/* If velocities or impulses outgrow their bits the unit becomes this many bits larger. */
 #define LARGER_BITS 4
 
 FIX_APART static int64_t wanted_q40(const struct contact *c, const struct rest_sweep *sw)
@@ -45,13 +48,13 @@ void rest_choose_unit(const struct rest *r, struct rest_sweep *sw)
     }
 }
 
-/* A velocity to solver units, of 2^-4 to 2^41 */
+/* A velocity in solver units of 2^-4 to 2^41. */
 static inline int64_t in_units(int64_t v_q40, int unit)
 {
     return unit > 0 ? carom_round(v_q40, unit) : carom_shl(v_q40, -unit);
 }
 
-/* Velocities to solver units; no impulses yet. */
+/* Set a contact's velocities in solver units, and no impulses. */
 static void begin_contact(struct contact *c, const struct rest_sweep *sw)
 {
     int64_t wanted = wanted_q40(c, sw), slip[3];
@@ -90,7 +93,7 @@ void rest_begin_sweeps(struct rest *r, const struct rest_sweep *sw)
     }
 }
 
-/* Take up a unit that is larger by LARGER_BITS. */
+/* Enlarge the unit by LARGER_BITS. */
 void rest_enlarge_unit(struct rest *r, struct rest_sweep *sw)
 {
     sw->unit += LARGER_BITS;
@@ -110,7 +113,7 @@ void rest_enlarge_unit(struct rest *r, struct rest_sweep *sw)
     }
 }
 
-/* What a body gets of the impulse of a contact that a solve begins with; 1 for a, -1 for b. */
+/* Add to a body's sums the effect of a contact's first impulse; s is 0 for a, 1 for b. */
 static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
 {
     const struct contact_lever *lever = &c->work->lever[s];
@@ -138,7 +141,10 @@ static void add_wide(const struct contact *c, int s, const int64_t impulse[3])
     }
 }
 
-/* Sums of several bodies' weights on a light one may be long, though what is left of them is short. */
+/*
+ * Narrow a body's sums to 32 bits; false if they do not fit. Weights of several bodies on a light
+ * one may be long though their sum is short.
+ */
 static bool narrow(struct body *b)
 {
     struct body_path *in = body_solve(b);
@@ -158,7 +164,7 @@ static bool narrow(struct body *b)
     return fits;
 }
 
-/* What the impulses so far change velocities by. Returns whether that fits. */
+/* Set dv and du from the impulses so far. Returns false if they do not fit. */
 bool rest_sum_up(struct rest *r)
 {
     bool fits = true;
@@ -195,7 +201,7 @@ bool rest_sum_up(struct rest *r)
     return fits;
 }
 
-/* Impulses in solver units to momentum, one rounding a component. */
+/* Turn impulses from solver units into momentum, one rounding a component. */
 void rest_end_sweeps(struct rest *r, const struct rest_sweep *sw)
 {
     for (uint32_t i = 0; i < r->count; i++) {

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Impulses kept from frame to frame, and where the next solve starts from. */
+/* Impulses kept from frame to frame, from which the next solve starts. */
 #include "../num/sort.h"
 #include "parts.h"
 
 /*
- * Parts of a radius: a contact that moved by less than the first stayed where it was, by more than
- * the second it is another.
+ * Parts of a radius. A contact that moved by less than the first has stayed where it was; one that
+ * moved by more than the second is another contact.
  */
 #define STAYED_DIVISOR 1024
 #define MOVED_DIVISOR  20
 
-/* What the part along the normal leaves of an impulse. */
+/* The part of an impulse across its normal. */
 static inline void find_tangent(const struct rest_warm *w, int64_t normal_q40, int64_t tangent[3])
 {
     FIX_UNROLL
@@ -54,13 +54,13 @@ static bool before(const void *record, const void *key)
     return w->a < p->a || (w->a == p->a && w->b < p->b);
 }
 
-/* Where the impulses of a pair begin: they are in the order of pairs. */
+/* The first kept impulse of a pair; they are in the order of pairs. */
 static uint32_t first_warm(const struct rest *r, const struct pair *p)
 {
     return sort_lower_bound(r->warm, r->warm_count, sizeof *r->warm, p, before);
 }
 
-/* The largest difference of two places along an axis, or `enough` when one is as large as that. */
+/* The largest difference of two places along an axis, or `enough` if one is that large. */
 static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int32_t enough)
 {
     int32_t distance = 0;
@@ -77,9 +77,9 @@ static int32_t distance_below(const carom_v3_q22 *a, const carom_v3_q22 *b, int3
 }
 
 /*
- * The last frame's contact that this one continues: same bodies, similar normal, and the nearest place
- * within a part of a's radius. The impulses of its pair begin at `first`. One that is used is 0.
- *   normal_q40  out  the part along its normal
+ * The last frame's contact that this one continues: same bodies, similar normal, nearest place
+ * within a part of a's radius. The pair's impulses begin at `first`; one that is used already is 0.
+ *   normal_q40  out  its part along its normal
  */
 static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint32_t first,
                                    int32_t divisor, int64_t *normal_q40)
@@ -110,8 +110,8 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
 }
 
 /*
- * A kept impulse to units, cut to 2^40: the unit may be far smaller than a frame ago, and what is kept
- * must leave room for sums.
+ * A kept impulse in solver units, clamped to 2^40: the unit may be far smaller than a frame ago,
+ * and sums need room.
  */
 static void to_units(int64_t v[4], struct fix_scaled inverse)
 {
@@ -157,7 +157,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     w->impulse = (carom_v3_q40){{0, 0, 0}}; /* used */
 }
 
-/* Contacts that have no impulse yet, from what is no farther than a part of a radius. */
+/* Load contacts that have no impulse yet, from places within a part of a radius. */
 static void load_all(struct rest *r, const struct rest_sweep *sw, int32_t divisor)
 {
     uint32_t pair = UINT32_MAX, first = 0;

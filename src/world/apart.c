@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies start apart. One that is added or set where it crosses another is refused, pushed out, or passes. The question
- * is exact: do faces cross, or is a body inside the other one?
+ * Bodies start apart. A body that is added or set where it crosses another one is refused, pushed
+ * out, or passes. The question is exact: do faces cross, or is one body inside the other?
  */
 #include "world.h"
 
-/* Bodies that come apart within so many skins, one way or another, hardly touch. */
+/* Bodies that come apart within this many skins, in some direction, hardly touch. */
 #define SHALLOW_SKINS 2
-/* A body is pushed out in steps that double from here, skins; then the way is halved so often. */
+/*
+ * A body is pushed out in steps that double from this many skins; then the way is halved HALVINGS
+ * times.
+ */
 #define FIRST_SKINS 4
 #define HALVINGS    10
-/* It goes no farther than its diameter and so many units. */
+/* It goes no farther than its diameter plus this many units. */
 #define WAY_MAX 60
-/* Up against gravity, and the ways from the middle of a cube to its faces, edges and corners. */
+/* Against gravity, and from the middle of a cube to its faces, edges and corners. */
 #define WAYS 27
 
 bool world_overlap(struct carom_world *w, struct interfere_placed a, struct interfere_placed b)
@@ -34,7 +37,7 @@ bool world_overlap(struct carom_world *w, struct interfere_placed a, struct inte
            interfere_inside(b, a);
 }
 
-/* The direction of a way out; false when there is none of this number. */
+/* Set the direction of a way out. Returns false if there is none of this number. */
 static bool direction(const struct carom_world *w, int way, carom_v3_q30 *out)
 {
     int64_t v[3];
@@ -45,7 +48,7 @@ static bool direction(const struct carom_world *w, int way, carom_v3_q30 *out)
     return fix_normalise(out, v);
 }
 
-/* A state moved by a length along a direction; false when that is out of range. */
+/* Move a state by a length along a direction. Returns false if it leaves the range. */
 static bool moved(const struct body_state *from, const carom_v3_q30 *way, int64_t length_q32,
                   struct body_state *to)
 {
@@ -56,7 +59,7 @@ static bool moved(const struct body_state *from, const carom_v3_q30 *way, int64_
     return world_position_in_range(&to->position);
 }
 
-/* Whether two bodies pass each other already, or their joint lets them ignore each other. */
+/* True if two bodies pass each other already, or their joint lets them ignore each other. */
 static bool already_pass(const struct carom_world *w, uint32_t place, uint32_t other)
 {
     struct pair p;
@@ -68,7 +71,7 @@ static bool already_pass(const struct carom_world *w, uint32_t place, uint32_t o
     return world_ignores(w, p.a, p.b) || world_goes_through(w, world_now(w), &p);
 }
 
-/* Whether a body that may be elsewhere than its place says crosses a body of the world. */
+/* True if a body, in a state that may differ from its place's, crosses a body of the world. */
 static bool crosses(struct carom_world *w, const struct body *b, uint32_t place,
                     const struct body_state *state, uint32_t other)
 {
@@ -82,7 +85,7 @@ static bool crosses(struct carom_world *w, const struct body *b, uint32_t place,
     return !already_pass(w, place, other) && world_overlap(w, mine, theirs);
 }
 
-/* Whether two bodies that cross come apart within some skins. */
+/* True if two bodies that cross come apart within some skins. */
 static bool is_shallow(struct carom_world *w, const struct body *b, uint32_t place,
                        const struct body_state *state, uint32_t other)
 {
@@ -100,7 +103,7 @@ static bool is_shallow(struct carom_world *w, const struct body *b, uint32_t pla
     return false;
 }
 
-/* The first body of the world, from a number on, that a body crosses for good. */
+/* The first body of the world, from a number on, that a body crosses by more than that. */
 static uint32_t next_crossed(struct carom_world *w, const struct body *b, uint32_t place,
                              const struct body_state *state, uint32_t from)
 {
@@ -111,7 +114,7 @@ static uint32_t next_crossed(struct carom_world *w, const struct body *b, uint32
     return from;
 }
 
-/* Whether a body crosses any other, by however little. */
+/* True if a body crosses any other, by however little. */
 static bool crosses_any(struct carom_world *w, const struct body *b, uint32_t place,
                         const struct body_state *state)
 {
@@ -123,7 +126,7 @@ static bool crosses_any(struct carom_world *w, const struct body *b, uint32_t pl
     return false;
 }
 
-/* How far a body must go along a way to be clear of all others, when it is less than `most`; else that. */
+/* How far a body must go along a way to be clear of all others; `most` if it is no less. */
 static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t place,
                            const struct body_state *state, const carom_v3_q30 *way,
                            int64_t most_q32)
@@ -155,7 +158,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
     return out_q32;
 }
 
-/* Move a state the shortest way out. */
+/* Move a state along the shortest way out. */
 static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
                     struct body_state *state)
 {
@@ -178,7 +181,7 @@ static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
     return best_q32 < most_q32 ? CAROM_OK : CAROM_ERR_BLOCKED;
 }
 
-/* Whether there is room for all pairs that a body is to pass. */
+/* Check that there is room for all pairs that a body is to pass. */
 static int room_to_pass(struct carom_world *w, const struct body *b, uint32_t place,
                         const struct body_state *state)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pool of extras: what few bodies have. */
+/* The pool of extras: properties that few bodies have. */
 #include "world.h"
 
 struct body_extra *world_extra(struct carom_world *w, uint32_t body)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which bodies may touch, as their owner says. */
+/* Filters: which bodies may touch. */
 #include "world.h"
 
 void world_filter(struct body *b, const struct carom_filter *filter)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Gravity, what lasts of forces, and pushes. */
+/* Gravity, lasting forces, and pushes. */
 #include "world.h"
 
 int carom_world_set_gravity(struct carom_world *w, const carom_v3_q40 *gravity)
@@ -105,7 +105,7 @@ int carom_body_forces(const struct carom_world *w, int body, struct carom_forces
     return CAROM_OK;
 }
 
-/* The forces of a body that moves, before one of them is set. */
+/* The present forces of a moving body, of which the caller changes one. */
 static int find_forces(const struct carom_world *w, int *body, struct carom_forces *out)
 {
     if (!world_find_body(w, body)) {
@@ -115,7 +115,7 @@ static int find_forces(const struct carom_world *w, int *body, struct carom_forc
     return w->bodies[*body].def.moving ? CAROM_OK : CAROM_ERR_ARGUMENT;
 }
 
-/* Set them, when `result` says that they were found. */
+/* Set a body's forces, if `result` says that they were found. */
 static int set_forces(struct carom_world *w, int result, int body, const struct carom_forces *to)
 {
     struct carom_forces now;
@@ -201,7 +201,7 @@ bool world_cross_q40(int64_t a_q32, int64_t b_q40, int64_t c_q32, int64_t d_q40,
     return true;
 }
 
-/* point x v about a body's centre; false when the point or the product is out of range. */
+/* point x v about a body's centre. Returns false if the point or the product is out of range. */
 static bool moment_about(const struct body_state *s, const carom_v3_q32 *point,
                          const carom_v3_q40 *v, carom_v3_q40 *out)
 {
@@ -236,7 +236,7 @@ int carom_body_set_force_at(struct carom_world *w, int body, const carom_v3_q40 
     if (result == CAROM_OK) {
         const struct body *b = &w->bodies[body];
 
-        /* no more than what with gravity is 1 */
+        /* no more than what, with gravity, makes an acceleration of 1 */
         if (!world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->def.mass)) ||
             !moment_about(&world_now(w)->bodies[body], point, force, &f.torque)) {
             return CAROM_ERR_RANGE;
@@ -246,7 +246,7 @@ int carom_body_set_force_at(struct carom_world *w, int body, const carom_v3_q40 
     return set_forces(w, result, body, &f);
 }
 
-/* CAROM_OK, or the error of a push of a body. */
+/* Check a push. Returns CAROM_OK or the error. */
 static int check_push(const struct carom_world *w, int *body)
 {
     if (!world_find_body(w, body)) {
@@ -256,7 +256,7 @@ static int check_push(const struct carom_world *w, int *body)
                                                                            : CAROM_ERR_ARGUMENT;
 }
 
-/* Add to the momenta of a body. */
+/* Add an impulse and a moment to the momenta of a body; NULL: none. */
 static int push(struct carom_world *w, int body, const carom_v3_q40 *impulse,
                 const carom_v3_q40 *moment)
 {
@@ -266,7 +266,7 @@ static int push(struct carom_world *w, int body, const carom_v3_q40 *impulse,
 
     impulse = impulse ? impulse : &none;
     moment = moment ? moment : &none;
-    /* no more than turns a body's fastest motion around: below 2^57, and 2^62 */
+    /* at most what reverses a body's fastest motion: below 2^57, and 2^62 */
     if (!world_each_within(impulse->c,
                            fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 41, b->def.mass)) ||
         !world_each_within(moment->c, 2 * world_most_angular_q40(b))) {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Where a body's points are and how they move: between its mesh's coordinates and the world's. */
+/*
+ * Points and vectors of a body: between its mesh's coordinates and the world's; velocities of
+ * points.
+ */
 #include "world.h"
 
 #define LOCAL_LIMIT  ((int64_t)2 * BODY_WORLD_LIMIT << 32)
@@ -10,7 +13,7 @@ static void axes_of(const struct carom_world *w, int body, carom_m3_q30 *r)
     fix_matrix(r, &world_now(w)->bodies[body].rotation);
 }
 
-/* CAROM_OK, or the error of a question about a body, which becomes a number. */
+/* Check a question about a body, and turn it into its number. Returns CAROM_OK or the error. */
 static int ask(const struct carom_world *w, int *body, const void *in, const void *out)
 {
     if (!w || !in || !out) {
@@ -83,7 +86,7 @@ int carom_body_local_point(const struct carom_world *w, int body, const carom_v3
     return CAROM_OK;
 }
 
-/* Turn a vector, or turn it back. */
+/* Rotate a vector, or rotate it back. */
 static int turn(const struct carom_world *w, int body, const int64_t in[3], int64_t out[3],
                 void (*by)(int64_t[3], const carom_m3_q30 *, const int64_t[3]))
 {
@@ -135,7 +138,7 @@ int carom_body_velocity_at(const struct carom_world *w, int body, const carom_v3
         int i = fix_next(k), j = fix_next(i);
 
         if (!world_cross_q40(arm_q32[j], spin.c[i], arm_q32[i], spin.c[j], &turn_q40[k])) {
-            return CAROM_ERR_RANGE; /* far from a body that spins as none is made to */
+            return CAROM_ERR_RANGE; /* far from a body that spins faster than any can be made to */
         }
     }
     for (int k = 0; k < 3; k++) {

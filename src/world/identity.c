@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* Which body a number or an id names, and the caller's pointer to what it stands for. */
+/* Numbers and ids of bodies, and the caller's pointer of a body. */
 #include "world.h"
 
 #define NUMBER_MASK ((1u << WORLD_NUMBER_BITS) - 1)
-/* Numbers are below 4095 = CAROM_POOLS' largest, and ids fit 28 bits. */
+/* Numbers are below 4095, the largest capacity, and ids fit 28 bits. */
 _Static_assert(NUMBER_MASK >= 4095, "a number has room in an id");
 
 bool world_find_body(const struct carom_world *w, int *body)
@@ -11,7 +11,7 @@ bool world_find_body(const struct carom_world *w, int *body)
     uint32_t id = (uint32_t)*body, number = id & NUMBER_MASK;
     uint32_t generation = id >> WORLD_NUMBER_BITS;
 
-    /* a negative one has a generation above all */
+    /* a negative id has a generation above all */
     if (number >= w->body_count || !w->bodies[number].def.mesh ||
         (generation != 0 && generation != w->bodies[number].def.generation)) {
         return false;

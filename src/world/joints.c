@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Joints as the caller sees them: taken away, changed, asked. They are added where a step begins to know them. */
+/* Joints as the caller sees them: removed, changed, queried. src/step/joint_add.c adds them. */
 #include "joints.h"
 
 #define LIMIT_MOST_Q32 ((int64_t)8192 << 32)
@@ -227,7 +227,7 @@ int carom_joint_count(const struct carom_world *w)
     return w ? (int)w->rest.joints.count : CAROM_ERR_NULL;
 }
 
-/* The change of a coordinate in a frame, as the bodies move now: the least way that shows it, in a 64th of a frame. */
+/* The change of the coordinate in a frame, by the bodies' present motion. */
 static int64_t speed_q40(const struct carom_world *w, const struct joint *j)
 {
     const struct body_state *states = world_now(w)->bodies;
@@ -261,7 +261,7 @@ static int64_t speed_q40(const struct carom_world *w, const struct joint *j)
         memcpy(spin[s], turn.c, sizeof spin[s]);
         for (int k = 0; k < 3; k++) {
             int m = fix_next(k), n = fix_next(m);
-            /* a slider's point is on a for both */
+            /* both sides of a slider use the point on a */
             const int64_t *to = at[j->kind == CAROM_JOINT_SLIDER ? 0 : s].c;
             struct fix_wide sum = fix_wide_mul(turn.c[m], to[n] - pose[s].position.c[n]);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Kinematic bodies between steps: where the caller leads them. */
+/* Kinematic bodies between steps: the caller leads them. */
 #include "world.h"
 
 bool world_is_kinematic(const struct body *b)
@@ -81,7 +81,7 @@ int carom_body_move_to(struct carom_world *w, int body, const struct carom_pose 
         return CAROM_ERR_BODY;
     }
     q = pose->rotation;
-    /* what is normalised already is kept to the last bit */
+    /* a rotation that is normalised already is kept to the last bit */
     if (!world_is_kinematic(&w->bodies[body]) ||
         !(world_is_unit(q.c, 4, 28) || world_rotation_valid(&q))) {
         return CAROM_ERR_ARGUMENT;
@@ -103,7 +103,7 @@ void world_halt_routes(struct carom_world *w)
         struct body *b = &w->bodies[i];
 
         if (b->def.mesh && body_travels(b)) {
-            /* a step relies on what stands still being the same in both states */
+            /* a step relies on bodies that stand still being equal in both states */
             w->states[0].bodies[i] = w->states[1].bodies[i] = w->now->bodies[i];
             b->def.goes = b->def.extra->drive.kind == BODY_DRIVE_ON;
             b->def.extra->drive.kind = b->def.goes ? BODY_DRIVE_ON : BODY_DRIVE_NONE;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Materials and masses of bodies, which may change at any time. */
+/* Materials and masses of bodies, which may change between steps. */
 #include "world.h"
 
-#define SURFACE_SPEED_LIMIT 16 /* units a frame, each component of a surface's own velocity */
+#define SURFACE_SPEED_LIMIT 16 /* units a frame, for each component of a surface velocity */
 
 static bool material_in_range(const struct carom_material *m)
 {
@@ -32,10 +32,10 @@ static bool needs_extra(const struct carom_material *m)
     return m->rolling_q16 != BODY_ROLLING_Q16 || (v[0] | v[1] | v[2]) != 0;
 }
 
-/* A body is of something else from here on. */
+/* A body's material has changed: forget its kept impulses and wake its neighbours. */
 static void stir(struct carom_world *w, uint32_t body)
 {
-    world_forget_impulses(w, body); /* they may be more than the new friction allows */
+    world_forget_impulses(w, body); /* they may exceed the new friction */
     world_wake_around(w, body);
 }
 
@@ -87,7 +87,7 @@ int carom_body_material(const struct carom_world *w, int body, struct carom_mate
     return CAROM_OK;
 }
 
-/* Whether all of an array are in range, and each face of a mesh has one of them. */
+/* True if all materials of an array are in range, and each face of a mesh has one of them. */
 static bool materials_in_range(const struct carom_mesh *mesh, const struct carom_material *m,
                                uint32_t count, const uint8_t *of_face)
 {
@@ -102,7 +102,7 @@ static bool materials_in_range(const struct carom_mesh *mesh, const struct carom
     return good;
 }
 
-/* Take them as a body's, with the largest e and mu of them. */
+/* Set a body's materials by face, with their largest e and mu. */
 static void take_materials(struct body_extra *extra, const struct carom_material *materials,
                            uint32_t count, const uint8_t *of_face)
 {
@@ -159,18 +159,22 @@ int carom_world_set_combine(struct carom_world *w, enum carom_combine restitutio
     if (w->rest.list.restitution_rule != restitution || w->rest.list.friction_rule != friction) {
         w->rest.list.restitution_rule = restitution & 3u;
         w->rest.list.friction_rule = friction & 3u;
-        w->now->warm_count = 0; /* they may be more than the new friction allows */
+        w->now->warm_count = 0; /* they may exceed the new friction */
     }
     return CAROM_OK;
 }
 
-/* The momenta of the same motion with another mass; false when they do not fit. */
+/*
+ * Change the momenta so that the motion stays with another mass. Returns false if they do not fit.
+ */
 static bool change_mass(const struct body *from, const struct body *to, struct body_state *s)
 {
     for (int k = 0; k < 3; k++) {
         int64_t l_q40 = fix_mul_scaled(s->angular.c[k], from->def.inverse_mass);
 
-        /* times at most 2^10; a thin body about its axis has less */
+        /*
+         * the product with the mass, at most 2^10, must fit; a thin body about its axis stays below
+         */
         if (carom_abs(l_q40) >> 51 != 0) {
             return false;
         }

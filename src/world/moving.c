@@ -1,33 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Surfaces that the caller moves. One jumps between steps; what it went into is lifted out of it along
- * its z, with all that touches it. How far is asked of the collision test: from a place that is above
- * the surface for sure, bodies go down until they are at the event gap, or where they were.
+ * Surfaces that the caller moves. A surface jumps between steps; bodies that it went into are
+ * lifted out of it along its z, with everything that touches them. The collision test says how far:
+ * from a place surely above the surface bodies go down until they are at the event gap, or back
+ * where they were.
  */
 #include "world.h"
 #include "../boyse/boyse.h"
 #include "../interfere/narrow.h"
 
-/* Bodies that were lifted into each other are lifted together: so often at most. */
+/* Bodies lifted into each other are lifted together: at most this many times. */
 #define ROUNDS_MAX 64
-/* A path is shorter than 64 units, with some skins. */
+/* A path is shorter than 64 units; this leaves room for some skins. */
 #define RISE_MAX 60
 
 struct lift {
     struct candidate_visitor base;
     struct carom_world *w;
-    struct body_state *states; /* where bodies end, as far as it is known */
+    struct body_state *states; /* where bodies will be, as far as known */
     uint32_t surface;
-    int64_t up_q30[3];   /* the surface's z in the world */
-    int64_t rise_q32;    /* the surface is higher by no more than that */
-    int32_t pair_number; /* that the pair of the scratch is set up for; -1: none */
+    int64_t up_q30[3];   /* the surface's z, world axes */
+    int64_t rise_q32;    /* bound on how much higher the surface is */
+    int32_t pair_number; /* pair that the scratch's boyse_pair is set up for; -1: none */
     /* the first hit */
     bool found;
     int32_t t_q30;
     struct candidate hit;
 };
 
-/* A path of a body from where it is, by a way along the surface's z; and its region. */
+/* Set a body's path from its state, by a way along the surface's z; and its region. */
 static void set_path(const struct lift *l, struct body *b, const struct body_state *s,
                      int64_t way_q32)
 {
@@ -45,7 +46,7 @@ static void shift(const struct lift *l, struct body_state *s, int64_t way_q32)
     }
 }
 
-/* Whether bodies may touch, and do not go through each other at present. */
+/* True if two bodies may touch and do not pass each other at present. */
 static bool solid(const struct lift *l, uint32_t i, uint32_t k)
 {
     const struct pair p = world_name_pair(l->w, i, k);
@@ -59,7 +60,7 @@ static bool movable(const struct lift *l, uint32_t i)
     return l->w->bodies[i].def.mesh && l->w->bodies[i].def.moving && !l->states[i].out;
 }
 
-/* The islands of bodies that touched in the last step; each body's lift is none. */
+/* Find the islands of bodies that touched in the last step, with no lift yet. */
 static void find_islands(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
@@ -108,15 +109,15 @@ static bool hits(struct lift *l, const struct candidate *c, struct boyse_hit *hi
     return boyse_first(pair, c, hit, &roots);
 }
 
-/* ------------------------------------------------- out of the surface, from above */
+/* ---------------------------------------------------- out of the surface, from above */
 
-/* A body so much higher is above the surface. */
+/* At this height above its place a body is surely above the surface. */
 static int64_t clear_q32(const struct lift *l, const struct body *b)
 {
     return l->rise_q32 + ((int64_t)b->def.skin_q22 << 10);
 }
 
-/* How far each island stays above where it was when it comes down on the surface. */
+/* Raise each island's lift to where one of its bodies lands on the surface. */
 static void visit_landing(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct lift *l = (struct lift *)self;
@@ -136,7 +137,7 @@ static void visit_landing(struct candidate_visitor *self, const struct candidate
     }
 }
 
-/* How far each island must be lifted by the surface itself. */
+/* Find how far each island must be lifted by the surface itself. */
 static int find_lifts(struct lift *l)
 {
     struct carom_world *w = l->w;
@@ -162,7 +163,7 @@ static int find_lifts(struct lift *l)
     return result == CAROM_OK ? visit(l, visit_landing) : result;
 }
 
-/* ------------------------------------------------------- and past other bodies */
+/* ------------------------------------------------------------ past other bodies */
 
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
@@ -185,7 +186,7 @@ static int64_t lift_of(const struct carom_world *w, uint32_t i)
     return *body_lift_q32(&w->bodies[w->bodies[i].island.lowest]);
 }
 
-/* Pairs of bodies that are lifted differently and are near each other on the way. */
+/* Pair bodies that are lifted by different ways and are near each other on the way. */
 static int pair_lifted(struct lift *l)
 {
     struct carom_world *w = l->w;
@@ -214,7 +215,7 @@ static int pair_lifted(struct lift *l)
     return result;
 }
 
-/* Lift what would be run into as well. */
+/* Lift bodies that lifted ones would run into. */
 static int spread(struct lift *l)
 {
     struct carom_world *w = l->w;
@@ -243,7 +244,7 @@ static int spread(struct lift *l)
     return CAROM_ERR_BLOCKED;
 }
 
-/* Lift what the surface went into: where to, into the state that is not current. */
+/* Lift bodies that the surface went into; their states go into the state that is not current. */
 static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
 {
     struct lift l = {
@@ -285,7 +286,7 @@ int carom_surface_build(struct carom_mesh *mesh, const struct carom_mesh_raw *ra
     return mesh_surface_build(mesh, raw, mem, bytes, &moving);
 }
 
-/* What lies on a surface that moves does not fall asleep; and what the last step found is past. */
+/* Wake bodies on or near a moved surface; they start counting quiet frames anew. */
 static void stir(struct carom_world *w, uint32_t body)
 {
     struct world_state *now = w->now;
@@ -302,7 +303,7 @@ static void forget_found(struct carom_world *w)
 {
     w->interfere.stale = true;
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].search.standing = false; /* paths, regions and boxes are others */
+        w->bodies[i].search.standing = false; /* paths, regions and boxes have changed */
     }
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);

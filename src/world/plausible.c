@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether a state that was read could be what a step has left. SPEC.md, section 8, derives the bounds. */
+/* Could a state that was read be what a step has left? SPEC.md, section 8, derives the bounds. */
 #include "world.h"
 
 /*
- * A normalised rotation's squared length is 1 within 2^-28. A normal of edges is divided by a length of
- * 0.002 at least, which is right to some units.
+ * A normalised rotation's squared length is 1 within 2^-28. A normal of edges is a vector divided
+ * by its length, at least 0.002, which is right to some units.
  */
 #define ROTATION_BITS 27
 #define NORMAL_BITS   16
-/* Of a kept impulse over the lighter body's mass, units a frame: 2^10 V*, and V* is at most 2^8. */
+/* A kept impulse over the lighter body's mass, units a frame: 2^10 V*, and V* is at most 2^8. */
 #define IMPULSE_BITS 18
 /* Impulses were rounded to their unit, and their direction to 2^-30. */
 #define IMPULSE_NOISE_Q40 ((int64_t)1 << 24)
-/* What lies on a surface that moves may be this far above it, q22. */
+/* A body on a moving surface may be this far above it, q22. */
 #define SURFACE_GAP_Q22 ((int32_t)32 << 22)
 
-/* What sleeps has no momenta, and is neither out nor woken since the last step. */
+/*
+ * True if flags are plausible. A sleeping body has no momenta, and is neither out nor woken since
+ * the last step.
+ */
 static bool flags_plausible(const struct body *b, const struct body_state *s)
 {
     if (!b->def.moving) {
@@ -52,20 +55,20 @@ bool world_drive_plausible(const struct body *b, const struct body_state *s,
            world_leads(drive, s) && world_pose_in_reach(b, s, &drive->position, &drive->rotation);
 }
 
-/* As broad.h names a pair. */
+/* True if a pair is named as broad.h says. */
 static bool pair_plausible(const struct carom_world *w, uint16_t a, uint16_t b)
 {
     return a < w->body_count && b < w->body_count && w->bodies[a].def.moving &&
            w->bodies[b].def.mesh && (a > b || !w->bodies[b].def.moving);
 }
 
-/* -1, 0 or 1 as the pair a, b comes before c, d or after it. */
+/* -1, 0 or 1 if the pair a, b comes before, at or after c, d. */
 static int order(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
 {
     return a != c ? (a < c ? -1 : 1) : b != d ? (b < d ? -1 : 1) : 0;
 }
 
-/* What a solve can give a body at most, q40, of what is kept: 2^60. */
+/* The largest kept impulse that a solve can give a body, q40; at most 2^60. */
 static int64_t most_impulse_q40(const struct body *b)
 {
     const int64_t most = (int64_t)1 << 60;
@@ -77,8 +80,9 @@ static int64_t most_impulse_q40(const struct body *b)
 }
 
 /*
- * An impulse presses, along the normal, by no more than a solve can give, see SPEC.md. Friction is within the widest
- * cone there is, not that of the bodies' materials: the caller's callback may have chosen any.
+ * True if an impulse presses along the normal by no more than a solve can give, see SPEC.md.
+ * Friction must be within the widest cone there is, not that of the bodies' materials: the caller's
+ * callback may have chosen any.
  */
 FIX_APART static bool impulse_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
@@ -97,7 +101,7 @@ FIX_APART static bool impulse_plausible(const struct carom_world *w, const struc
     return world_each_within(parts.tangent.c, across_q40);
 }
 
-/* The arm ends at a's surface, but for what gap there may be. */
+/* True if the arm ends at a's surface, within the possible gap. */
 static bool arm_plausible(const struct carom_world *w, const struct rest_warm *warm)
 {
     const struct body *a = &w->bodies[warm->a], *b = &w->bodies[warm->b];
@@ -109,7 +113,7 @@ static bool arm_plausible(const struct carom_world *w, const struct rest_warm *w
     return world_each_within(arm, most_q22);
 }
 
-/* Whether one of the pair's kept impulses before this one is at the same place with the same normal. */
+/* True if an earlier kept impulse of the pair has the same place and normal. */
 static bool repeats(const struct rest_warm *first, const struct rest_warm *warm)
 {
     for (const struct rest_warm *w = warm; w-- > first && w->a == warm->a && w->b == warm->b;) {
@@ -126,7 +130,7 @@ static bool awake(const struct carom_world *w, const struct world_state *s, uint
     return broad_active(&w->bodies[i], &s->bodies[i]);
 }
 
-/* Kept impulses are those of pairs that touch, in their order, of which one body at least is awake. */
+/* True if kept impulses belong to touching pairs, in their order, with at least one body awake. */
 static bool warm_plausible(const struct carom_world *w, const struct world_state *s)
 {
     const struct pair *t = s->touching, *end = t + s->touching_count;

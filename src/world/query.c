@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What is asked of a world between its steps: how two bodies lie to each other. */
+/* Questions about two bodies of a world between its steps: faces that cross, inside. */
 #include "world.h"
 
-/* CAROM_OK, or the error of a question about two bodies, which become numbers. */
+/* Check a question about two bodies, and turn them into numbers. Returns CAROM_OK or the error. */
 static int check_bodies(const struct carom_world *w, int *a, int *b)
 {
     if (!world_find_body(w, a) || !world_find_body(w, b)) {

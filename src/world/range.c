@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Whether numbers of a body are within what the formats hold, and what gravity and a force give it. */
+/* Are a body's numbers within what the formats hold? And the acceleration by gravity and force. */
 #include "world.h"
 
 bool world_each_within(const int64_t v[3], int64_t limit)
@@ -58,7 +58,7 @@ bool world_acceleration(const struct body *b, int32_t gravity_scale_q16,
 {
     carom_v3_q40 sum = {{0, 0, 0}};
 
-    /* the largest mass is 2^10, so the limit is below 2^52 and what passes it can be divided */
+    /* the largest mass is 2^10, so the limit is below 2^52 and a force within it can be divided */
     if (b->def.moving &&
         !world_each_within(force->c, fix_mul_scaled((int64_t)2 << 40, b->def.mass))) {
         return false;
@@ -95,7 +95,10 @@ bool world_position_in_range(const carom_v3_q32 *p)
     return world_each_within(p->c, (int64_t)BODY_WORLD_LIMIT << 32);
 }
 
-/* Below 2^48, to nearest: fix_length and one step of Newton's, for the digits that it leaves out. */
+/*
+ * The length of a vector below 2^48, to nearest: fix_length and a Newton step for the digits that
+ * it drops.
+ */
 static int64_t exact_length(const int64_t v[3])
 {
     int64_t length = fix_length(v);
@@ -109,9 +112,9 @@ static int64_t exact_length(const int64_t v[3])
 }
 
 /*
- * Whether every point of a body, of radius r, is slower than the limit: |v| + r |w| < 64, and |w| <
- * 64. No impact can then make the centre faster than that within a frame, because
- * energy does not rise and I <= m r^2; so reach, angular momentum and all that follows are bounded.
+ * True if every point of a body of radius r is slower than the limit: |v| + r |w| < 64, and |w| <
+ * 64. Then no impact can make the centre faster than that within a frame, because energy does not
+ * rise and I <= m r^2; so reach, angular momentum and everything that follows are bounded.
  */
 bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
 {
@@ -137,7 +140,10 @@ void world_set_motion(const struct body *b, struct body_state *s, const carom_v3
     }
 }
 
-/* Of the mean square of the speeds that points turn with, at most: they are below 2^10. */
+/*
+ * Bits of the largest mean square of the speeds by which a body's points turn; the speeds are below
+ * 2^10.
+ */
 #define SQUARE_BITS 20
 
 bool world_in_range(const struct body *b, const struct body_state *s)
@@ -155,7 +161,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         !world_each_within(s->angular.c, b->def.moving ? angular_limit_q40 - 1 : 0)) {
         return false;
     }
-    /* a thin body may spin faster about its axis than any that is made */
+    /* a thin body may spin faster about its axis than any that can be given */
     fix_matrix(&r, &s->rotation);
     body_velocity(b, s, &v);
     if (!world_each_within(v.c, (int64_t)BODY_SPEED_LIMIT << 40) ||

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a world tells about its last step, and the texts of the public enums. */
+/* What a world reports about its last step, and the texts of the public enums. */
 #include "world.h"
 
 int carom_version(void)

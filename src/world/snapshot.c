@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The state hash and snapshots. Both go through one description of the state, so that the hash is
- * of exactly the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
+ * The state hash and snapshots. Both use one description of the state, so the hash is of exactly
+ * the bytes that a snapshot holds: little-endian on every machine, 64-bit FNV-1a.
  *
  *   u32 magic, gravity 3 x i64, u32 body places
- *   a place: u8 0 free, 1 stationary, 2 moving; then, if not free: position 3 x i64, momentum
- *       3 x i64, angular momentum 3 x i64, force 3 x i64, rotation 4 x i32,
+ *   a place: u8 0 free, 1 stationary, 2 moving, 3 kinematic; then, if not free: position 3 x i64,
+ *       momentum 3 x i64, angular momentum 3 x i64, force 3 x i64, rotation 4 x i32,
  *       u8 asleep, out, quiet, woken
  *   u32 count of kept impulses; each: u16 a, b, arm 3 x i32, normal 3 x i32, i64, tangent 3 x i64
  *   u32 count of touching pairs; each: u16 a, b
- *   u64 for each body that is a surface of carom_surface_build: FNV-1a of its vertices and of those of
- *       the last step, int16 x, y, z each; the caller has put the surface there before it is loaded
- *   where each kinematic body is led: u8 0 nowhere, 1 on, 2 to a pose; 1: velocity 3 x i64, spin 3 x i64;
- *       2: position 3 x i64, rotation 4 x i32
- *   what only some worlds have, each after a tag of four bytes:
- *   "FLT1", when a body has a filter of its own; each body: u16 category, mask, group
- *   "THR1", when pairs go through each other: u32 count; each: u16 a, b
- *   a world that has had joints: u32 of their places; each: u8 0 free, 1 there; then, if there: u8 broken, limited, motor,
- *       spring, seven i64 of the drive, 6 x i64 impulses, push and moment 3 x i64 each, axial i64, owed i64 and u64
- *   if something acts on a body beside its force: u32 tag, u32 count of such bodies; each, by number: u16 body,
- *       torque 3 x i64, i32 gravity scale, linear and angular damping
+ *   u64 for each body that is a surface of carom_surface_build: FNV-1a of its vertices and of those
+ *       of the last step, int16 x, y, z each; the caller puts the surface there before loading
+ *   where each kinematic body is led: u8 0 nowhere, 1 on, 2 to a pose; 1: velocity 3 x i64,
+ *       spin 3 x i64; 2: position 3 x i64, rotation 4 x i32
+ *   if the world has had joints: u32 of their places; each: u8 0 free, 1 there; then, if there:
+ *       u8 broken, limited, motor, spring, seven i64 of the drive, 6 x i64 impulses,
+ *       push and moment 3 x i64 each, axial i64, owed i64 and u64
+ *   sections that only some worlds have, each after a tag of four bytes:
+ *   "FLT1", if a body has a filter of its own; each body: u16 category, mask, group
+ *   "THR1", if pairs pass through each other: u32 count; each: u16 a, b
+ *   "FOC1", if something acts on a body beside its force: u32 count of such bodies;
+ *       each, by number: u16 body, torque 3 x i64, i32 gravity scale, linear and angular damping
  *   u64 FNV-1a of all bytes before
  */
 #include "stream.h"
@@ -80,7 +81,7 @@ FIX_APART static uint64_t hash_vertices(const int16_t (*v)[3], uint32_t count, u
     return fnv;
 }
 
-/* Where a surface is that moves: the caller has its vertices, so only that they are the same. */
+/* Pass a moving surface: the caller owns the vertices, so only their equality is checked. */
 static void stream_surface(struct stream *s, const struct carom_mesh *mesh)
 {
     const struct carom_surface *surface = mesh->surface;
@@ -93,7 +94,7 @@ static void stream_surface(struct stream *s, const struct carom_mesh *mesh)
     }
 }
 
-/* The next body from `i` on that more acts on than its force, or the end of all. */
+/* The next body from `i` on that needs more than its force stored, or the end of all. */
 static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
 {
     for (; i < w->body_count; i++) {
@@ -106,7 +107,7 @@ static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
     return i;
 }
 
-/* Everything that acts on a body beside its force. */
+/* Pass everything that acts on a body beside its force. */
 static void stream_forces(struct stream *s, const struct carom_world *w, uint32_t i)
 {
     struct carom_forces f = s->loading ? world_forces_read(w, i) : world_forces(&w->bodies[i]);
@@ -152,7 +153,10 @@ static bool has_filter(const struct body *b)
     return b->def.mesh && !(b->def.category == 1 && b->def.mask == 0xffff && b->def.group == 0);
 }
 
-/* Filters that are read wait in the box, which the next step sets anew, until all is read. */
+/*
+ * Pass all filters. Filters that are read wait in the bodies' boxes, which the next step sets anew,
+ * until everything is read.
+ */
 static void stream_filters(struct stream *s, const struct carom_world *w)
 {
     bool any = false;
@@ -179,7 +183,7 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
     }
 }
 
-/* A filter that was read becomes the body's. */
+/* Give a body the filter that was read. */
 static void keep_filter(struct body *b)
 {
     b->def.category = (uint16_t)b->search.box_q18[0][0];
@@ -220,8 +224,8 @@ static void stream_drive(struct stream *s, struct body_drive *drive)
 }
 
 /*
- * Where kinematic bodies are led. The bytes are passed over at first; asked whether they are plausible when all poses
- * are known to be; and taken when that is so.
+ * Pass the drives of kinematic bodies. When loading, bytes are skipped at first, checked once all
+ * poses are known to be plausible, and taken once everything is.
  */
 enum drives { DRIVES_PASS, DRIVES_ASK, DRIVES_TAKE };
 
@@ -291,7 +295,7 @@ static void stream_joints(struct stream *s, const struct carom_world *w, struct 
     }
 }
 
-/* Read them again. */
+/* Read the drives again. */
 static bool drives_again(struct stream *s, const struct carom_world *w,
                          const struct world_state *state, enum drives what)
 {
@@ -300,7 +304,7 @@ static bool drives_again(struct stream *s, const struct carom_world *w,
     return !s->failed;
 }
 
-/* The whole state, out of or into `state`. */
+/* Pass the whole state, out of or into `state`. */
 static void stream_state(struct stream *s, const struct carom_world *w, struct world_state *state)
 {
     uint64_t check;
@@ -342,7 +346,7 @@ static void stream_state(struct stream *s, const struct carom_world *w, struct w
     }
 }
 
-/* The present state, which stays as it is. */
+/* Pass the present state out; the world stays as it is. */
 static void stream_now(struct stream *s, const struct carom_world *w)
 {
     struct world_state now = *world_now(w);
@@ -391,7 +395,7 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
     return size;
 }
 
-/* Whether there are extras for all bodies that are to have one. */
+/* True if there are extras for all bodies that need one. */
 static bool extras_suffice(const struct carom_world *w)
 {
     const struct pool *pool = &w->pools[CAROM_POOL_extras];
@@ -414,7 +418,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     if (!w || !in) {
         return CAROM_ERR_NULL;
     }
-    /* built beside the current state, like a step */
+    /* build beside the current state, as a step does */
     next = world_next(w);
     memset(&s, 0, sizeof s);
     s.in = (const uint8_t *)in;
@@ -430,10 +434,10 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         w->now = next;
         w->config.gravity = s.gravity;
         w->passing |= next->through_count > 0;
-        w->route_to = body_route_to; /* a body may be on its way to a pose */
+        w->route_to = body_route_to; /* a body may be led to a pose */
         (void)drives_again(&s, w, next, DRIVES_TAKE);
     }
-    /* a step relies on what stands still being the same in both states */
+    /* a step relies on bodies that stand still being equal in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (good && w->bodies[i].def.mesh) {
             keep_filter(&w->bodies[i]);

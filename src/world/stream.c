@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Numbers into and out of a snapshot, byte by byte, hashed on the way. */
 #include "stream.h"
 
 uint64_t stream_word(struct stream *s, uint64_t v, int bytes)

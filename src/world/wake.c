@@ -2,7 +2,7 @@
 /* Waking: a sleeping body wakes with its whole island. */
 #include "world.h"
 
-/* The islands of the bodies that touched when they fell asleep, or in the last step. */
+/* Find the islands of bodies that touched when they fell asleep, or in the last step. */
 static void find_islands(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
@@ -16,7 +16,7 @@ static bool sleeps(const struct body *b, const struct body_state *s)
     return b->def.mesh && b->def.moving && s->asleep;
 }
 
-/* Wake a body if it sleeps, and what is connected with it; islands must be known. */
+/* Wake a body if it sleeps, and the bodies connected with it; islands must be known. */
 static void wake_island(struct carom_world *w, struct body_state *states, uint32_t body)
 {
     if (!sleeps(&w->bodies[body], &states[body])) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
+/* The world's block: sizes, carving, and adding, removing, reading and setting bodies. */
 #include "world.h"
 
-/* What a step may report at most: hits of pairs, and as many cuts as there is room for, ... */
+/* Room for events while a step runs: a hit of each pair, a cut of each body. */
 #define EVENTS(bodies, pairs) ((size_t)(pairs) + (size_t)(bodies))
 
-/* The sizes that CAROM_WORLD_BYTES promises: what there is for one of each ... */
+/* Sizes that CAROM_WORLD_BYTES promises: what each element takes ... */
 #define OF_BODY    (sizeof(struct body) + 2 * sizeof(struct body_state) + sizeof(struct carom_event))
 #define OF_PAIR    (3 * sizeof(struct pair) + sizeof(struct pair_work) + sizeof(struct carom_event))
 #define OF_CONTACT (sizeof(struct contact) + 2 * sizeof(struct rest_warm))
@@ -21,7 +22,7 @@ _Static_assert(sizeof(struct joint) + 2 * sizeof(struct joint_state) + sizeof(st
                "CAROM_JOINT_BYTES");
 _Static_assert(sizeof(struct carom_hit) <= CAROM_HIT_BYTES, "CAROM_HIT_BYTES");
 _Static_assert(sizeof(struct contact_mixed) <= CAROM_MIXED_BYTES, "CAROM_MIXED_BYTES");
-/* ... and what its array may take for being rounded up to 8 bytes, */
+/* ... what arrays may lose by rounding up to 8 bytes, ... */
 #define ROUNDING(type)                                                                             \
     (sizeof(type) % 8 == 0 ? 0 : sizeof(type) % 4 == 0 ? 4 : sizeof(type) % 2 == 0 ? 6 : 7)
 #define ROUNDINGS                                                                                  \
@@ -31,12 +32,12 @@ _Static_assert(sizeof(struct contact_mixed) <= CAROM_MIXED_BYTES, "CAROM_MIXED_B
      2 * ROUNDING(struct rest_warm) + ROUNDING(struct carom_event) + ROUNDING(struct contact) +    \
      ROUNDING(struct carom_face_ref) + ROUNDING(struct zentry) + ROUNDING(struct candidate) +      \
      ROUNDING(struct body_extra))
-/* less what a body, a pair and a contact leave of theirs: there is one of each at least. */
+/* ... less what a body, a pair and a contact leave of theirs: there is at least one of each. */
 _Static_assert(sizeof(struct carom_world) + ROUNDINGS + OF_BODY + OF_PAIR + OF_CONTACT <=
                    CAROM_WORLD_FIXED_BYTES + CAROM_BODY_BYTES + CAROM_PAIR_BYTES +
                        CAROM_CONTACT_BYTES,
                "CAROM_WORLD_FIXED_BYTES");
-/* one of these, rounded up */
+/* one scratch, rounded up */
 _Static_assert((sizeof(union world_scratch) + 7) / 8 * 8 <= CAROM_SCRATCH_BYTES,
                "CAROM_SCRATCH_BYTES");
 _Static_assert(sizeof(struct contact_work) <= CAROM_WORK_BYTES, "CAROM_WORK_BYTES");
@@ -47,7 +48,7 @@ _Static_assert(ZLIST_CELLS_MAX * sizeof(uint16_t) <= CAROM_HEADS_BYTES, "CAROM_H
 
 static bool capacities_in_range(const struct carom_caps *caps)
 {
-/* one more of both, so that 0 may be the smallest */
+/* 1 is added on both sides so that 0 may be the smallest */
 #define IN_RANGE(name, bytes, low, high) (caps->name + 1 > (low) && caps->name <= (high)) &&
     return CAROM_POOLS(IN_RANGE) true;
 #undef IN_RANGE
@@ -62,9 +63,9 @@ size_t carom_world_bytes(const struct carom_caps *caps)
 }
 
 /*
- * Events, and behind them the room that stages share. The events that the end of a step finds, when nothing is
- * solved any more, go on into that: beginnings and ends of touching, and of bodies that they woke, rest or are
- * out. Whoever works there between steps has its own part of it.
+ * Carve the events, and behind them the room that stages share. At the end of a step, when all
+ * solves are done, more events go on into that room: beginnings and ends of touching; bodies that
+ * wake, rest or are out. Between steps users of the scratch have a part of their own.
  */
 static void carve_shared(struct carom_world *w, struct arena *arena)
 {
@@ -81,7 +82,7 @@ static void carve_shared(struct carom_world *w, struct arena *arena)
     w->scratch = (union world_scratch *)(room + found);
 }
 
-/* Carve every array. The caller has made sure that the block is large enough. */
+/* Carve every array. The caller has checked that the block is large enough. */
 static void carve(struct carom_world *w, struct arena *arena)
 {
     const struct carom_caps *caps = &w->config.caps;
@@ -98,7 +99,8 @@ static void carve(struct carom_world *w, struct arena *arena)
         ARENA_CARVE(arena, s->touching, caps->pairs);
     }
     ARENA_CARVE(arena, w->rest.list.contacts, caps->contacts);
-    if (caps->entries + caps->extras > 0) { /* what moves as the caller says */
+    if (caps->entries + caps->extras >
+        0) { /* needed by surfaces and bodies that the caller moves */
         ARENA_CARVE(arena, w->rest.list.drifts, caps->contacts);
     }
     if (caps->extras > 0) {
@@ -170,14 +172,14 @@ int world_set_mass(struct body *b, uint32_t mass_q20)
     if (mass_q32 < (int64_t)1 << 22 || mass_q32 > (int64_t)1 << 42) {
         return mass_q20 ? CAROM_ERR_ARGUMENT : CAROM_ERR_RANGE;
     }
-    if ((inverse[0] | inverse[1] | inverse[2]) == 0) { /* the diagonal has the largest entry */
+    if ((inverse[0] | inverse[1] | inverse[2]) == 0) { /* the diagonal holds the largest entry */
         return CAROM_ERR_RANGE;
     }
     body_set_mass(b, fix_scale(mass_q32, 32));
     return CAROM_OK;
 }
 
-/* Everything about a body that its definition settles. */
+/* Make a body and its state from its definition. */
 static int make_body(struct body *b, struct body_state *s, const struct carom_body_def *def)
 {
     int result = CAROM_OK;
@@ -328,7 +330,7 @@ int carom_body_remove(struct carom_world *w, int body)
     world_drop_extra(w, (uint32_t)body);
     generation = w->bodies[body].def.generation;
     memset(&w->bodies[body], 0, sizeof w->bodies[body]);
-    w->bodies[body].def.generation = generation; /* ids of it name no body from here on */
+    w->bodies[body].def.generation = generation; /* the old ids name no body from here on */
     for (int i = 0; i < 2; i++) {
         memset(&w->states[i].bodies[body], 0, sizeof w->states[i].bodies[body]);
     }
@@ -406,7 +408,7 @@ int carom_body_count(const struct carom_world *w)
     return w ? (int)w->body_count : CAROM_ERR_NULL;
 }
 
-/* A kinematic body that was set goes on as its state says. */
+/* Lead a kinematic body that was set as its new state says. */
 static void lead_on(struct carom_world *w, uint32_t body, const struct carom_body_state *in)
 {
     if (world_is_kinematic(&w->bodies[body])) {
