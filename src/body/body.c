@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Mass, velocities, momenta and kinetic energy of a body. */
 #include "body.h"
 
 /* v = high 2^31 + low */
@@ -32,7 +33,7 @@ void body_sym3_mul(int64_t out[3], const struct carom_sym3 *m, const int64_t v[3
     add_parts(out, m->m, high, low, m->e);
 }
 
-/* out = J^-1 v with all the digits of the inverse; out may be v. */
+/* out = J^-1 v with all digits of the inverse; out may be v. */
 static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3])
 {
     const struct carom_mesh *mesh = b->def.mesh;
@@ -45,8 +46,9 @@ static void inverse_mul(const struct body *b, int64_t out[3], const int64_t v[3]
 }
 
 /*
- * |w| <= |L| n / m, n being the largest sum of a row of J^-1: an L below m / 2n turns by less than
- * half a radian. The sums have 32 bits at most, and 2^-20 is taken off for roundings.
+ * The angular momentum below which a body is calm. |w| <= |L| n / m, n being the largest row sum of
+ * J^-1, so an L below m / 2n turns by less than half a radian. Sums have at most 32 bits, and 2^-20
+ * is subtracted for roundings.
  */
 static uint64_t calm_angular_q40(const struct body *b)
 {
@@ -76,7 +78,7 @@ void body_set_mass(struct body *b, struct fix_scaled mass)
 {
     b->def.mass = mass;
     b->def.inverse_mass = fix_scaled_inverse(mass);
-    /* |v| <= |p| / m, a 64th off for roundings */
+    /* |v| <= |p| / m, with 1/64 to spare for roundings */
     b->def.calm_momentum_q40 =
         (uint64_t)fix_mul_scaled((int64_t)(BODY_SPEED_LIMIT - 1) << 40, mass);
     b->def.calm_angular_q40 = calm_angular_q40(b);
@@ -141,8 +143,8 @@ void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct 
 }
 
 /*
- * p.v + L.w is at most |p| |v| + |L| |w|. |v| is |p| / m, and an L of no more than 2^-n of the calm
- * one turns by less than 2^-n half radians: see calm_angular_q40, which also leaves room for roundings.
+ * p.v + L.w <= |p| |v| + |L| |w|. |v| is |p| / m. An L of at most 2^-n of the calm one turns by
+ * less than 2^-n half radians, see calm_angular_q40, which leaves room for roundings.
  */
 void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s)
 {
@@ -154,7 +156,7 @@ void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const st
         return;
     }
     if (!body_calm(b, s)) {
-        sum->hi += INT64_MAX >> 20; /* far more than any has */
+        sum->hi += INT64_MAX >> 20; /* far more than any body has */
         return;
     }
     speed_q40 = fix_mul_scaled((int64_t)p_q40, b->def.inverse_mass);

@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * body - poses, momenta and the motion of one body over a slice of a frame: an exact parabola of
- * the centre of mass together with a Cayley rotation about it.
+ * the centre of mass together with a Cayley rotation about it (in place of the paper's translation
+ * followed by a rotation).
+ *
+ * In: a body's definition, state, acceleration. Out: its path over a slice, the region that
+ * candidates are gathered for, the state at the path's end.
+ *
+ * Files: body.c mass, velocity, energy; spin.c spins that fit; path.c paths; region.c regions;
+ * route.c routes of kinematic bodies.
  *
  * A slice runs over a common t in [0, 1]. With u the Cayley vector of the whole slice,
  *
- *   x(t) = x + v t + g t^2        R(t) = R Cayley(t u),  Cayley(u) = the quaternion (1, u)
- * normalised
+ *   x(t) = x + v t + g t^2
+ *   R(t) = R Cayley(t u), Cayley(u) = the quaternion (1, u) normalised
  *
- * A part of a path is a path again: with its own t in [0, 1] the quaternion is (1 + c t, u t), whose
- * norm is N(t) = (1 + c t)^2 + |u|^2 t^2. c is 0 of a path that body_predict makes.
+ * A part of a path is a path again: with its own t in [0, 1] the quaternion is (1 + c t, u t),
+ * whose norm is N(t) = (1 + c t)^2 + |u|^2 t^2. c is 0 for a path that body_predict makes.
  *
- * Two frames of reference appear. World coordinates are int64. Everything near a body is int32
- * relative to the body's origin: its position at the start of the slice rounded to q22.
+ * There are two frames of reference. World coordinates are int64. Everything near a body is int32
+ * relative to the body's origin: its position at the start of the slice, rounded to q22.
  */
 #ifndef CAROM_SRC_BODY_H
 #define CAROM_SRC_BODY_H
@@ -24,100 +31,102 @@
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
 #define BODY_SPIN_BITS      15         /* a body that turns by 2^15 radians a frame is frozen */
-#define BODY_RADIUS_MAX_Q22 (32 << 22) /* of a moving body */
+#define BODY_RADIUS_MAX_Q22 (32 << 22) /* for moving bodies */
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
-#define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that one slice may turn */
-#define BODY_MARGIN_SKINS   5                   /* contacts are looked for within so many skins */
+#define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that a slice may turn */
+#define BODY_MARGIN_SKINS   5 /* margin: contacts are looked for within this many skins */
 #define BODY_REGION_FRAMES  64
 #define BODY_ALONE          0
 
-/* What a step changes: all of it is hashed and saved. */
+/* The part of a body that a step changes: all of it is hashed and saved. */
 struct body_state {
     carom_v3_q32 position;
     carom_v3_q40 momentum; /* m v */
-    carom_v3_q40 angular;  /* I w, world axes, about the centre of mass */
+    carom_v3_q40 angular;  /* I w about the centre of mass, world axes */
     carom_quat_q30 rotation;
     uint8_t asleep, out;
-    uint8_t quiet; /* frames in a row that the body was slow in contact */
-    uint8_t woken; /* since the last step */
+    uint8_t quiet; /* frames in a row in which the body was slow in contact */
+    uint8_t woken; /* woken since the last step */
 };
 
-/* Holders of the shared memory of a path: BODY_ORIGIN is a path's origin and nothing else of it. */
+/* What the shared memory of a path holds. BODY_ORIGIN: only the path's origin. */
 enum body_path_phase { BODY_NO_PATH, BODY_PATH, BODY_SOLVE, BODY_ORIGIN };
 
 struct body_path {
     union { /* by PHASE_TAG phase; body_path, body_solve */
         struct {
             int64_t origin_q22[3];
-            carom_v3_q40 v, g; /* displacements over the slice: linear and quadratic in t */
-            carom_quat_q30 q;  /* the rotation at its start */
-            carom_v3_q30 u;    /* the Cayley vector, in the body's axes */
+            carom_v3_q40 v, g; /* displacement over the slice: linear and quadratic in t */
+            carom_quat_q30 q;  /* rotation at the start */
+            carom_v3_q30 u;    /* Cayley vector, in the body's axes */
             int32_t u2_q30;    /* |u|^2 */
         };
-        /* a solve's, from whose end on a body has no path until one is set */
+        /* a solve's; after it the body has no path until one is set */
         struct {
-            carom_v3_q40 saved_angular; /* before it, for the energy rule */
-            /* what it changes velocities by, in its units: v by dv, and the spin by R H du */
+            carom_v3_q40 saved_angular; /* before the solve, for the energy rule */
+            /* changes of velocities in solver units: v by dv, the spin by R H du */
             union {
                 struct {
                     int32_t dv[3], du[3];
-                    int32_t last_dv[3], last_du[3]; /* after the sweep before the last one */
+                    int32_t last_dv[3], last_du[3]; /* after the last sweep but one */
                 };
                 struct {
-                    int64_t wide_dv[3],
-                        wide_du[3]; /* while the impulses that a solve begins with are summed up */
+                    int64_t wide_dv[3], wide_du[3]; /* while a solve's first impulses are summed */
                 };
             };
-            uint32_t used;         /* bits of dv and du so far */
+            uint32_t used;         /* bits in use by dv and du */
             int32_t columns[3][3]; /* of R H, see carom_spread */
         };
     };
     struct {
         carom_m3_q30 r;
     } start;
-    int16_t start_x_q32[3]; /* what the origin leaves of the position */
+    int16_t start_x_q32[3]; /* position less origin */
     bool turns;
     PHASE_TAG(phase)
-    int32_t c_q30; /* of a part of a path, see above: 0 .. |u|^2 */
+    int32_t c_q30; /* c of a part of a path, see above: 0 .. |u|^2 */
 };
 
-/* c^2 + |u|^2, the last coefficient of N(t) */
+/* c^2 + |u|^2, the last coefficient of N(t). */
 static inline int32_t body_norm2_q30(const struct body_path *path)
 {
     return path->c_q30 == 0 ? path->u2_q30 : path->u2_q30 + carom_mul_q30(path->c_q30, path->c_q30);
 }
 
 /*
- * What candidates were gathered for: the motion along a path, and all motions that stay near it.
- * Every point of the body must be within `room` of where it is on that path at the same time.
+ * The motion that candidates are gathered for: along a path, and near it. Every point of the body
+ * must be within `room` of its place on that path at the same time.
  */
 struct body_region {
-    carom_v3_q32 at;        /* the pose at its start */
-    carom_v3_q40 way, bend; /* of the centre over its time: way t + bend t^2 */
+    carom_v3_q32 at;        /* with q: the pose at the start */
+    carom_v3_q40 way, bend; /* of the centre over the region's time: way t + bend t^2 */
     carom_quat_q30 q;
-    carom_v3_q30 u;     /* its turn's Cayley vector, in the body's axes; if it turns */
-    carom_v3_q30 turn;  /* twice that, in world axes */
+    carom_v3_q30 u;     /* Cayley vector of the region's turn, in the body's axes, if it turns */
+    carom_v3_q30 turn;  /* 2 u, in world axes */
     int32_t u_q30;      /* |u|, rounded up */
-    int32_t length_q22; /* of the centre's way, rounded up */
+    int32_t length_q22; /* of the centre's path, rounded up */
     int32_t room_q22;
-    /* used up */
-    int32_t turned_off_q30; /* angle between the body and the path, at most */
-    int64_t elapsed_q30;    /* when the path at hand begins */
-    /* frames, at most BODY_REGION_FRAMES */
+    /* progress */
+    int32_t turned_off_q30; /* bound on the angle between the body and the region's path */
+    int64_t elapsed_q30;    /* time at which the present path starts */
+    /* length in frames, at most BODY_REGION_FRAMES */
     int64_t time_q30;
-    int64_t until_q30; /* the part of that which candidates are gathered for */
+    int64_t until_q30; /* end of the part that candidates are gathered for */
 };
 
-/* A part of a region's time: where the motion starts and ends, and bounds of what lies between. */
+/* A part of a region's time: its start and end, and bounds of the motion between. */
 struct body_sweep {
     carom_v3_q32 at;              /* the centre at the start */
-    carom_v3_q40 way;             /* and from there to the end */
-    carom_m3_q30 start, end;      /* axes */
-    int32_t length_q22, bend_q22; /* of the centre's way, rounded up */
-    int32_t u_q30, whole_u_q30;   /* |u| of the part and of the region, rounded up */
+    carom_v3_q40 way;             /* displacement of the centre */
+    carom_m3_q30 start, end;      /* axes at both ends */
+    int32_t length_q22, bend_q22; /* of the centre's path, rounded up */
+    int32_t u_q30, whole_u_q30;   /* |u| of the part; of the region; rounded up */
 };
 
-/* Where the caller leads a kinematic body: nowhere, on until told otherwise, or to a pose in a frame. */
+/*
+ * Where the caller leads a kinematic body: nowhere, on until told otherwise, or to a pose within a
+ * frame.
+ */
 enum body_drive_kind { BODY_DRIVE_NONE, BODY_DRIVE_ON, BODY_DRIVE_TO };
 
 struct body_drive {
@@ -133,130 +142,145 @@ struct body_drive {
     };
 };
 
-/* The motion of a kinematic body over a frame: 2^slice_bits equal slices of one straight way and one turn. */
+/*
+ * The motion of a kinematic body over a frame: 2^slice_bits equal slices of one straight way and
+ * one turn.
+ */
 struct body_route {
     carom_v3_q40 velocity, spin; /* units and radians a frame, world axes */
-    carom_v3_q30 u;              /* the Cayley vector of a slice, in the body's axes; |u| <= 1/8 */
+    carom_v3_q30 u;              /* Cayley vector of a slice, in the body's axes; |u| <= 1/8 */
     uint8_t slice_bits;
 };
 
-/* Properties that few bodies have: one of the pool of extras. */
+/* Properties that few bodies have, from the pool of extras. */
 struct body_extra {
-    uint16_t body; /* whose it is */
+    uint16_t body; /* the body that has it */
     bool used;
     /* material, beside e and mu, which all bodies have */
-    uint32_t rolling_q16;          /* the arm of rolling friction over the radius */
+    uint32_t rolling_q16;          /* arm of rolling friction over the radius */
     carom_v3_q40 surface_velocity; /* in the mesh's axes */
     const struct carom_material
-        *materials;               /* by face, the caller's; NULL: all faces have the body's */
-    const uint8_t *face_material; /* the number of each face's */
-    int32_t most_restitution_q30; /* of those */
+        /* the caller's materials by face; NULL: all faces have the body's */
+        *materials;
+    const uint8_t *face_material; /* number of each face's material */
+    int32_t most_restitution_q30; /* the largest of these materials' */
     uint32_t most_friction_q16;
-    /* what acts on it beside its force; hashed, saved */
+    /* what acts on it beside its force; hashed and saved */
     carom_v3_q40 torque;
     int32_t gravity_scale_q16;
     int32_t linear_damping_q30, angular_damping_q30;
     /* a kinematic body */
     bool kinematic;
-    bool blocked;            /* step: it stopped in the frame at hand */
+    bool blocked;            /* by step: it stopped within this frame */
     struct body_drive drive; /* saved */
-    struct body_route route; /* step: of the frame at hand; still once it was blocked */
+    struct body_route route; /* by step: of this frame; standing still once blocked */
 };
 
-/* A body without an extra has these, and 0 of all else. */
-#define BODY_ROLLING_Q16       CAROM_ROLLING_Q16 /* 1/64 of the radius: solve/roll.c says why */
+/* Values for a body without an extra; all else is 0. */
+#define BODY_ROLLING_Q16       CAROM_ROLLING_Q16 /* 1/64 of the radius, see solve/roll.c */
 #define BODY_GRAVITY_SCALE_Q16 (1 << 16)
 
 /*
- * A body has five parts, one for each lifetime, and a link to its island: 600 bytes where a pointer has 32 bits.
+ * A body has five parts, one for each lifetime, and a link to its island: 600 bytes where a pointer
+ * has 32 bits.
  *
- *   def     what the caller set and what follows from it; world writes it between steps, a step only reads it
- *   clock   the frame at hand: which part of it the path takes, and how the body fares in it
- *   path    the motion over that part, and the room of a solve while there is none
+ *   def     what the caller set, and what follows; world writes it, a step only reads it
+ *   clock   the present frame: the part of it that the path takes, and the body's course in it
+ *   path    the motion over that part; and the room of a solve while there is no path
  *   search  what pairs and candidates are gathered for; outlives steps, but no result depends on it
  *   solve   what a solve works in
  *
- * Flags that are asked for most have bytes of their own.
+ * Flags that are read most have bytes of their own.
  */
 
-/* The definition. Written by world between steps, valid until the body is removed. */
+/* The definition. World writes it between steps; valid until the body is removed. */
 struct body_def {
     const struct carom_mesh *mesh; /* NULL: the place is free */
     struct body_extra *extra;      /* NULL: none */
     void *user;                    /* the caller's */
-    uint16_t generation;           /* of the bodies that had this place, from 1 on; 0: none has */
-    uint16_t category, mask;       /* which bodies it may touch */
+    uint16_t generation;           /* counts the bodies that had this place, from 1; 0: none has */
+    uint16_t category, mask;       /* filter: which bodies it may touch */
     int16_t group;
-    uint16_t joined; /* the lowest of the bodies that joints connect it with, plus 1; BODY_ALONE */
+    uint16_t joined; /* 1 + the lowest body that joints connect it with; BODY_ALONE: none */
     bool moving;
-    bool goes;        /* has paths: moves, or is kinematic and led somewhere */
-    int8_t unit_bits; /* the solver's unit of length: 2^unit_bits of q22, over the radius */
+    bool goes;        /* has paths: it moves, or is kinematic and led somewhere */
+    int8_t unit_bits; /* the solver's unit of length, 2^unit_bits of q22, at least the radius */
     bool sensor : 1;
     uint8_t one_way : 3; /* enum carom_one_way */
     int32_t restitution_q30;
     uint32_t friction_q16;
     int32_t radius_q22;
-    int32_t skin_q22; /* EPS: a resting contact keeps half of this gap to all */
-    /* follows from the mesh, the mass and the force */
+    int32_t skin_q22; /* EPS: a resting contact keeps half of this gap */
+    /* follows from mesh, mass and force */
     uint64_t calm_momentum_q40, calm_angular_q40; /* see body_calm */
     struct fix_scaled mass, inverse_mass;
     carom_v3_q40 acceleration; /* by gravity and force */
     int64_t acceleration_q40;  /* its length */
-    carom_v3_q40 force; /* through the centre of mass, until the caller changes it; hashed, saved */
+    carom_v3_q40 force;        /* through the centre of mass, until changed; hashed and saved */
 };
 
-/* The frame at hand. Written by the step, but `in_contact` and `entering` by rest_enter_contact; valid from begin_clock until the next frame. */
+/*
+ * The present frame. The step writes it, except `in_contact` and `entering`, which
+ * rest_enter_contact writes; valid from begin_clock until the next frame.
+ */
 struct body_clock {
-    int32_t from_q30, to_q30; /* the part of the frame that the path at hand takes */
+    int32_t from_q30, to_q30; /* part of the frame that the present path takes */
     uint16_t events;          /* hits that it took part in */
-    uint8_t cuts;             /* how often the path at hand was set again for an earlier end */
-    uint8_t shorter;          /* slices are shorter by so many factors of 4; one less after each */
-    bool in_contact;          /* took the frame's acceleration at once; moves straight */
-    bool stands;              /* for what is left of the frame */
-    bool placed;              /* its path is that of a place where it is looked at */
-    bool strained;            /* left a path that turns before its end */
-    /* the event at hand */
+    uint8_t cuts;             /* how often the present path was set again for an earlier end */
+    uint8_t shorter; /* slices are shorter by this many factors of 4; one less after each slice */
+    bool in_contact; /* took the frame's acceleration at once, and moves straight */
+    bool stands;     /* stands for the rest of the frame */
+    bool placed;     /* its path is only that of a place where it is looked at */
+    bool strained;   /* left a turning path before its end */
+    /* of the event at hand */
     bool member;       /* its path is new; or it belongs to the island of the hit */
-    bool woke : 1;     /* in the static check */
+    bool woke : 1;     /* woken by the static check */
     bool entering : 1; /* in_contact is new */
-    /* energy */
-    bool touched; /* was in contact in the last frame; at the end: its island must not gain any */
-    bool grounded : 1; /* touches a body that stands still; the lowest of an island: any does */
-    bool rewound : 1;  /* is back where the frame found it */
+    /* for the energy rule */
+    bool touched;      /* was in contact in the last frame; at the end: its island may not gain */
+    bool grounded : 1; /* touches a body that stands still; an island's lowest: any of it does */
+    bool rewound : 1;  /* was put back to where the frame found it */
 };
 
-/* What pairs and candidates are gathered for. Written by regions (step) and broad; valid until the body is given another state. */
+/*
+ * What pairs and candidates are gathered for. Regions (step) and broad write it; valid until the
+ * body is given another state.
+ */
 struct body_search {
     struct body_region region;
-    int32_t reach_q22;     /* how far any point may go in the region, and the margin */
-    int32_t box_q18[2][3]; /* in world axes around the region, grown by the reach */
-    bool standing;   /* still, and the path, the region and the box are those of where it is */
-    bool active : 1; /* was to move when its region was set */
-    bool free : 1;   /* there were no candidates then */
-    bool boxed : 1;  /* its box is around its mesh's; else around its sphere */
+    int32_t reach_q22;     /* bound on any point's displacement in the region, plus the margin */
+    int32_t box_q18[2][3]; /* in world axes, around the region, grown by the reach */
+    bool standing;         /* at rest, with path, region and box those of its place */
+    bool active : 1;       /* was to move when its region was set */
+    bool free : 1;         /* had no candidates then */
+    bool boxed : 1;        /* the box is around the mesh's box; else around the sphere */
 };
 
-/* Holders of the shared memory of a body's solve. */
+/* What the shared memory of a body's solve holds. */
 enum body_work_phase { BODY_WORK, BODY_LIFT };
 
-/* A solve. Written by solve, valid from rest_load_contacts until the solve ends; `work` until the step does. */
+/*
+ * A solve. Solve writes it; valid from rest_load_contacts until the solve ends, `work` until the
+ * step ends.
+ */
 struct body_solve {
-    carom_v3_q40 saved_momentum; /* before it, for the energy rule */
-    carom_v3_q40 velocity, spin; /* before it */
+    carom_v3_q40 saved_momentum; /* before the solve, for the energy rule */
+    carom_v3_q40 velocity, spin; /* before the solve */
     union {                      /* by PHASE_TAG work_phase */
-        struct fix_wide work2;   /* twice what surfaces did on it in this step, q80 */
-        int64_t lift_q32; /* moving, between steps: what they lift an island by; its lowest's */
+        struct fix_wide work2;   /* twice the work of surfaces on it in this step, q80 */
+        int64_t
+            lift_q32; /* between steps, in world/moving.c: lift of the island, at its lowest body */
     };
-    uint16_t contacts; /* where the island's contacts are listed */
+    uint16_t contacts; /* first of the island's contacts in the list */
     bool solving;      /* has a contact or a joint in the solve at hand */
     bool unsettled;    /* its island's last solve left places that approach */
-    int8_t turn_bits;  /* no place of a contact at hand moves by 2^(turn_bits - 1) du */
+    int8_t turn_bits;  /* no place of a present contact moves by 2^(turn_bits - 1) du */
     PHASE_TAG(work_phase)
 };
 
-/* The island of a body, valid until somebody asks for islands again. Written by island_*. */
+/* The island of a body. island_* write it; valid until islands are found anew. */
 struct body_island {
-    uint16_t lowest, next; /* its lowest body, and the next higher one */
+    uint16_t lowest, next; /* the island's lowest body; its next higher one */
 };
 
 struct body {
@@ -268,27 +292,27 @@ struct body {
     struct body_solve solve;
 };
 
-/* Whether a kinematic body is led somewhere. */
+/* True if a kinematic body is led somewhere. */
 static inline bool body_travels(const struct body *b)
 {
     return b->def.goes && !b->def.moving;
 }
 
-/* The path of a body that has one: for all but `start`, `start_x_q32` and `turns`, which stay. */
+/* The path of a body that has one. `start`, `start_x_q32` and `turns` may be read at any time. */
 static inline const struct body_path *body_path(const struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_PATH);
     return &b->path;
 }
 
-/* The origin of its path, which it has after a solve, too. */
+/* The origin of a path; it is there after a solve, too. */
 static inline const int64_t *body_origin_q22(const struct body *b)
 {
     CAROM_ASSERT(b->path.phase == BODY_PATH || b->path.phase == BODY_ORIGIN);
     return b->path.origin_q22;
 }
 
-/* The part of a body that a solve works in; and to read there. */
+/* The room of a solve in a body: to write; to read. */
 static inline struct body_path *body_solve(struct body *b)
 {
     PHASE_ASSERT(b->path.phase, BODY_SOLVE);
@@ -301,7 +325,10 @@ static inline const struct body_path *body_solved(const struct body *b)
     return &b->path;
 }
 
-/* Twice the work that moving surfaces did on a body in a step, to write and to read; and their lift of its island between steps. */
+/*
+ * Twice the work of moving surfaces on a body in a step: to write, to read. The lift of its island
+ * between steps.
+ */
 static inline struct fix_wide *body_work2(struct body *b)
 {
     PHASE_ASSERT(b->solve.work_phase, BODY_WORK);
@@ -320,12 +347,12 @@ static inline int64_t *body_lift_q32(struct body *b)
     return &b->solve.lift_q32;
 }
 
-/* Set mass and its inverse, mass > 0, and what follows from it and from the inverse inertia. */
+/* Set mass and its inverse, mass > 0, and what follows from them and the inverse inertia. */
 void body_set_mass(struct body *b, struct fix_scaled mass);
 
 /*
- * v = p / m, w = R J^-1 R^T L / m with r the rotation matrix; a spin that does not fit is the largest
- * there is, along L: what has it is frozen before it moves on.
+ * v = p / m, w = R J^-1 R^T L / m with r the rotation matrix. A spin that does not fit becomes the
+ * largest one, along L; such a body is frozen before it moves on.
  */
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
@@ -334,25 +361,26 @@ void body_spin(const struct body *b, const struct body_state *s, const carom_m3_
 void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                   int64_t out[3]);
 /*
- * Whether L / m is below 2^20 and each component of the spin, in the axes of the mesh, below
- * 2^BODY_SPIN_BITS: about the axis of a thin body a small angular momentum is a spin that no format holds.
+ * True if L / m is below 2^20 and each component of the spin, in mesh axes, below 2^BODY_SPIN_BITS.
+ * (About the axis of a thin body a small angular momentum is a spin that no format holds.)
  */
 bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r);
 /* The largest spin, along L. */
 void body_spin_most(const struct body_state *s, carom_v3_q40 *w);
-/* The momenta that give v and w. */
+/* Set the momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
                      const carom_v3_q40 *w);
 /* Add p.v + L.w, twice the kinetic energy, 80 fractional bits. */
 void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
                        const carom_m3_q30 *r);
 
-/* No less than that, and sooner: for bodies that hardly move. */
+/* An upper bound of that, computed faster: for bodies that hardly move. */
 void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s);
 
 /*
- * Add sign times what closing an overlap of skins may add to twice the kinetic energy in a frame:
- * 0.3 m |g| skin. A body that is lifted by a part of its skin gains that much; anything above is not lifting.
+ * Add sign times a bound on what closing an overlap of skins adds to twice the kinetic energy in a
+ * frame: 0.3 m |g| skin. A body lifted by a part of its skin gains that much; a larger gain is not
+ * lifting.
  */
 void body_add_lift2(struct fix_wide *sum, const struct body *b, int sign);
 
@@ -365,24 +393,24 @@ void body_world_inertia(const struct body *b, const carom_m3_q30 *r, struct caro
 /* Three Newton steps towards length 1: to the last place for any |q| in 0.95 .. 1.05. */
 void body_normalise(carom_quat_q30 *q);
 
-/* Where a path at the body's pose begins; the rest of it stays as it is. */
+/* Set where a path at the body's pose begins, and leave the rest of the path. */
 void body_place_origin(struct body *b, const struct body_state *s);
-/* A path of no motion at the body's pose. */
+/* Set a path without motion at the body's pose. */
 void body_place(struct body *b, const struct body_state *s);
 /*
- * The path over tau_q30 of a frame, 0 < tau <= 1, at a turn of at most BODY_TURN_MAX_Q30.
+ * Set the path over tau_q30 of a frame, 0 < tau <= 1, at a turn of at most BODY_TURN_MAX_Q30.
  * gravity: units / frame^2, or NULL for a straight path.
  */
 void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
 /*
- * Make the path at hand, which body_predict set, its part from `from` to `to` in [0, 1]; s is the
- * pose at its start. body_predict sets the whole again.
+ * Replace the path that body_predict set by its part from `from` to `to` in [0, 1]; s is the pose
+ * at its start. body_predict sets the whole again.
  */
 void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30);
 /*
- * The route of a kinematic body to another pose in a frame, by the shorter turn; or with a velocity and a
- * spin of at most 3.2 radians a frame. The centre goes less than 2^7 units.
+ * Set the route of a kinematic body: to another pose in a frame, by the shorter turn; or with a
+ * velocity and a spin of at most 3.2 radians a frame. The centre goes less than 2^7 units.
  */
 typedef void body_route_maker(const struct body *b, const struct body_state *s,
                               const carom_v3_q32 *position, const carom_quat_q30 *rotation,
@@ -390,14 +418,14 @@ typedef void body_route_maker(const struct body *b, const struct body_state *s,
 extern body_route_maker body_route_to;
 void body_route_on(const struct body *b, const struct body_state *s, const carom_v3_q40 *velocity,
                    const carom_v3_q40 *spin, struct body_route *route);
-/* The path of the next slice of a body's route. */
+/* Set the path of the next slice of a body's route. */
 void body_follow(struct body *b, const struct body_state *s);
-/* How a place of a body moves on its route, `arm` from its centre in world axes. */
+/* The velocity of a place of a body on its route; `arm` from its centre, world axes. */
 void body_route_velocity(const struct body *b, const carom_v3_q40 *arm, carom_v3_q40 *v);
 
 /*
- * Whether a body's momenta are so small that it is slower than the limit, and turns by less than
- * BODY_TURN_MAX_Q30 in a frame: soon said, and true of nearly all.
+ * True if a body's momenta are so small that it is slower than the limit and turns by less than
+ * BODY_TURN_MAX_Q30 in a frame. Quick, and true of nearly all bodies.
  */
 static inline bool body_calm(const struct body *b, const struct body_state *s)
 {
@@ -407,35 +435,41 @@ static inline bool body_calm(const struct body *b, const struct body_state *s)
 /* The longest slice, at most tau_q30, that turns by BODY_TURN_MAX_Q30 at the present spin. */
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30);
 
-/* How far the centre is at t of the path from its start, and the rotation there. */
+/* Displacement of the centre, and rotation, at t of the path. */
 carom_v3_q32 body_way_at(const struct body *b, int32_t t_q30);
 carom_quat_q30 body_rotation_at(const struct body *b, int32_t t_q30);
-/* The axes of a rotation, turned on by a Cayley vector in them, |u| <= 0.31. */
+/* The axes of a rotation turned on by a Cayley vector in them, |u| <= 0.31. */
 void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r);
-/* Take the pose at t as the new state, with the momentum that gravity gave over it. */
+/* Make the pose at t the new state, with the momentum that gravity gave until then. */
 void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
 
-/* How far any point goes from 0 to t of the path, and how far the body turns. Rounded up. */
+/* Bounds on the displacement of any point, and on the turn, from 0 to t of the path. */
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);
 
 /*
- * Make the region that of the path, which takes slice_q30 of a frame, gone on with until time_q30:
- * reach_q22 as well. What else a body does on the way must stay within room_q22 of it.
- * |u| time / slice is to be at most BODY_TURN_MAX_Q30 / 2 when time is longer than the slice.
+ * Make the region: the path, which takes slice_q30 of a frame, continued until time_q30; sets
+ * reach_q22, too. Other motions of the body must stay within room_q22 of it. If time is longer than
+ * the slice |u| time / slice must be at most BODY_TURN_MAX_Q30 / 2.
  */
 void body_region_begin(struct body *b, const struct body_state *s, int32_t slice_q30,
                        int64_t time_q30, int32_t room_q22);
-/* How far the body may turn in the region beside the region's own turn, radians; both together count as 1 at most. */
+/*
+ * Bound on the angle between the body and the region's own turn, radians; both together count as 1
+ * at most.
+ */
 int32_t body_region_turn_off_q30(const struct body *b);
-/* The part of a region that begins at `from` and takes `time`; both in frames, within its time. */
+/*
+ * Set the sweep of the part of a region that begins at `from` and takes `time`, both in frames
+ * within its time.
+ */
 void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
                        struct body_sweep *sweep);
-/* The same of the path at hand, which may be a part of one. */
+/* Set the sweep of the present path, which may be a part of a path. */
 void body_path_sweep(const struct body *b, struct body_sweep *sweep);
-/* Whether the present path, which takes time_q30, stays within the region. */
+/* True if the present path, which takes time_q30, stays within the region. */
 bool body_region_holds(const struct body *b, int32_t time_q30);
-/* Go on along the present path, which takes time_q30, by a part of that. */
+/* Advance the region by a part of the present path, which takes time_q30. */
 void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30);
 
 #endif

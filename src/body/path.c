@@ -23,7 +23,7 @@ static void turn(carom_quat_q30 *out, const carom_quat_q30 *q, const int32_t u[3
     body_normalise(out);
 }
 
-/* A vector of 60 bits in parts, high 2^bits + low. */
+/* A vector of 60 bits in two parts, high 2^bits + low. */
 struct parts {
     int32_t high[3], low[3];
 };
@@ -42,8 +42,8 @@ static inline struct parts parts_of(const int64_t v[3], int bits)
 
 /*
  * out = J^-1 m / 2^s, m = high 2^31 + low below 2^61, to within a unit or two. The inverse is
- * inertia + rest 2^-29: of the rest only the product with the upper parts counts. A quarter of the low
- * product is below 2^61, that of the rest below 2^62.
+ * inertia + rest 2^-29; for the rest only the product with the upper parts counts. A quarter of the
+ * low product is below 2^61, that of the rest below 2^62.
  */
 static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
 {
@@ -65,7 +65,7 @@ static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct
     }
 }
 
-/* Component m_i u_j - m_j u_i of m x u in the format of m; m has 31 bits in its low parts, u 30. */
+/* Component m_i u_j - m_j u_i of m x u in the format of m; m's low parts have 31 bits, u's 30. */
 FIX_APART static int64_t cross_part(const struct parts *m, const struct parts *u, int i, int j)
 {
     int64_t low = (int64_t)m->high[i] * u->low[j] - (int64_t)m->high[j] * u->low[i];
@@ -76,12 +76,13 @@ FIX_APART static int64_t cross_part(const struct parts *m, const struct parts *u
 }
 
 /*
- * The Cayley vector of a torque-free turn over tau: the implicit midpoint rule u = J^-1 m with
- * m = b + m x u, b being tau/2 times the angular momentum in the body's axes. It keeps kinetic energy
- * for any step. Each round gains two bits or more; done when q30 no longer changes.
+ * The Cayley vector of a torque-free turn over tau, by the implicit midpoint rule: u = J^-1 m with
+ * m = b + m x u, b being tau/2 times the angular momentum in the body's axes. It keeps kinetic
+ * energy for any step. Each round gains two bits or more; done when q30 no longer changes.
  *
- * m is scaled up to 60 bits and u has q60: along the axis of a thin body J^-1 is up to 2^24 times as
- * large as across it, and so is the error of m there that rounding u across it makes.
+ * m is scaled up to 60 bits and u has q60: along the axis of a thin body J^-1 is up to 2^24 times
+ * as large as across it, and so is the effect of an error of m that rounding u across the axis
+ * makes.
  */
 static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30, carom_v3_q30 *u)
 {
@@ -103,7 +104,7 @@ static void cayley(const struct body *b, const int64_t l_q40[3], int32_t tau_q30
         for (int k = 0; k < 3; k++) {
             int64_t d = next[k] - u_q60[k];
 
-            change |= d ^ (d >> 63); /* |d|, or one less */
+            change |= d ^ (d >> 63); /* |d|, or |d| - 1 */
             u_q60[k] = next[k];
         }
         if (change < (int64_t)1 << 27) {
@@ -178,8 +179,8 @@ void body_predict(struct body *b, const struct body_state *s, int32_t tau_q30,
 }
 
 /*
- * (1, (p + w t) u) is (1, p u) times (1 + p w s^2 t / d, w t u / d), d being 1 + p^2 s^2: all turn
- * about one axis.
+ * (1, (p + w t) u) is (1, p u) times (1 + p w s^2 t / d, w t u / d), d = 1 + p^2 s^2, since all
+ * turns are about one axis.
  */
 void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30, int32_t to_q30)
 {
@@ -232,7 +233,7 @@ int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau
     if (turn_q40 <= (int64_t)BODY_TURN_MAX_Q30 << 10) {
         return tau_q30;
     }
-    /* rate > 1/2 rad a frame here, so the quotient is below 2^30 */
+    /* the rate is above 1/2 rad a frame here, so the quotient is below 2^30 */
     return (int32_t)((((int64_t)BODY_TURN_MAX_Q30 << 30)) / (rate_q40 >> 10));
 }
 
@@ -300,7 +301,7 @@ void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int
     int64_t way_q40 = fix_length_bound(path->v.c) + fix_length_bound(path->g.c);
     int64_t u_q30 = path->turns ? fix_sqrt_above((uint64_t)(path->u2_q30 + 1) << 30) : 0;
 
-    /* turned: 2 atan |u| <= 2 |u| */
+    /* the turn is 2 atan |u| <= 2 |u| */
     *turn_q30 = fix_mul_q30(2 * u_q30, t_q30) + 1;
     *way_q22 = (fix_mul_q30(way_q40, t_q30) >> 18) + fix_mul_q30(*turn_q30, b->def.radius_q22) + 2;
 }

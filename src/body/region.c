@@ -2,7 +2,7 @@
 /* The region of motion that candidates are gathered for. */
 #include "body.h"
 
-/* x times a number of 16 fractional bits, which nearly always is one. */
+/* x times a q16 number that nearly always is 1. */
 FIX_APART static int64_t longer(int64_t x, int32_t by_q16)
 {
     return by_q16 == 1 << 16 ? x : fix_mul(x, by_q16, 16);
@@ -35,7 +35,7 @@ void body_region_begin(struct body *b, const struct body_state *s, int32_t slice
     struct body_region *region = &b->search.region;
     const struct body_path *path = body_path(b);
     int64_t turn_q30;
-    /* 64 frames over the shortest slice that is gone on with, 2^-6 of a frame: below 2^29 */
+    /* 64 frames over the shortest slice that is continued, 2^-6 of a frame: below 2^29 */
     int32_t longer_q16 = time_q30 == slice_q30 ? 1 << 16 : (int32_t)((time_q30 << 16) / slice_q30);
 
     region->at = s->position;
@@ -66,8 +66,8 @@ int32_t body_region_turn_off_q30(const struct body *b)
 }
 
 /*
- * A part of a region's time, which is at most 2^36: of a long one the last bits are left out, so that what is
- * divided is at most 2^63.
+ * A part of a region's time, which is at most 2^36. For a long time the last bits are dropped, so
+ * that the dividend is at most 2^63.
  */
 static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
 {
@@ -83,7 +83,7 @@ static int32_t part_of(const struct body_region *region, int64_t elapsed_q30)
     return (int32_t)((elapsed << 30) / time);
 }
 
-/* Rotations along the region's turn. */
+/* The rotation at a time of the region's turn. */
 static void axes_at(const struct body_region *region, int32_t t_q30, carom_m3_q30 *axes)
 {
     carom_v3_q30 u;
@@ -95,8 +95,8 @@ static void axes_at(const struct body_region *region, int32_t t_q30, carom_m3_q3
 }
 
 /*
- * way t + bend t^2 from p on for w is (way + 2 bend p) w + bend w^2; turns about one axis are the
- * less the later they are, so |u| w bounds that of the part.
+ * way t + bend t^2 from p on for w is (way + 2 bend p) w + bend w^2. Turns about one axis slow
+ * down, so |u| w bounds the part's turn.
  */
 void body_region_sweep(const struct body_region *region, int64_t from_q30, int64_t time_q30,
                        struct body_sweep *sweep)
@@ -130,9 +130,9 @@ void body_region_sweep(const struct body_region *region, int64_t from_q30, int64
 }
 
 /*
- * A part of a path turns by (1 + c t, u t), so its end is the axes turned by u / (1 + c). By N = (1 + c t)^2
- * + |u|^2 t^2, which is 1 or more, it turns at the rate 2 |u| / N, and that changes by 2 |u| N' / N^2, N'
- * being at most 2 (c + c^2 + |u|^2), c below 1/8. A sweep says that by 2 |u| times its whole |u|.
+ * A part of a path turns by (1 + c t, u t), so at its end the axes are turned by u / (1 + c). With
+ * N = (1 + c t)^2 + |u|^2 t^2 >= 1 it turns at the rate 2 |u| / N, which changes by 2 |u| N' / N^2;
+ * N' is at most 2 (c + c^2 + |u|^2), c below 1/8. A sweep expresses that as 2 |u| times whole_u.
  */
 void body_path_sweep(const struct body *b, struct body_sweep *sweep)
 {
@@ -157,11 +157,11 @@ void body_path_sweep(const struct body *b, struct body_sweep *sweep)
     }
 }
 
-/* How far the centre is off the region's path at a time, x_q32 being where it is. */
+/* How far a centre at x_q32 is from the region's path at a time. */
 static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
                        int64_t elapsed_q30)
 {
-    int32_t t_q30 = part_of(region, elapsed_q30); /* the region's own time, in [0, 1] */
+    int32_t t_q30 = part_of(region, elapsed_q30); /* in units of the region's time, [0, 1] */
     int64_t d[3];
 
     for (int k = 0; k < 3; k++) {
@@ -170,14 +170,14 @@ static int64_t off_q22(const struct body_region *region, const int64_t x_q32[3],
 
         d[k] = x_q32[k] - region->at.c[k] - (way_q40 >> 8);
     }
-    /* the time is off by 2^-26 at most */
+    /* the time is off by at most 2^-26 */
     return (fix_length_bound(d) >> 10) + (region->length_q22 >> 25) + 1;
 }
 
 /*
- * How much the angle between body and region grows over a path of time_q30. Rotations are no farther
- * apart than the vectors that stand for them; those are the Cayley vectors twice, less a third of
- * their cubes.
+ * Bound on the growth of the angle between body and region over a path of time_q30. Rotations are
+ * no farther apart than their rotation vectors, and those are twice the Cayley vectors less a third
+ * of their cubes.
  */
 static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
 {
@@ -197,7 +197,8 @@ static int64_t turns_off_q30(const struct body *b, int32_t time_q30)
         turn[k] = (int32_t)carom_abs(turn[k]);
     }
     if (region->elapsed_q30 == 0) {
-        return fix_length_bound(d) + 4; /* from one start on both turn about the same by any time */
+        return fix_length_bound(d) +
+               4; /* from a common start both turn about the same by any time */
     }
     cubes_q30 = fix_mul_q30((int64_t)turn[0] + turn[1] + turn[2], path->u2_q30);
     /* the region's rate of turn falls by its square on the way */
@@ -226,7 +227,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
     off = off_q22(region, start, region->elapsed_q30);
     at_end = off_q22(region, end, until_q30);
     off = off > at_end ? off : at_end;
-    /* between the ends two parabolas are farther apart by a quarter of what their bends differ by */
+    /* between the ends two parabolas differ by another quarter of the difference of their bends */
     off += (fix_length_bound(bend) >> 20) + 1;
     off += fix_mul_q30(region->turned_off_q30 + turns_off_q30(b, time_q30), b->def.radius_q22);
     return off <= region->room_q22;
@@ -235,7 +236,7 @@ bool body_region_holds(const struct body *b, int32_t time_q30)
 void body_region_advance(struct body *b, int32_t part_q30, int32_t time_q30)
 {
     struct body_region *region = &b->search.region;
-    /* the path turns evenly but for cubes; no room holds two radians */
+    /* the path turns evenly but for cubes; no room allows two radians */
     int64_t off_q30 = region->turned_off_q30 + turns_off_q30(b, time_q30);
 
     region->turned_off_q30 = off_q30 < INT32_MAX ? (int32_t)off_q30 : INT32_MAX;

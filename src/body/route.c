@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The route of a kinematic body over a frame: its centre goes straight, and it turns about one axis, in
- * 2^n equal slices of one Cayley rotation each.
+ * The route of a kinematic body over a frame: its centre goes straight, and it turns about one
+ * axis, in 2^n equal slices of one Cayley rotation each.
  */
 #include "body.h"
 
@@ -10,7 +10,7 @@
 /* 31/256 is below atan 1/8. */
 #define HALF_TURN_MAX_Q40 ((int64_t)31 << 32)
 
-/* Slices so many that the centre goes no farther in one than it may. */
+/* The least n such that the centre goes no farther than WAY_RADII radii in a slice. */
 static int bits_of_way(const struct body *b, const carom_v3_q40 *velocity)
 {
     int64_t way_q22 = fix_length(velocity->c) >> 18,
@@ -23,7 +23,10 @@ static int bits_of_way(const struct body *b, const carom_v3_q40 *velocity)
     return bits;
 }
 
-/* The turn from one rotation to another: of the two quaternions that mean it the one whose first number is not negative. */
+/*
+ * The turn from one rotation to another: of both quaternions that stand for it the one whose first
+ * component is not negative.
+ */
 static void shorter_turn(const carom_quat_q30 *from, const carom_quat_q30 *to, int64_t out[4])
 {
     carom_quat_q30 turn;
@@ -34,7 +37,7 @@ static void shorter_turn(const carom_quat_q30 *from, const carom_quat_q30 *to, i
     }
 }
 
-/* Half of a turn: (1 + w, v) over its length, which is 2 sqrt((1 + w) / 2). */
+/* Halve a turn: (1 + w, v) over its length, 2 sqrt((1 + w) / 2). */
 static void halve(int64_t q_q30[4])
 {
     int64_t cosine_q30 = fix_sqrt((uint64_t)(CAROM_ONE_Q30 + q_q30[0]) << 29);
@@ -47,8 +50,8 @@ static void halve(int64_t q_q30[4])
 }
 
 /*
- * The spin of a body that turns by 2 atan |u| in each of its slices, about the same axis: 2^n 2 u (1 - |u|^2 / 3
- * + |u|^4 / 5). The next term is below 2^-20 at |u| = 1/8.
+ * Set the spin of a body that turns by 2 atan |u| in each slice about the same axis: 2^n 2 u (1 -
+ * |u|^2 / 3 + |u|^4 / 5). The next term is below 2^-20 at |u| = 1/8.
  */
 static void set_spin(struct body_route *route, const carom_m3_q30 *r)
 {
@@ -89,7 +92,7 @@ void body_route_to(const struct body *b, const struct body_state *s, const carom
     set_spin(route, &r);
 }
 
-/* tan x is x (1 + x^2 / 3 + 2 x^4 / 15), short of 2^-22 at x = 1/8 */
+/* tan x is x (1 + x^2 / 3 + 2 x^4 / 15), too small by at most 2^-22 at x = 1/8 */
 void body_route_on(const struct body *b, const struct body_state *s, const carom_v3_q40 *velocity,
                    const carom_v3_q40 *spin, struct body_route *route)
 {
@@ -129,7 +132,10 @@ void body_follow(struct body *b, const struct body_state *s)
     path->turns = (path->u.c[0] | path->u.c[1] | path->u.c[2]) != 0;
 }
 
-/* A spin is below 4, and so has 31 bits in q29; an arm of some 2^13 units then turns by less than 2^56. */
+/*
+ * A spin is below 4, so it has 31 bits in q29; with an arm of some 2^13 units the product is below
+ * 2^56.
+ */
 void body_route_velocity(const struct body *b, const carom_v3_q40 *arm, carom_v3_q40 *v)
 {
     const struct body_route *route = &b->def.extra->route;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* Which spins fit. */
+/* Which spins fit their format. */
 #include "body.h"
 
-/* Bits of |L| / m in units, at most: 2^10 times what the fastest body has that a caller can make. */
+/* Bits of |L| / m in units: at most 2^10 times that of the fastest body that a caller can make. */
 #define ANGULAR_BITS 20
 
 /*
- * The sum of |L| over the mass, an upper bound, has no more than ANGULAR_BITS. 1 / m is below 2^30
- * 2^-e, and so |L| / m is below 2^(bits + 30 - e).
+ * True if the sum of |L|'s components over the mass, an upper bound, has at most ANGULAR_BITS. 1 /
+ * m is below 2^30 2^-e, so |L| / m is below 2^(bits + 30 - e).
  */
 static bool angular_fits(const struct body *b, const struct body_state *s)
 {
@@ -15,8 +15,8 @@ static bool angular_fits(const struct body *b, const struct body_state *s)
 }
 
 /*
- * J^-1 L / m in 128 bits, by the 30 bits of the inverse: what they leave out is less than 2^-28 of the
- * largest entry, and so of the largest spin that such an L can have.
+ * True if J^-1 L / m fits, in 128 bits, by the 30 bits of the inverse: their error is below 2^-28
+ * of the largest entry, and so of the largest spin that such an L can have.
  */
 static bool spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
 {
@@ -40,7 +40,7 @@ static bool spin_fits(const struct body *b, const struct body_state *s, const ca
 
 bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r)
 {
-    /* a calm body turns by less than half a radian, and most are not much faster */
+    /* a calm body turns by less than half a radian, and most bodies are hardly faster */
     return fix_sum(s->angular.c) >> (BODY_SPIN_BITS + 1) < b->def.calm_angular_q40 ||
            (angular_fits(b, s) && spin_fits(b, s, r));
 }
