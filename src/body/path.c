@@ -42,8 +42,8 @@ static inline struct parts parts_of(const int64_t v[3], int bits)
 
 /*
  * out = J^-1 m / 2^s, m = high 2^31 + low below 2^61, to within a unit or two. The inverse is
- * inertia + rest 2^-29; for the rest only the product with the upper parts counts. A quarter of the
- * low product is below 2^61, that of the rest below 2^62.
+ * that of the mesh plus rest 2^-29; for the rest only the product with the upper parts counts. A
+ * quarter of the low product is below 2^61, that of the rest below 2^62.
  */
 static void inverse_mul_parts(const struct body *b, int64_t out[3], const struct parts *m, int s)
 {
