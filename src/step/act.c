@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Damping and torque act where a frame begins, in this order. The energy that they change is work: contact may neither
- * have it back nor be charged for it.
+ * Damping and then torque act where a frame begins. The energy that they change is work: contact
+ * may neither take it back nor be charged for it.
  */
 #include "parts.h"
 
@@ -23,8 +23,9 @@ static void damp(carom_v3_q40 *v, int32_t part_q30)
 }
 
 /*
- * Rounding turns an angular momentum of a few units of its last place, and might turn it to where it has
- * more energy: then it stays as it was. Momentum has less with each component that is smaller.
+ * Damp a body. Rounding turns an angular momentum of a few units of its last place, and might turn
+ * it to more energy: then it stays as it was. A linear momentum has less energy with each smaller
+ * component.
  */
 static void damp_both(const struct body *b, struct body_state *s, const carom_m3_q30 *r)
 {
@@ -51,7 +52,7 @@ static void act_on(struct step *s, uint32_t i)
     fix_matrix(&r, &state->rotation);
     before = kinetic2(b, state, &r);
     damp_both(b, state, &r);
-    /* 2^62 and 2^61 at most */
+    /* at most 2^62 and 2^61 */
     for (int k = 0; k < 3; k++) {
         state->angular.c[k] += b->def.extra->torque.c[k];
     }

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The answer to a hit: the island that the two bodies belong to at that time, its contacts, the solve,
- * and new paths for its bodies. Nobody else is changed.
+ * The answer to a hit: the island of both bodies at that time, its contacts, the solve, and new
+ * paths. No other body changes.
  */
 #include "parts.h"
 
-/* Times between the event and the root at which features may face each other. */
+/* Times between the event and the root at which the touch is computed. */
 #define TRIES 8
-/* A pair that hits again without any time between: so often with shorter paths, */
+/* A pair that hits again at the same time gets shorter paths, this many times, */
 #define SHORTER_MAX 5
-/* and then the island goes on as one body. */
+/* and then its island moves as one body. */
 #define CALM_AFTER 1
-/* So do bodies that no solve has set right, after so many hits of a pair in a frame. */
+/* Hits of a pair in a frame after which an island that no solve parted moves as one body. */
 #define UNSETTLED_HITS 6
-/* Hits are counted so far: seven bits. */
+/* Largest count of hits, seven bits. */
 #define COUNT_MAX 127u
-/* A kinematic body that hits on takes what it pushes along, and stops after so many repeats. */
+/* Repeats after which a kinematic body stops, instead of moving its island along. */
 #define HARD_AFTER (CALM_AFTER + SHORTER_MAX + 4)
 
 struct boyse_hit step_hit_of(struct step *s, uint32_t number)
@@ -34,7 +34,7 @@ struct boyse_hit step_hit_of(struct step *s, uint32_t number)
     if (m->late) {
         boyse_touch(pair, &hit.candidate, t_q30, &hit.touch);
     }
-    /* features that face each other just for a moment may do so a little before the root alone */
+    /* features that face each other for a moment only may do so just before the root */
     for (int k = TRIES; k >= 0 && !hit.touch.valid; k--) {
         int32_t part_q30 = (int32_t)((int64_t)(m->root_q30 - t_q30) * k / TRIES);
 
@@ -44,7 +44,7 @@ struct boyse_hit step_hit_of(struct step *s, uint32_t number)
     return hit;
 }
 
-/* A body of the island: it leaves its path. */
+/* Make a body a member of the island; it leaves its path. */
 static void join(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -58,8 +58,8 @@ static void join(struct step *s, uint32_t i)
 }
 
 /*
- * Contacts of a pair of which one body is a member. The other is one as well when they touch. Returns
- * an error, or whether there is a new member.
+ * Check a pair of which one body is a member. If they touch, the other becomes a member, too.
+ * Returns an error, 1 for a new member, else CAROM_OK.
  */
 static int check_with(struct step *s, uint32_t number)
 {
@@ -79,7 +79,7 @@ static int check_with(struct step *s, uint32_t number)
     return result;
 }
 
-/* A body that joints connect with a member is a member. Returns CAROM_OK. */
+/* Make bodies that joints connect with a member members, too. Returns CAROM_OK. */
 static int join_connected(struct step *s)
 {
     uint32_t other;
@@ -90,7 +90,7 @@ static int join_connected(struct step *s)
     return CAROM_OK;
 }
 
-/* The island of the members at hand, and all of its contacts. */
+/* Grow the island from the present members and collect all of its contacts. */
 static int grow(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -117,7 +117,7 @@ static int grow(struct step *s)
     return result;
 }
 
-/* Bodies that were woken take part from now on. */
+/* Give bodies that were woken a region. */
 static int adopt_woken(struct step *s)
 {
     int result = CAROM_OK;
@@ -130,7 +130,10 @@ static int adopt_woken(struct step *s)
     return result;
 }
 
-/* The island of a hit with its contacts, that of the hit among them. What sleeps there wakes. */
+/*
+ * Find the island of a hit and its contacts, the one of the hit included. Sleeping bodies that it
+ * touches wake.
+ */
 static int gather_island(struct step *s, const struct pair *p, struct boyse_hit *hit)
 {
     struct carom_world *w = s->w;
@@ -167,7 +170,7 @@ static int gather_island(struct step *s, const struct pair *p, struct boyse_hit 
     }
 }
 
-/* Only the island's contacts are solved. */
+/* Solve only contacts of the island. */
 static void leave_others_idle(struct step *s)
 {
     const struct carom_world *w = s->w;
@@ -200,9 +203,9 @@ static int solve_island(struct step *s)
 }
 
 /*
- * A pair that hits again where it was answered. The turn of a path is that of its middle, so a long path
- * may close what opens as the bodies move now: shorter ones do not, and slices grow again one by one. When
- * these hit as well the solve was not able to part the bodies.
+ * Handle a pair that hits again where it was answered. The turn of a path is that of its middle, so
+ * a long path may close a gap that opens by the present motion. Shorter paths do not, and they grow
+ * again slice by slice. If these hit as well, the solve could not part the bodies.
  */
 static void insist(struct step *s, uint32_t number, uint32_t repeats)
 {
@@ -223,7 +226,7 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
     }
 }
 
-/* Count a hit of a body; whether that was its last. */
+/* Count a hit of a body. True if it was the last one allowed. */
 static bool spend(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -231,7 +234,7 @@ static bool spend(struct step *s, uint32_t i)
     return b->def.moving && step_active(s, i) && ++b->clock.events >= s->event_cap;
 }
 
-/* The island stands still for what is left of the frame. */
+/* Stop the island for the rest of the frame. */
 static void stop_island(struct step *s, const struct pair *p)
 {
     struct carom_world *w = s->w;
@@ -247,7 +250,7 @@ static void stop_island(struct step *s, const struct pair *p)
     w->stats.cut_islands++;
 }
 
-/* Members have new paths; what was only looked at goes on along its own. */
+/* Set new paths for members. Bodies that were only looked at continue on their own paths. */
 static int go_on(struct step *s)
 {
     struct carom_world *w = s->w;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The caller is asked about the contacts of a solve: one may be dropped, or have another e and mu. */
+/* Ask the caller about the contacts of a solve: it may drop one, or change its e and mu. */
 #include "../solve/parts.h"
 #include "parts.h"
 
@@ -19,7 +19,7 @@ static void add_velocity(const struct step *s, uint32_t i, const carom_v3_q32 *p
     fix_matrix(&r, &state.rotation);
     body_velocity(b, &state, &v);
     body_spin(b, &state, &r, &w);
-    for (int k = 0; k < 3; k++) { /* below 2^28: a place of the body, but for its margin */
+    for (int k = 0; k < 3; k++) { /* below 2^28: a place of the body, except for its margin */
         arm_q22[k] = (int32_t)((point->c[k] - state.position.c[k]) >> 10);
     }
     for (int k = 0; k < 3; k++) {
@@ -54,7 +54,7 @@ static struct carom_touch describe(const struct step *s, const struct contact *c
     return touch;
 }
 
-/* Ask about a contact. Whether it stays. */
+/* Ask about a contact. True if it stays. */
 static bool ask(struct step *s, struct contact *c)
 {
     struct carom_world *w = s->w;
@@ -81,7 +81,7 @@ void step_ask_contacts(struct step *s, bool members)
 {
     struct carom_world *w = s->w;
     const struct contact_list *list = &w->rest.list;
-    uint32_t first = 0; /* contact of the pair at hand */
+    uint32_t first = 0; /* first contact of the present pair */
 
     while (first < list->pool->used) {
         uint16_t number = list->contacts[first].key.pair;

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: MIT */
-/* Clocks and paths: each body's path takes a part of the frame of its own. */
+/* Clocks and paths: each body has a path over a part of the frame. */
 #include "parts.h"
 
-/* A path ends where so little is left of it. */
+/* Times this close to the end of a path count as its end. */
 #define END_Q30 2
-/* No path is made shorter than that. */
+/* A slice is not shortened below this. */
 #define SHORTEST_Q30 (1 << 8)
-/* A slice ends when the centre has gone so many radii: what is swept for it stays bounded. */
+/*
+ * A slice ends when the centre has gone this many radii. So the way that leaves sweep stays
+ * bounded.
+ */
 #define WAY_RADII 8
 
-/* What a body takes of gravity on its path: in contact it has taken all of it. */
+/* Gravity that acts on a path; a body in contact has taken the frame's gravity already. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
     return b->clock.in_contact || b->clock.stands ? NULL : &b->def.acceleration;
 }
 
-/* A time of the frame as one of a body's path. */
+/* Convert a time of the frame to one of a body's path. */
 static int32_t path_time(const struct body *b, int32_t t_q30)
 {
     int32_t slice_q30 = b->clock.to_q30 - b->clock.from_q30;
@@ -28,7 +31,7 @@ static int32_t path_time(const struct body *b, int32_t t_q30)
                : (int32_t)(((int64_t)(t_q30 - b->clock.from_q30) << 30) / slice_q30);
 }
 
-/* The body's own path, from its clock. */
+/* Set the path of a body over its own clock. */
 static void set_own_path(const struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -109,7 +112,7 @@ void step_look_back(struct step *s, uint32_t i)
     step_look_at(s, i, s->now_q30);
 }
 
-/* The slice cut where the path at hand has gone as far as one may. */
+/* Cut a slice at the longest way that the path may take. */
 static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 {
     int64_t most_q22 = (int64_t)b->def.radius_q22 * WAY_RADII, way_q22;
@@ -122,7 +125,7 @@ static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
     return way_q22 <= most_q22 ? slice_q30 : (int32_t)(slice_q30 * most_q22 / (way_q22 + 1)) + 1;
 }
 
-/* What is left of a frame is not to be a sliver. */
+/* Shorten a slice that would leave less than STEP_SLICE_MIN_Q30 of the frame. */
 FIX_APART static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
 {
     return left_q30 > slice_q30 && left_q30 - slice_q30 < STEP_SLICE_MIN_Q30 &&
@@ -131,7 +134,7 @@ FIX_APART static int32_t avoid_sliver(int32_t slice_q30, int32_t left_q30)
                : slice_q30;
 }
 
-/* The next slice of a route, or the place where a kinematic body stopped. */
+/* Set the next slice of a route, or the place of a kinematic body that stopped. */
 FIX_APART static int set_route(struct step *s, uint32_t i, int32_t left_q30)
 {
     struct body *b = &s->w->bodies[i];
@@ -158,7 +161,7 @@ int step_set_path(struct step *s, uint32_t i)
     if (!b->def.moving) {
         return set_route(s, i, left_q30);
     }
-    /* as a frame begins what nothing has changed yet is in range */
+    /* at the start of a frame, bodies that nothing has changed yet are in range */
     if (left_q30 == 0 || ((s->now_q30 > 0 || b->clock.in_contact || b->def.joined != BODY_ALONE) &&
                           step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
@@ -168,7 +171,7 @@ int step_set_path(struct step *s, uint32_t i)
         if (b->def.joined == BODY_ALONE) {
             slice_q30 = body_slice(b, &s->next->bodies[i], left_q30);
             shorter_q30 = slice_q30 >> (2 * b->clock.shorter);
-        } else { /* those of a group have been shortened together */
+        } else { /* bodies of a group have been shortened together */
             slice_q30 = shorter_q30 = step_slice(s, i, left_q30);
         }
         slice_q30 = shorter_q30 > SHORTEST_Q30 ? shorter_q30 : slice_q30;
@@ -208,7 +211,7 @@ bool step_window(const struct step *s, uint32_t number, int32_t *from_q30, int32
     return *to_q30 > *from_q30 && (step_active(s, p->a) || step_active(s, p->b));
 }
 
-/* Whether a body's path is another than that of a window. */
+/* True if the path of a body does not match the window. */
 static bool has_own_window(const struct step *s, uint32_t i, int32_t from_q30, int32_t to_q30)
 {
     const struct body *b = &s->w->bodies[i];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Joints in a step. What joints connect sets out together: when one body of a group hits or ends its slice, all leave their
- * paths and their joints are solved. A solve asks where anchors and axes are going to be at the end of the slice, on the
- * paths that the bodies would take, and changes velocities so that they are where they belong there. As paths bend this is
- * asked again for the paths after the solve, until what is left is a small part of a skin.
+ * Joints in a step. Bodies that joints connect set out together: when one body of a group hits or
+ * ends its slice, all leave their paths and their joints are solved. A solve computes where anchors
+ * and axes will be at the end of the slice, on the paths that the bodies would take. It changes
+ * velocities so that they are where they belong there. As paths bend, this repeats on the paths
+ * after the solve until the rest is a small part of a skin.
  *
- * At the end of a frame velocities are made to agree with the joints where the bodies are then, and energy is made good:
- * energy.c.
+ * At the end of a frame, velocities are made to agree with the joints at the bodies' final places,
+ * and energy is corrected: energy.c.
  */
 #include "connect.h"
 
@@ -29,7 +30,7 @@ static void begin(struct step *s)
     }
 }
 
-/* Bodies of a chosen joint are looked at where they are. */
+/* Place the bodies of a chosen joint where they are. */
 static void place_sides(struct step *s, const struct joint *j)
 {
     const uint16_t side[2] = {j->a, j->b};
@@ -41,7 +42,7 @@ static void place_sides(struct step *s, const struct joint *j)
     }
 }
 
-/* All joints of bodies that are awake. */
+/* Choose all joints of bodies that are awake. False if there are none. */
 static bool choose_all(struct step *s)
 {
     struct joint_list *list = &s->w->rest.joints;
@@ -69,7 +70,7 @@ static void choose_members(struct step *s)
     }
 }
 
-/* A body that is connected with a member and is none; ISLAND_END when there is none. */
+/* A body that is connected with a member and is none itself; ISLAND_END: none. */
 static uint32_t connected(const struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -92,7 +93,10 @@ static uint32_t connected(const struct step *s)
 
 /* ---------------------------------------------------------------------------- end */
 
-/* Whether nothing touched the bodies that joints connect with one, and all of them went their way. */
+/*
+ * True if no contact held the bodies of a group, and all of them are awake and moved on their
+ * paths.
+ */
 static bool group_is_free(const struct step *s, uint16_t group)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -106,7 +110,10 @@ static bool group_is_free(const struct step *s, uint16_t group)
     return true;
 }
 
-/* Velocities as the joints have them where the bodies are at the end, in groups that nothing touched. */
+/*
+ * Make velocities agree with the joints at the bodies' final places, in groups that nothing
+ * touched.
+ */
 static void project(struct step *s)
 {
     struct joint_list *list = &s->w->rest.joints;
@@ -124,14 +131,14 @@ static void project(struct step *s)
         connect_measure(s, JOINT_PROJECT);
         PHASE_BEGIN(s->w->scratch_phase, WORLD_SOLVE);
         rest_project(&s->w->rest);
+        /* a solve leaves no path, and a body that falls asleep needs one */
         for (uint32_t i = 0; i < list->count; i++) {
-            place_sides(
-                s, &list->joints[i]); /* a solve leaves no path, and what falls asleep needs one */
+            place_sides(s, &list->joints[i]);
         }
     }
 }
 
-/* Joints that took more than they bear hold nothing any more. */
+/* Break the joints whose impulse exceeded their limit. */
 static int break_joints(struct step *s)
 {
     struct joint_list *list = &s->w->rest.joints;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * connect - what the files share that step joints: connect.c chooses joints and ends a frame for them, joint_measure.c asks where
- * they are going to be, joint_led.c keeps account of energy and of kinematic bodies that lead others by joints.
+ * connect - declarations shared by the files that step joints: connect.c chooses the joints and
+ * ends a frame for them, joint_measure.c computes where they will be, joint_led.c accounts for
+ * energy and for kinematic bodies that lead others by joints.
  */
 #ifndef CAROM_SRC_STEP_CONNECT_H
 #define CAROM_SRC_STEP_CONNECT_H
@@ -9,13 +10,13 @@
 #include "../world/joints.h"
 #include "parts.h"
 
-/* A body of a joint that moves and is awake; JOINT_WORLD and kinematic bodies do not answer. */
+/* True if a body of a joint moves and is awake. The world and kinematic bodies do not answer. */
 static inline bool connect_answers(const struct step *s, uint16_t body)
 {
     return body != JOINT_WORLD && s->w->bodies[body].def.moving && step_active(s, body);
 }
 
-/* The kinematic body of a joint that is on its way; NULL: there is none. */
+/* The kinematic body of a joint while it moves; NULL: there is none. */
 static inline const struct body *connect_led_by(const struct step *s, const struct joint *j)
 {
     const struct body *b = j->b == JOINT_WORLD ? NULL : &s->w->bodies[j->b];
@@ -23,7 +24,7 @@ static inline const struct body *connect_led_by(const struct step *s, const stru
     return b && body_travels(b) && !b->clock.stands ? b : NULL;
 }
 
-/* Whether the body of a joint is a member. */
+/* True if a body of a joint is a member. */
 static inline bool connect_is_member(const struct step *s, uint16_t body)
 {
     return body != JOINT_WORLD && s->w->bodies[body].clock.member;

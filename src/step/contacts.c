@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The touching part of a step: the static check, events of touching, and the solves. */
+/* Contacts of a step: the static check, the list of touching pairs, and the solves. */
 #include "parts.h"
 
 static void visit_contacts(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
@@ -16,8 +16,8 @@ static void visit_contacts(struct candidate_visitor *self, const struct candidat
 }
 
 /*
- * Bodies that bounce for ever must not be held by their margin. Those that lie, or have touched in the
- * last frame, may have come to rest.
+ * True if a pair bounces for ever: such bodies must not be held by their margin. Bodies in contact,
+ * or that touched in the last frame, may have come to rest.
  */
 static bool is_bouncing(const struct step *s, const struct pair *p)
 {
@@ -29,7 +29,7 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
            !step_is_touching(world_now(s->w), p);
 }
 
-/* How many 16ths of a skin are clear, as far as four bits hold. */
+/* Clearance in 16ths of a skin; four bits. */
 static uint32_t clear_parts(int32_t clear_q22, int32_t skin_q22)
 {
     int32_t parts = clear_q22 > 0 ? (int32_t)((int64_t)clear_q22 * 16 / skin_q22) : 0;
@@ -72,7 +72,10 @@ int step_check_pair(struct step *s, uint32_t number)
     return result;
 }
 
-/* A pair that has hit in the frame keeps all of its contacts: one of them may be where it does. */
+/*
+ * Thin the contacts of each pair. A pair that has hit in the frame keeps all of them, as one may be
+ * at the place of the hit.
+ */
 static void thin_out(struct step *s)
 {
     struct contact_list *list = &s->w->rest.list;
@@ -114,7 +117,7 @@ int step_settle_contacts(struct step *s, bool members)
     return result;
 }
 
-/* Keep where an impact was; the first of a pair takes a place while there is one. */
+/* Note where an impact was. The first impact of a pair takes an entry while there is one. */
 static void note_details(struct carom_world *w, const struct contact *c, struct carom_event *e)
 {
     const struct pair *p = &w->pairs[c->key.pair];
@@ -132,7 +135,7 @@ static void note_details(struct carom_world *w, const struct contact *c, struct 
     }
 }
 
-/* The hardest impact of each pair becomes its hit event. */
+/* Make the hardest impact of each pair its hit event. */
 static void note_hits(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -165,21 +168,27 @@ static void note_hits(struct step *s)
     }
 }
 
-/* Of shorter slices nothing is asked: less than a thousandth of a frame, but of lasting contact. */
+/*
+ * Shortest slices for which chords are computed: about a thousandth of a frame, and 2^-18 of one
+ * for lasting contact.
+ */
 #define CHORD_SLICE_MIN_Q30   (1 << 20)
 #define LASTING_SLICE_MIN_Q30 (1 << 12)
-/* Nor of what bends by less than this part of a skin: the gap of the next frame makes up for it. */
+/*
+ * Chords that bend by less than skin / this are not computed: the gap of the next frame makes up
+ * for the bend.
+ */
 #define CHORD_BEND_DIVISOR 16
 
-/* A pair that has hit more often than this in a frame is in lasting contact, */
+/* A contact is lasting if its pair has hit more often than this in a frame, */
 #define LASTING_HITS 3
-/* or than that where a gap is below this part of the skin: hits stop at half of one. */
+/* or more often than this with a gap below skin / CLOSED_DIVISOR: hits stop at half a skin. */
 #define CLOSED_HITS    1
 #define CLOSED_DIVISOR 16
-/* What bends sooner is asked for in parts of the slice down to this one. */
+/* The opening of a lasting contact is also measured at 1/2 and 1/8 of the slice. */
 #define SOONEST 8
 
-/* By how much the gap of a contact changes on the present paths up to a time, q22. */
+/* Change of a contact's gap on the present paths up to a time, q22. */
 static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
     struct boyse_touch from, to;
@@ -190,8 +199,8 @@ static int64_t gap_change(const struct boyse_pair *pair, const struct candidate 
 }
 
 /*
- * By how much a gap opens, rounding apart. That of a lasting contact opens by what it does at its slowest:
- * the turn of a path is fastest at its ends, and a gap that opens in the end may close before.
+ * Opening of a gap, with an allowance for rounding. A lasting contact takes the slowest rate on the
+ * way: the turn of a path is fastest at its ends, and a gap that opens at the end may close before.
  */
 static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
 {
@@ -208,7 +217,7 @@ static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
     return least_q22;
 }
 
-/* r w^2 / 8 of a body that spins so fast */
+/* Bend of a path in the time left, r w^2 / 8, for a spin w. */
 static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30)
 {
     int64_t turn_q30 = fix_mul(spin_q40, left_q30, 40);
@@ -217,7 +226,7 @@ static int64_t bend_q22(const struct body *b, int64_t spin_q40, int32_t left_q30
     return fix_mul((turn_q30 * turn_q30) >> 30, b->def.radius_q22, 33);
 }
 
-/* By what a kinematic body bends that is led somewhere; 0 for all others. */
+/* Bend of the path of a kinematic body that moves; 0 for others. */
 static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
 {
     return body_travels(b) ? bend_q22(b, fix_length_bound(b->def.extra->route.spin.c), left_q30)
@@ -225,8 +234,8 @@ static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
 }
 
 /*
- * Whether the path of a contact may be off the straight one by more than a small part of the skin, by what
- * both bodies bend. Nearly all are slow by a bound of their spins.
+ * True if a contact's path may bend by more than a small part of the skin. Both bodies' bends add
+ * up. A bound on the spins settles it for nearly all.
  */
 static bool bends(const struct step *s, const struct contact *c, int32_t left_q30)
 {
@@ -248,7 +257,7 @@ static bool bends(const struct step *s, const struct contact *c, int32_t left_q3
     return all_q22 > most_q22;
 }
 
-/* The slice that both bodies of a pair are going to take, and straight paths for it. */
+/* The slice that both bodies of a pair will take, with straight paths over it. */
 static int32_t straight_paths(struct step *s, const struct pair *p)
 {
     const uint32_t both[2] = {p->a, p->b};
@@ -280,7 +289,7 @@ static int32_t straight_paths(struct step *s, const struct pair *p)
     return slice_q30;
 }
 
-/* The paths of chords are none: a solve works where they were. */
+/* Drop the paths of the chords: a solve works at their start. */
 static void forget_paths(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->rest.list.pool->used; i++) {
@@ -301,7 +310,10 @@ static void forget_paths(struct step *s)
     }
 }
 
-/* The work on a lasting contact may cost energy: the frame gives it back in the end (energy.c). */
+/*
+ * Mark a lasting contact. Work on it may cost energy, which the frame gives back in the end
+ * (energy.c).
+ */
 static void note_lasting(struct step *s, struct contact *c)
 {
     uint32_t hits = s->w->meetings[c->key.pair].hits;
@@ -315,9 +327,9 @@ static void note_lasting(struct step *s, struct contact *c)
 }
 
 /*
- * How the gap of each contact is going to change in the next slice. A body that rolls or tips does
- * not keep the V.N that it starts with: its arm turns, and so does its spin. Without this it comes
- * back to the surface within the frame, at once if it rolls fast, and uses up its hits.
+ * Find by how much each gap changes in the next slice. A body that rolls or tips does not keep the
+ * V.N that it starts with, as its arm turns and so does its spin. Without this it meets the surface
+ * again within the frame, at once if it rolls fast, and uses up its hits.
  */
 static void find_chords(struct step *s)
 {
@@ -338,7 +350,7 @@ static void find_chords(struct step *s)
         if (c->idle) {
             continue;
         }
-        if (asked != c->key.pair) { /* the answer is that of all contacts of a pair */
+        if (asked != c->key.pair) { /* the answer holds for all contacts of the pair */
             asked = c->key.pair;
             bent = bends(s, c, CAROM_ONE_Q30 - s->now_q30);
         }
@@ -362,10 +374,12 @@ static void find_chords(struct step *s)
     forget_paths(s);
 }
 
-/* Paths bend, and so anchors may be off after a solve: then there is another. */
+/*
+ * Solves until joints hold at the end of a slice: paths bend, so anchors may be off after a solve.
+ */
 #define JOINT_ROUNDS 8
 
-/* Whether a solve has left all bodies a motion that the world has room for: those that it has not retire. */
+/* True if all bodies are in range after a solve. Those that are not retire. */
 static bool all_in_range(const struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -377,7 +391,10 @@ static bool all_in_range(const struct step *s)
     return true;
 }
 
-/* Solve until joints hold at the end of the slice as well; *held: whether they do after so many rounds. */
+/*
+ * Solve until joints hold at the end of the slice as well. *held is false if they do not after
+ * JOINT_ROUNDS.
+ */
 static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
 {
     struct carom_world *w = s->w;
@@ -420,7 +437,9 @@ int step_solve(struct step *s, bool warm)
     return result;
 }
 
-/* The contacts of all pairs where the frame begins. What sleeps and is touched wakes. */
+/*
+ * Find the contacts of all pairs at the start of the frame. Sleeping bodies that are touched wake.
+ */
 static int find_contacts(struct step *s)
 {
     struct carom_world *w = s->w;

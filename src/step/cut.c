@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Paths that are set again for the hit they lead to. The turn over a part of a slice is not a part of
- * the turn over the whole, and only at the end of a path has a body the energy that it had before.
+ * Paths set again so that they end at a hit. The turn over a part of a slice is not that part of
+ * the whole turn, and a body has its energy back only at the end of a path.
  */
 #include "parts.h"
 
-/* A path is set again so often at most, */
+/* Times that one path may be set again. */
 #define CUTS_MAX 8
-/* and not for so little of its end. */
+/* Shortest rest of a path that is worth a cut. */
 #define END_Q30 2
-/* Nor is so short a one: its turn is below the last place of a rotation. */
+/* Shortest path that is cut: the turn of a shorter one is below the last place of a rotation. */
 #define SLICE_MIN_Q30 (1 << 10)
 /*
- * Nor one that hardly turns, by less than 2^-10: its energy is right to 2^-20, and rotations to so few
- * digits that slice after slice would lose the turn that features face each other by.
+ * Least turn, squared, of a path that is cut. Below a turn of 2^-10 the energy is right to 2^-20,
+ * and rotations have so few digits that one slice after another would lose the turn by which
+ * features face each other.
  */
 #define TURN2_MIN_Q30 (1 << 8)
 
-/* Whether a body's path turns and goes on behind a hit; a route stays as it is. */
+/* True if a body's path turns and continues after the hit. Routes are not cut. */
 static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 {
     const struct body *b = &s->w->bodies[i];
@@ -29,8 +30,9 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 }
 
 /*
- * Whether nobody near the body has had a path since its own began: with one that has gone by now it could
- * not be asked again. Near is what the spheres around both may reach, whatever the regions.
+ * True if no body near it has begun a path since its own path began: pairs with an earlier path of
+ * that body could not be searched again. Near means that the spheres around both may meet, whatever
+ * the regions are.
  */
 static bool may_cut(const struct step *s, uint32_t i)
 {
@@ -59,7 +61,7 @@ static bool may_cut(const struct step *s, uint32_t i)
     return true;
 }
 
-/* Set the path of a body again to end at a time. */
+/* Set the path of a body again so that it ends at a time. */
 static int set_end(struct step *s, uint32_t i, int32_t to_q30)
 {
     struct body *b = &s->w->bodies[i];
@@ -70,7 +72,7 @@ static int set_end(struct step *s, uint32_t i, int32_t to_q30)
     return body_region_holds(b, slice_q30) ? CAROM_OK : step_set_region(s, i, slice_q30);
 }
 
-/* Set the paths of those bodies of a pair that are to be cut, and search for all that these meet. */
+/* Set the paths of the bodies that are cut, and search their pairs. */
 static int set_ends(struct step *s, const struct pair *p, const bool cut[2],
                     const int32_t to_q30[2])
 {
@@ -88,7 +90,7 @@ static int set_ends(struct step *s, const struct pair *p, const bool cut[2],
     return result == CAROM_OK ? step_search_members(s) : result;
 }
 
-/* Whether any pair of the members hits before the last event. */
+/* True if a pair of a member hits before the last event. */
 static bool hits_in_the_past(const struct step *s)
 {
     const struct carom_world *w = s->w;
@@ -111,10 +113,10 @@ static int32_t gap_at(const struct boyse_pair *pair, const struct candidate *c, 
 }
 
 /*
- * Paths that end at a hit have no root before their end as a rule, and the features are at the event
- * gap there, or as near as makes no difference: then that is the hit. A path that ends nearer is left
- * where a quarter of the skin, or what there was at its start, is left of the gap. A gap that has opened
- * is no hit, however near it was.
+ * Find the hit of a pair at the end of paths that were cut there. Such paths have no root before
+ * their end as a rule, and at the end the features are at the event gap or very near it: then that
+ * is the hit. A path that ends nearer is left where the gap is a quarter of the skin, or as large
+ * as at its start if that is less. A gap that opened is no hit, however small it was.
  */
 static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32_t to_q30)
 {
@@ -143,7 +145,7 @@ static void meet_at_end(struct step *s, uint32_t number, int32_t from_q30, int32
     step_close_window(s, number, from_q30, to_q30);
 }
 
-/* The hit that a pair had. */
+/* Give a pair the hit that it had. */
 static void restore_hit(struct pair_work *m, const struct pair_work *was)
 {
     m->hit_q30 = was->hit_q30;
@@ -178,7 +180,7 @@ int step_cut(struct step *s, uint32_t number, bool *tried)
     }
     good = !hits_in_the_past(s);
     if (!good) {
-        result = set_ends(s, &p, cut, old_q30); /* those that were asked */
+        result = set_ends(s, &p, cut, old_q30); /* paths that have been searched before */
     }
     a->clock.cuts = cut[0] ? (uint8_t)(good ? a->clock.cuts + 1 : CUTS_MAX) : a->clock.cuts;
     b->clock.cuts = cut[1] ? (uint8_t)(good ? b->clock.cuts + 1 : CUTS_MAX) : b->clock.cuts;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* The energy of contact over a frame, island by island. */
+/* The energy rule of contact over a frame, island by island. */
 #include "../solve/parts.h"
 #include "../solve/rigid.h"
 #include "parts.h"
 
-/* Rounding may have added this part of the kinetic energy: an excess below 2^-24 of it is none. */
+/* Rounding may add this part of the kinetic energy: an excess below 2^-24 of it is ignored. */
 #define SLACK_BITS 24
 
 /* Twice the energies of an island, 80 fractional bits. */
 struct account {
-    struct fix_wide kinetic; /* now */
-    struct fix_wide excess; /* of energy over what it was, and what contact may have lifted it by */
+    struct fix_wide kinetic; /* at the end of the frame */
+    struct fix_wide excess;  /* gain over the energy at the start and over what contact may lift */
 };
 
 static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s)
@@ -22,8 +22,8 @@ static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struc
 }
 
 /*
- * Add what of a gain is height, less what surfaces and closing skins account for: -2 m a.(way from one
- * place to another), q40 times q32 brought to q40.
+ * Add the gain in height, less what moving surfaces and closing skins account for: -2 m a.(way from
+ * one place to another), with q40 times q32 brought to q40.
  */
 static void add_lifted2(struct fix_wide *sum, const struct body *b, const struct body_state *from,
                         const struct body_state *to)
@@ -40,7 +40,7 @@ static void add_lifted2(struct fix_wide *sum, const struct body *b, const struct
     }
 }
 
-/* Whether an island may have gained anything: not when less is left than closing skins may add. */
+/* True if an island may have gained energy: not if closing skins account for all of it. */
 static bool may_gain(const struct step *s, uint32_t first)
 {
     struct fix_wide most = {0, 0};
@@ -57,7 +57,7 @@ static bool may_gain(const struct step *s, uint32_t first)
     return fix_wide_sign(&most) > 0;
 }
 
-/* What an island has gained. A body that left the world in this frame took its own along. */
+/* Sum up what an island gained. A body that left the world in this frame took its energy along. */
 static struct account audit(const struct step *s, uint32_t first)
 {
     struct account sum = {{0, 0}, {0, 0}};
@@ -85,7 +85,7 @@ static struct account audit(const struct step *s, uint32_t first)
     return sum;
 }
 
-/* Twice the kinetic energy that an island has beside that of its motion as one rigid body. */
+/* Twice the kinetic energy of an island beyond that of its motion as one rigid body. */
 static struct fix_wide beside2(const struct step *s, const struct rest_rigid *rigid,
                                const struct fix_wide *all)
 {
@@ -107,8 +107,8 @@ static bool moved(const struct body_state *from, const struct body_state *to)
 }
 
 /*
- * The island goes back to where the frame found it. Its momenta are none, or a quarter of what they were:
- * with all of them it would do the same in the next frame, and in all that follow.
+ * Put the island back where the frame found it. Its momenta become zero, or a quarter of what they
+ * were: with all of them it would do the same in every later frame.
  */
 static void rewind_island(struct step *s, uint32_t first, bool halt)
 {
@@ -129,7 +129,7 @@ static void rewind_island(struct step *s, uint32_t first, bool halt)
     }
 }
 
-/* Whether two bodies may not be in each other: they may touch, and do not pass in this frame. */
+/* True if two bodies must not overlap: they may touch, and do not pass in this frame. */
 static bool are_solid(const struct step *s, uint32_t i, uint32_t k)
 {
     const struct pair p = world_name_pair(s->w, i, k);
@@ -139,7 +139,7 @@ static bool are_solid(const struct step *s, uint32_t i, uint32_t k)
            (number == UINT32_MAX || !s->w->meetings[number].passes);
 }
 
-/* A body that moved and now is where a body of another island was before; the end of islands: none. */
+/* A body that moved to where a body of another island was before. ISLAND_END: none. */
 static uint32_t intruder(struct step *s, uint32_t body)
 {
     const struct world_state *before = world_now(s->w);
@@ -161,9 +161,9 @@ static uint32_t intruder(struct step *s, uint32_t body)
 }
 
 /*
- * The island comes to a halt where the frame found it. An island that went where it was before has
- * this frame undone as well, and so on: as the frame found them no two bodies are in each other. On the
- * ground it halts, too, or both would do the same again in each frame.
+ * Stop the island where the frame found it. Any island that went to that place is undone as well,
+ * and so on: where the frame found them, no two bodies overlap. An island on the ground stops, too,
+ * or both would do the same in each frame.
  */
 static void hold_still(struct step *s, uint32_t first)
 {
@@ -189,7 +189,7 @@ static void hold_still(struct step *s, uint32_t first)
     }
 }
 
-/* The factor for momenta that takes `excess` out of a kinetic energy; 0 when that is not enough. */
+/* Factor for momenta that takes `excess` out of a kinetic energy; 0 if that is not enough. */
 static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide *excess)
 {
     struct fix_wide kept = *kinetic;
@@ -203,7 +203,7 @@ static int32_t factor_q30(const struct fix_wide *kinetic, const struct fix_wide 
     return (int32_t)fix_sqrt((uint64_t)fix_mul_scaled((int64_t)1 << 60, ratio));
 }
 
-/* Whether an island touches a kinematic body that is led somewhere, or a joint leads it along with one. */
+/* True if a moving kinematic body touches an island or leads it by a joint. */
 static bool is_pushed(const struct step *s, uint32_t first)
 {
     for (uint32_t i = 0; i < s->next->touching_count; i++) {
@@ -230,9 +230,9 @@ static void limit_island(struct step *s, uint32_t first)
         int32_t factor = factor_q30(&sum.kinetic, &sum.excess);
 
         if (factor == 0 && is_pushed(s, first)) {
-            rest_scale_grounded(&s->w->rest, first, 0); /* where it was a kinematic body may be */
+            rest_scale_grounded(&s->w->rest, first, 0); /* the kinematic body may be where it was */
         } else if (factor == 0) {
-            hold_still(s, first); /* it climbed by more than it has to give */
+            hold_still(s, first); /* it climbed by more energy than it has to give */
         } else {
             rest_scale_grounded(&s->w->rest, first, factor);
         }
@@ -243,11 +243,11 @@ static void limit_island(struct step *s, uint32_t first)
     }
 }
 
-/* A factor of momenta, near 1: of an energy that is to change by what is owed. */
+/* Factors of momenta for an owed energy stay near 1. */
 #define CONSERVE_LEAST_Q30 (CAROM_ONE_Q30 - (CAROM_ONE_Q30 >> 3))
 #define CONSERVE_MOST_Q30  (CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 3))
 
-/* Whether more than a quarter of an energy is to be added to it. */
+/* True if an energy must grow by more than a quarter. */
 static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owed2)
 {
     struct fix_wide sum = fix_wide_down(energy, 2);
@@ -257,8 +257,9 @@ static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owe
 }
 
 /*
- * A group that nothing touched has the energy that it had, and the work of its motors: joints do none. A surplus or a
- * lack is put right as far as the motion allows. The rest is owed: a pendulum that turns back has hardly any motion.
+ * Conserve the energy of an island that nothing touched: joints do no work, only motors do (audit
+ * counts what springs store). A surplus or a lack is corrected as far as the motion allows. The
+ * rest is owed: a pendulum that turns back has hardly any motion.
  */
 static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owed2)
 {
@@ -279,7 +280,7 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
         return;
     }
     factor = lacks_much(&energy, owed2) ? CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
-    /* what this frame has gained goes at once, whatever is left: a limit may have given it */
+    /* the gain of this frame goes at once, whatever is left: a limit may have given it */
     least = fix_wide_sign(&sum.excess) > 0 ? factor_q30(&energy, &sum.excess) : CAROM_ONE_Q30;
     least = least < CONSERVE_LEAST_Q30 ? least : CONSERVE_LEAST_Q30;
     factor = fix_larger(factor, least);
@@ -295,11 +296,11 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
 }
 
 /*
- * Bodies in contact took the gravity of the rest of the frame before they moved. Those of an island in
- * the air that stands still give back what belongs to the time that they dropped: the
- * island then has the momentum that gravity gave it on its way, and to scale its motion about its
- * common velocity takes out whatever it gained. On the ground the weight is answered by impulses
- * that belong to it; there the audit alone decides.
+ * Bodies in contact took the gravity of the rest of the frame before they moved. An island in the
+ * air whose bodies stand still gives back the gravity of the time that it dropped. Then it has the
+ * momentum that gravity gave it on its way, and scaling its motion about the common velocity takes
+ * out whatever it gained. On the ground, impulses answer the weight and belong to it; there the
+ * audit alone decides.
  */
 static void give_back_gravity(struct step *s, uint32_t first)
 {
@@ -314,7 +315,9 @@ static void give_back_gravity(struct step *s, uint32_t first)
     }
 }
 
-/* An island that touched something; `surely`: nothing else says whether it gained. */
+/*
+ * Limit an island that touched something. `surely`: skip the cheap test whether it may have gained.
+ */
 static void limit_touched(struct step *s, uint32_t first, bool surely)
 {
     if (s->cut_short && !s->w->bodies[first].clock.grounded) {
@@ -325,7 +328,7 @@ static void limit_touched(struct step *s, uint32_t first, bool surely)
     }
 }
 
-/* An island with joints. Returns whether it is one. */
+/* Limit an island with joints. False if it has none. */
 static bool limit_joined(struct step *s, uint32_t first)
 {
     struct body *b = &s->w->bodies[first];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The end of a step: bodies that left, events, statistics. */
+/* The end of a step: bodies that left the world, events, statistics. */
 #include "parts.h"
 
 bool step_may_note(const struct carom_world *w)
@@ -36,7 +36,7 @@ bool step_retire(struct step *s, uint32_t i)
         return false;
     }
     last = world_now(w)->bodies[i];
-    /* where it came from another body may be by now */
+    /* another body may be by now where it came from */
     last.position = state->position;
     last.rotation = state->rotation;
     *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
@@ -79,7 +79,7 @@ int step_note_touching(struct step *s, const struct pair *p)
     return CAROM_OK;
 }
 
-/* Impulses of contacts that nobody will look at in the next frame. */
+/* Drop impulses of contacts that the next frame does not look at. */
 void step_drop_warm(struct step *s)
 {
     const struct carom_world *w = s->w;
@@ -96,7 +96,7 @@ void step_drop_warm(struct step *s)
     s->next->warm_count = kept;
 }
 
-/* Whether nothing of a pair was computed, so that it still touches though nobody looked. */
+/* True if nothing of a pair was computed: it still touches though it was not checked. */
 static bool left_alone(const struct step *s, const struct pair *p)
 {
     const struct body *bodies = s->w->bodies;

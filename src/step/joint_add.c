@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* A joint is added: with the first one a world learns how joints are solved. */
+/* Adding a joint. With the first joint, a world gets the functions that solve joints. */
 #include "../solve/parts.h"
 #include "../world/joints.h"
 #include "parts.h"
 
-/* An anchor is no farther from a body's centre than so many of its radii. */
+/* Longest arm of an anchor, in radii of its body. */
 #define ARM_RADII 64
 
-/* Its bodies become numbers. */
+/* Check a joint's definition. Its bodies' ids become indices. */
 static int check(const struct carom_world *w, struct carom_joint_def *def)
 {
     int64_t length_q60 = 0;
@@ -44,7 +44,7 @@ static bool arm_is_short(const struct carom_world *w, const struct joint *j, int
            fix_length(j->arm[side].c) <= carom_shl(w->bodies[body].def.radius_q22, 18) * ARM_RADII;
 }
 
-/* An anchor from a body's centre, in its mesh's axes. False when it is too far. */
+/* Set the arm of an anchor from the body's centre, in the mesh's axes. False if it is too long. */
 static bool set_arm(const struct carom_world *w, struct joint *j, int side,
                     const carom_v3_q32 *anchor)
 {
@@ -60,7 +60,7 @@ static bool set_arm(const struct carom_world *w, struct joint *j, int side,
     return arm_is_short(w, j, side);
 }
 
-/* The rotation that takes z to an axis: about z x axis, or about x where they are opposite. */
+/* Rotation that takes z to an axis: about z x axis, or about x if they are opposite. */
 static carom_quat_q30 to_axis(const carom_v3_q30 *axis)
 {
     /* (1 + z.axis, z x axis), normalised */
@@ -105,7 +105,10 @@ static void set_frames(const struct carom_world *w, struct joint *j,
     }
 }
 
-/* Put it at a place of the list; with the first one a world learns how joints are solved. */
+/*
+ * Put a joint at a place of the list. With the first joint, the world gets the functions that solve
+ * joints.
+ */
 static void put(struct carom_world *w, uint32_t place, const struct joint *made,
                 const struct carom_joint_drive *drive)
 {
@@ -123,7 +126,7 @@ static void put(struct carom_world *w, uint32_t place, const struct joint *made,
     world_group_joints(w);
 }
 
-/* Whether a joint that was read could have been added to these bodies. */
+/* True if a joint that was read could have been added to these bodies. */
 static bool could_be(const struct carom_world *w, const struct joint *j)
 {
     const int64_t most_q40 = (int64_t)1 << 54; /* twice the width of the world */
@@ -140,7 +143,8 @@ static bool could_be(const struct carom_world *w, const struct joint *j)
 
 int step_restore_joint(struct carom_world *w, const struct joint *made)
 {
-    static const struct carom_joint_drive none = {.limited = false}; /* comes with the snapshot */
+    /* the drive comes with the snapshot */
+    static const struct carom_joint_drive none = {.limited = false};
 
     if (made->used && !could_be(w, made)) {
         return CAROM_ERR_FORMAT;

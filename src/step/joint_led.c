@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The energy of joints over a frame; and kinematic bodies that lead others by joints. */
+/* The energy of joints over a frame, and kinematic bodies that lead others by joints. */
 #include "connect.h"
 
 /* ------------------------------------------------------------------------- energy */
 
-/* Add `times` twice what a spring has stored: k x^2, q80. */
+/* Add `times` twice the energy that a spring stores: k x^2, q80. */
 static void add_spring2(struct fix_wide *sum, const struct joint *j,
                         const struct joint_state *state, const struct body_state *bodies, int times)
 {
@@ -19,7 +19,7 @@ static void add_spring2(struct fix_wide *sum, const struct joint *j,
     fix_wide_add_product(sum, fix_wide_shift(&pull, 40), times * x_q40);
 }
 
-/* Add what springs of an island have taken up in the frame. */
+/* Add the energy that the springs of an island took up in the frame. */
 void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide *sum)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -35,7 +35,7 @@ void connect_add_springs2(const struct step *s, uint32_t first, struct fix_wide 
     }
 }
 
-/* The debt of an island's joints; the first of them keeps what is left. */
+/* Energy owed by the joints of an island. The first joint keeps the whole debt. */
 struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -58,7 +58,7 @@ struct fix_wide *connect_owed2(const struct step *s, uint32_t first)
 
 /* ------------------------------------------------------------------ led by joints */
 
-/* Whether a joint holds a body to a kinematic one that travels. */
+/* True if a joint holds a body to a kinematic one that moves. */
 static bool is_led(const struct step *s, uint32_t i)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -82,7 +82,7 @@ uint32_t connect_find_led(const struct step *s, uint32_t first, uint32_t led)
     return ISLAND_END;
 }
 
-/* Kinematic bodies that lead members stop. */
+/* Stop the kinematic bodies that lead members. */
 void connect_block_leaders(struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -94,7 +94,7 @@ void connect_block_leaders(struct step *s)
     }
 }
 
-/* Kinematic bodies that lead a group stop. */
+/* Stop the kinematic bodies that lead a group. True if any did. */
 static bool block_group(struct step *s, uint16_t group)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -113,8 +113,8 @@ static bool block_group(struct step *s, uint16_t group)
 }
 
 /*
- * Kinematic bodies that lead others where these cannot go stop: what a solve has left over of a joint of theirs is more
- * than some skins. Whether any did.
+ * Stop the kinematic bodies that lead others where these cannot go: after a solve, a joint of
+ * theirs is off by more than some skins. True if any stopped.
  */
 bool connect_yield(struct step *s)
 {
@@ -132,8 +132,9 @@ bool connect_yield(struct step *s)
 }
 
 /*
- * Bodies that hang on what does not answer are grounded; those that hang on a kinematic body are touched as well: it
- * gives them whatever energy its way takes, and to keep theirs would hold it back.
+ * Mark bodies that hang on a stationary or kinematic body, or on the world, as grounded. Bodies
+ * that hang on a moving kinematic body count as touched as well: its motion gives them energy, and
+ * conserving theirs would hold it back.
  */
 void connect_ground(struct step *s)
 {
@@ -149,7 +150,7 @@ void connect_ground(struct step *s)
     }
 }
 
-/* Bodies that a kinematic one leads along have not been quiet. */
+/* Reset the quiet time of bodies that a kinematic one leads. */
 void connect_keep_awake(struct step *s)
 {
     const struct joint_list *list = &s->w->rest.joints;

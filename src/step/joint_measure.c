@@ -1,20 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Where joints are going to be at the end of a slice, and by how much velocities must change for it. */
+/* Where joints will be at the end of a slice, and by how much velocities must change for that. */
 #include "connect.h"
 
-/* A slice shorter than this is not measured: what a row does in it is lost in the last places of positions. */
+/*
+ * A shorter slice is not measured: the effect of a row in it is lost in the last places of
+ * positions.
+ */
 #define MEASURED_MIN_Q30 (CAROM_ONE_Q30 / 32)
-/* Where an anchor is off it comes back in a part of a frame that is no shorter than this. */
+/* Shortest part of a frame in which an anchor that is off comes back. */
 #define RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
-/* What is left at the end of a slice: this part of a skin. */
+/* Error allowed at the end of a slice: skin / this. */
 #define LEFT_DIVISOR 8
-/* A kinematic body that would leave so many skins stops. */
+/* A kinematic body stops if it would leave an error of this many skins. */
 #define TORN_SKINS 4
 
-/* What joints hold turns by so much in a slice at most: anchors part by what that bends, and solves see it as straight. */
+/*
+ * Largest turn of a group in a slice, radians: anchors part by the bend, and a solve sees it as
+ * straight.
+ */
 #define TURN_MOST_Q30 (CAROM_ONE_Q30 / 8)
 
-/* As much of a time as a spin may go on for. */
+/* Part of a time over which a spin turns by at most TURN_MOST_Q30. */
 static int32_t slice_of_spin(const carom_v3_q40 *spin, int32_t left_q30)
 {
     int64_t rate_q40 = fix_length(spin->c);
@@ -24,7 +30,7 @@ static int32_t slice_of_spin(const carom_v3_q40 *spin, int32_t left_q30)
                : left_q30;
 }
 
-/* The longest slice of a body by itself. */
+/* Longest slice of a body by itself. */
 static int32_t own_slice(const struct body *b, const struct body_state *state, int32_t left_q30)
 {
     carom_m3_q30 r;
@@ -35,7 +41,7 @@ static int32_t own_slice(const struct body *b, const struct body_state *state, i
     return slice_of_spin(&spin, left_q30) >> (2 * b->clock.shorter);
 }
 
-/* The longest slice by the kinematic bodies that lead a group. */
+/* Longest slice by the kinematic bodies that lead a group. */
 static int32_t led_slice(const struct step *s, uint16_t group, int32_t left_q30)
 {
     const struct joint_list *list = &s->w->rest.joints;
@@ -68,7 +74,7 @@ int32_t connect_slice(const struct step *s, uint32_t i, int32_t left_q30)
 
 /* ----------------------------------------------------------------------- measure */
 
-/* Where a kinematic body is at a time: its route goes on as it does now. */
+/* Pose of a kinematic body at a time, if its route continues as it does now. */
 static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
 {
     struct body *b = &s->w->bodies[i];
@@ -91,7 +97,7 @@ static struct joint_pose led_pose(struct step *s, uint16_t i, int32_t t_q30)
     return (struct joint_pose){state.position, state.rotation};
 }
 
-/* Where a body is, or is going to be at the end of a slice that begins now. */
+/* Pose of a body now, or at the end of a slice that begins now. */
 static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
 {
     struct joint_pose pose = world_joint_pose(s->next->bodies, i);
@@ -99,7 +105,7 @@ static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
     if (i != JOINT_WORLD && body_travels(&s->w->bodies[i]) && !s->w->bodies[i].clock.stands) {
         return led_pose(s, i, s->now_q30 + slice_q30);
     }
-    /* a body that is out of range goes nowhere: it retires when it sets out */
+    /* a body out of range goes nowhere: it retires when it sets out */
     if (connect_answers(s, i) && slice_q30 > 0 && !s->w->bodies[i].clock.stands &&
         step_in_range(&s->w->bodies[i], &s->next->bodies[i])) {
         struct body *b = &s->w->bodies[i];
@@ -126,15 +132,15 @@ static int64_t per_frame(int64_t v_q40, int32_t time_q30)
 }
 
 /*
- * A spring over the frame: half of the change of the coordinate comes on top of where it is now. False when it has
- * neither stiffness nor damping.
+ * Measure a spring over the frame: half of the coordinate's change is added to where it is now.
+ * False if it has neither stiffness nor damping.
  */
 static bool measure_spring(struct joint_work *w, const struct carom_joint_drive *d, int64_t now_q40,
                            int64_t rate_q40)
 {
     int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
     struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
-    struct fix_scaled loose; /* the velocity that leads to no pull: q80 over q40 */
+    struct fix_scaled loose; /* velocity that leads to no pull: q80 over q40 */
 
     w->half_stiff_q40 = d->stiffness_q40 / 2;
     w->stiff_q40 = w->half_stiff_q40 + d->damping_q40;
@@ -149,15 +155,15 @@ static bool measure_spring(struct joint_work *w, const struct carom_joint_drive 
     return true;
 }
 
-/* A slice as long as joints come back in at the soonest from where they are off. */
+/* Time in which a joint that is off comes back: the slice, but no less than RECOVERY_MIN_Q30. */
 static int32_t recovery(int32_t slice_q30)
 {
     return slice_q30 > RECOVERY_MIN_Q30 ? slice_q30 : RECOVERY_MIN_Q30;
 }
 
 /*
- * By how much V of a coordinate must change so that it gets to a limit that leaves it so much room. From beyond it comes
- * back no sooner than anchors do: in a short slice that would throw it back.
+ * Change of V that takes a coordinate to a limit, room_q40 away. From beyond the limit it comes
+ * back no sooner than anchors do: in a short slice it would be thrown back.
  */
 static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32_t time_q30)
 {
@@ -165,7 +171,7 @@ static int64_t to_limit(int64_t room_q40, bool beyond, int64_t change_q40, int32
            per_frame(change_q40, time_q30);
 }
 
-/* Limits, motor and spring of a coordinate, which changes by change_q40 in the slice. */
+/* Measure limits, motor and spring of a coordinate that changes by change_q40 in the slice. */
 static void measure_drive(struct joint *j, const struct joint_state *state, int64_t now_q40,
                           int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
 {
@@ -192,7 +198,7 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
                     measure_spring(w, d, now_q40, per_frame(change_q40, time_q30));
 }
 
-/* What a change by a row comes to where a's farthest point is: units. */
+/* Size of a row's change at the farthest point of body a, in units, q40. */
 static int64_t as_way(const struct step *s, const struct joint *j, int row, int64_t v_q40)
 {
     bool turns = joint_is_angular(&j->work, row);
@@ -200,7 +206,7 @@ static int64_t as_way(const struct step *s, const struct joint *j, int row, int6
     return carom_abs(turns ? fix_mul(v_q40, s->w->bodies[j->a].def.radius_q22, 22) : v_q40);
 }
 
-/* How much of what is off now is to be left at the end of a slice. */
+/* Part of the present error that may remain at the end of a slice. */
 static int64_t rest_of(int64_t off_q40, int32_t slice_q30)
 {
     return off_q40 - fix_mul_scaled(off_q40, fix_ratio(slice_q30, recovery(slice_q30)));
@@ -216,7 +222,10 @@ static int64_t beyond(const struct carom_joint_drive *d, int64_t q_q40)
     return most_q40 > 0 ? most_q40 : 0;
 }
 
-/* The bodies of a joint that answer, the slice that they take and the smaller of their skins. */
+/*
+ * Set the bodies of a joint that answer. Returns their slice; *skin_q40 becomes the smaller of
+ * their skins.
+ */
 static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
 {
     const uint16_t side[2] = {j->a, j->b};
@@ -238,7 +247,10 @@ static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
     return slice_q30;
 }
 
-/* By how much V of the rows that always hold must change. Returns by how much the worst of them is off in the end. */
+/*
+ * Set the change of V wanted in the rows that always hold. Returns the largest error at the end of
+ * the slice.
+ */
 static int64_t measure_held(const struct step *s, struct joint *j, const struct joint_error *at,
                             const struct joint_error *to, int32_t slice_q30)
 {
@@ -257,7 +269,10 @@ static int64_t measure_held(const struct step *s, struct joint *j, const struct 
     return most_q40;
 }
 
-/* The coordinate's law. Returns how far beyond its limits it gets on the present paths, but for what is left to later slices. */
+/*
+ * Set the law of the coordinate. Returns how far beyond its limits it ends on the present paths,
+ * less the part that later slices correct.
+ */
 static int64_t measure_last(const struct step *s, struct joint *j, const struct joint_state *state,
                             const struct joint_error *at, const struct joint_error *to,
                             int32_t slice_q30, enum joint_solve solve)
@@ -276,7 +291,10 @@ static int64_t measure_last(const struct step *s, struct joint *j, const struct 
     return off_q40 > 0 ? as_way(s, j, j->work.held, off_q40) : 0;
 }
 
-/* Rows of a joint as its bodies are, and what they lack on the way to the end of the slice. Whether more than a little. */
+/*
+ * Set the rows of a joint where its bodies are, and its errors at the end of the slice. True if
+ * these are large.
+ */
 static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
 {
     struct joint *j = &s->w->rest.joints.joints[i];

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Kinematic bodies within a step: where they are led, what they take along, and what stops them. */
+/* Kinematic bodies within a step: their paths, the islands that they carry, and what stops them. */
 #include "../solve/rigid.h"
 #include "parts.h"
 
-/* An island that goes along may approach something else by this part of a skin a frame. */
+/* An island that goes along may approach another body by skin / this a frame. */
 #define NO_APPROACH_DIVISOR 64
 
 static const struct body_route still = {.slice_bits = 0};
 
-/* Whether the end of a route is in range; one that goes on ends at the edge of the world. */
+/* True if the end of a route is in range. A body whose route leaves the range stops. */
 static bool ends_in_range(const struct body_state *s, const struct body_route *route)
 {
     carom_v3_q32 end;
@@ -51,7 +51,7 @@ bool step_begin_routes(struct carom_world *w)
     return any;
 }
 
-/* Slices are rounded, and what a caller asks for is not. */
+/* Put kinematic bodies into exactly the pose they were led to: slices are rounded. */
 void step_end_routes(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -103,7 +103,10 @@ void step_block(struct step *s, uint32_t i, uint32_t by)
     step_note_blocked(s, i, by);
 }
 
-/* A body of an island that a kinematic one pushes by contact or leads by a joint; ISLAND_END: it does neither. */
+/*
+ * A body of an island that a kinematic body pushes by a contact or leads by a joint; ISLAND_END:
+ * none.
+ */
 static uint32_t pushed_by(const struct step *s, uint32_t first, uint32_t led)
 {
     const struct carom_world *w = s->w;
@@ -141,7 +144,7 @@ void step_block_pushers(struct step *s, const struct pair *p)
 
 /* ---------------------------------------------------------------- going along */
 
-/* How a point of the world moves that goes along with a kinematic body. */
+/* Velocity of a point of the world that moves with a kinematic body. */
 static carom_v3_q40 motion_at(const struct body *led, const carom_v3_q32 *point)
 {
     carom_v3_q40 arm, v;
@@ -155,7 +158,10 @@ static carom_v3_q40 motion_at(const struct body *led, const carom_v3_q32 *point)
     return v;
 }
 
-/* Whether an island that goes along with a kinematic body approaches nothing that stands or is led. */
+/*
+ * True if an island that moves with a kinematic body approaches nothing that stands still or moves
+ * on a route.
+ */
 static bool is_free_to_go(const struct step *s, uint32_t first, const struct body *led)
 {
     const struct carom_world *w = s->w;
@@ -197,7 +203,9 @@ static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struc
     body_add_kinetic2(sum, b, state, &r);
 }
 
-/* Every body of the island moves as a part of the kinematic one; what that takes is its work. */
+/*
+ * Move every body of the island as a part of the kinematic one. The energy that this takes is work.
+ */
 static void go_along(struct step *s, uint32_t first, const struct body *led)
 {
     struct carom_world *w = s->w;

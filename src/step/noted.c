@@ -35,7 +35,7 @@ int step_note_faces(struct step *s)
             (!step_active(s, p->a) && !step_active(s, p->b))) {
             continue;
         }
-        if (step_goes_far(s, p)) { /* what it has of a path has ended */
+        if (step_goes_far(s, p)) { /* the part of the path that was gathered has ended */
             place(s, p->a);
             place(s, p->b);
         }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hits that nothing answers. A sensor notes that it was met. A body that is solid from one side lets pass what
- * meets it from another; so do pairs that overlapped when they were made. A pair passes until the frame
- * ends, and in the next one if it overlaps then.
+ * Hits that get no answer. A sensor notes that it was met. A one-way body lets bodies pass that
+ * meet it from another side. Pairs that overlapped when they were made pass as well. A pair passes
+ * until the frame ends, and in the next frame if it still overlaps.
  */
 #include "parts.h"
 
@@ -51,7 +51,7 @@ void step_sense_start(struct step *s)
     }
 }
 
-/* Whether nothing has moved two bodies in this step, nor set one before it. */
+/* True if nothing has moved two bodies in this step, or set them before it. */
 static bool left_alone(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
@@ -61,7 +61,7 @@ static bool left_alone(const struct step *s, const struct pair *p)
            !broad_active(a, &next[p->a]) && !broad_active(b, &next[p->b]);
 }
 
-/* Pairs that pass and still overlap. */
+/* Note the pairs that pass and still overlap. */
 static int note_passing(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -95,7 +95,7 @@ static void add_sensor_event(struct step *s, uint8_t kind, const struct pair *p)
     step_add_event(s->w, kind, first ? p->a : p->b, first ? p->b : p->a);
 }
 
-/* Whether a sensor and another body overlapped, and do so now; and the events of that. */
+/* Report whether a sensor and another body began or ceased to overlap. */
 static int sense(struct step *s, uint32_t sensor, uint32_t other)
 {
     struct carom_world *w = s->w;

@@ -1,24 +1,29 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Regions of bodies, and the pairs that these make. A region costs its own body's pairs a new search
- * and nobody else. What is here changes what a frame costs, never what it computes.
+ * Regions of bodies, and the pairs whose regions meet. A new region renews the search of its own
+ * body's pairs only. This file changes what a frame costs, never what it computes.
  */
 #include "parts.h"
 
 /*
- * A region ends when a body has gone this part of its radius: one in contact, one in flight, which a hit may
- * lead aside long before, or one while nothing is near.
+ * A region ends when its body has gone radius / this: in contact; in flight, where a hit may turn
+ * it aside long before; with nothing near.
  */
 #define REGION_PARTS        10
 #define REGION_PARTS_FLIGHT 20
 #define REGION_PARTS_FREE   4
-/* Frames that it lasts, at most, when gravity bends the path: what it bends by grows with the square of them. */
+/*
+ * Most frames that a region lasts if gravity bends the path. The bend grows with the square of the
+ * time.
+ */
 #define BENT_FRAMES 8
-/* A slice shorter than that is not gone on with. */
+/* A region does not last beyond a slice shorter than this. */
 #define GONE_ON_MIN_Q30 (1 << 24)
-/* Room is no more than this part of the radius: what is swept grows with it. */
+/* Room is at most radius / this, as the swept volume grows with it. */
 #define ROOM_PARTS 64
-/* A hit leads a body that goes farther than this in a slice aside by more than any room. */
+/*
+ * A hit turns aside a body that goes farther than this many skins in a slice by more than any room.
+ */
 #define ROOM_WAY_SKINS 10
 
 /* ------------------------------------------------------------------ numbers */
@@ -35,8 +40,8 @@ static bool is_at(const struct carom_world *w, uint32_t place, uint32_t a, uint3
 }
 
 /*
- * Pairs from a place on have other numbers in the list of contacts. Candidates take theirs when somebody
- * asks for them.
+ * Change the pair indices of contacts from a place on. Candidates get their pair's index when they
+ * are visited.
  */
 FIX_APART static void renumber(struct carom_world *w, uint32_t place, int by)
 {
@@ -56,7 +61,7 @@ uint32_t step_find_pair(const struct carom_world *w, const struct pair *p)
     return is_at(w, place, p->a, p->b) ? place : UINT32_MAX;
 }
 
-/* The record of a pair that is new. */
+/* Record of a new pair. */
 static struct pair_work new_meeting(const struct carom_world *w, const struct pair *p)
 {
     return (struct pair_work){.hit_q30 = PAIRS_NEVER,
@@ -92,11 +97,11 @@ static void remove_pair(struct carom_world *w, uint32_t place)
     memmove(&w->pairs[place], &w->pairs[place + 1], (pool->used - place) * sizeof *w->pairs);
     memmove(&w->meetings[place], &w->meetings[place + 1],
             (pool->used - place) * sizeof *w->meetings);
-    /* its candidates are garbage of a pair that keeps none of them there */
+    /* its candidates stay in the pool as garbage */
     renumber(w, place + 1, -1);
 }
 
-/* Whether two bodies, at least one of which has a new region, are near each other. */
+/* True if two bodies are near each other; at least one of them has a new region. */
 static bool are_near(const struct step *s, uint32_t a, uint32_t b)
 {
     struct body *bodies = s->w->bodies;
@@ -106,8 +111,9 @@ static bool are_near(const struct step *s, uint32_t a, uint32_t b)
 }
 
 /*
- * The pairs of a body whose region is new: they are gathered when somebody asks for them. One that has hit in
- * this frame stays, for what it has counted must not depend on regions; nor must it whether it passes.
+ * Find the pairs of a body whose region is new. Their candidates are gathered when they are needed.
+ * A pair that has hit in this frame stays, since its count of hits must not depend on regions; so
+ * does one that passes.
  */
 static int set_pairs(struct step *s, uint32_t i)
 {
@@ -139,7 +145,7 @@ static int set_pairs(struct step *s, uint32_t i)
     return result;
 }
 
-/* Whether a body has no candidates, as far as somebody asked. */
+/* True if a body has no candidates, as far as they were gathered. */
 static bool is_free(const struct carom_world *w, uint32_t i)
 {
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
@@ -153,9 +159,9 @@ static bool is_free(const struct carom_world *w, uint32_t i)
 /* ------------------------------------------------------------------ regions */
 
 /*
- * Candidates are gathered for the path at hand, and for what differs from it by no more than some
- * skins and a part of the way. In flight only a hit changes the path, and after a hit we gather anyway.
- * So it is with a fast body in contact when the region ends with its path.
+ * How far a body may leave the path of its region: some skins and a part of the way. In flight only
+ * a hit changes the path, and after a hit we gather anyway. The same holds for a fast body in
+ * contact if its region ends with its path.
  */
 static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 {
@@ -173,8 +179,9 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 }
 
 /*
- * How long a region may last, for what is swept grows with the time: while no part of the body goes
- * farther than a part of its radius; as long as the last one held, twice that when it held to its end.
+ * How long a region may last, as the swept volume grows with the time. No part of the body goes
+ * farther than a part of its radius. It lasts as long as the last region held, or twice that if
+ * that held to its end.
  */
 static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30)
 {
@@ -183,7 +190,7 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     int64_t way_q22, turn_q30, most_q22, held = 1;
     int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : BENT_FRAMES;
 
-    /* where nothing is near, a new region costs less than to ask whether the old one holds */
+    /* with nothing near, a new region costs less than to test the old one */
     if (!b->def.moving || slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
@@ -214,12 +221,12 @@ static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
     b->search.standing = false;
     room_q22 =
         room_q22 < b->def.radius_q22 / ROOM_PARTS ? room_q22 : b->def.radius_q22 / ROOM_PARTS;
-    room_q22 += mesh_drift_most(b->def.mesh); /* contacts are looked for so much farther away */
+    room_q22 += mesh_drift_most(b->def.mesh); /* contacts are searched that much farther away */
     body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     broad_set_box(b);
 }
 
-/* A body that stands still: its path, region and box are those of where it is. */
+/* A standing body: its path, region and box are those of where it is. */
 static void begin_standing(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -239,7 +246,7 @@ int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
     return set_pairs(s, i);
 }
 
-/* The path that a body is going to take from the start of a frame if it goes on so; its slice. */
+/* Set the path that a body would take from the start of a frame; return its slice. */
 static int32_t foresee(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -268,7 +275,7 @@ int step_adopt(struct step *s, uint32_t i)
     return result;
 }
 
-/* Pairs whose joints let them ignore each other are none. */
+/* Drop the pairs whose joints let them ignore each other. */
 static void drop_ignored(struct carom_world *w)
 {
     struct pool *pool = &w->pools[CAROM_POOL_pairs];
@@ -282,7 +289,7 @@ static void drop_ignored(struct carom_world *w)
     pool->used = kept;
 }
 
-/* Regions of all, and all pairs. */
+/* Set all regions and find all pairs. */
 static int begin_all(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -309,7 +316,7 @@ static int begin_all(struct step *s)
     return result;
 }
 
-/* A body that woke, or that went to sleep or stopped. */
+/* Set the region of a body that woke, fell asleep or stopped. */
 static int begin_one(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -331,7 +338,7 @@ static int begin_one(struct step *s, uint32_t i)
     return step_adopt(s, i);
 }
 
-/* Pairs that go through each other since an earlier frame. */
+/* Mark the pairs that pass through each other since an earlier frame. */
 static void mark_passes(struct carom_world *w)
 {
     const struct world_state *now = world_now(w);

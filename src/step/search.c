@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* The next hit of a pair, in the window that both paths take. */
+/* The next hit of a pair, in the window that both paths have in common. */
 #include "parts.h"
 
-/* A hit in so small a part of the window takes no time. */
+/* A hit earlier than this in the window takes no time. */
 #define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
-/* A pair nearer than this part of a skin goes no nearer, or rounding would close the gap in the end. */
+/*
+ * A pair nearer than skin / this approaches no further; otherwise rounding would close the gap in
+ * the end.
+ */
 #define NEAR_DIVISOR 16
-/* Gaps change by less through rounding. */
+/* Gaps change by less than this through rounding. */
 #define NOISE_Q22 4
-/* A window has no more parts, */
+/* Most parts of a window. */
 #define PARTS_MAX 64
-/* and bodies of many faces turn by no more than 1 / that radians in one; */
+/* Bodies of many faces turn by at most 1 / this radians in a part, */
 #define TURN_PARTS 4
-/* by 1 / that in a part whose candidates are gathered to be kept. */
+/* or by 1 / this if the candidates of the part are kept. */
 #define KEPT_TURN_PARTS 16
-/* Time is halved so often to find when features face each other. */
+/* Halvings of the time in which features begin to face each other. */
 #define HALVINGS 20
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
@@ -28,7 +31,7 @@ struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
     return pair;
 }
 
-/* The gap along the normal that the features have at the root, and whether they face each other. */
+/* Gap of the features along the normal of the root; *valid is true if they face each other. */
 static int32_t gap_by(const struct boyse_pair *pair, const struct candidate *c, int8_t sign,
                       int32_t t_q30, bool *valid)
 {
@@ -40,10 +43,11 @@ static int32_t gap_by(const struct boyse_pair *pair, const struct candidate *c, 
 }
 
 /*
- * A hit that takes no time is one when the features face each other and it is how the bodies move now
- * that closes them: an eighth of the way to the root then takes a sixteenth of the gap or more, for a
- * linear approach takes an eighth and a quadratic one a 64th. Else nothing can be solved yet, and the
- * bodies go on until the features face each other, or half of the gap is left. Returns that time, or 0.
+ * When a hit that takes no time can be solved. It is solved at once if the features face each other
+ * and the present motion closes them. The test: an eighth of the way to the root takes at least a
+ * sixteenth of the gap. A linear approach takes an eighth, a quadratic one a 64th. Otherwise
+ * nothing can be solved yet, and the bodies continue until the features face each other, or until
+ * half of the gap is left. Returns that time, or 0.
  */
 static int32_t later(const struct boyse_pair *pair, const struct candidate *c, int32_t root_q30)
 {
@@ -79,8 +83,8 @@ bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
 }
 
 /*
- * Whether a hit comes before the best so far: in an earlier part of the window, or else earlier. Equal times
- * go to the first in the order of candidates.
+ * True if a hit comes before the best one so far: in an earlier part of the window, or earlier. If
+ * the times are equal, the order of candidates decides.
  */
 static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
 {
@@ -93,7 +97,7 @@ static bool is_before(const struct step_visitor *v, const struct boyse_hit *hit)
                                          candidate_compare(&hit->candidate, &v->hit.candidate) < 0);
 }
 
-/* The first hit. A sensor is met where the surfaces meet, for nothing is answered. */
+/* Find the first hit. A sensor is met where the surfaces meet, as its hits have no answer. */
 static void visit_first(struct candidate_visitor *self, const struct candidate *c, uint32_t n)
 {
     struct step_visitor *v = (struct step_visitor *)self;
@@ -126,7 +130,7 @@ bool step_stay_apart(const struct step *s, uint32_t number, int64_t more_q22)
     int64_t reach_q22 = (int64_t)a->def.radius_q22 + b->def.radius_q22 + more_q22, apart[3];
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
 
-    /* way and turn of a path are rounded up; turns do not matter to spheres */
+    /* the way is rounded up; a sphere's turn does not matter */
     for (int k = 0; k < 3; k++) {
         int64_t way_q40 = carom_abs(path_a->v.c[k] - path_b->v.c[k]) + carom_abs(path_a->g.c[k]) +
                           carom_abs(path_b->g.c[k]);
@@ -146,14 +150,14 @@ int step_first_hit(struct step *s, uint32_t number, struct step_visitor *v)
     return step_visit(s, number, v, visit_first);
 }
 
-/* Into how many parts of a turn of 1 / `fine` the turns of both paths are cut. */
+/* Number of parts such that both paths together turn by at most 1 / `fine` radians in each. */
 static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t fine)
 {
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
     int64_t u2_q30 = (path_a->turns ? path_a->u2_q30 : 0) + (path_b->turns ? path_b->u2_q30 : 0);
     int64_t turn_q30;
 
-    /* a turn is 2 |u|, and the square of a sum of two no more than twice the sum of the squares */
+    /* a turn is 2 |u|, and the square of a sum of two is at most twice the sum of the squares */
     if (u2_q30 * 8 * fine * fine <= CAROM_ONE_Q30 || !step_many_faces(a, b)) {
         return 1;
     }
@@ -163,8 +167,8 @@ static int64_t parts_of_turn(const struct body *a, const struct body *b, int64_t
 }
 
 /*
- * Into how many parts a window is cut: in none do the bodies pass by half of the smaller one's radius, or
- * turn by more than candidates are few for.
+ * Number of parts of a window. In each, the bodies pass by at most half of the smaller one's
+ * radius, and turn so little that there are few candidates.
  */
 static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time_q30)
 {
@@ -194,8 +198,8 @@ int32_t step_parts(const struct step *s, uint32_t number)
 }
 
 /*
- * The first hit of a window's part, if there is any: its times become those of the whole window. One that is
- * not cut is open.
+ * Find the first hit in a part of the window; its times become those of the whole window. If there
+ * is only one part, its window is open already.
  */
 static int search_part(struct step *s, uint32_t number, struct step_visitor *v, int32_t part,
                        int32_t parts)
@@ -226,7 +230,7 @@ static int search_part(struct step *s, uint32_t number, struct step_visitor *v, 
     return result;
 }
 
-/* How far points of two bodies go towards each other on their paths, at most. */
+/* Upper bound on how far points of two bodies approach each other on their paths. */
 static int64_t way_together_q22(const struct body *a, const struct body *b)
 {
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
@@ -243,8 +247,8 @@ static int64_t way_together_q22(const struct body *a, const struct body *b)
 }
 
 /*
- * Whether a pair's candidates cannot meet on paths that begin with the frame: what the static check there left
- * between them is more than the bodies go.
+ * True if the bodies of a pair cannot meet on paths that begin with the frame: they go less far
+ * than the clearance that the static check measured.
  */
 static bool stays_clear(const struct step *s, uint32_t number)
 {

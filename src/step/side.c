@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* From which side bodies are solid. */
+/* Which side of a one-way body is solid. */
 #include "parts.h"
 
-/* The cosine to its axis, at least, of the normals from which a body is solid. */
+/* Least cosine between a normal and the axis at which a one-way body is solid. */
 #define SOLID_COSINE_Q30 (CAROM_ONE_Q30 / 4)
 
-/* Whether a body is solid to what lies along a normal, which points away from it. */
+/* True if a body is solid along a normal that points away from it. */
 static bool is_solid_to(const struct body *b, const carom_quat_q30 *rotation,
                         const carom_v3_q30 *normal, int sign)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The booking of ticks, and the longest slice: every file of a step may use them. */
+/*
+ * The ticks of the stages and the longest slice, in a file of their own since every file of a step
+ * may use them.
+ */
 #include "parts.h"
 
 extern inline bool step_active(const struct step *s, uint32_t i);

@@ -2,18 +2,18 @@
 /*
  * world_step - one frame, top to bottom: the paper's figures 4 and 5.
  *
- * A frame is a sequence of events: a pair hits, or a body's slice ends. Each changes the bodies that it
- * belongs to, at its own time; all others go on along their paths.
+ * A frame is a sequence of events: a pair hits, or the slice of a body ends. Each event changes its
+ * own bodies at its own time; all others continue along their paths.
  *
- * The frame is built in the state that is not current and becomes current at the very end, so that
- * an error on the way leaves the world as it was.
+ * The next state is built beside the current one and replaces it at the very end. So an error on
+ * the way leaves the world as it was.
  */
 #include "parts.h"
 
-/* Hits of a body in a frame, unless the caller says otherwise. */
+/* Hits of one body in a frame, unless the caller sets another cap. */
 #define EVENTS_OF_A_BODY 32
 
-/* What the last step found is gone. */
+/* Forget what the last step found. */
 FIX_APART static void forget(struct carom_world *w)
 {
     w->event_count = 0;
@@ -37,8 +37,9 @@ FIX_APART static void begin_clock(struct body *b)
 }
 
 /*
- * What stands still is the same in both states. So is what sleeps in both: it did so in the step
- * before, and whatever changes it wakes it. Returns how many are awake.
+ * Copy the bodies that move. A body that stands still, or that sleeps in both states, is the same
+ * in both already: it slept in the step before, and anything that changes a body wakes it. Returns
+ * the number of bodies that are awake.
  */
 static uint32_t copy_bodies(struct carom_world *w, struct world_state *next)
 {
@@ -58,7 +59,7 @@ static uint32_t copy_bodies(struct carom_world *w, struct world_state *next)
     return active;
 }
 
-/* Whether e and mu of every contact are the smaller ones of its bodies. */
+/* True if every contact takes the smaller e and the smaller mu of its bodies. */
 static bool is_plain(const struct carom_world *w)
 {
     const struct contact_list *list = &w->rest.list;
@@ -67,7 +68,7 @@ static bool is_plain(const struct carom_world *w)
            (list->restitution_rule | list->friction_rule) == CAROM_SMALLER;
 }
 
-/* Extras and joints, which most worlds have not. */
+/* Begin with extras and joints; most worlds have none. */
 FIX_APART static void begin_rare(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -116,7 +117,7 @@ void step_begin(struct step *s, struct carom_world *w)
     }
 }
 
-/* The paths of all that move, at the start of the frame, and the first hits on them. */
+/* Set the paths of all bodies at the start of the frame and find the first hits on them. */
 static int set_out(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -132,7 +133,7 @@ static int set_out(struct step *s)
     return result == CAROM_OK ? step_search_members(s) : result;
 }
 
-/* The end of a body's slice: the next one begins. */
+/* End the slice of a body and begin the next one. */
 static int end_slice(struct step *s, uint32_t i)
 {
     int32_t before_q30 = s->now_q30;
@@ -150,12 +151,12 @@ static int end_slice(struct step *s, uint32_t i)
     result = step_set_path(s, i);
     step_mark(s->w, CAROM_STAGE_PREDICT);
     if (s->w->bodies[i].def.sensor) {
-        s->now_q30 = before_q30; /* to all others it was no event */
+        s->now_q30 = before_q30; /* the slice of a sensor is no event for others */
     }
     return result == CAROM_OK ? step_search_members(s) : result;
 }
 
-/* Events one by one, until none is left in the frame. */
+/* Take events one by one until the frame has no more. */
 static int run(struct step *s)
 {
     enum step_event event;
@@ -181,7 +182,7 @@ static int run(struct step *s)
     return result;
 }
 
-/* Where everybody is when the frame ends. */
+/* Move every body to its place at the end of the frame. */
 static void arrive(struct step *s)
 {
     for (uint32_t i = 0; i < s->w->body_count; i++) {
@@ -198,7 +199,7 @@ static void arrive(struct step *s)
     step_mark(s->w, CAROM_STAGE_ADVANCE);
 }
 
-/* A body that stood has its clock until its energy was looked at. */
+/* End the clock of a body that stood still. It kept its clock for the energy check. */
 static void stop_clock(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
@@ -210,9 +211,7 @@ static void stop_clock(struct step *s, uint32_t i)
     }
 }
 
-/*
- * A body that a moving surface carries, however slowly, is not at rest: a contact that moves holds off sleep.
- */
+/* Keep awake the bodies on a moving surface, however slow it is. */
 static void keep_carried_awake(struct step *s)
 {
     const struct contact_list *list = &s->w->rest.list;
@@ -227,7 +226,7 @@ static void keep_carried_awake(struct step *s)
     }
 }
 
-/* What a whole frame ends with. */
+/* End a whole frame. */
 static int finish(struct step *s)
 {
     struct carom_world *w = s->w;
@@ -261,7 +260,7 @@ static int finish(struct step *s)
     return result;
 }
 
-/* Whether a step would find nothing, and leave the state as it is. */
+/* True if a step would change nothing. */
 static bool is_idle(const struct carom_world *w)
 {
     const struct world_state *now = world_now(w);
@@ -274,7 +273,10 @@ static bool is_idle(const struct carom_world *w)
     return now->warm_count == 0 && !w->sense_anew;
 }
 
-/* A frame in which nothing is awake: what the first one finds stays true of those that follow. */
+/*
+ * Step a world in which nothing is awake. The result of the first such frame holds for all that
+ * follow.
+ */
 static void step_idle(struct carom_world *w)
 {
     if (!w->idle) {
@@ -292,7 +294,7 @@ static void step_idle(struct carom_world *w)
     }
 }
 
-/* A frame; `single`: regions for this one alone. */
+/* Step one frame. `single`: regions last for this frame only. */
 static int step_frame(struct carom_world *w, bool single, bool *cut_short)
 {
     struct step s;
@@ -336,7 +338,10 @@ static int step_frame(struct carom_world *w, bool single, bool *cut_short)
     return result;
 }
 
-/* What regions of several frames may have more of than one frame has. */
+/*
+ * Errors that may vanish if regions last one frame only: regions of several frames hold more faces
+ * and pairs, and reach farther.
+ */
 static bool may_be_less(int error)
 {
     return error == CAROM_ERR_FACES_FULL || error == CAROM_ERR_PAIRS_FULL ||

@@ -1,24 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The candidates of a pair: those that are kept, or gathered anew for the path at hand, a part of a window
- * or the regions of both bodies. How much is gathered changes the cost of a step, never its outcome.
+ * The candidates of a pair: those that are kept, or those gathered for the present paths, for a
+ * part of the window or for both regions. How many are gathered changes the cost of a step, never
+ * its outcome.
  */
 #include "parts.h"
 
-/* More candidates are too many for a region that lasts because there were none. */
+/* Most candidates of a region that lasts because nothing was near. */
 #define ENOUGH 8
-/* Two meshes have many faces with so many pairs of them; then candidates are kept while both turn by less. */
+/*
+ * Product of face counts at which two meshes have many faces. Their candidates are kept if the
+ * turns of both bodies in their regions sum to less than TURN_KEPT_Q30.
+ */
 #define FACE_PAIRS_MANY 500
 #define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 16 * 5)
-/* A body goes far that goes this part of its radius in its region; a gather of so many pairs of faces costs much. */
+/*
+ * A body goes far if its region is longer than radius / FAR_PARTS. From FACE_PAIRS_COSTLY on, a
+ * gather costs much.
+ */
 #define FAR_PARTS         8
 #define FACE_PAIRS_COSTLY 1000000
-/* From q30 to the unit of a pair's `until`. */
+/* Shift from Q30 to the unit of a pair's `until`. */
 #define UNTIL_SHIFT 24
-/* Beyond every region. */
+/* Later than the end of every region. */
 #define FOREVER_Q30 ((int64_t)(BODY_REGION_FRAMES + 1) << 30)
 
-/* How much of a body's region is used up at a time, and what is left of it. */
+/* Time of a body's region that is spent at t_q30; *left_q30 becomes at most the rest of it. */
 static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t *left_q30)
 {
     const struct body *b = &s->w->bodies[i];
@@ -33,7 +40,7 @@ static int64_t used_q30(const struct step *s, uint32_t i, int32_t t_q30, int64_t
     return used;
 }
 
-/* The part of both regions' time that begins at a time of the frame and takes so much of it. */
+/* Part of both regions' time that begins at from_q30 of the frame and takes time_q30. */
 static struct interfere_span span_of(const struct step *s, const struct pair *p, int32_t from_q30,
                                      int64_t time_q30)
 {
@@ -69,7 +76,7 @@ bool step_goes_far(const struct step *s, const struct pair *p)
     return way_q22 > (b->def.goes && b->def.radius_q22 < a->def.radius_q22 ? b : a)->def.radius_q22;
 }
 
-/* Whether a body's region lasts beyond the frame because nothing was near. */
+/* True if a body's region lasts beyond the frame because nothing was near. */
 static bool lasts(const struct step *s, uint32_t i)
 {
     const struct body *b = &s->w->bodies[i];
@@ -79,7 +86,7 @@ static bool lasts(const struct step *s, uint32_t i)
            left_q30 > 0;
 }
 
-/* Such a region ends with the frame. */
+/* End such a region with the frame. */
 static void shorten(struct step *s, uint32_t i)
 {
     if (lasts(s, i)) {
@@ -96,7 +103,7 @@ int32_t step_part_of(const struct step_visitor *v, const struct boyse_hit *hit)
     return part < v->parts ? part : v->parts - 1;
 }
 
-/* Candidates from a time of the frame to another, to be kept with those that the pair has. */
+/* Gather the candidates of a time of the frame and keep them with the pair's others. */
 static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30,
                      int64_t to_q30, uint32_t most)
 {
@@ -110,9 +117,9 @@ static int gather_on(struct step *s, uint32_t number, struct step_visitor *v, in
 }
 
 /*
- * Candidates of all parts of the window but the last one, up to the first part that has a hit: then they are `enough`,
- * for what lies behind is of no interest before the hit is answered. `from` becomes the time up to which the pair keeps
- * them all; a pool that is too small keeps none, and that time stays.
+ * Gather all parts of the window but the last, up to the first part that has a hit. Then *enough is
+ * true: later parts do not matter before the hit is answered. *from_q30 becomes the time up to
+ * which all candidates are kept; if the pool is too small, it stays.
  */
 static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v, int32_t *from_q30,
                         bool *enough)
@@ -140,7 +147,7 @@ static int gather_parts(struct step *s, uint32_t number, struct step_visitor *v,
     return CAROM_OK;
 }
 
-/* Whether bodies go far in regions that nothing was near to, and a gather costs much. */
+/* True if bodies go far in regions that last because nothing was near, and a gather costs much. */
 static bool goes_on_far(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
@@ -152,7 +159,10 @@ static bool goes_on_far(const struct step *s, const struct pair *p)
            (step_active(s, p->b) && b->search.region.length_q22 > b->def.radius_q22 / FAR_PARTS);
 }
 
-/* Whether it is likely that a part of the window is enough: what has hit or touches flies away, or hits slowly. */
+/*
+ * True if a part of the window is likely to be enough. A pair that has hit or touched usually
+ * separates, or hits slowly.
+ */
 static bool goes_by_parts(const struct step *s, uint32_t number)
 {
     const struct pair *p = &s->w->pairs[number];
@@ -161,14 +171,17 @@ static bool goes_by_parts(const struct step *s, uint32_t number)
            !s->w->bodies[p->b].clock.touched;
 }
 
-/* A pair of which one body's region lasts: it ends with the frame when something is near. */
+/*
+ * Gather for a pair of which one region lasts. That region ends with the frame if something is
+ * near.
+ */
 static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
 {
     const struct pair *p = &s->w->pairs[number];
     struct pair_work *m = &s->w->meetings[number];
     int result = CAROM_OK;
 
-    /* where bodies go far they are likely to have come near: then the frame is enough */
+    /* bodies that go far are likely to have come near: then gather for the frame only */
     if (goes_on_far(s, p)) {
         result = gather_on(s, number, v, from_q30, CAROM_ONE_Q30, UINT32_MAX);
         from_q30 = CAROM_ONE_Q30;
@@ -188,7 +201,7 @@ static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *
     return result;
 }
 
-/* A pair that is to be kept, from a time on to the end of both regions. */
+/* Gather for a pair whose candidates are kept, from a time to the end of both regions. */
 static int gather_regions(struct step *s, uint32_t number, struct step_visitor *v, int32_t from_q30)
 {
     const struct pair *p = &s->w->pairs[number];
@@ -209,7 +222,7 @@ static int gather_regions(struct step *s, uint32_t number, struct step_visitor *
                : gather_on(s, number, v, from_q30, FOREVER_Q30, UINT32_MAX);
 }
 
-/* A pair that is not kept. */
+/* Visit a pair whose candidates are not kept. */
 static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
 {
     struct carom_world *w = s->w;
@@ -223,7 +236,7 @@ static int visit_anew(struct step *s, uint32_t number, struct step_visitor *v)
         span = span_of(s, p, v->from_q30, v->to_q30 - v->from_q30);
         return interfere_visit_pair(&w->interfere, &all, number, &span, false, &v->base);
     }
-    /* a pair is gathered from the latest start of its bodies' paths on: before that it was asked */
+    /* gather from the later start of both paths; the time before has been searched */
     for (int k = 0; k < 2; k++) {
         uint32_t i = k == 0 ? p->a : p->b;
 
