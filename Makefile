@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Everything that is built goes to build/, everything that is found out to out/. See `make help`.
+# Builds go to build/, results to out/. `make help` lists the commands.
 
 BOARD ?= versatilepb
 FRAMES ?= 600
@@ -7,17 +7,17 @@ OPT ?= -O2
 LABEL ?= $(if $(PAPER),paper)
 DEBUG ?=
 PAPER ?=
-# 1: the engine is the two sources of `make amalgamation`
+# 1: the engine is the two source files of `make amalgamation`
 JOINED ?=
 
-# of `make bench` and `make fixtures`, before the board says which scenes it shows
+# of `make bench` and `make fixtures`, before the board sets its scenes
 BENCH_SCENES := $(SCENES)
-# of `make view`: the X server, before the board says what its display is
+# of `make view`: the X server, before the board sets its display
 X_DISPLAY := $(if $(filter environment,$(origin DISPLAY)),$(DISPLAY))
 BOARDS := $(patsubst port/%/board.mk,%,$(wildcard port/*/board.mk))
-# those that have scenes to show
+# boards that have scenes to show
 SHOWN := $(patsubst port/%/board.mk,%,$(sort $(shell grep -l '^SCENES' port/*/board.mk)))
-# a board that was asked for, not the one that is there when none was
+# a board that was asked for, not the default one
 ASKED := $(if $(filter command environment,$(origin BOARD)),$(BOARD))
 ifeq ($(filter $(BOARD),$(BOARDS)),)
 $(error BOARD=$(BOARD) is none of: $(BOARDS))
@@ -26,10 +26,10 @@ include port/$(BOARD)/board.mk
 ifdef FAMILY
 include port/$(FAMILY)/family.mk
 endif
-# the scene that a board shows when it is not told
+# the default scene of the board
 SCENE ?= $(if $(MESH),user,$(firstword $(subst :, ,$(SCENES)) head))
 
-# scenes with joints and moving parts, and those of them that a board has in ROM
+# scenes with joints and moving parts, and those that the board has in ROM
 GAME_SCENES := door chain crusher conveyor car walker lockstep gears screw \
     newton dominoes cards arch bowl pour espresso espresso-fine
 ROM_GAMES := $(filter $(GAME_SCENES),$(ROM_SCENES))
@@ -57,13 +57,13 @@ JOINED_SOURCES := build/amalgamation/carom.c build/amalgamation/carom_draw.c
 PAPER_LINK := -Wl,--wrap=interfere_leaves -Wl,--wrap=interfere_note_faces
 ENGINE_SOURCES := $(if $(JOINED),$(JOINED_SOURCES),$(wildcard src/*/*.c))
 ifneq ($(PAPER),)
-# The paper's interference detection in place of ours; its z-list buffer leaves less for a mesh.
+# The paper's interference detection in place of ours; its z-list buffer leaves less memory for a mesh.
 ENGINE_SOURCES += $(wildcard tests/paper/*.c)
 CFLAGS += -DUSER_VERTICES=4000 -DBENCH_MESH_BYTES=3000000 -DBENCH_DRAW_BYTES=131072
 LDFLAGS += $(PAPER_LINK)
 endif
 LDFLAGS += $(FAMILY_LDFLAGS)
-# a board that has no operating system
+# a board without an operating system
 ifneq ($(if $(HOSTED),,$(CROSS)),)
 LDFLAGS += -Wl,-z,noexecstack -nostartfiles -Lport/$(BOARD) -Llinker -T$(BOARD).ld
 LINKER_FILES := linker/$(BOARD).ld linker/sections.ld $(wildcard linker/hot*.ld) \
@@ -75,40 +75,40 @@ endif
 objects = $(addprefix $(B)/,$(addsuffix .o,$(basename $(1))))
 ENGINE := $(call objects,$(ENGINE_SOURCES))
 SUPPORT := $(call objects,$(PORT) port/option.c port/print.c port/assert.c) $(LINKER_FILES)
-# the null port proves that port.h can be met; nothing links it
+# the null port proves that port.h can be implemented; nothing links it
 ALSO := $(call objects,port/null/null.c)
-# examples are for the host, head is for every board
+# examples are for the host; head is for every board
 EXAMPLES := $(if $(CROSS),examples/head.c,$(filter-out examples/scene% examples/show% examples/view%,$(wildcard examples/*.c)))
 PROGRAMS := $(EXAMPLES:examples/%.c=$(B)/%.elf)
-# what the generators make, by the number of faces; without one, that of the paper
+# generated meshes, by number of faces; without a number, that of the paper
 HEADS := head head48 head80 head100 head450 head836
 FIELDS := field field128 field386 field512 field12012 field49928
-# parts of games' scenes; a program that names none of them has none
+# parts of games' scenes; a program links those that it names
 SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard gear10 gear24 gear16 gear12 board bolt nut hexagon \
     domino pendulum beam post card cover stone plinth bowl cup \
     ring star hook beaker bucket tray
-# figure 8: meshes, and colours of their faces
+# figure 8: meshes, and the colours of their faces
 FIGURE8 := espresso mandelbrot512 mandelbrot3200
-# and the programs of these scenes
+# the programs of these scenes
 GAMES := $(filter-out $(patsubst %,examples/scene_%.c,sheet built rom play),$(wildcard examples/scene_*.c))
-# the scenes, with meshes that are indexed when a scene is loaded
+# the scenes, whose meshes are indexed when a scene is loaded
 SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES) $(FIGURE8)) \
     $(FIGURE8:%=build/gen/%_ramps.c))
-# or, on a board that says which, with indexed ones in ROM
+# or, on a board with ROM_SCENES, indexed in ROM
 SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
     $(if $(ROM_GAMES),$(GAMES) $(FIGURE8:%=build/gen/%_ramps.c)) $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
-# A board runs those suites for which it has room, in one image or in one each
+# A board runs the suites for which it has room, in one image or in one each
 SUITES ?= $(patsubst tests/test_%.c,%,$(wildcard tests/test_*.c))
 TEST_IMAGES := $(if $(SUITE_IMAGES),$(SUITES:%=$(B)/suite_%.elf),$(B)/tests.elf)
-# the board of all suites: together their arrays take more than its RAM
+# the board of all suites, one image each: together their arrays exceed its RAM
 CORTEX_TESTS := $(patsubst tests/test_%.c,build/mps2-an385/suite_%.elf,$(wildcard tests/test_*.c))
-# programs of their own, and what tests share
+# programs of their own, and what the tests share
 HOST_TESTS := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/host_*.c))
 ACCURACY := $(patsubst tests/%.c,build/host/%.elf,$(wildcard tests/accuracy_*.c))
 TEST_TOOLS := $(call objects,$(wildcard tests/lib/*.c))
-# the page, once the viewer's core is there
+# the page, if the viewer is there
 PAGE := $(if $(wildcard examples/view.c),out/web/index.html)
 # the window of `make view`, the one program that needs SDL2
 WINDOW := build/host/window.elf
@@ -117,7 +117,7 @@ SCRIPT_TESTS := $(wildcard tests/*.sh tests/test_*.py $(if $(PAGE),tests/test_*.
 # ------------------------------------------------------------------- commands
 
 export PYTHONDONTWRITEBYTECODE := 1
-# no rules but those below
+# no built-in rules
 MAKEFLAGS += -r
 
 # V=1 shows the commands themselves.
@@ -125,13 +125,13 @@ ifndef V
 MAKEFLAGS += -s --no-print-directory
 endif
 
-# A sub-make knows the board, and has two jobs unless it is given a number.
+# A sub-make knows the board. It has two jobs unless it gets a number.
 SUBMAKE = $(MAKE) $(if $(findstring jobserver,$(MAKEFLAGS)),,-j2)
 NEED_MESHES := python3 c++ assimp meshopt png
 NEED_HOST := cc libc png
 NEED_BOARD := arm newlib qemu-arm
-# Boards are built for a command one after another; one whose tools cannot be installed is left out, but
-# not in CI; one that cannot be built fails the command when the others are through.
+# Build boards one after another for a command. A board whose tools cannot be installed is left out, except in CI. A board that cannot be
+# built fails the command after the others are done.
 build_boards = ready= broken=; for board in $(1); do \
     if ! $(MAKE) BOARD=$$board need; then echo "$$board is left out: its tools are not there"; \
         [ -z "$$CI" ] || broken="$$broken $$board"; \
@@ -152,12 +152,12 @@ COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES
 
 .PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures zlists compare check size boards packages amalgamation five commands build need clean force
 
-help: ## list the commands
+help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
 	    while IFS='|' read -r name text; do printf '  make %-8s %s\n' "$$name" "$$text"; done
 	@echo '  BOARD is one of: $(SHOWN)'
 
-run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|chain|crusher|conveyor|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PRESS=N:KEYS,... PAPER=1
+run: ## run a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|chain|crusher|conveyor|... FRAMES=600 MESH=file AWAKE=1 FRAMES_PNG=0|1 PRESS=N:KEYS,... PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_THIS) pil
 	@$(SUBMAKE) $(B)/head.elf $(RUNNER) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
@@ -165,18 +165,18 @@ run: ## a scene on a board; BOARD= SCENE=head|box|pile|sheet|car|walker|door|cha
 	    --pictures $(or $(FRAMES_PNG),$(PICTURES),0) $(B)/head.elf \
 	    $(if $(MESH),mesh=build/gen/user.crm) $(if $(AWAKE),awake=1) $(if $(PRESS),press=$(PRESS))
 
-view: ## a window on a scene, by SDL2: turn, pause, step, take hold of bodies, H for help; SCENE=head|car|... MESH=file LINK=text
+view: ## a scene in a window, by SDL2: turn, pause, step, grab bodies, H for help; SCENE=head|car|... MESH=file LINK=text
 	@tools/need $(NEED_MESHES) $(NEED_HOST) sdl2
 	@$(SUBMAKE) BOARD=host $(WINDOW) $(if $(MESH),build/tools/carom-mesh)
 	@$(if $(MESH),build/tools/carom-mesh $(MESH_FLAGS) -b build/gen/user.crm '$(MESH)')
 	@DISPLAY='$(X_DISPLAY)' $(WINDOW) scene='$(SCENE)' $(if $(MESH),mesh=build/gen/user.crm) $(if $(LINK),link='$(LINK)')
 
-web: ## one page with the engine in it, out/web/index.html: scenes, what a mesh of yours does, links
+web: ## one web page with the engine in it, out/web/index.html: scenes, your own meshes, links
 	@tools/need $(NEED_MESHES) $(NEED_HOST) clang lld llvm
 	@$(if $(PAGE),,echo 'examples/view.c is not there: the page needs it'; false)
 	@$(SUBMAKE) BOARD=wasm $(PAGE)
 
-scenes: ## the scenes, a line and a thumbnail each, to out/scenes/index.html and out/scenes/scenes.png
+scenes: ## list the scenes, with thumbnails in out/scenes/index.html and out/scenes/scenes.png
 	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
 	@$(SUBMAKE) BOARD=host build/host/head.elf >/dev/null
 	@tools/scene_sheet.py build/host/head.elf out/scenes
@@ -187,7 +187,7 @@ test: need
 	@$(SUBMAKE) BOARD=$(BOARD) build $(TEST_IMAGES)
 	@tools/run_tests.py --select '$(TEST)' --frames $(FRAMES) --boards '$(BOARD)' $(TEST_IMAGES)
 else
-test: ## every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= a part of a name
+test: ## run every test, here and on a board, and a scene on every board; BOARD= all of one; TEST= part of a name
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) clang lld llvm node m68k-linux-gnu qemu-user pil npm chromium \
 	    sdl2 xvfb xdotool
 	@tools/need npm:tools/web
@@ -204,11 +204,11 @@ test: ## every test, here and on a board, and a scene on every board; BOARD= all
 	    && $(all_built)
 endif
 
-budget: ## the worst frame of every scene that a board is to hold, to out/budget.csv; BOARD= of one
+budget: ## measure the worst frame of every scene of a board against its budget, to out/budget.csv; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
 	    tools/budget.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
 
-accuracy: ## the integer kernels against independent oracles, to out/accuracy.csv
+accuracy: ## compare the integer kernels with independent oracles, to out/accuracy.csv
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host $(ACCURACY)
 	@mkdir -p out
@@ -217,39 +217,39 @@ accuracy: ## the integer kernels against independent oracles, to out/accuracy.cs
 	    $$program >out/accuracy.part || status=1; tee -a out/accuracy.csv <out/accuracy.part; \
 	done; rm -f out/accuracy.part; exit $$status
 
-oracle: ## first hits of 10,000 motions against every pair of features, to out/oracle.csv
+oracle: ## compare first hits of 10,000 motions with a test of every pair of features, to out/oracle.csv
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_first_hit.elf
 	@mkdir -p out
 	@status=0; build/host/host_first_hit.elf all >out/oracle.csv || status=1; \
 	    cat out/oracle.csv; exit $$status
 
-fixtures: ## published and special scenes: do they hold, stand, turn?; to out/fixtures.csv and docs/fixtures.md; SCENES=
+fixtures: ## run published and special scenes: do they hold, stand, turn? To out/fixtures.csv and docs/fixtures.md; SCENES=
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_fixtures.elf
 	@tools/fixtures.py build/host/host_fixtures.elf $(BENCH_SCENES)
 
 N ?= 5000
 SEED ?= 1
-soak: ## random worlds, watched by an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1
+soak: ## run random worlds under an independent checker, to out/soak.csv and docs/soak.md; N=5000 SEED=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_soak.elf
 	@tools/soak.py build/host/host_soak.elf --first $(SEED) --count $(N) \
 	    $(if $(filter 5000-1,$(N)-$(SEED)),--docs)
 
-bench: ## instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
+bench: ## count instructions by stage on a Cortex-M3, to out/bench.csv; SCENES= BASELINE=1 GATE=1 PAPER=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD)
 	@$(SUBMAKE) BOARD=host build/host/bench.elf
 	@$(SUBMAKE) BOARD=mps2-an385 OPT=-O2 build/mps2-an385/bench.elf
 	@tools/bench.py build/host/bench.elf build/mps2-an385/bench.elf --label '$(LABEL)' \
 	    --scenes '$(BENCH_SCENES)' $(if $(BASELINE),--baseline) $(if $(GATE),--gate)
 
-matrix: ## one state hash from every instruction set, compiler and option, to out/matrix.csv; SHORT=1
+matrix: ## compare state hashes of every instruction set, compiler and option, to out/matrix.csv; SHORT=1
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/matrix.elf
 	@tools/matrix.py $(if $(SHORT),--short)
 
-replay: need ## play a recording here and on BOARD=; FILE=, or AGAINST= another one, call by call (docs/replay.md)
+replay: need ## play a recording here and on BOARD=; FILE=; AGAINST= compares it with another, call by call (docs/replay.md)
 	@test -n '$(FILE)' || { echo 'FILE= names the recording'; false; }
 	@$(SUBMAKE) BOARD=host build/host/replay.elf
 	@$(if $(filter-out host,$(ASKED)),$(SUBMAKE) BOARD=$(BOARD) build/$(BOARD)/replay.elf $(filter build/%,$(RUNNER)) || \
@@ -258,18 +258,18 @@ replay: need ## play a recording here and on BOARD=; FILE=, or AGAINST= another 
 
 # the scenes of which figures 7 and 8 speak
 PAPER_SCENES := head head450 head836 $(patsubst %,growth-%,512 3034 12012 49928)
-figures: ## the paper's figures 6, 7 and 8, measured and drawn, to out/figures and docs/figures.md
+figures: ## measure and draw the paper's figures 6, 7 and 8, to out/figures and docs/figures.md
 	@tools/need gnuplot pil
 	@$(MAKE) bench SCENES=$(subst $(space),$(comma),$(PAPER_SCENES))
 	@$(SUBMAKE) BOARD=host build/host/figures.elf
 	@tools/figures.py build/host/figures.elf
 
-zlists: ## the drawings of docs/z-lists.md, from a step of the head scene
+zlists: ## write the drawings of docs/z-lists.md, from a step of the head scene
 	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
 	@$(SUBMAKE) BOARD=host build/host/zlists.elf
 	@tools/zlists.py build/host/zlists.elf
 
-compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
+compare: ## compare other engines with Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
 	@$(SUBMAKE) BOARD=host build/tools/carom-heaps
@@ -284,47 +284,47 @@ else
 	    $(COMPARE_SCENES)
 endif
 
-docs: ## the API reference of the public headers, by Doxygen, to out/docs/html
+docs: ## write the API reference of the public headers, by Doxygen, to out/docs/html
 	@tools/need doxygen
 	@rm -rf out/docs && mkdir -p out/docs
 	@CAROM_VERSION=$$(sed -n 's/^#define CAROM_VERSION_[A-Z]* \([0-9]*\)$$/\1/p' include/carom_version.h | paste -sd.) \
 	    doxygen docs/Doxyfile
 	@echo out/docs/html/index.html
 
-check: ## the gates: format, layers, symbols, sizes, stack, licences
+check: ## run the gates: format, layers, symbols, sizes, stack, licences, documents
 	@tools/need $(NEED_HOST) $(NEED_BOARD) python3 clang clang-format doxygen reuse
 	@mkdir -p build
 	@status=0; for gate in $(sort $(wildcard tools/check_*)); do \
 	    if [ -x $$gate ]; then echo "== $$gate"; $$gate || status=1; fi; done; exit $$status
 
-size: ## code, data and stack of what `make run` runs on every board, to out/size.csv; what a use of the engine adds; BOARD= of one
+size: ## measure code, data and stack of the programs of `make run`, to out/size.csv, and what each use of the engine adds; BOARD= of one
 	@$(call build_boards,$(or $(ASKED),$(SHOWN))); \
 	    tools/size.py $(if $(ASKED),--keep) --frames $(FRAMES) $$ready && $(all_built)
 	@tools/size_use.py
 
-boards: ## the table of boards in README.md, with the figures that budget and size left in out/
+boards: ## write the table of boards in README.md, with the figures that budget and size left in out/
 	@tools/need python3
 	@tools/board_table.py
 	@tools/page.py --readme
 
-amalgamation: ## two pairs of files to copy into a project, build/amalgamation/carom.[ch] and carom_draw.[ch]
+amalgamation: ## write two pairs of files to copy into a project, build/amalgamation/carom.[ch] and carom_draw.[ch]
 	@tools/need python3
 	@$(MAKE) $(JOINED_SOURCES)
 
-packages: ## a stranger's project by every way to install Carom, packages/README.md; SYSTEMS= chooses
+packages: ## try every way to install Carom with a stranger's project (packages/README.md); SYSTEMS= chooses
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/hello.elf >/dev/null
 	@tools/packages $(SYSTEMS)
 
-five: ## README's commands as a new user would give them, in a clean clone, timed, to docs/five-minutes.md
+five: ## give README's commands as a new user would, in a clean clone, and time them, to docs/five-minutes.md
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_BOARD) pil
 	@tools/five_minutes --docs
 
-commands: ## compile_commands.json for editors, as BOARD compiles
+commands: ## write compile_commands.json for editors, as BOARD compiles
 	@tools/need python3
 	@$(MAKE) -Bn BOARD=$(BOARD) build/$(BOARD)/tests.elf build/$(BOARD)/head.elf | tools/compile_commands.py
 
-build: $(PROGRAMS) $(RUNNER) ## the programs of BOARD, without running them
+build: $(PROGRAMS) $(RUNNER) ## build the programs of BOARD without running them
 
 need:
 	@tools/need $(NEED_MESHES) $(NEED_THIS)
@@ -337,15 +337,15 @@ clean: ## remove build/ and out/
 .SECONDARY:
 .DELETE_ON_ERROR:
 
-# Objects are made again when the compiler or its options change. What only some of them have is private: $(B)/flags is
-# made for the first of them, and would hold it.
+# Objects are made again when the compiler or its options change. Options of some objects are private: $(B)/flags is made
+# for the first object, and would hold them.
 $(B)/flags: force
 	@mkdir -p $(@D)
 	@echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' | cmp -s - $@ || \
 	    echo '$(TARGET_CC) $(CFLAGS) $(LDFLAGS)' > $@
 
 $(B)/src/%.o: private CFLAGS += -ffreestanding
-# what prints is not to have its variables on the stack while a step runs
+# the variables of functions that print must not lie on the stack while a step runs
 $(B)/examples/%.o: private CFLAGS += -fno-inline
 $(B)/tests/%.o: private CFLAGS += $(if $(CROSS)$(DEBUG),,-DTEST_LONG)
 
@@ -384,13 +384,13 @@ $(B)/%.elf: $(B)/examples/%.o $(PROGRAM)
 $(B)/head.elf: $(call objects,examples/scene_play.c examples/show.c)
 $(B)/figures.elf: $(call objects,examples/show.c)
 
-# What the page and the window show.
+# The viewer, which the page and the window show.
 VIEWER := $(patsubst %.c,$(B)/%.o,$(wildcard examples/view*.c) examples/show.c)
 $(B)/host_view.elf $(B)/host_view_link.elf $(B)/zlists.elf: $(VIEWER)
 # it looks at the gathers of the step
 $(B)/zlists.elf: private LDFLAGS += -Wl,--wrap=interfere_leaves
 
-# The page: one file with the module in it.
+# The window.
 $(B)/window.elf: $(call objects,port/sdl2/window.c port/sdl2/input.c) $(VIEWER) $(PROGRAM)
 	@echo '  link  $@'
 	$(link) -lSDL2
@@ -410,7 +410,7 @@ $(B)/%.elf: $(B)/tests/%.o $(B)/libtests.a $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
 
-# on every board, however small: nothing else of the tests
+# for every board, however small, so without the rest of the tests
 $(B)/matrix.elf: $(call objects,tests/matrix.c tests/lib/plays.c) $(PROGRAM)
 	@echo '  link  $@'
 	$(link)
@@ -420,8 +420,8 @@ $(B)/replay.elf: $(B)/tests/replay.o $(SUPPORT) \
 	@echo '  link  $@'
 	$(link)
 
-# A board that is short of memory has the recording in its image, and plays it in the RAM that is left. All of the engine
-# that changes a world is in that image: at -Os.
+# A board that is short of memory has the recording in its image, and plays it in the RAM that is left. The image holds all
+# functions that change a world, so it is compiled at -Os.
 $(B)/small/%.o: private CFLAGS += -ffreestanding -Os
 $(B)/small/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
@@ -435,20 +435,20 @@ $(B)/replay_file.S: force
 $(B)/replay_file.o: $(B)/replay_file.S $(FILE)
 	$(TARGET_CC) $(ARCH) -c -o $@ $<
 
-# The scenes as they are, each call on the world recorded.
+# The scenes unchanged, with each call on the world recorded.
 $(B)/recorded/%.o: private CFLAGS += -include tests/lib/recorded.h
 $(B)/recorded/%.o: %.c $(B)/flags
 	@mkdir -p $(@D)
 	@echo '  cc    $< recorded'
 	$(TARGET_CC) $(CFLAGS) -MMD -MP -c -o $@ $<
-# A game that is played over a link takes frames back, which no recording can.
+# Without the game over a link: it takes frames back, which a recording cannot.
 RECORDED := examples/scene.c examples/scene_sheet.c $(filter-out %/scene_net.c,$(GAMES)) tests/record.c
 $(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/libcarom.a \
     $(filter-out $(call objects,$(RECORDED)),$(SCENES_BUILT))
 	@echo '  link  $@'
 	$(link)
 
-# So are the calls of chance that this test makes.
+# The random calls of this test are recorded, too.
 $(B)/host_replay.elf: $(patsubst %.c,$(B)/recorded/%.o,$(wildcard tests/lib/fuzz*.c))
 
 $(B)/tests.elf: $(call objects,tests/main.c $(SUITES:%=tests/test_%.c)) $(B)/libtests.a $(PROGRAM)
@@ -462,14 +462,14 @@ $(B)/suite_%.elf: $(B)/tests/test_%.o $(B)/tests/main.o $(B)/libtests.a $(PROGRA
 $(B)/host_paper.elf: private LDFLAGS += $(PAPER_LINK)
 $(B)/host_paper.elf: $(call objects,$(wildcard tests/paper/*.c))
 
-# Meshes: a generator prints OBJ, the converter makes it a C array.
+# Meshes: a generator prints OBJ, and the converter turns it into a C array.
 build/gen/field%: GENERATOR := tools/gen_field
 $(SHAPES:%=build/gen/%.obj): GENERATOR := tools/gen_shapes
 build/gen/%.obj: tools/gen_field tools/gen_shapes tools/machines.py tools/small.py tools/solids.py
 	@mkdir -p $(@D)
 	@echo '  mesh  $@'
 	$(GENERATOR) $(*:field%=%) > $@
-# one run makes them all: the coarser ones are of the finer ones
+# one run makes them all: each is reduced from a finer one
 $(HEADS:%=build/gen/%.obj) &: tools/gen_head tools/head_shape.py tools/mesh_collapse.py
 	@mkdir -p $(@D)
 	@echo '  mesh  $(@D)/head*.obj'
@@ -505,7 +505,7 @@ build/gen/%.crm: build/gen/%.obj build/tools/carom-mesh
 	@echo '  mesh  $@'
 	build/tools/carom-mesh $(CONVERT) -b $@ $<
 
-# What is measured beside Carom has all optimisations; the converter is to be there soon.
+# Engines measured beside Carom get all optimisations; the converter is compiled fast.
 build/tools/mesh_%.o build/tools/rom_%.o: private TOOL_OPT := -O1
 build/tools/%.o: tools/%.cpp
 	@mkdir -p $(@D)
@@ -532,7 +532,7 @@ build/tools/heap.wasm: tools/compare_wasm/heap.c tools/heaps_box.h port/nolibc/s
 	clang --target=wasm32 -std=c11 -O3 -ffreestanding -Iport/nolibc -Iinclude -nostdlib \
 	    -Wl,--no-entry,-z,stack-size=262144 -o $@ $(filter %.c,$^)
 
-# The engine and the scenes, for tools; what these do not call is left out at the link.
+# The engine and the scenes, for tools; the link leaves out what these do not call.
 build/tools/%.o: %.c
 	@mkdir -p $(@D)
 	@echo '  cc    $< for tools'
@@ -549,12 +549,12 @@ build/tools/carom-mesh: $(addprefix build/tools/,mesh_convert.o mesh_rom.o) \
 	@echo '  link  $@'
 	$(CXX) -Wl,--gc-sections -o $@ $^ -lassimp -lmeshoptimizer -lpng
 
-# What counts the instructions of a program in QEMU's user mode.
+# The plugin that counts instructions of a program in QEMU's user mode.
 build/tools/count.so: tools/count.c port/linux/count.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
 	$(CC) -std=c11 -O2 $(WARNINGS) -shared -fPIC -Iport/linux -o $@ $<
-# What runs a board's programs where QEMU does not.
+# Runners of boards that QEMU does not have.
 build/tools/retro_run: $(wildcard tools/retro_*.[ch]) port/nds/channel.h
 	@mkdir -p $(@D)
 	@echo '  cc    $@'
@@ -573,7 +573,7 @@ build/tools/psx_run: tools/psx_run.py build/tools/psx_plugin.so build/tools/psx_
 	@echo '  copy  $@'
 	install $< $@
 
-# What only a world needs is left out at the link.
+# The link leaves out what only a world needs.
 build/tools/rom_scene: $(addprefix build/tools/,rom_scene.o mesh_rom.o) \
                        $(SCENES_BUILT:$(B)/%=build/tools/%) build/tools/libengine.a
 	@echo '  link  $@'

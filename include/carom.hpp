@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom.hpp - Carom for C++17: units in types, memory in objects, results that must be looked at. Over carom.h, whose
- * rules hold here too; nothing is allocated or thrown, and calls are inline ones of the C interface.
+ * carom.hpp - Carom for C++17: units in types, memory in objects, results that must be checked. It is a header over carom.h, whose rules
+ * hold. It allocates and throws nothing; its calls are inline calls of the C interface.
  *
- *   Mesh<V, F>   a mesh and its memory; World<Caps<...>> a world and its memory. Neither can be copied or moved.
- *                Where one could not be made, or was not started, what is called on it gives CAROM_ERR_NULL
+ *   Mesh<V, F>   a mesh and its memory; World<Caps<...>>: a world and its memory. Neither can be copied or moved. Calls on
+ *                one that could not be made, or was not started, give CAROM_ERR_NULL
  *   BodyDef, JointDef, Drive, WorldDef     definitions, set by name
  *   Body, Joint  handles: a world and a number
- *   Result<T>    a value or an enum carom_error; Result<> only whether it went well
+ *   Result<T>    a value or an enum carom_error; Result<>: success or an error
  *
- * What has no method here is called on c().
+ * For functions without a method here, c() gives the C object.
  */
 #ifndef CAROM_HPP
 #define CAROM_HPP
@@ -27,7 +27,7 @@ struct None {
 struct Unset {
 };
 
-/* A value, or the negative enum carom_error that came in its place. */
+/* A value, or a negative enum carom_error. */
 template <class T = None> class [[nodiscard]] Result
 {
   public:
@@ -47,7 +47,7 @@ template <class T = None> class [[nodiscard]] Result
     {
         return carom_result_text(code_);
     }
-    /* After an error: a T of no world, whose methods give errors, too. */
+    /* After an error: a T of no world, whose methods give errors. */
     constexpr const T &operator*() const
     {
         return value_;
@@ -71,11 +71,11 @@ template <class T = None> class [[nodiscard]] Result
 
 enum class Kind : uint8_t { solid = CAROM_SOLID, surface = CAROM_SURFACE };
 
-/* A mesh of V vertices and F faces with the memory of its index. The arrays must outlive it. */
+/* A mesh of V vertices and F faces, with the memory of its index. The arrays must outlive it. */
 template <uint32_t V, uint32_t F> class Mesh
 {
   public:
-    /* Vertices are quanta of 2^-quantum_bits m. Whether it went well: built(). */
+    /* Vertices are quanta of 2^-quantum_bits m. built() tells if it succeeded. */
     Mesh(const int16_t (&vertices)[V][3], const uint16_t (&faces)[F][3], Kind kind = Kind::solid,
          uint8_t quantum_bits = 8)
     {

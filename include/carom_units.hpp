@@ -6,11 +6,10 @@
  *   Fixed<..>   an integer of the engine: Length, Velocity, Spin, Mass, ... Time is counted in frames
  *   Vec<Q>      three of them
  *
- * All have their dimension in the type, so that metres added to radians, or a velocity in the place of a position, do
- * not compile. A literal without time in it becomes a Fixed by itself; one with seconds has to say how many frames a
- * second has: `constexpr carom::Fps<60> fps;` and fps(9.81_m_s2). Numbers are cut off to their format, as by the
- * macros of carom_fix.h: the same bits. They are worked out when they are compiled, and one that does not fit its format
- * does not compile; no floating point anywhere.
+ * All have their dimension in the type. So metres added to radians, or a velocity in place of a position, do not compile. A literal without
+ * time becomes a Fixed by itself; a literal with seconds needs the frames in a second: `constexpr carom::Fps<60> fps;` and fps(9.81_m_s2).
+ * Numbers are cut off to their format, with the same bits as by the macros of carom_fix.h. The compiler computes them, without floating point;
+ * a number that does not fit its format does not compile.
  */
 #ifndef CAROM_UNITS_HPP
 #define CAROM_UNITS_HPP
@@ -53,8 +52,8 @@ template <class Of, int64_t N, int64_t D> struct Literal {
 };
 
 /*
- * n / d with fractional bits, cut off towards zero; bit by bit, so that nothing but the result must fit; d below 2^62.
- * One that does not fit becomes INT64_MAX, which no function of the engine takes.
+ * n / d with fractional bits, cut off towards zero; bit by bit, so that only the result must fit; d below 2^62. A result that does not fit becomes
+ * INT64_MAX, which no function of the engine takes.
  */
 constexpr int64_t cut_off(int64_t n, int64_t d, int bits)
 {
@@ -80,7 +79,7 @@ template <class D, int Bits, class Int = int64_t> class Fixed
     static constexpr int bits = Bits;
 
     constexpr Fixed() = default;
-    /* SI without time is the engine's unit. */
+    /* SI without time has the engine's units. */
     template <int64_t N, int64_t Parts>
     constexpr Fixed(Literal<D, N, Parts>) : raw_(fitting<cut_off(N, Parts, Bits)>())
     {
@@ -92,7 +91,7 @@ template <class D, int Bits, class Int = int64_t> class Fixed
         made.raw_ = raw;
         return made;
     }
-    /* So many of a unit, as in Length::times(height, 1_mm): of a number that is known when the program runs. */
+    /* A number known at run time, in a unit: Length::times(height, 1_mm). */
     template <int64_t N, int64_t Parts>
     static constexpr Fixed times(int32_t count, Literal<D, N, Parts>)
     {
@@ -125,7 +124,7 @@ template <class D, int Bits, class Int = int64_t> class Fixed
     {
         return from_raw(static_cast<Int>(a.raw_ / parts));
     }
-    /* How many whole units there are, rounded down, as in height / 1_mm; without time in the unit. */
+    /* Whole units, rounded down, for a unit without time: height / 1_mm. */
     template <int64_t N, int64_t Parts> constexpr int64_t operator/(Literal<D, N, Parts>) const
     {
         static_assert(D::time == 0, "a value a second is none a frame: use raw()");
@@ -178,7 +177,7 @@ using Restitution = Fixed<One, 30, int32_t>;
 using Part = Fixed<One, 30, int32_t>; /* of a way, of a unit vector */
 using Friction = Fixed<One, 16, uint32_t>;
 
-/* Three of a kind, and the struct of the C interface that they are there. */
+/* Three of a kind, and the struct of the C interface for them. */
 template <int Bits> struct VecOf;
 template <> struct VecOf<30> {
     using type = carom_v3_q30;
@@ -203,7 +202,7 @@ template <class Q> struct Vec {
     }
 };
 
-/* Frames a second: makes values a frame of values a second. */
+/* Frames a second: converts values a second to values a frame. */
 template <int64_t Frames> struct Fps {
     template <class D, int64_t N, int64_t Parts>
     constexpr Fixed<D, 40> operator()(Literal<D, N, Parts>) const
@@ -216,7 +215,7 @@ template <int64_t Frames> struct Fps {
     {
         return Vec<decltype((*this)(x))>{(*this)(x), (*this)(y), (*this)(z)};
     }
-    /* So many of a unit: of a number that is known when the program runs. */
+    /* A number known at run time, in a unit. */
     template <class D, int64_t N, int64_t Parts>
     static constexpr Fixed<D, 40> times(int32_t count, Literal<D, N, Parts>)
     {
@@ -262,7 +261,7 @@ template <class Of, int64_t Times, int64_t Parts, char... Digits> constexpr auto
 
 namespace literals
 {
-/* A literal of so many times n / d of a unit. */
+/* A literal: a number times n / d of a unit. */
 #define CAROM_LITERAL_(suffix, dimension, ...)                                                     \
     template <char... Digits> constexpr auto operator""_##suffix()                                 \
     {                                                                                              \
@@ -296,7 +295,7 @@ CAROM_LITERAL_(N_m_s_per_rad, NewtonMetreTimePerRadian, 1, 1)
 #undef CAROM_DEGREE_
 #undef CAROM_LITERAL_
 
-/* Values that are a frame already: fixed-point numbers as they stand. */
+/* Values that are per frame already: plain fixed-point numbers. */
 #define CAROM_FRAME_LITERAL_(suffix, dimension)                                                    \
     template <char... Digits> constexpr auto operator""_##suffix()                                 \
     {                                                                                              \

@@ -10,7 +10,7 @@ namespace carom
 
 /* ------------------------------------------------------------------- joints */
 
-/* Limits, motor and spring: of a hinge in angles and torques, of the others in lengths and forces. */
+/* Limits, motor and spring: angles and torques for a hinge, lengths and forces otherwise. */
 template <class Q, class Rate, class Most, class Stiffness, class Damping> class Drive
 {
   public:
@@ -47,7 +47,7 @@ template <class Q, class Rate, class Most, class Stiffness, class Damping> class
 using HingeDrive = Drive<Angle, Spin, Torque, TurnStiffness, TurnDamping>;
 using SlideDrive = Drive<Length, Velocity, Force, Stiffness, Damping>;
 
-/* A joint between `a` and the world, or the body that to() names. */
+/* A joint between `a` and the world, or between `a` and the body given to to(). */
 class JointDef
 {
   public:
@@ -166,14 +166,14 @@ struct Caps {
         CAROM_CAPS(Bodies, Pairs, Contacts, Faces, Entries, Candidates, Joints, Extras, Hits);
 };
 
-/* How a world is made; the members of carom_config that are numbers of the caller are set on `config`. */
+/* How a world is made. Set plain numbers of carom_config on `config`. */
 struct WorldDef {
     Vec<Acceleration> gravity;
     bool sleep = false;
     carom_config config = {};
 };
 
-/* Things that lie side by side in the world until its next step. */
+/* Results that lie in the world until its next step. */
 template <class T> class View
 {
   public:
@@ -198,7 +198,7 @@ template <class T> class View
     int count_;
 };
 
-/* A world and its memory: bytes of the object, wherever the caller puts it. */
+/* A world and its memory, which is part of the object, wherever the caller puts it. */
 template <class Capacities> class World
 {
   public:
@@ -206,7 +206,7 @@ template <class Capacities> class World
     World(const World &) = delete;
     World &operator=(const World &) = delete;
 
-    /* Make it empty; again, too: its bodies are gone then. */
+    /* Make it empty. A second start removes its bodies. */
     Result<> start(const WorldDef &def)
     {
         carom_config config = def.config;
@@ -239,7 +239,7 @@ template <class Capacities> class World
 
         return carom_world_set_gravity(world_, &given);
     }
-    /* The body of a number, as events have it. */
+    /* The body of a number, as in events. */
     Body body(int number)
     {
         return Body(world_, number);
@@ -251,7 +251,7 @@ template <class Capacities> class World
 
         return {first, count};
     }
-    /* *result: the first face on the way, when code() is 1. */
+    /* *result: the first face on the way, if code() is 1. */
     Result<carom_ray_hit> cast_ray(const Vec<Length> &from, const Vec<Length> &way,
                                    const carom_query_filter *filter = nullptr) const
     {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Assertions of a debug build call this function, where there is a console. A program that has a carom_assert_failed of its
- * own is linked with that one.
+ * The function that assertions of a debug build call, where there is a console. A program may define its own carom_assert_failed instead.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A program that links the renderer, and the engine through it: it draws a world without bodies, which is all sky. */
+/* A program that links the renderer, and the engine through it. It draws a world without bodies: only sky. */
 #include <stdio.h>
 #include "carom_draw.h"
 
@@ -25,6 +25,6 @@ int main(void)
         carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT) < 0) {
         return 1;
     }
-    /* from the top of the picture to the bottom the background has all of its 32 shades */
+    /* the background has all of its 32 shades from the top of the picture to the bottom */
     return pixels[0] == pixels[63 * 64] || pixels[0] != pixels[63];
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* examples/hello.c, and the hash of its world at the end: taken where it asks for its body, after each step. */
+/* examples/hello.c, which also prints the hash of its world: taken after each step, where the program reads its body. */
 #include "carom.h"
 
 static uint64_t hash;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * hello.cpp in C, with all that carom.hpp looks after: a mesh that was not built is none, the body has the number that the
- * world gave it, and a state that could not be had is zero. What hello.cpp costs is held against this.
+ * hello.cpp in C, with all the checks of carom.hpp: a mesh that was not built counts as none, the body has the number that the world gave it,
+ * and a state that could not be read is zero. The cost of hello.cpp is compared with this.
  */
 #include <stdio.h>
 #include "carom.h"

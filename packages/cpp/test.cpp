@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Tests of carom.hpp: literals are the bits of carom_fix.h's macros, hello's world ends in the hash that the C
- * program's has, and what a body, a joint and a question do is what the units say.
+ * Tests of carom.hpp: literals have the bits of carom_fix.h's macros, hello's world ends in the hash of the C program, and a body, a joint and
+ * a question behave as their units say.
  */
 #define main hello
 #include "hello.cpp"
@@ -55,7 +55,7 @@ static bool near(int64_t raw, int64_t wanted, int64_t off)
     return raw > wanted - off && raw < wanted + off;
 }
 
-/* Without gravity: what pushes, forces and a motor give is in the velocities. */
+/* Without gravity: velocities show the effect of pushes, forces and a motor. */
 static void test_free()
 {
     CHECK(!free_world.step() && free_world.step().code() == CAROM_ERR_NULL);
@@ -96,7 +96,7 @@ static void test_free()
     CHECK(!body->mass(1_kg) && body->mass(1_kg).code() == CAROM_ERR_BODY);
 }
 
-/* hello's world: the events that it has left, and its hash. */
+/* hello's world: its last events, and its hash. */
 static void test_hello()
 {
     CHECK(hello() == 0);

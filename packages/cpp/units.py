@@ -30,7 +30,7 @@ void tried(World<Caps<2, 1, 16, 16, 0, 64>> &world, BodyDef &def, Body body)
 
 
 def refusal(compiler, line):
-    """What a compiler says against a line; nothing when it takes it."""
+    """A compiler's error for a line; nothing if it takes the line."""
     done = subprocess.run([compiler, *OPTIONS], input=PROGRAM % line, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return done.stdout if done.returncode else ""

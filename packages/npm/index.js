@@ -50,7 +50,7 @@ class Mesh {
     }
 }
 
-/** One module with a memory of its own: meshes, and the worlds that use them. */
+/* One module with its own memory: meshes, and the worlds that use them. */
 export class Carom {
     constructor(module) {
         this.worlds = [];
@@ -92,7 +92,7 @@ async function compile(source) {
     return WebAssembly.compile(source);
 }
 
-/** Load the module: from where this package is, or from a URL, bytes or a compiled module. */
+/* Load the module: from the place of this file, or from a URL, bytes or a compiled module. */
 export async function load(source = new URL("./carom.wasm", import.meta.url)) {
     return new Carom(await compile(source));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The memory of the module: blocks for meshes and worlds, structs on their way in and out, errors.
+// The memory of the module: blocks for meshes and worlds, structs as arguments and results, errors.
 import { structs } from "./structs.js";
 
 const PAGE = 65536;
 const SCRATCH = 4096; // for arguments and results of one call
 
-/** A result of Carom below zero: an enum carom_error of carom.h, and its text. */
+/* A negative result of Carom: an enum carom_error of carom.h, and its text. */
 export class CaromError extends Error {
     constructor(code, text) {
         super(text);
@@ -22,7 +22,7 @@ export class Memory {
         this.used = 0;
     }
 
-    /** A block of zeros, aligned to 8. It is never given back but with the whole module. */
+    /* A block of zeros, aligned to 8. It is freed only with the whole module. */
     take(bytes) {
         const at = this.top;
         const top = at + Math.ceil(bytes / 8) * 8;
@@ -50,7 +50,7 @@ export class Memory {
         return at;
     }
 
-    /** A struct for one call: its address. Its memory is used again by the next call. */
+    /* A struct for one call: its address. The next call reuses its memory. */
     put(name, values = {}) {
         const type = structs[name];
         const at = this.scratch + this.used;
@@ -72,7 +72,7 @@ export class Memory {
         return structs[name].read(this.view(), at);
     }
 
-    /** Several structs that lie side by side. */
+    /* Several structs side by side. */
     list(name, at, count) {
         return Array.from({ length: count }, (_, i) => this.get(name, at + i * structs[name].size));
     }
@@ -82,7 +82,7 @@ export class Memory {
         return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
     }
 
-    /** Call a function of the C interface; a result below zero becomes an error. */
+    /* Call a function of the C interface; a negative result becomes an error. */
     call(name, ...given) {
         const result = this.c[name](...given);
         this.used = 0;

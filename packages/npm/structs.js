@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The structs of Carom's headers as they lie in the memory of a wasm32 module: types, then names. A pointer is a u32, an
-// array is type:count, a type may be a struct above. test/layout.js holds them against the headers.
+// array is type:count, and a type may be a struct above. test/layout.js compares them with the headers.
 const TEXT = {
     caps: "u32 bodies pairs contacts faces entries candidates joints extras hits",
     config:
@@ -79,7 +79,7 @@ function struct(fields) {
         size: Math.ceil((last.at + last.type.size) / align) * align,
         read: (v, at) =>
             Object.fromEntries(fields.map((f) => [f.name, f.type.read(v, at + f.at)])),
-        // what is not given stays as it is: zero in memory that was cleared
+        // fields that are not given stay as they are: zero in cleared memory
         write: (v, at, values) => {
             for (const name of Object.keys(values)) {
                 const field = fields.find((f) => f.name === name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The fields of Carom's structs that are fixed-point numbers: fractional bits, and how often a second is in their unit.
+// The fixed-point fields of Carom's structs: fractional bits, and the power of seconds in their unit.
 
-/** name: what a field is called in SI; bits; per: 1 for a value a second, 2 for one a second squared; wide: int64. */
+/* name: of a field in SI; bits; per: 1 for a value a second, 2 for one a second squared; wide: int64. */
 export const FORMATS = {
     position: { bits: 32, per: 0, wide: true },
     from: { bits: 32, per: 0, wide: true },

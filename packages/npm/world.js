@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world: metres, seconds, kilograms and radians outside, Carom's integers inside. A number is cut off to its format,
-// as by the macros of carom_fix.h, so that 9.81 here and CAROM_GRAVITY_MM_S2(9810, 60) there are the same bits.
+// A world: metres, seconds, kilograms and radians outside, Carom's integers inside. A number is cut off to its format as by the macros of
+// carom_fix.h, so that 9.81 here and CAROM_GRAVITY_MM_S2(9810, 60) there are the same bits.
 import { convert, restore, FORMATS } from "./units.js";
 import { structs } from "./structs.js";
 
@@ -11,7 +11,7 @@ const OVERLAP = ["refuse", "pushOut", "pass"];
 const BACK = 1;
 const SENSORS = 2;
 
-/** The place of a name in a list, which is the C enumeration's value. */
+/* The index of a name in a list, which is the value of the C enumeration. */
 export function number(names, name) {
     const found = names.indexOf(name);
     if (found < 0) {
@@ -20,7 +20,7 @@ export function number(names, name) {
     return found;
 }
 
-/** Capacities from those that are given; the others follow from the number of bodies. */
+/* The given capacities; the others follow from the number of bodies. */
 function capacities({ bodies, ...given }) {
     const most = (count) => Math.min(count, 65535);
     return {
@@ -149,7 +149,7 @@ export class World {
         this.call("carom_world_set_gravity", this.#vector("gravity", gravity));
     }
 
-    /** The vertices of a mesh of kind "moving" are elsewhere from the next step on. */
+    /* Move the vertices of a mesh of kind "moving", from the next step on. */
     moveSurface(body, mesh, vertices) {
         const places = mesh.quanta(vertices);
         if (places.length !== 3 * mesh.vertexCount) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Carom for the Pico SDK: include() this file after pico_sdk_init(), and link carom, or carom_draw, which brings it. As the SDK's own
-# libraries these are INTERFACE ones: their sources are compiled with the options of the program that links them.
+# Carom for the Pico SDK: include() this file after pico_sdk_init(), and link carom, or carom_draw, which brings it. These are INTERFACE libraries,
+# as the SDK's own: their sources are compiled with the options of the program that links them.
 get_filename_component(CAROM_ROOT ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 file(GLOB carom_sources CONFIGURE_DEPENDS ${CAROM_ROOT}/src/*/*.c)
 file(GLOB carom_draw_sources CONFIGURE_DEPENDS ${CAROM_ROOT}/src/draw/*.c)

@@ -1,11 +1,11 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What PlatformIO compiles of a library, by its library.json: files.py FOLDER prints the sources, a line each;
+"""The files that PlatformIO compiles of a library, by its library.json: files.py FOLDER prints the sources, a line each;
 files.py FOLDER --flags the folders for headers and the flags.
 
-PlatformIO's rules that are applied: build.srcFilter is a list of +<pattern> and -<pattern>, in their order; a pattern is one of
-glob below build.srcDir, and a folder that it names is all that is below. build.includeDir and build.srcDir are in the path
-for headers. build.flags are left out: the file's only one says the first again, and the library is to compile without it.
+PlatformIO's rules: build.srcFilter is a list of +<pattern> and -<pattern>, applied in order; a pattern is one of glob below
+build.srcDir, and a folder that it names stands for all files below. build.includeDir and build.srcDir are in the path for
+headers. build.flags are left out: the only one repeats build.includeDir, and the library must compile without it.
 """
 import glob
 import json
@@ -24,7 +24,7 @@ def below(path):
 
 
 def chosen(root, rules):
-    """The sources below a folder that the rules leave."""
+    """The sources below a folder that the rules select."""
     found = set()
     for sign, pattern in re.findall(r"([+-])<([^>]*)>", " ".join(rules)):
         matched = set()

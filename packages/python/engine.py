@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""carom._engine: the sources of Carom as a module of cffi, whose declarations are made from the headers."""
+"""carom._engine: the sources of Carom as a module of cffi. Its declarations are made from the headers."""
 import glob
 import os
 import re
@@ -11,7 +11,7 @@ from cffi import FFI
 
 HEADERS = ["carom_version.h", "carom_body.h", "carom_joint.h", "carom_query.h"]
 INCLUDES = "".join('#include "%s"\n' % header for header in HEADERS)
-# Functions in Python that the engine calls: for carom_config.contact and carom_query_filter.wants.
+# Python functions that the engine calls: for carom_config.contact and carom_query_filter.wants.
 CALLED = """
 extern "Python" bool contact_in_python(void *user, struct carom_touch *touch);
 extern "Python" bool wants_in_python(void *context, int body);
@@ -19,7 +19,7 @@ extern "Python" bool wants_in_python(void *context, int body);
 
 
 def declarations():
-    """What the headers declare, without the C library's types, assertions and bodies of inline functions."""
+    """The declarations of the headers, without the C library's types, assertions and bodies of inline functions."""
     with tempfile.TemporaryDirectory() as empty:
         for name in ["limits.h", "stdbool.h", "stddef.h", "stdint.h"]:
             open(os.path.join(empty, name), "w").close()
@@ -28,7 +28,7 @@ def declarations():
                               input=INCLUDES, stdout=subprocess.PIPE, check=True, text=True).stdout
     text = re.sub(r"^inline [^;{]*\{.*?^\}$", "", text, flags=re.M | re.S)
     text = re.sub(r"_Static_assert\(.*?\"\);", "", text, flags=re.S)
-    # cffi cannot write a pointer to an array of constants; the C compiler is told not to mind
+    # cffi cannot write a pointer to an array of constants; the C compiler is told to ignore the difference
     return re.sub(r"const (\w+) \(\*(\w+)\)\[3\]", r"\1 (*\2)[3]", text)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The parts that pyproject.toml cannot say: the version, which include/carom_version.h has, and the engine."""
+"""The parts that pyproject.toml cannot state: the version, which include/carom_version.h has, and the engine."""
 import re
 
 from setuptools import setup

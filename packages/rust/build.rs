@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! Compiles the engine by the C compiler alone: $CC or cc, $AR or ar, $CFLAGS.
+//! Compiles the engine with the C compiler alone: $CC or cc, $AR or ar, $CFLAGS.
 use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

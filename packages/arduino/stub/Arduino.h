@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* As much of Arduino's header as the sketches here use, for a machine without a core: Serial prints, no time passes. */
+/* The part of Arduino's header that the sketches use, for a machine without a core: Serial prints, no time passes. */
 #ifndef CAROM_STUB_ARDUINO_H
 #define CAROM_STUB_ARDUINO_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* As much of Arduino's Wire as OledBox uses: what is sent to a display as data comes to stub_display. */
+/* The part of Arduino's Wire that OledBox uses: data for a display goes to stub_display. */
 #ifndef CAROM_STUB_WIRE_H
 #define CAROM_STUB_WIRE_H
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs a sketch for some frames, as a core does for ever; prints what was sent to a display as a PBM picture. */
+/* Runs a sketch for some frames, as a core does for ever. Prints what was sent to a display as a PBM picture. */
 #include "Arduino.h"
 #include "Wire.h"
 
 extern "C" void _start();
-/* What a Cortex-M3 begins with: the stack, and where to go; bit 0 is the linker's. */
+/* The vectors of a Cortex-M3: the stack and the entry point; the linker sets its bit 0. */
 extern void *const vectors[];
 __attribute__((section(".vectors"), used)) void *const vectors[] = {(void *)0x20400000,
                                                                     (void *)_start};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Write a C file that compiles for wasm32 only when structs.js lays every struct out as the headers do.
+// Write a C file that compiles for wasm32 only if structs.js lays every struct out as the headers do.
 import { structs } from "../structs.js";
 
 const INCLUDES = ["carom_body.h", "carom_joint.h", "carom_query.h"];

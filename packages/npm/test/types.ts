@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The types as a user meets them: compiled by tsc, never run. A line that must not compile says so.
+// The types as a user sees them: compiled by tsc, never run. A line that must not compile is marked.
 import { load, CaromError, World, type BodyOptions, type RayHit } from "carom";
 
 const carom = await load(new URL("https://example.org/carom.wasm"));

@@ -12,7 +12,7 @@ export const GROUND = {
     kind: "surface",
 };
 
-/** A world of some bodies with the ground, and `hello`'s body when it is not told otherwise. */
+/* A world of some bodies with the ground, and `hello`'s body by default. */
 export async function scene(caps, options = {}, source = undefined) {
     const carom = await load(source);
     const world = carom.world({ caps, ...options });

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the application calls of the Pico SDK's CMake, in its place: the programs are of this machine.
+# Stubs of the functions of the Pico SDK's CMake that the application calls. The programs run on this machine.
 function(pico_sdk_init)
     add_library(pico_stdlib INTERFACE)
     target_compile_options(pico_stdlib INTERFACE -Os)

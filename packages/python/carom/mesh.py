@@ -51,10 +51,10 @@ class Mesh:
 
     @property
     def volume(self):
-        """Cubic metres; 0 of a surface."""
+        """Volume in cubic metres; 0 of a surface."""
         return self.c.mass.volume_q32 * 2.0**-32
 
 
 def pointer(kind, array):
-    """A pointer to the numbers of an array, which has to be kept."""
+    """A pointer to the numbers of an array, which the caller must keep."""
     return ffi.cast(kind, ffi.from_buffer(array))

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Fixed-point numbers of Carom and those of Python; errors."""
+"""Conversion between the fixed-point numbers of Carom and those of Python; errors."""
 import numpy as np
 
 from carom._engine import ffi, lib
 
-# Fractional bits of a format, and how often a second is in its unit: 1 for a value a second, 2 for a second squared.
+# Fractional bits of a format, and the power of seconds in its unit: 1 for a value a second, 2 for a second squared.
 POSITION = 32, 0
 UNIT = 30, 0  # rotations, unit vectors, restitution, parts of a way
 FRICTION = 16, 0
@@ -15,7 +15,7 @@ ACCELERATION = 40, 2  # and forces, torques, stiffness
 
 
 class CaromError(Exception):
-    """A result of Carom below zero: `code` is an enum carom_error."""
+    """A negative result of Carom: `code` is an enum carom_error."""
 
     def __init__(self, code):
         super().__init__(ffi.string(lib.carom_result_text(code)).decode())
@@ -23,14 +23,14 @@ class CaromError(Exception):
 
 
 def checked(result):
-    """The result of a call, when it is none of the errors."""
+    """Returns the result of a call, or raises its error."""
     if result < 0:
         raise CaromError(result)
     return result
 
 
 def fixed(value, kind, fps=1):
-    """An SI number, or several, as integers of a format: cut off towards zero."""
+    """An SI number, or several, as integers of a format, cut off towards zero."""
     bits, per = kind
     if np.ndim(value):
         return [fixed(each, kind, fps) for each in value]

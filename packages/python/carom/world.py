@@ -15,7 +15,7 @@ ONE_WAY = ["both", "x", "y", "z", "-x", "-y", "-z"]
 OVERLAP = ["refuse", "push_out", "pass"]
 BACK, SENSORS = 1, 2
 
-BODY = {  # fields of a body's definition and state that are numbers: the C name and the format
+BODY = {  # numeric fields of a body's definition and state: the C name and the format
     "position": ("position", POSITION), "rotation": ("rotation", UNIT), "velocity": ("velocity", VELOCITY),
     "spin": ("spin", VELOCITY), "mass": ("mass_q20", MASS), "restitution": ("restitution_q30", UNIT),
     "friction": ("friction_q16", FRICTION),
@@ -28,7 +28,7 @@ DRIVE = {
 
 
 class Event(NamedTuple):
-    """Speed, m/s, and impulse, N s, are a hit's; so are point, normal and faces, or None when no room was left."""
+    """speed, m/s, impulse, N s, point, normal and faces belong to a hit; the last three are None if there was no room."""
     kind: str
     a: int
     b: int
@@ -59,7 +59,7 @@ class RayHit(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """Rows by the numbers of bodies; NaN, or 0 in integers, for numbers that are free."""
+    """Rows by body number; NaN, or 0 in integers, for free numbers."""
     position: object
     rotation: object
     velocity: object
@@ -67,7 +67,7 @@ class Poses(NamedTuple):
 
 
 def capacities(bodies, given):
-    """Capacities from those that are given; the others follow from the number of bodies."""
+    """The given capacities; the others follow from the number of bodies."""
     return {"bodies": bodies, "pairs": min(8 * bodies, 65535), "contacts": min(16 * bodies + 16, 4096),
             "faces": min(64 * bodies + 1024, 65535), "entries": 0, "candidates": min(256 * bodies + 1024, 65535),
             "joints": 0, "extras": bodies, "hits": bodies, **given}
@@ -86,7 +86,7 @@ class World:
         self.fps = fps
         self.contact = contact
         self.failed = None  # an exception of `contact` or `wants`, which C cannot pass on
-        self.meshes = {}    # by body: kept, for the world refers to them
+        self.meshes = {}    # by body: kept, because the world refers to them
         self.handle = ffi.new_handle(self)
         self.caps = capacities(bodies, given)
         config = ffi.new("struct carom_config *", {
@@ -174,7 +174,7 @@ class World:
         self.call("carom_world_set_gravity", self._vector("carom_v3_q40", gravity, ACCELERATION))
 
     def move_surface(self, body, vertices):
-        """Other vertices for the body's "moving" mesh from the next step on."""
+        """New vertices for the body's "moving" mesh, from the next step on."""
         mesh = self.meshes[body]
         places = mesh.quanta(vertices)
         if places.shape != mesh.vertices.shape:

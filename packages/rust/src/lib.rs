@@ -11,7 +11,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The types of C that the bindings use, by the names that bindgen gives them.
+/// The types of C that the bindings use, by bindgen's names.
 mod c {
     pub use core::ffi::c_void;
     pub type c_int = i32;
@@ -31,7 +31,7 @@ mod macros;
 pub use bindings::*;
 pub use macros::*;
 
-/// A block of memory for a mesh or a world: aligned to 8, as they want it.
+/// A block of memory for a mesh or a world, aligned to 8.
 #[repr(C, align(8))]
 pub struct Block<const BYTES: usize>(pub [u8; BYTES]);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//! The macros of the headers that take arguments, as const functions; tests/macros.rs holds them against C.
+//! The macros of the headers that take arguments, as const functions; tests/macros.rs compares them with C.
 use crate::bindings::*;
 use core::mem::size_of;
 
@@ -92,7 +92,7 @@ pub const fn surface_bytes(vertices: u32, faces: u32) -> usize {
     mesh_bytes(vertices, faces) + (12 * vertices as usize + 80 + 7) / 8 * 8
 }
 
-/// CAROM_BLOB_BYTES: what carom_mesh_read wants.
+/// CAROM_BLOB_BYTES: memory for carom_mesh_read.
 pub const fn blob_bytes(vertices: u32, faces: u32) -> usize {
     6 * vertices as usize + 6 * faces as usize + 16
 }
@@ -157,12 +157,12 @@ const fn deg_q40(deg: i64) -> i64 {
     deg * 0x477D1A894 + deg * 0xA74E4570 / (1 << 32)
 }
 
-/// CAROM_DRAW_BYTES: workspace to draw bodies of so many vertices and faces, all together, at once.
+/// CAROM_DRAW_BYTES: workspace that draws bodies of so many vertices and faces, all together, in one go.
 pub const fn draw_bytes(vertices: u32, faces: u32) -> usize {
     12288 + 10 * vertices as usize + 11 * faces as usize
 }
 
-/// CAROM_DRAW_BYTES_LEAST: of the largest mesh.
+/// CAROM_DRAW_BYTES_LEAST: workspace for the largest mesh.
 pub const fn draw_bytes_least(vertices: u32, faces: u32) -> usize {
     12288 + 2 * vertices as usize + faces as usize / 8
 }

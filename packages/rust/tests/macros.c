@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The macros that tests/macros.rs has in Rust, of the same arguments in the same order, and the sizes of structs. */
+/* Prints the macros that src/macros.rs has in Rust, with the same arguments in the same order, and the sizes of structs. */
 #include <inttypes.h>
 #include <stdio.h>
 #include "carom_body.h"
@@ -26,7 +26,7 @@ static void say_meshes(void)
     }
 }
 
-/* All worlds whose nine capacities are one of two each. */
+/* All worlds whose nine capacities each have one of two values. */
 static void say_worlds(void)
 {
     static const uint32_t few[] = {1, 1, 1, 1, 0, 1, 0, 0, 0};

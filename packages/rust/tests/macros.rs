@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-//! The const functions are the macros of the headers: a C program prints these for the same arguments.
+//! The const functions equal the macros of the headers: a C program prints the macros for the same arguments.
 use carom_sys::*;
 use std::fmt::Write;
 use std::mem::{align_of, size_of};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What tests/macros.c prints, compiled with the engine's headers.
+/// The output of tests/macros.c, compiled with the engine's headers.
 fn said_by_c() -> String {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let own = here.join("engine/include");

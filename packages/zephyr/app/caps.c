@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Capacities come from Kconfig: those of its defaults. */
+/* Capacities come from Kconfig, here its defaults. */
 #include "carom_zephyr.h"
 
 static const struct carom_caps caps = CAROM_CAPS(CAROM_ZEPHYR_CAPS);

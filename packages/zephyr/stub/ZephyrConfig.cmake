@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the module and the application call of Zephyr's CMake, in its place: the program is one of this machine.
+# Stubs of the functions of Zephyr's CMake that the module and the application call. The program runs on this machine.
 enable_language(C)
 file(STRINGS "${STUB_CONFIG}" lines REGEX "^CONFIG_")
 add_library(zephyr_interface INTERFACE)

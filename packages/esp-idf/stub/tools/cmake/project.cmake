@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the component and the application call of ESP-IDF's CMake, in its place: the program is one of this machine.
+# Stubs of the functions of ESP-IDF's CMake that the component and the application call. The program runs on this machine.
 set(ESP_PLATFORM 1)
 set(STUB_HERE ${CMAKE_CURRENT_LIST_DIR})
 enable_language(C)
@@ -12,7 +12,7 @@ function(idf_component_register)
     foreach(folder ${THE_SRC_DIRS})
         file(GLOB found ${COMPONENT_DIR}/${folder}/*.c)
         if(NOT found)
-            message(FATAL_ERROR "no sources in ${folder}") # as ESP-IDF has it
+            message(FATAL_ERROR "no sources in ${folder}") # as ESP-IDF does
         endif()
         list(APPEND THE_SRCS ${found})
     endforeach()
