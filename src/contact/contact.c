@@ -9,7 +9,8 @@ extern inline int32_t contact_arm_along(const struct contact *c, int k);
 
 static bool before(const void *contact, const void *key)
 {
-    return candidate_compare(&((const struct contact *)contact)->key, key) < 0;
+    return candidate_compare(&((const struct contact *)contact)->key,
+                             (const struct candidate *)key) < 0;
 }
 
 /* The place in key order for a candidate; sets *same if it is in the list already. */

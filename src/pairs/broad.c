@@ -7,7 +7,7 @@ extern inline bool broad_active(const struct body *b, const struct body_state *s
 
 static bool before(const void *record, const void *key)
 {
-    const struct pair *p = record, *q = key;
+    const struct pair *p = (const struct pair *)record, *q = (const struct pair *)key;
 
     return p->a < q->a || (p->a == q->a && p->b < q->b);
 }

@@ -48,8 +48,8 @@ bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts)
 
 static bool before(const void *record, const void *key)
 {
-    const struct rest_warm *w = record;
-    const struct pair *p = key;
+    const struct rest_warm *w = (const struct rest_warm *)record;
+    const struct pair *p = (const struct pair *)key;
 
     return w->a < p->a || (w->a == p->a && w->b < p->b);
 }
