@@ -90,13 +90,13 @@ SHAPES := character wheel car door link ramp steps jump tower mat rink puck yard
 # figure 8: meshes, and the colours of their faces
 FIGURE8 := espresso mandelbrot512 mandelbrot3200
 # the programs of these scenes
-GAMES := $(filter-out $(patsubst %,examples/scene_%.c,sheet built rom play),$(wildcard examples/scene_*.c))
+GAMES := $(filter-out $(patsubst %,examples/scene_%.c,sheet built rom play look),$(wildcard examples/scene_*.c))
 # the scenes, whose meshes are indexed when a scene is loaded
-SCENES_BUILT := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_built.c \
+SCENES_BUILT := $(call objects,examples/scene.c examples/scene_look.c examples/scene_sheet.c examples/scene_built.c \
     $(GAMES) $(patsubst %,build/gen/%_mesh.c,$(HEADS) $(FIELDS) $(SHAPES) $(FIGURE8)) \
     $(FIGURE8:%=build/gen/%_ramps.c))
 # or, on a board with ROM_SCENES, indexed in ROM
-SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_sheet.c examples/scene_rom.c \
+SCENES_IN_ROM := $(call objects,examples/scene.c examples/scene_look.c examples/scene_sheet.c examples/scene_rom.c \
     $(if $(ROM_GAMES),$(GAMES) $(FIGURE8:%=build/gen/%_ramps.c)) $(ROM_SCENES:%=build/gen/rom/%.c))
 SCENE_FILES := $(if $(ROM_SCENES),$(SCENES_IN_ROM),$(SCENES_BUILT))
 # A board runs the suites for which it has room, in one image or in one each
@@ -150,7 +150,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures zlists compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -270,6 +270,13 @@ zlists: ## write the drawings of docs/z-lists.md, from a step of the head scene
 	@tools/zlists.py build/host/zlists.elf
 
 compare: ## compare other engines with Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
+pictures: ## the pictures of README.md that boards and scenes make, to docs/
+	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
+	@$(MAKE) scenes && cp out/scenes/scenes.png docs/
+	@$(MAKE) run FRAMES=240 && cp out/head/head.gif docs/
+	@tools/displays.py
+
+compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
 	@$(SUBMAKE) BOARD=host build/tools/carom-heaps
@@ -442,7 +449,7 @@ $(B)/recorded/%.o: %.c $(B)/flags
 	@echo '  cc    $< recorded'
 	$(TARGET_CC) $(CFLAGS) -MMD -MP -c -o $@ $<
 # Without the game over a link: it takes frames back, which a recording cannot.
-RECORDED := examples/scene.c examples/scene_sheet.c $(filter-out %/scene_net.c,$(GAMES)) tests/record.c
+RECORDED := examples/scene.c examples/scene_look.c examples/scene_sheet.c $(filter-out %/scene_net.c,$(GAMES)) tests/record.c
 $(B)/record.elf: $(patsubst %.c,$(B)/recorded/%.o,$(RECORDED)) $(SUPPORT) $(B)/libcarom.a \
     $(filter-out $(call objects,$(RECORDED)),$(SCENES_BUILT))
 	@echo '  link  $@'

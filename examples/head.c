@@ -208,6 +208,12 @@ static void say(const struct show *show, const struct carom_world *world,
     }
 }
 
+/* The colours of a scene; greys keep those of the usual palette, which tell bodies from the ground. */
+static const struct carom_paint *paint_for(const struct show *show, const struct port_fb *fb)
+{
+    return fb->format == PORT_GREY4 ? NULL : show_paint(show);
+}
+
 /* Draw what changed in the upper `height` rows of a framebuffer, if there is one. Returns the ticks that it took. */
 static uint32_t draw(const struct carom_world *world, const struct show *show,
                      const struct port_fb *fb, int32_t height, enum carom_draw_style style)
@@ -222,7 +228,7 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
                                     .row = fb->row,
                                     .workspace = draw_block,
                                     .workspace_bytes = sizeof draw_block,
-                                    .paint = show_paint(show)};
+                                    .paint = paint_for(show, fb)};
     uint32_t start = port_ticks();
 
     if (!BOARD_DRAWS || !(fb->pixels || fb->row)) {
@@ -237,10 +243,9 @@ static uint32_t draw(const struct carom_world *world, const struct show *show,
 static struct port_fb display(const struct show *show)
 {
     struct port_fb fb = port_fb();
-    const struct carom_paint *paint = show_paint(show);
 
-    if (fb.palette && paint) {
-        fb.palette(paint->palette);
+    if (BOARD_DRAWS && fb.palette) {
+        fb.palette(show_paint(show)->palette);
     }
     return fb;
 }

@@ -61,6 +61,13 @@ static const struct carom_camera camera = {
     .focal_q16 = 1 << 16,
 };
 
+/* A head of half the size is seen from nearer by. */
+static const struct carom_camera near_camera = {
+    .eye = POSITION(1250, -5050, 2950),
+    .target = POSITION(-800, 150, 1050),
+    .focal_q16 = 1 << 16,
+};
+
 struct carom_config scene_config(void)
 {
     struct carom_config config = {
@@ -284,7 +291,9 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     scene->body = *recipe->start;
     scene->other_count = recipe->others;
     scene->game = recipe->game;
-    scene->camera = recipe->game ? &recipe->game->camera : &camera;
+    scene->camera = recipe->game                  ? &recipe->game->camera
+                    : strcmp(name, "head48") == 0 ? &near_camera
+                                                  : &camera;
     result = scene_meshes(scene, name, user, mem, bytes);
     if (result >= 0) {
         scene->body.mesh = scene->mesh[0];

@@ -26,7 +26,7 @@
 
 /* Colours of scenes without paints of their own: the ground, four colours for moving bodies, interfering faces. */
 enum { GROUND = CAROM_RAMP_STATIONARY, HOT = CAROM_RAMP_STATIONARY_HOT };
-static const uint32_t plain_rgb[] = {[GROUND] = 0x5f9858,
+static const uint32_t plain_rgb[] = {[GROUND] = 0x44803c,
                                      [CAROM_RAMP_MOVING] = 0xb8683f,
                                      [HOT] = 0xff0070,
                                      [CAROM_RAMP_MOVING_HOT] = 0xd49a22,

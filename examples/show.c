@@ -29,7 +29,7 @@ const struct carom_camera *show_camera(const struct show *show, const struct car
 
 const struct carom_paint *show_paint(const struct show *show)
 {
-    return SCENE_GAMES ? scene_paint(show->game) : NULL;
+    return scene_paint(show->game);
 }
 
 void show_say(const struct show *show, const struct carom_world *world, char text[SCENE_TEXT])

@@ -22,7 +22,7 @@ int show_before(const struct show *show, struct carom_world *world, int frame, u
 /* Where it is seen from: a game's camera may go with its player. Good until the next call. */
 const struct carom_camera *show_camera(const struct show *show, const struct carom_world *world);
 
-/* How it looks; NULL: as usual. Good until the next call. */
+/* How it looks. Good until the next call. */
 const struct carom_paint *show_paint(const struct show *show);
 
 /* A game's line of text; empty where it says nothing. */

@@ -63,7 +63,7 @@ int carom_draw_ramp(uint32_t ramp[CAROM_RAMP_SHADES], uint32_t rgb)
 }
 
 /* First grey of each usual ramp, and the growth to its last. */
-static const uint8_t greys[][2] = {{0, 1}, {2, 4}, {6, 7}, {14, 1}, {15, 0}};
+static const uint8_t greys[][2] = {{0, 1}, {2, 6}, {7, 6}, {14, 1}, {15, 0}};
 #define GREY_RAMPS (sizeof greys / sizeof greys[0])
 
 /* The luminance of a colour, to the nearest of 16. */
