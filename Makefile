@@ -269,14 +269,13 @@ zlists: ## write the drawings of docs/z-lists.md, from a step of the head scene
 	@$(SUBMAKE) BOARD=host build/host/zlists.elf
 	@tools/zlists.py build/host/zlists.elf
 
-compare: ## compare other engines with Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 pictures: ## the pictures of README.md that boards and scenes make, to docs/
 	@tools/need $(NEED_MESHES) $(NEED_HOST) pil
 	@$(MAKE) scenes && cp out/scenes/scenes.png docs/
 	@$(MAKE) run FRAMES=240 && cp out/head/head.gif docs/
 	@tools/displays.py
 
-compare: ## other engines beside Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
+compare: ## compare other engines with Carom: queries, steps, heaps, to out/compare.csv, docs/compare.md and README.md; SHORT=1
 ifneq ($(SHORT),)
 	@tools/need $(NEED_MESHES) $(NEED_HOST) $(NEED_COMPARE)
 	@$(SUBMAKE) BOARD=host build/tools/carom-heaps
