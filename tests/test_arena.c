@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Arenas and pools: alignment, exact fit, errors that stick. */
 #include "num/arena.h"
 #include "lib/test.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Bodies and their paths: rotation, free fall, slices, inertia. */
 #include "lib/real.h"
 #include "lib/shapes.h"
 #include "lib/test.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Broad phase: pairs, their order, regions, full pools. */
 #include "pairs/broad.h"
 #include "lib/real.h"
 #include "lib/shapes.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Contacts: features, normals, margins, merging, full pools. */
 #include "contact/contact.h"
 #include "lib/real.h"
 #include "lib/shapes.h"

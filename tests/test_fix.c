@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Fixed-point arithmetic against exact integers and double precision. */
 #include "num/fix.h"
 #include "lib/real.h"
 #include "lib/test.h"

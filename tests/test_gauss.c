@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Gauss-Jordan elimination against Cramer's rule and double precision. */
 #include "lib/gauss_rows.h"
 #include "lib/test.h"
 

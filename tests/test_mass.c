@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Volume, centre of mass and inertia of meshes, and the inverse of inertia. */
 #include <string.h>
 
 #include "mesh/mass.h"

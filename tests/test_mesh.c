@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Building meshes: what is refused, in which order, and the index of good ones. */
 #include <string.h>
 
 #include "lib/mesh_shapes.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Reading meshes from blobs, whole and altered. */
 #include <string.h>
 
 #include "lib/mesh_shapes.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The index of a mesh: leaves, z-lists, memory. */
 #include <string.h>
 
 #include "lib/mesh_shapes.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Scan conversion of polygons into cells, against all cells. */
 #include <string.h>
 
 #include "mesh/scan.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Z-lists made within a step: order, full pools, intervals. */
 #include <string.h>
 
 #include "lib/test.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Accuracy of a kernel: errors of many cases, their quantiles as a row, and the bar. */
 #include "accuracy.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Small worlds of randomly placed shapes, for the tests of questions between steps. */
 #include <string.h>
 
 #include "asked.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Small worlds of boxes, for the tests of contacts between bodies. */
 #include <string.h>
 
 #include "box.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* An exact oracle: the faces of two placed meshes that have a point in common. */
 #include "crossing.h"
 #include "real.h"
 

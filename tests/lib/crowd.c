@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Worlds of many bodies, watched in double precision through the public interface. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

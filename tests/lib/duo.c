@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Two bodies on their paths, and the true motion of their features in double precision. */
 #include "duo.h"
 #include "real.h"
 #include "test.h"

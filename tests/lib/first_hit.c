@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The first hit of two bodies, found by a step, by all pairs of features, and by poses that cross. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

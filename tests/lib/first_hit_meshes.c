@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Meshes of the first-hit test: a head, a needle, a torus, a field. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Random motions by which two bodies of the first-hit test approach each other. */
 #include <math.h>
 #include <string.h>
 

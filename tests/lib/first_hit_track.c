@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The true motion of two bodies of the first-hit test, and where their features are. */
 #include <math.h>
 
 #include "first_hit_track.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Fixtures: published and special scenes, judged through the public interface. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Meshes of the fixtures, face by face: planes, boxes, prisms. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

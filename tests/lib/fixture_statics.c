@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* An oracle for statics: can contact forces within their friction cones hold the weights? */
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Random calls of a small world, half of them with hostile arguments. */
 #include "fuzz.h"
 
 #include <stdlib.h>

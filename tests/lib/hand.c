@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The ground and up to three solids with contacts set by hand, for the tests of rest. */
 #include "hand.h"
 
 #include "real.h"

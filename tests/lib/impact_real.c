@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* One impact in real numbers, solved in contact space: the oracle of impact_solve. */
 #include "impact_real.h"
 
 /* Where an entry of a symmetric matrix is among xx, yy, zz, xy, yz, zx. */

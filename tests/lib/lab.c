@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* A world with one moving body over a stationary one, watched in double precision. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Two bodies whose features meet at a known time, and their true places. */
 #include "meeting.h"
 #include "real.h"
 

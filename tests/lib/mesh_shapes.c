@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Raw meshes for the tests of the mesh stage, which tests may damage. */
 #include "mesh_shapes.h"
 
 int16_t vertices[V_MAX][3];

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The list of cases that are known to fail. */
 #include "open_cases.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* An independent judge of frames in double precision: crossings, their depth, energy. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

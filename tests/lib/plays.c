@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Scenes that go on for thousands of frames: each frame's acts follow from its number and the state. */
 #include "plays.h"
 
 #include "carom_query.h"

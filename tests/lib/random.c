@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Random numbers for tests, the same on every machine. */
 #include "test.h"
 
 uint64_t test_random_next(struct test_random *r)

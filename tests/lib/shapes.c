@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Small meshes for tests, and bodies of them without a world. */
 #include "box.h"
 #include "shapes.h"
 #include "real.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Random solids and surfaces, the same on every machine. */
 #include <string.h>
 
 #include "lab.h"

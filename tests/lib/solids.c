@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Meshes in a pose, in double precision: distances and normal cones by way of all faces. */
 #include "solids.h"
 #include "real.h"
 

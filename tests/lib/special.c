@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* Two convex bodies that meet in special positions, to within nothing or a unit of the last place. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* A picture, a scene, frames and random numbers, for the tests of the viewer. */
 #include "viewed.h"
 
 #include "lab.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* The paper's interference detection: bounding box, z-lists by scan conversion, overlap in z. */
 #include "paper.h"
 #include "mesh/mesh.h"
 
