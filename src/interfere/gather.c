@@ -79,7 +79,7 @@ static void gather_pair(struct interfere *w, const struct interfere_pairs *all, 
     w->a = &bodies[p->a];
     w->b = &bodies[p->b];
     choose_asker(w);
-    w->pooled = interfere_makes_lists(w->b->def.mesh);
+    w->pooled = mesh_lists_in_step(w->b->def.mesh);
     if (!interfere_set_motion(w)) {
         return;
     }
@@ -120,7 +120,7 @@ static void gather(struct interfere *w, const struct interfere_pairs *all, uint3
     w->error = CAROM_OK;
     w->pair_count = all->count;
     w->gathers++;
-    if (interfere_makes_lists(all->bodies[all->pairs[number].b].def.mesh)) {
+    if (mesh_lists_in_step(all->bodies[all->pairs[number].b].def.mesh)) {
         gather_over(w, all, number);
     } else {
         gather_pair(w, all, number);

@@ -149,15 +149,6 @@ bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint
 /* Cull the leaf's features against b's face, then emit the vertex/face and edge/edge candidates. */
 void interfere_features(struct interfere *w, struct target *t);
 
-/*
- * True if the mesh's z-lists are made within a step: it is a moving surface without lists of its
- * own.
- */
-static inline bool interfere_makes_lists(const struct carom_mesh *mesh)
-{
-    return mesh->surface && !mesh->surface->own_lists;
-}
-
 /* The rectangle that the bodies paired with b can reach, in b's quanta. */
 struct interfere_area interfere_area_under(const struct body *bodies, const struct pair *pairs,
                                            uint32_t pair_count, uint16_t b);

@@ -318,7 +318,7 @@ static void visit_leaves(struct interfere *w)
     struct interfere_place place = {0, 0};
     bool last = false;
 
-    w->pooled = interfere_makes_lists(w->b->def.mesh);
+    w->pooled = mesh_lists_in_step(w->b->def.mesh);
     while (!last && !w->error) {
         last = !w->pooled ||
                w->b->def.mesh->surface->does->make_lists(w, w->b->def.mesh, &area, &place);
@@ -466,5 +466,5 @@ bool interfere_inside(struct interfere_placed a, struct interfere_placed b)
     carom_v3_q22 p;
 
     return place_probe(&p, a, b) &&
-           (interfere_makes_lists(mb) ? winding_of_all(mb, &p) : winding_at(mb, &p)) > 0;
+           (mesh_lists_in_step(mb) ? winding_of_all(mb, &p) : winding_at(mb, &p)) > 0;
 }

@@ -56,6 +56,7 @@ struct mesh_moving {
                       uint32_t *cells);
     struct interfere_area (*area_under)(const struct body *bodies, const struct pair *pairs,
                                         uint32_t pair_count, uint16_t b);
+    /* NULL: the surface keeps z-lists of its own, made anew with each move; no step makes any */
     bool (*make_lists)(struct interfere *w, const struct carom_mesh *mesh,
                        const struct interfere_area *area, struct interfere_place *from);
 };
@@ -70,7 +71,6 @@ struct carom_surface {
     struct carom_edge *edges;
     struct carom_leaf *leaves;
     uint32_t *lists;  /* room for z-lists of its own */
-    bool own_lists;   /* these lists are up to date and used; else those in a world's pool */
     int32_t most_q22; /* bound on any vertex's displacement since `before` */
     uint32_t moves;   /* counts the moves */
 };
@@ -97,6 +97,12 @@ void mesh_surface_undo(struct carom_surface *s);
 
 /* End the surface's motion: it stands still where it is. */
 void mesh_surface_halt(struct carom_surface *s);
+
+/* True if steps make the mesh's z-lists: its own ones are those of the shape it was built with. */
+static inline bool mesh_lists_in_step(const struct carom_mesh *mesh)
+{
+    return mesh->surface && mesh->surface->does->make_lists;
+}
 
 /* Bound on any vertex's displacement since the last step; 0 for a mesh that cannot move. */
 static inline int32_t mesh_drift_most(const struct carom_mesh *mesh)

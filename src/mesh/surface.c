@@ -124,7 +124,7 @@ static int refresh(struct carom_surface *s, bool lists)
         .mesh = s->mesh, .faces = s->faces, .edges = s->edges, .leaves = s->leaves};
     int error = mesh_refresh(&b);
 
-    if (error == CAROM_OK && (lists || s->own_lists)) {
+    if (error == CAROM_OK && (lists || !s->does->make_lists)) {
         arena_init(&b.arena, s->lists, (size_t)((uint8_t *)s - (uint8_t *)s->lists));
         error = mesh_build_zlists(&b);
     }

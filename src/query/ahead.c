@@ -164,7 +164,7 @@ bool ahead_begin(struct ahead *h, const struct interfere *work, const struct bod
         h->way_q32[k] = way->c[k];
         longest += carom_abs(way->c[k]);
     }
-    if (a->def.mesh->leaf_count > 1 || interfere_makes_lists(b->def.mesh) ||
+    if (a->def.mesh->leaf_count > 1 || mesh_lists_in_step(b->def.mesh) ||
         to_q14(b->def.mesh, fix_mul_q30(longest, part_q30) >> 12) >= FAR_Q14 / 4) {
         return false;
     }

@@ -283,7 +283,7 @@ bool cross_inside(const struct cross *c)
             return false;
         }
     }
-    return (interfere_makes_lists(mesh) ? winding(c, false, &p) : winding_in_cell(c, &p)) > 0;
+    return (mesh_lists_in_step(mesh) ? winding(c, false, &p) : winding_in_cell(c, &p)) > 0;
 }
 
 bool cross_around(const struct cross *c)

@@ -237,7 +237,7 @@ void query_march(struct query_ray *ray, struct query_struck *visitor)
     if (!cut_to_box(ray, &m.part)) {
         return;
     }
-    if (mesh->surface && !mesh->surface->own_lists) { /* its own z-lists are out of date */
+    if (mesh_lists_in_step(mesh)) { /* its own z-lists are out of date */
         for (uint32_t face = 0; face < mesh->raw.face_count; face++) {
             ask(&m, (uint16_t)face);
         }

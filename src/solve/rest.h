@@ -137,8 +137,15 @@ static inline int64_t rest_along_q40(const carom_v3_q40 *v, const carom_v3_q30 *
 }
 
 /*
- * e and mu of a pair of bodies; the largest possible ones if their faces are of several materials.
+ * True if bodies of this restitution keep all energy at a hit and so bounce for ever. Such bodies
+ * rest only where they already lie, their margin is narrower, and they have no rolling friction.
  */
+static inline bool rest_bounces_for_ever(int32_t e_q30)
+{
+    return e_q30 >= CAROM_ONE_Q30;
+}
+
+/* e and mu of a pair of bodies; the largest possible ones if their faces are of several materials. */
 int32_t rest_restitution(const struct rest *r, const struct body *a, const struct body *b);
 uint32_t rest_friction(const struct rest *r, const struct body *a, const struct body *b);
 /* The smaller e and mu of both bodies, which a `plain` list uses. */

@@ -168,7 +168,7 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
 
     c->work->roll = NULL;
     if (!leads(r, i) || !may_roll(r, i) || c->work->friction_q16 == 0 ||
-        rest_restitution_at(r, c) == CAROM_ONE_Q30 || rolling_q16(r, c) == 0) {
+        rest_bounces_for_ever(rest_restitution_at(r, c)) || rolling_q16(r, c) == 0) {
         return false;
     }
     c->work->roll = roll = &r->rolls[r->roll_count++];

@@ -29,7 +29,7 @@
  */
 static bool may_rest(const struct contact *c, int32_t e_q30)
 {
-    return e_q30 < CAROM_ONE_Q30 || c->lasting ||
+    return !rest_bounces_for_ever(e_q30) || c->lasting ||
            (c->side[0].body && c->side[0].body->clock.in_contact) ||
            (c->side[1].body && c->side[1].body->clock.in_contact);
 }

@@ -25,7 +25,7 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
     int32_t e_q30 =
         s->w->rest.list.plain ? rest_plain_restitution(a, b) : rest_restitution(&s->w->rest, a, b);
 
-    return e_q30 == CAROM_ONE_Q30 && !a->clock.in_contact && !b->clock.in_contact &&
+    return rest_bounces_for_ever(e_q30) && !a->clock.in_contact && !b->clock.in_contact &&
            !step_is_touching(world_now(s->w), p);
 }
 
