@@ -27,15 +27,13 @@
 #include "../mesh/mesh.h"
 #include "carom_body.h"
 #include "../num/phase.h"
+#include "../num/tuning.h"
 
 #define BODY_WORLD_LIMIT    4096       /* units: a body whose centre leaves +-this is frozen */
 #define BODY_SPEED_LIMIT    64         /* units a frame, of any point of a body; radians a frame */
 #define BODY_SPIN_BITS      15         /* a body that turns by 2^15 radians a frame is frozen */
 #define BODY_RADIUS_MAX_Q22 (32 << 22) /* for moving bodies */
 #define BODY_RADIUS_MIN_Q22 (1 << 10)  /* a few skins */
-#define BODY_TURN_MAX_Q30   (CAROM_ONE_Q30 / 2) /* radians that a slice may turn */
-#define BODY_MARGIN_SKINS   5 /* margin: contacts are looked for within this many skins */
-#define BODY_REGION_FRAMES  64
 #define BODY_ALONE          0
 
 /* The part of a body that a step changes: all of it is hashed and saved. */

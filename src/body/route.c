@@ -5,16 +5,14 @@
  */
 #include "body.h"
 
-/* A slice turns by less than 2 atan 1/8, and its centre goes no farther than this many radii. */
-#define WAY_RADII 8
-/* 31/256 is below atan 1/8. */
+/* A slice turns by less than 2 atan 1/8: 31/256 is below atan 1/8. */
 #define HALF_TURN_MAX_Q40 ((int64_t)31 << 32)
 
-/* The least n such that the centre goes no farther than WAY_RADII radii in a slice. */
+/* The least n such that the centre goes no farther than BODY_SLICE_RADII radii in a slice. */
 static int bits_of_way(const struct body *b, const carom_v3_q40 *velocity)
 {
     int64_t way_q22 = fix_length(velocity->c) >> 18,
-            most_q22 = (int64_t)b->def.radius_q22 * WAY_RADII;
+            most_q22 = (int64_t)b->def.radius_q22 * BODY_SLICE_RADII;
     int bits = 0;
 
     while (way_q22 >> bits > most_q22) {

@@ -3,24 +3,12 @@
 #include "event.h"
 #include "place.h"
 
-/*
- * Roots are sought of a surface this much nearer, for a pair that starts clear of contact (see
- * lower). A place on a path is within 3 units of the pose that is committed there; that counts for
- * two bodies, at the end of one path and at the start of the next.
- */
-#define ROOT_LEVEL_Q22 12
-/* A pair that touches may approach by 1 / TOUCHING_DIVISOR of that. */
-#define TOUCHING_DIVISOR 64
 /* Edges in turning bodies below this sine, 1/64: P is too coarse, w lacks NEARLY_PARALLEL bits. */
 #define PARALLEL_Q30    (1 << 24)
 #define NEARLY_PARALLEL 6
-/* The first step back from a root to the event. */
-#define BACK_Q30 (1 << 12)
-/* How often the level is divided by 4 for edges that become parallel. */
-#define LEVELS 6
 
 /*
- * Sign of a pair that touches at the start: as near as ROOT_LEVEL_Q22, or overlapping. 0 if the
+ * Sign of a pair that touches at the start: as near as BOYSE_ROOT_LEVEL_Q22, or overlapping. 0 if the
  * pair does not touch.
  */
 static int touches_at_start(const struct boyse_pair *pair, const struct candidate *c,
@@ -34,8 +22,9 @@ static int touches_at_start(const struct boyse_pair *pair, const struct candidat
         return 0;
     }
     boyse_test(pair, c, start, 0, &touch);
-    return touch.valid && touch.gap_q22 <= ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22 ? touch.sign
-                                                                                        : 0;
+    return touch.valid && touch.gap_q22 <= BOYSE_ROOT_LEVEL_Q22 && touch.gap_q22 > -limit_q22
+               ? touch.sign
+               : 0;
 }
 
 /*
@@ -58,7 +47,7 @@ static int64_t apart_at(const struct boyse_pair *pair, const struct candidate *c
 static int32_t last_apart(const struct boyse_pair *pair, const struct candidate *c,
                           const struct boyse_places *start, int32_t gap_q22, int32_t root_q30)
 {
-    int32_t far = root_q30, near = root_q30, back = BACK_Q30, slack;
+    int32_t far = root_q30, near = root_q30, back = BOYSE_BACK_Q30, slack;
 
     do {
         near = far;
@@ -138,7 +127,7 @@ static bool first_hit(const struct boyse_pair *pair, const struct candidate *c,
 static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *c,
                          const struct boyse_places *start)
 {
-    int64_t level = (int64_t)ROOT_LEVEL_Q22 << 18, most;
+    int64_t level = (int64_t)BOYSE_ROOT_LEVEL_Q22 << 18, most;
     int32_t largest;
 
     if (c->kind != CANDIDATE_EDGE_EDGE) {
@@ -163,7 +152,7 @@ static int64_t lower(int64_t gap_q40, int touching, int64_t level)
     int64_t size = carom_abs(gap_q40), shift;
 
     if (touching != 0) {
-        return gap_q40 - touching * (level / TOUCHING_DIVISOR);
+        return gap_q40 - touching * (level / BOYSE_TOUCHING_DIVISOR);
     }
     shift = size > 2 * level ? level : size / 2;
     return gap_q40 > 0 ? shift : -shift;
@@ -181,7 +170,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
             root = CAROM_ONE_Q30; /* a time at which they have met */
 
     boyse_test(pair, c, start, CAROM_ONE_Q30, &to);
-    if (!to.valid || to.gap_q22 > ROOT_LEVEL_Q22) {
+    if (!to.valid || to.gap_q22 > BOYSE_ROOT_LEVEL_Q22) {
         return false;
     }
     boyse_test(pair, c, start, 0, &from);
@@ -190,7 +179,7 @@ static bool have_met(const struct boyse_pair *pair, const struct candidate *c,
     }
     for (int32_t step = CAROM_ONE_Q30 / 2; step >= CAROM_ONE_Q30 >> 12; step /= 2) {
         boyse_test(pair, c, start, root - step, &to);
-        root -= to.valid && to.gap_q22 <= ROOT_LEVEL_Q22 ? step : 0;
+        root -= to.valid && to.gap_q22 <= BOYSE_ROOT_LEVEL_Q22 ? step : 0;
     }
     boyse_test(pair, c, start, root, &to);
     if (to.gap_q22 < -event_q22) {
@@ -241,7 +230,7 @@ static bool first_by_roots(const struct boyse_pair *pair, const struct candidate
         if (shift_q40 == 0 || touching != 0) {
             return false;
         }
-        shift_q40 = far && tries < LEVELS ? shift_q40 / 4 : 0;
+        shift_q40 = far && tries < BOYSE_LEVELS ? shift_q40 / 4 : 0;
     }
 }
 

@@ -2,8 +2,7 @@
 /* P(t) in 32 bits, and a walk over its roots that passes none. */
 #include "roots.h"
 
-#define CURVE_BITS 29 /* bits of the sum of all |a_k| */
-#define STRIDE_Q30 16
+#define CURVE_BITS 29  /* bits of the sum of all |a_k| */
 #define ROUNDS     300 /* never reached: strides grow twofold */
 #define NEVER_Q30  ((uint32_t)2 << 30)
 
@@ -107,7 +106,7 @@ void walk_begin(struct walk *w, const struct curve *q)
     int32_t size = fix_abs32(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
 
     w->t_q30 = w->side = w->rounds = 0;
-    w->stride = STRIDE_Q30;
+    w->stride = BOYSE_STRIDE_Q30;
     if (size > CURVE_NOISE) {
         w->side = q->a[0] < 0 ? -1 : 1;
         if (w->side < 0) {
@@ -172,7 +171,7 @@ bool walk_next(struct walk *w, const struct curve *q)
             return true;
         }
         advance(w, step);
-        w->stride = STRIDE_Q30;
+        w->stride = BOYSE_STRIDE_Q30;
     }
     return false;
 }
@@ -198,6 +197,6 @@ void walk_over(struct walk *w, const struct curve *q)
         w->stride *= 2;
     } else {
         advance(w, step);
-        w->stride = STRIDE_Q30;
+        w->stride = BOYSE_STRIDE_Q30;
     }
 }

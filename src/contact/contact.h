@@ -224,12 +224,6 @@ struct contact_list {
 void contact_place(const struct boyse_pair *pair, const struct candidate *c,
                    const carom_v3_q30 *normal, carom_v3_q40 arm[2]);
 
-/* Contacts whose normals' cosine is above this share a normal: 1 - 1e-4. */
-#define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
-
-/* Faces lie on each other if no component of their normals differs by more. */
-#define CONTACT_LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
-
 /*
  * If both edges of a candidate border faces that lie on each other in the placed poses, and b's
  * face has nearly this normal, make it b's face's normal. Else the normal stays.

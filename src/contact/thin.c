@@ -6,13 +6,6 @@
  */
 #include "contact.h"
 
-/*
- * A corner hardly stands out if it does so by less than this part of the distance between the other
- * two.
- */
-#define STANDS_OUT_DIVISOR 32
-/* A face needs this many contacts: none of them is dropped. */
-#define ENOUGH 4
 /* Pairs with more contacts than this are left alone. */
 #define MOST 16
 /* Lengths are compared with this many bits. */
@@ -65,8 +58,8 @@ static bool is_between(const struct place *at, const struct place *one, const st
     square = carom_dot(d, d);
     /* at most 2^14 along an axis, so all of this is below 2^60 */
     off2 = carom_dot(e, e) * square - along * along;
-    square /= STANDS_OUT_DIVISOR;
-    return along < square * STANDS_OUT_DIVISOR && off2 < square * square;
+    square /= CONTACT_STANDS_OUT_DIVISOR;
+    return along < square * CONTACT_STANDS_OUT_DIVISOR && off2 < square * square;
 }
 
 /* True if two contacts are of the same two faces. */
@@ -124,13 +117,13 @@ uint32_t contact_thin(struct contact *contacts, uint32_t n)
 {
     struct place places[MOST];
 
-    if (n <= ENOUGH || n > MOST) {
+    if (n <= CONTACT_ENOUGH || n > MOST) {
         return n;
     }
     find_places(contacts, n, places);
     /* crossings of edges, which come and go; they are last in key order */
-    for (uint32_t i = n; i > 0 && n > ENOUGH && contacts[i - 1].key.kind == CANDIDATE_EDGE_EDGE;
-         i--) {
+    for (uint32_t i = n;
+         i > 0 && n > CONTACT_ENOUGH && contacts[i - 1].key.kind == CANDIDATE_EDGE_EDGE; i--) {
         if (is_dispensable(contacts, places, n, i - 1)) {
             n--;
             memmove(&contacts[i - 1], &contacts[i], (n - (i - 1)) * sizeof *contacts);

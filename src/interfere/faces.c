@@ -3,12 +3,6 @@
 #include "../num/sort.h"
 #include "narrow.h"
 
-/*
- * Look this far back in the list for a repetition before adding a face: the candidates of one pair
- * repeat each other's faces.
- */
-#define LAST_FACES 8
-
 int candidate_compare(const struct candidate *a, const struct candidate *b)
 {
     if (a->pair != b->pair) {
@@ -62,10 +56,11 @@ static bool has_face(const struct interfere *w, struct carom_face_ref face)
     return place < used && face_key(w->faces[place]) == face_key(face);
 }
 
-/* True if the face is one of the last LAST_FACES in the list. */
+/* True if the face is one of the last INTERFERE_LAST_FACES in the list. */
 static bool is_among_last(const struct interfere *w, struct carom_face_ref face)
 {
-    uint32_t used = w->face_pool->used, first = used > LAST_FACES ? used - LAST_FACES : 0;
+    uint32_t used = w->face_pool->used,
+             first = used > INTERFERE_LAST_FACES ? used - INTERFERE_LAST_FACES : 0;
 
     for (uint32_t i = used; i-- > first;) {
         if (face_key(w->faces[i]) == face_key(face)) {

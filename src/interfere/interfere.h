@@ -53,16 +53,6 @@ struct candidate_visitor {
     void (*visit)(struct candidate_visitor *self, const struct candidate *c, uint32_t n);
 };
 
-/* Cosine tolerance of the normal cones in the collision test, 0.02. */
-#define INTERFERE_CONE_Q30 21474836
-
-/*
- * Slots that remember faces of b which the leaf has already been tested against, since a face lies
- * in several cells. A face that takes the slot of another one makes the engine test the other one
- * again: that costs time only.
- */
-#define INTERFERE_SEEN 64
-
 /* A point or direction in b's mesh axes, from b's centre of mass. */
 struct interfere_vec {
     int32_t c[3];

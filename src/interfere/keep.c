@@ -5,11 +5,6 @@
  */
 #include "narrow.h"
 
-/*
- * When less than 1 / LEAST_FREE_PART of the pool would be free, drop all other pairs' candidates.
- */
-#define LEAST_FREE_PART 8
-
 void interfere_number(struct interfere *w, uint32_t number)
 {
     const struct pair_work *m = &w->meetings[number];
@@ -79,7 +74,7 @@ static void make_room(struct interfere *w)
 
     if (w->meetings && w->own_first > 0) {
         close_gaps(w);
-        if (pool->size - pool->used < pool->size / LEAST_FREE_PART + 1) {
+        if (pool->size - pool->used < pool->size / INTERFERE_FREE_DIVISOR + 1) {
             for (uint32_t i = 0; i < w->pair_count; i++) {
                 w->meetings[i].kept = false;
             }

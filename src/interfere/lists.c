@@ -6,9 +6,6 @@
  */
 #include "narrow.h"
 
-/* Lists extend beyond the requested area by this fraction of its size: 1 / AREA_PART. */
-#define AREA_PART 256
-
 /* True if the face's bounding rectangle meets the area. */
 static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct interfere_area *area)
 {
@@ -41,7 +38,7 @@ static struct interfere_area grown(const struct interfere_area *area)
     struct interfere_area more = *area;
 
     for (int k = 0; k < 2; k++) {
-        int32_t by = (area->high[k] - area->low[k]) / AREA_PART;
+        int32_t by = (area->high[k] - area->low[k]) / INTERFERE_AREA_DIVISOR;
 
         more.low[k] -= by;
         more.high[k] += by;

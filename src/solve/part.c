@@ -5,9 +5,6 @@
  */
 #include "parts.h"
 
-/* An approach slower than this part of a skin a frame leaves the gap open for many frames. */
-#define SLOW_DIVISOR 32
-
 /* Load velocities of the island's bodies: the present ones, or those before the solve. */
 static void load(struct rest *r, bool before)
 {
@@ -33,7 +30,7 @@ bool rest_approaches(struct rest *r)
         const struct contact *c = rest_contact(r, i);
         int64_t least_q40 = c->work->target_q40 < 0 ? c->work->target_q40 : 0;
 
-        any = rest_speed_q40(c) < least_q40 - carom_shl(c->skin_q22 / SLOW_DIVISOR, 18);
+        any = rest_speed_q40(c) < least_q40 - carom_shl(c->skin_q22 / REST_SLOW_DIVISOR, 18);
     }
     load(r, true);
     return any;

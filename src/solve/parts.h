@@ -18,17 +18,6 @@
 /* If dv or du use more bits than this the unit is too small and is enlarged. */
 #define REST_USED_BITS 29
 
-/*
- * Sweeps end when no velocity changes by more than this, in solver units. Contacts of one body or
- * two that slide or roll settle over several frames, and creep by the residual: so a few contacts
- * have a smaller one.
- */
-#define REST_FEW               8
-#define REST_RESIDUAL_EXACT    1
-#define REST_RESIDUAL_IMPACT   (1 << (REST_BITS - 20))
-#define REST_RESIDUAL_REST     (1 << (REST_BITS - 13))
-#define REST_RESIDUAL_REST_FEW (1 << (REST_BITS - 16))
-
 struct rest_sweep {
     int unit;     /* a solver unit of velocity is 2^unit of q40 */
     bool plastic; /* impacts end at V.N = 0: the plastic solution of the energy rule */

@@ -2,14 +2,6 @@
 /* Solve all islands of a list of contacts: rest_solve; rest_project and rest_enter_contact. */
 #include "parts.h"
 
-/*
- * A body counts as moving if it goes or turns by more than this many skins a frame, far above the
- * residual of sweeps.
- */
-#define MOVES_SKINS 8
-/* Then a change of velocity below this part of a skin a frame counts as none. */
-#define LOOSE_DIVISOR 8
-
 void rest_load_contacts(struct rest *r)
 {
     if (r->loaded) {
@@ -192,9 +184,9 @@ static int64_t loose_q40(const struct rest *r, bool start)
         }
         moves |= fix_length_bound(v) +
                      fix_mul(fix_length_bound(b->solve.spin.c), b->def.radius_q22, 22) >
-                 carom_shl(b->def.skin_q22, 18) * MOVES_SKINS;
+                 carom_shl(b->def.skin_q22, 18) * REST_MOVES_SKINS;
     }
-    return moves ? carom_shl(skin_q22, 18) / LOOSE_DIVISOR : 0;
+    return moves ? carom_shl(skin_q22, 18) / REST_LOOSE_DIVISOR : 0;
 }
 
 /* Solve the island at hand. */

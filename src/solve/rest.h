@@ -35,16 +35,7 @@
 #include "impact.h"
 #include "joint.h"
 
-#define REST_BITS         23
-#define REST_SWEEPS_MAX   16  /* of an impact */
-#define REST_SWEEPS_CALM  60  /* without momentum */
-#define REST_SWEEPS_EXACT 120 /* of an impact of one body or two, without momentum */
-#define REST_SWEEPS_FEW   40  /* of resting contact at a few places; it goes on in the next frame */
-#define REST_SWEEPS_MANY  48  /* of resting contact at many places */
-
-#define REST_SWEEPS_JOINTS 150
-
-#define REST_QUIET_FRAMES 20 /* quiet frames before a body may fall asleep */
+#define REST_BITS 23
 
 /* An impulse kept for the next frame; part of the state. */
 struct rest_warm {

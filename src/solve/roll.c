@@ -8,21 +8,6 @@
 #include "rows.h"
 #include "parts.h"
 
-/*
- * The arm of that moment in skins; 32 are 1/64 of a body's radius. A body of radius r that lies one
- * skin, r / 2048, deep in soft ground has a patch of radius r / 32. At rest nothing springs back,
- * so the half of the patch that it rolls into carries it, whose middle is half as far out.
- */
-#define ROLL_SKINS 32
-/*
- * A body that must right itself begins to roll down from rest, and a whole arm would hold it. So
- * the arm is this small for a body that begins to roll down, and grows with its speed. A body that
- * rolls up has the whole arm, which brings a rocking body to rest.
- */
-#define ROLL_SKINS_DOWN 2
-/* Rolling down the arm is whole at the speed that gravity gives in this many frames. */
-#define ROLL_FRAMES 2
-
 /* Whether contact i is the first of its pair. */
 static bool leads(const struct rest *r, uint32_t i)
 {
@@ -80,7 +65,7 @@ static bool rolls_up(const struct rest *r, uint32_t i)
     return up;
 }
 
-/* Rolling friction of a pair: CAROM_ROLLING_Q16 stands for an arm of ROLL_SKINS. */
+/* Rolling friction of a pair: CAROM_ROLLING_Q16 stands for an arm of REST_ROLL_SKINS. */
 static uint32_t rolling_q16(const struct rest *r, const struct contact *c)
 {
     const struct body_extra *a, *b;
@@ -104,7 +89,7 @@ FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
     int64_t spin_q40[3] = {0, 0, 0}, speed_q40, whole_q40 = 1, grown;
 
     if (rolls_up(r, i)) {
-        return ROLL_SKINS * (int64_t)c->skin_q22;
+        return REST_ROLL_SKINS * (int64_t)c->skin_q22;
     }
     for (int s = 0; s < 2; s++) {
         const struct body *b = c->side[s].body;
@@ -112,17 +97,17 @@ FIX_APART static int64_t arm_q22(const struct rest *r, uint32_t i)
         for (int k = 0; b && k < 3; k++) {
             spin_q40[k] += s == 0 ? b->solve.spin.c[k] : -b->solve.spin.c[k];
         }
-        if (b && ROLL_FRAMES * b->def.acceleration_q40 > whole_q40) {
-            whole_q40 = ROLL_FRAMES * b->def.acceleration_q40;
+        if (b && REST_ROLL_FRAMES * b->def.acceleration_q40 > whole_q40) {
+            whole_q40 = REST_ROLL_FRAMES * b->def.acceleration_q40;
         }
     }
     /* a radius has 2048 skins */
     speed_q40 = fix_mul(fix_length(spin_q40), c->skin_q22, 22 - 11);
     speed_q40 = speed_q40 < whole_q40 ? speed_q40 : whole_q40;
     /* gravity and force give at most 2 units a frame: below 2^43, and a skin is below 2^20 */
-    grown =
-        c->skin_q22 * (ROLL_SKINS - ROLL_SKINS_DOWN) * (speed_q40 >> 6) / ((whole_q40 >> 6) + 1);
-    return ROLL_SKINS_DOWN * (int64_t)c->skin_q22 + grown;
+    grown = c->skin_q22 * (REST_ROLL_SKINS - REST_ROLL_SKINS_DOWN) * (speed_q40 >> 6) /
+            ((whole_q40 >> 6) + 1);
+    return REST_ROLL_SKINS_DOWN * (int64_t)c->skin_q22 + grown;
 }
 
 /* Fractional bits of a column of R H in the pair's unit of length. */

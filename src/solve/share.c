@@ -7,9 +7,6 @@
  */
 #include "parts.h"
 
-/* V.N may change by at most this part of a skin a frame. */
-#define CHANGE_DIVISOR 64
-
 /* True if the contact's pair rests on a face: it has three contacts in the island. */
 static bool on_face(const struct rest *r, uint32_t i)
 {
@@ -34,7 +31,7 @@ static bool as_good(const struct contact *c, const carom_v3_q30 *other, int32_t 
         }
         change_q40 += fix_mul_q30(c->velocity_q40.c[k], (int32_t)off);
     }
-    return carom_abs(change_q40) < carom_shl(c->skin_q22 / CHANGE_DIVISOR, 18);
+    return carom_abs(change_q40) < carom_shl(c->skin_q22 / REST_SHARE_DIVISOR, 18);
 }
 
 void rest_share_normal(struct rest *r, uint32_t i)

@@ -11,12 +11,8 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     if (!b->clock.in_contact && b->def.joined == BODY_ALONE) {
         return false;
     }
-    /*
-     * A small part of what gravity gives in a frame: a falling body is never that slow for long. At
-     * an eighth a head that was slowly tipping over fell asleep on its way; at 1/32 none of 20
-     * does, and no drop takes more than a few frames longer.
-     */
-    limit_q40 = b->def.acceleration_q40 / 32;
+    /* a falling body is never that slow for long */
+    limit_q40 = b->def.acceleration_q40 / REST_QUIET_DIVISOR;
     fix_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
     body_spin(b, s, &m, &w);

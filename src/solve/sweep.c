@@ -2,27 +2,6 @@
 /* Sweep over accumulated, clamped impulses until the residual is reached. */
 #include "sweep.h"
 
-/*
- * How often sweeps may outgrow their unit; how often with momentum and from their present impulses.
- */
-#define OUTGREW_MAX     6
-#define OUTGREW_HURRIED 2
-
-/*
- * Contacts slower than this part of the residual are left alone. With the whole residual as limit
- * they would never get below it, and sweeps would run on.
- */
-#define DEAD_DIVISOR 8
-
-/* Up to this many contacts are swept without momentum. */
-#define UNHURRIED 3
-
-/*
- * Each push rounds dv and du. An exact solve forms them anew from the impulses this often, and goes
- * on.
- */
-#define EXACT_SUMS 2
-
 /* 2^32 times a place's velocity by du, modulo 2^64: one that is too large begins anew. */
 static inline uint64_t turned(const int32_t turn[3], const int32_t du[3])
 {
@@ -303,9 +282,9 @@ static bool sweeps(struct rest *r, const struct rest_sweep *sw, bool may_hurry)
      * A few contacts settle as fast without momentum. From no impulses on, each sweep without it
      * takes energy away, wherever the sweeps end: so the energy rule has its plastic solution.
      */
-    bool hurries = may_hurry && !sw->calm && (n > UNHURRIED || joints);
-    const int32_t quiet = sw->calm ? 0 : sw->residual / DEAD_DIVISOR;
-    int rounds = most_rounds(r, sw), sums = sw->exact ? EXACT_SUMS : 0;
+    bool hurries = may_hurry && !sw->calm && (n > REST_UNHURRIED || joints);
+    const int32_t quiet = sw->calm ? 0 : sw->residual / REST_DEAD_DIVISOR;
+    int rounds = most_rounds(r, sw), sums = sw->exact ? REST_EXACT_SUMS : 0;
     bool ran_out = true;
     int age = 0;
 
@@ -362,7 +341,7 @@ static void drop(struct rest *r)
 
 /*
  * If velocities outgrow their unit sweep on in a larger one. With friction and momentum they may
- * grow without end: so after OUTGREW_HURRIED times sweep without momentum and from no impulses, and
+ * grow without end: so after REST_OUTGREW_HURRIED times sweep without momentum and from no impulses, and
  * at last give up.
  */
 void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
@@ -375,7 +354,7 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
             r->joints.calls->load_warm(r, sw);
         }
     }
-    for (int outgrew = 0; outgrew < OUTGREW_MAX; outgrew++) {
+    for (int outgrew = 0; outgrew < REST_OUTGREW_MAX; outgrew++) {
         while (!rest_sum_up(r)) {
             rest_enlarge_unit(r, sw);
         }
@@ -383,12 +362,12 @@ void rest_solve_sweeps(struct rest *r, struct rest_sweep *sw, bool warm)
         for (uint32_t i = 0; i < r->count; i++) {
             rest_contact(r, i)->work->rolls = sw->rolls && rest_roll_prepare(r, i, sw);
         }
-        sw->ran_out = sweeps(r, sw, outgrew < OUTGREW_HURRIED);
+        sw->ran_out = sweeps(r, sw, outgrew < REST_OUTGREW_HURRIED);
         if (!outgrown(r)) {
             break;
         }
         rest_enlarge_unit(r, sw);
-        if (outgrew + 1 >= OUTGREW_HURRIED) {
+        if (outgrew + 1 >= REST_OUTGREW_HURRIED) {
             drop(r);
         }
     }

@@ -5,25 +5,6 @@
 #include "parts.h"
 
 /*
- * A gap from half a skin to this much more than a skin counts as closed, with target 0. A rigid
- * body cannot follow targets that differ by a hair at each of its contacts: sweeps would shift its
- * weight from corner to corner without end, and each time it would slip a little downhill.
- */
-#define NEAR_DIVISOR 8
-/* A nearer gap is opened by 1/64 of a skin a frame, evenly, for the same reason ... */
-#define LIFT_DIVISOR 64
-/* ... and by a fifth of what is missing to half a skin. */
-#define RECOVERY_DIVISOR 5
-/* An impact at a gap below a quarter of a skin opens it again: hits stop at half a skin. */
-#define TOO_NEAR_DIVISOR 4
-/* In lasting contact an approach below this part of a skin a frame is no impact. */
-#define LASTING_DIVISOR 4
-/* Bodies that bounce for ever come to rest below this part of what gravity gives in a frame. */
-#define CALM_DIVISOR 8
-/* The shortest time in which a gap may be closed, 1/170 of a frame; bounds the wanted velocity. */
-#define CLOSING_TIME_MIN_Q30 (CAROM_ONE_Q30 / 170)
-
-/*
  * True if bodies may rest. If they bounce for ever (e = 1) they may once they lie, or hit again and
  * again.
  */
@@ -56,7 +37,7 @@ FIX_APART static int64_t pull_q40(const struct contact *c)
 static int64_t slow_q40(const struct contact *c, bool rests)
 {
     int64_t slow_q40 = rests ? 4 * pull_q40(c) : 0;
-    int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / LASTING_DIVISOR, 18) : 0;
+    int64_t least_q40 = c->lasting ? carom_shl(c->skin_q22 / REST_LASTING_DIVISOR, 18) : 0;
 
     return slow_q40 > least_q40 ? slow_q40 : least_q40;
 }
@@ -71,7 +52,7 @@ static int64_t impact_target_q40(const struct contact *c, int32_t e_q30)
 {
     int64_t target_q40 = -fix_mul(c->speed_q40, e_q30, 30);
     int64_t back_q40 = 0;
-    int32_t wanted_q22 = c->skin_q22 / TOO_NEAR_DIVISOR;
+    int32_t wanted_q22 = c->skin_q22 / REST_TOO_NEAR_DIVISOR;
 
     if (c->chord_q28 < INT32_MAX && c->speed_q40 > carom_shl(c->chord_q28, 12)) {
         back_q40 = c->speed_q40 - carom_shl(c->chord_q28, 12);
@@ -97,7 +78,7 @@ FIX_APART static int64_t speed_q40(int64_t way_q22, int32_t time_q30)
 static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
 {
     int64_t room_q22 = c->gap_q22 > c->skin_q22 / 2 ? c->gap_q22 - c->skin_q22 / 2 : 0;
-    int64_t least_q40 = tau_q30 > CLOSING_TIME_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
+    int64_t least_q40 = tau_q30 > REST_CLOSING_MIN_Q30 ? -speed_q40(room_q22, tau_q30) : 0;
 
     if (c->work->target_q40 + rise_q40 >= least_q40) {
         return;
@@ -125,7 +106,7 @@ static int64_t lift_q40(const struct contact *c)
 
         spin_q40 = own_q40 > spin_q40 ? own_q40 : spin_q40;
     }
-    return fix_mul(spin_q40, 2 * (c->skin_q22 / LIFT_DIVISOR), 22);
+    return fix_mul(spin_q40, 2 * (c->skin_q22 / REST_LIFT_DIVISOR), 22);
 }
 
 /* The part of V.N that the path takes back; the target must include it. */
@@ -153,16 +134,16 @@ void rest_prepare_target(const struct rest *r, struct contact *c, int32_t tau_q3
         c->work->target_q40 = impact_target_q40(c, e_q30);
     } else if (!rests) {
         c->work->target_q40 = 0;
-    } else if (open_q22 <= c->skin_q22 / NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
+    } else if (open_q22 <= c->skin_q22 / REST_NEAR_DIVISOR && open_q22 >= -(c->skin_q22 / 2)) {
         c->work->target_q40 = 0;
     } else if (open_q22 > 0) {
         /* may close until the skins touch; q22 to q40 over the time */
-        int32_t time_q30 = tau_q30 > CLOSING_TIME_MIN_Q30 ? tau_q30 : CLOSING_TIME_MIN_Q30;
+        int32_t time_q30 = tau_q30 > REST_CLOSING_MIN_Q30 ? tau_q30 : REST_CLOSING_MIN_Q30;
 
         c->work->target_q40 = tau_q30 > 0 ? -speed_q40(open_q22, time_q30) : 0;
     } else {
-        c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / LIFT_DIVISOR;
-        c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / RECOVERY_DIVISOR;
+        c->work->target_q40 = ((int64_t)c->skin_q22 << 18) / REST_LIFT_DIVISOR;
+        c->work->target_q40 += ((-open_q22 - c->skin_q22 / 2) << 18) / REST_RECOVERY_DIVISOR;
     }
     c->work->band_q30 = c->impact ? 0 : rest_clamp(carom_abs(c->work->target_q40) >> 10);
     if (rests && (!c->impact || c->lasting)) {
@@ -186,5 +167,5 @@ bool rest_lies(const struct rest *r, const struct contact *c)
     rest_relative_velocity(c, &v);
     return may_rest(c, rest_restitution_at(r, c))
                ? carom_abs(rest_along_q40(&v, &c->normal)) < 4 * pull
-               : fix_length(v.c) < pull / CALM_DIVISOR;
+               : fix_length(v.c) < pull / REST_CALM_DIVISOR;
 }

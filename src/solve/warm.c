@@ -3,13 +3,6 @@
 #include "../num/sort.h"
 #include "parts.h"
 
-/*
- * Parts of a radius. A contact that moved by less than the first has stayed where it was; one that
- * moved by more than the second is another contact.
- */
-#define STAYED_DIVISOR 1024
-#define MOVED_DIVISOR  20
-
 /* The part of an impulse across its normal. */
 static inline void find_tangent(const struct rest_warm *w, int64_t normal_q40, int64_t tangent[3])
 {
@@ -179,8 +172,8 @@ static void load_all(struct rest *r, const struct rest_sweep *sw, int32_t diviso
 /* Contacts that stayed where they were come first: on small faces others are near them. */
 void rest_load_warm(struct rest *r, const struct rest_sweep *sw)
 {
-    load_all(r, sw, STAYED_DIVISOR);
-    load_all(r, sw, MOVED_DIVISOR);
+    load_all(r, sw, REST_STAYED_DIVISOR);
+    load_all(r, sw, REST_MOVED_DIVISOR);
 }
 
 void rest_store_warm(struct rest *r)

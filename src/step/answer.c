@@ -5,18 +5,8 @@
  */
 #include "parts.h"
 
-/* Times between the event and the root at which the touch is computed. */
-#define TRIES 8
-/* A pair that hits again at the same time gets shorter paths, this many times, */
-#define SHORTER_MAX 5
-/* and then its island moves as one body. */
-#define CALM_AFTER 1
-/* Hits of a pair in a frame after which an island that no solve parted moves as one body. */
-#define UNSETTLED_HITS 6
 /* Largest count of hits, seven bits. */
 #define COUNT_MAX 127u
-/* Repeats after which a kinematic body stops, instead of moving its island along. */
-#define HARD_AFTER (CALM_AFTER + SHORTER_MAX + 4)
 
 struct boyse_hit step_hit_of(struct step *s, uint32_t number)
 {
@@ -35,8 +25,8 @@ struct boyse_hit step_hit_of(struct step *s, uint32_t number)
         boyse_touch(pair, &hit.candidate, t_q30, &hit.touch);
     }
     /* features that face each other for a moment only may do so just before the root */
-    for (int k = TRIES; k >= 0 && !hit.touch.valid; k--) {
-        int32_t part_q30 = (int32_t)((int64_t)(m->root_q30 - t_q30) * k / TRIES);
+    for (int k = STEP_ROOT_TRIES; k >= 0 && !hit.touch.valid; k--) {
+        int32_t part_q30 = (int32_t)((int64_t)(m->root_q30 - t_q30) * k / STEP_ROOT_TRIES);
 
         boyse_touch(pair, &hit.candidate, t_q30 + part_q30, &hit.touch);
     }
@@ -215,14 +205,14 @@ static void insist(struct step *s, uint32_t number, uint32_t repeats)
                  s->next->bodies[p->a].angular.c[2] | s->next->bodies[p->b].angular.c[0] |
                  s->next->bodies[p->b].angular.c[1] | s->next->bodies[p->b].angular.c[2]) != 0;
 
-    if (repeats > CALM_AFTER + (turn ? SHORTER_MAX : 0) ||
-        (s->w->meetings[number].hits > UNSETTLED_HITS &&
+    if (repeats > STEP_CALM_AFTER + (turn ? STEP_SHORTER_MAX : 0) ||
+        (s->w->meetings[number].hits > STEP_UNSETTLED_HITS &&
          (a->solve.unsettled || b->solve.unsettled))) {
-        step_calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > HARD_AFTER);
+        step_calm_island(s, step_active(s, p->a) ? p->a : p->b, repeats > STEP_HARD_AFTER);
     }
     if (turn && repeats > 0) {
-        a->clock.shorter = (uint8_t)(a->clock.shorter + (a->clock.shorter < SHORTER_MAX));
-        b->clock.shorter = (uint8_t)(b->clock.shorter + (b->clock.shorter < SHORTER_MAX));
+        a->clock.shorter = (uint8_t)(a->clock.shorter + (a->clock.shorter < STEP_SHORTER_MAX));
+        b->clock.shorter = (uint8_t)(b->clock.shorter + (b->clock.shorter < STEP_SHORTER_MAX));
     }
 }
 

@@ -2,16 +2,6 @@
 /* Clocks and paths: each body has a path over a part of the frame. */
 #include "parts.h"
 
-/* Times this close to the end of a path count as its end. */
-#define END_Q30 2
-/* A slice is not shortened below this. */
-#define SHORTEST_Q30 (1 << 8)
-/*
- * A slice ends when the centre has gone this many radii. So the way that leaves sweep stays
- * bounded.
- */
-#define WAY_RADII 8
-
 /* Gravity that acts on a path; a body in contact has taken the frame's gravity already. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
@@ -26,7 +16,7 @@ static int32_t path_time(const struct body *b, int32_t t_q30)
     if (t_q30 <= b->clock.from_q30) {
         return 0;
     }
-    return t_q30 >= b->clock.to_q30 - END_Q30
+    return t_q30 >= b->clock.to_q30 - STEP_END_Q30
                ? CAROM_ONE_Q30
                : (int32_t)(((int64_t)(t_q30 - b->clock.from_q30) << 30) / slice_q30);
 }
@@ -115,7 +105,7 @@ void step_look_back(struct step *s, uint32_t i)
 /* Cut a slice at the longest way that the path may take. */
 static int32_t cut_by_way(const struct body *b, int32_t slice_q30)
 {
-    int64_t most_q22 = (int64_t)b->def.radius_q22 * WAY_RADII, way_q22;
+    int64_t most_q22 = (int64_t)b->def.radius_q22 * BODY_SLICE_RADII, way_q22;
     const int64_t *v = b->path.v.c;
 
     if ((int64_t)fix_sum(v) >> 18 <= most_q22) {
@@ -174,7 +164,7 @@ int step_set_path(struct step *s, uint32_t i)
         } else { /* bodies of a group have been shortened together */
             slice_q30 = shorter_q30 = step_slice(s, i, left_q30);
         }
-        slice_q30 = shorter_q30 > SHORTEST_Q30 ? shorter_q30 : slice_q30;
+        slice_q30 = shorter_q30 > STEP_SHORTEST_Q30 ? shorter_q30 : slice_q30;
         slice_q30 = avoid_sliver(slice_q30, left_q30);
         b->clock.to_q30 = s->now_q30 + slice_q30;
     }

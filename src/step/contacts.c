@@ -51,7 +51,7 @@ int step_check_pair(struct step *s, uint32_t number)
         s->next->bodies[p->b].out) {
         return CAROM_OK;
     }
-    v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? 2 : BODY_MARGIN_SKINS);
+    v.margin_q22 = skin_q22 * (is_bouncing(s, p) ? BODY_BOUNCE_MARGIN_SKINS : BODY_MARGIN_SKINS);
     if (!m->kept &&
         step_stay_apart(s, number,
                         (int64_t)v.margin_q22 + 2 * skin_q22 + mesh_drift_most(a->def.mesh) +
@@ -168,26 +168,6 @@ static void note_hits(struct step *s)
     }
 }
 
-/*
- * Shortest slices for which chords are computed: about a thousandth of a frame, and 2^-18 of one
- * for lasting contact.
- */
-#define CHORD_SLICE_MIN_Q30   (1 << 20)
-#define LASTING_SLICE_MIN_Q30 (1 << 12)
-/*
- * Chords that bend by less than skin / this are not computed: the gap of the next frame makes up
- * for the bend.
- */
-#define CHORD_BEND_DIVISOR 16
-
-/* A contact is lasting if its pair has hit more often than this in a frame, */
-#define LASTING_HITS 3
-/* or more often than this with a gap below skin / CLOSED_DIVISOR: hits stop at half a skin. */
-#define CLOSED_HITS    1
-#define CLOSED_DIVISOR 16
-/* The opening of a lasting contact is also measured at 1/2 and 1/8 of the slice. */
-#define SOONEST 8
-
 /* Change of a contact's gap on the present paths up to a time, q22. */
 static int64_t gap_change(const struct boyse_pair *pair, const struct candidate *c, int32_t t_q30)
 {
@@ -209,7 +189,7 @@ static int64_t opening(const struct boyse_pair *pair, const struct contact *c)
     if (!c->lasting) {
         return least_q22 + 4;
     }
-    for (int part = 2; part <= SOONEST; part *= 4) {
+    for (int part = 2; part <= STEP_SOONEST; part *= 4) {
         int64_t way_q22 = part * gap_change(pair, &c->key, CAROM_ONE_Q30 / part);
 
         least_q22 = way_q22 < least_q22 ? way_q22 : least_q22;
@@ -239,7 +219,7 @@ static int64_t led_bend_q22(const struct body *b, int32_t left_q30)
  */
 static bool bends(const struct step *s, const struct contact *c, int32_t left_q30)
 {
-    int32_t most_q22 = c->skin_q22 / CHORD_BEND_DIVISOR;
+    int32_t most_q22 = c->skin_q22 / STEP_CHORD_BEND_DIVISOR;
     int64_t all_q22 =
         s->led ? led_bend_q22(&s->w->bodies[s->w->pairs[c->key.pair].b], left_q30) : 0;
     int64_t bound_q22 = all_q22;
@@ -318,7 +298,8 @@ static void note_lasting(struct step *s, struct contact *c)
 {
     uint32_t hits = s->w->meetings[c->key.pair].hits;
 
-    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / CLOSED_DIVISOR ? CLOSED_HITS : LASTING_HITS);
+    c->lasting = hits > (c->gap_q22 <= c->skin_q22 / STEP_CLOSED_DIVISOR ? STEP_CLOSED_HITS
+                                                                         : STEP_LASTING_HITS);
     for (int k = 0; c->lasting && k < 2; k++) {
         if (c->side[k].body) {
             c->side[k].body->clock.strained = true;
@@ -360,9 +341,9 @@ static void find_chords(struct step *s)
         if (pair_number != c->key.pair) {
             pair_number = c->key.pair;
             slice_q30 = straight_paths(s, &w->pairs[pair_number]);
-            pair = slice_q30 > LASTING_SLICE_MIN_Q30 ? step_set_pair(w, pair_number) : NULL;
+            pair = slice_q30 > STEP_LASTING_MIN_Q30 ? step_set_pair(w, pair_number) : NULL;
         }
-        if (slice_q30 <= (c->lasting ? LASTING_SLICE_MIN_Q30 : CHORD_SLICE_MIN_Q30)) {
+        if (slice_q30 <= (c->lasting ? STEP_LASTING_MIN_Q30 : STEP_CHORD_MIN_Q30)) {
             continue;
         }
         boyse_pair_for(pair, &c->key);
@@ -373,11 +354,6 @@ static void find_chords(struct step *s)
     }
     forget_paths(s);
 }
-
-/*
- * Solves until joints hold at the end of a slice: paths bend, so anchors may be off after a solve.
- */
-#define JOINT_ROUNDS 8
 
 /* True if all bodies are in range after a solve. Those that are not retire. */
 static bool all_in_range(const struct step *s)
@@ -393,7 +369,7 @@ static bool all_in_range(const struct step *s)
 
 /*
  * Solve until joints hold at the end of the slice as well. *held is false if they do not after
- * JOINT_ROUNDS.
+ * STEP_JOINT_ROUNDS.
  */
 static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
 {
@@ -401,7 +377,7 @@ static int solve_rounds(struct step *s, bool warm, bool first, bool *held)
     int result = CAROM_OK;
 
     *held = true;
-    for (int round = 0; round < JOINT_ROUNDS && result == CAROM_OK; round++) {
+    for (int round = 0; round < STEP_JOINT_ROUNDS && result == CAROM_OK; round++) {
         enum joint_solve solve = s->now_q30 > 0 ? JOINT_HIT : first ? JOINT_FRAME : JOINT_MORE;
 
         if (w->joint_steps && !w->joint_steps->measure(s, solve) && round > 0) {

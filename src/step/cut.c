@@ -5,28 +5,15 @@
  */
 #include "parts.h"
 
-/* Times that one path may be set again. */
-#define CUTS_MAX 8
-/* Shortest rest of a path that is worth a cut. */
-#define END_Q30 2
-/* Shortest path that is cut: the turn of a shorter one is below the last place of a rotation. */
-#define SLICE_MIN_Q30 (1 << 10)
-/*
- * Least turn, squared, of a path that is cut. Below a turn of 2^-10 the energy is right to 2^-20,
- * and rotations have so few digits that one slice after another would lose the turn by which
- * features face each other.
- */
-#define TURN2_MIN_Q30 (1 << 8)
-
 /* True if a body's path turns and continues after the hit. Routes are not cut. */
 static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 {
     const struct body *b = &s->w->bodies[i];
 
     return b->def.moving && step_active(s, i) && !b->clock.stands && !b->clock.in_contact &&
-           b->path.turns && b->def.joined == BODY_ALONE && b->clock.cuts < CUTS_MAX &&
-           body_norm2_q30(&b->path) >= TURN2_MIN_Q30 && b->clock.to_q30 - t_q30 > END_Q30 &&
-           t_q30 - b->clock.from_q30 >= SLICE_MIN_Q30;
+           b->path.turns && b->def.joined == BODY_ALONE && b->clock.cuts < STEP_CUTS_MAX &&
+           body_norm2_q30(&b->path) >= STEP_CUT_TURN2_MIN_Q30 &&
+           b->clock.to_q30 - t_q30 > STEP_END_Q30 && t_q30 - b->clock.from_q30 >= STEP_CUT_MIN_Q30;
 }
 
 /*
@@ -182,8 +169,8 @@ int step_cut(struct step *s, uint32_t number, bool *tried)
     if (!good) {
         result = set_ends(s, &p, cut, old_q30); /* paths that have been searched before */
     }
-    a->clock.cuts = cut[0] ? (uint8_t)(good ? a->clock.cuts + 1 : CUTS_MAX) : a->clock.cuts;
-    b->clock.cuts = cut[1] ? (uint8_t)(good ? b->clock.cuts + 1 : CUTS_MAX) : b->clock.cuts;
+    a->clock.cuts = cut[0] ? (uint8_t)(good ? a->clock.cuts + 1 : STEP_CUTS_MAX) : a->clock.cuts;
+    b->clock.cuts = cut[1] ? (uint8_t)(good ? b->clock.cuts + 1 : STEP_CUTS_MAX) : b->clock.cuts;
     number = step_find_pair(s->w, &p);
     if (number == UINT32_MAX) {
         return result;

@@ -243,10 +243,6 @@ static void limit_island(struct step *s, uint32_t first)
     }
 }
 
-/* Factors of momenta for an owed energy stay near 1. */
-#define CONSERVE_LEAST_Q30 (CAROM_ONE_Q30 - (CAROM_ONE_Q30 >> 3))
-#define CONSERVE_MOST_Q30  (CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 3))
-
 /* True if an energy must grow by more than a quarter. */
 static bool lacks_much(const struct fix_wide *energy, const struct fix_wide *owed2)
 {
@@ -279,10 +275,10 @@ static void conserve_island(struct step *s, uint32_t first, struct fix_wide *owe
     if (fix_wide_sign(&energy) <= 0 || fix_wide_sign(owed2) == 0) {
         return;
     }
-    factor = lacks_much(&energy, owed2) ? CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
+    factor = lacks_much(&energy, owed2) ? STEP_CONSERVE_MOST_Q30 : factor_q30(&energy, owed2);
     /* the gain of this frame goes at once, whatever is left: a limit may have given it */
     least = fix_wide_sign(&sum.excess) > 0 ? factor_q30(&energy, &sum.excess) : CAROM_ONE_Q30;
-    least = least < CONSERVE_LEAST_Q30 ? least : CONSERVE_LEAST_Q30;
+    least = least < STEP_CONSERVE_LEAST_Q30 ? least : STEP_CONSERVE_LEAST_Q30;
     factor = fix_larger(factor, least);
     if (grounded) {
         rest_scale_grounded(&s->w->rest, first, factor);

@@ -2,31 +2,13 @@
 /* Where joints will be at the end of a slice, and by how much velocities must change for that. */
 #include "connect.h"
 
-/*
- * A shorter slice is not measured: the effect of a row in it is lost in the last places of
- * positions.
- */
-#define MEASURED_MIN_Q30 (CAROM_ONE_Q30 / 32)
-/* Shortest part of a frame in which an anchor that is off comes back. */
-#define RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
-/* Error allowed at the end of a slice: skin / this. */
-#define LEFT_DIVISOR 8
-/* A kinematic body stops if it would leave an error of this many skins. */
-#define TORN_SKINS 4
-
-/*
- * Largest turn of a group in a slice, radians: anchors part by the bend, and a solve sees it as
- * straight.
- */
-#define TURN_MOST_Q30 (CAROM_ONE_Q30 / 8)
-
-/* Part of a time over which a spin turns by at most TURN_MOST_Q30. */
+/* Part of a time over which a spin turns by at most STEP_JOINT_TURN_Q30. */
 static int32_t slice_of_spin(const carom_v3_q40 *spin, int32_t left_q30)
 {
     int64_t rate_q40 = fix_length(spin->c);
 
-    return fix_mul_q30(rate_q40, left_q30) > (int64_t)TURN_MOST_Q30 << 10
-               ? (int32_t)(((int64_t)TURN_MOST_Q30 << 30) / (rate_q40 >> 10))
+    return fix_mul_q30(rate_q40, left_q30) > (int64_t)STEP_JOINT_TURN_Q30 << 10
+               ? (int32_t)(((int64_t)STEP_JOINT_TURN_Q30 << 30) / (rate_q40 >> 10))
                : left_q30;
 }
 
@@ -155,10 +137,10 @@ static bool measure_spring(struct joint_work *w, const struct carom_joint_drive 
     return true;
 }
 
-/* Time in which a joint that is off comes back: the slice, but no less than RECOVERY_MIN_Q30. */
+/* Time in which a joint that is off comes back: the slice, but no less than STEP_RECOVERY_MIN_Q30. */
 static int32_t recovery(int32_t slice_q30)
 {
-    return slice_q30 > RECOVERY_MIN_Q30 ? slice_q30 : RECOVERY_MIN_Q30;
+    return slice_q30 > STEP_RECOVERY_MIN_Q30 ? slice_q30 : STEP_RECOVERY_MIN_Q30;
 }
 
 /*
@@ -177,7 +159,7 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
 {
     const struct carom_joint_drive *d = &state->drive;
     struct joint_work *w = &j->work;
-    int32_t time_q30 = slice_q30 > MEASURED_MIN_Q30 ? slice_q30 : MEASURED_MIN_Q30;
+    int32_t time_q30 = slice_q30 > STEP_MEASURED_MIN_Q30 ? slice_q30 : STEP_MEASURED_MIN_Q30;
 
     w->law.lower = w->law.upper = d->limited && solve != JOINT_PROJECT;
     w->law.motor = d->motor && solve == JOINT_FRAME;
@@ -316,7 +298,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     w->idle = !j->chosen || w->rows == 0 || (!w->lever[0].body && !w->lever[1].body);
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
-    w->by_speed = solve == JOINT_PROJECT || slice_q30 < MEASURED_MIN_Q30;
+    w->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
     held_q40 = measure_held(s, j, &at, &to, slice_q30);
     if (solve == JOINT_PROJECT) {
         memset(w->wanted_q40, 0, sizeof w->wanted_q40);
@@ -324,8 +306,8 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
     if (w->held < w->rows) {
         last_q40 = measure_last(s, j, state, &at, &to, slice_q30, solve);
     }
-    w->torn = !w->by_speed && held_q40 > TORN_SKINS * skin_q40;
-    return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / LEFT_DIVISOR;
+    w->torn = !w->by_speed && held_q40 > STEP_TORN_SKINS * skin_q40;
+    return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
 }
 
 bool connect_measure(struct step *s, enum joint_solve solve)

@@ -3,9 +3,6 @@
 #include "../solve/rigid.h"
 #include "parts.h"
 
-/* An island that goes along may approach another body by skin / this a frame. */
-#define NO_APPROACH_DIVISOR 64
-
 static const struct body_route still = {.slice_bits = 0};
 
 /* True if the end of a route is in range. A body whose route leaves the range stops. */
@@ -180,7 +177,8 @@ static bool is_free_to_go(const struct step *s, uint32_t first, const struct bod
         for (int k = 0; c->drift && k < 3; k++) {
             v.c[k] -= c->drift->c[k];
         }
-        if (rest_along_q40(&v, &c->normal) < -carom_shl(c->skin_q22 / NO_APPROACH_DIVISOR, 18)) {
+        if (rest_along_q40(&v, &c->normal) <
+            -carom_shl(c->skin_q22 / STEP_NO_APPROACH_DIVISOR, 18)) {
             return false;
         }
     }

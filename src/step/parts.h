@@ -36,9 +36,6 @@
 
 #include "../world/world.h"
 
-/* Shortest rest of a frame, about a thousandth of it: a slice that would leave less ends sooner. */
-#define STEP_SLICE_MIN_Q30 (1 << 20)
-
 /* What the whole step works on. */
 struct step {
     struct carom_world *w;

@@ -5,27 +5,6 @@
  */
 #include "parts.h"
 
-/*
- * A region ends when its body has gone radius / this: in contact; in flight, where a hit may turn
- * it aside long before; with nothing near.
- */
-#define REGION_PARTS        10
-#define REGION_PARTS_FLIGHT 20
-#define REGION_PARTS_FREE   4
-/*
- * Most frames that a region lasts if gravity bends the path. The bend grows with the square of the
- * time.
- */
-#define BENT_FRAMES 8
-/* A region does not last beyond a slice shorter than this. */
-#define GONE_ON_MIN_Q30 (1 << 24)
-/* Room is at most radius / this, as the swept volume grows with it. */
-#define ROOM_PARTS 64
-/*
- * A hit turns aside a body that goes farther than this many skins in a slice by more than any room.
- */
-#define ROOM_WAY_SKINS 10
-
 /* ------------------------------------------------------------------ numbers */
 
 static uint32_t place_of(const struct carom_world *w, uint32_t a, uint32_t b)
@@ -172,7 +151,7 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
     if (s->active > 1) {
         return contact ? 10 * skin_q22 + way_q22 / 16 : 3 * skin_q22 + way_q22 / 64;
     }
-    if (!lasts && way_q22 > ROOM_WAY_SKINS * skin_q22) {
+    if (!lasts && way_q22 > STEP_ROOM_WAY_SKINS * skin_q22) {
         return skin_q22 / 4;
     }
     return contact ? 10 * skin_q22 + way_q22 / 32 : skin_q22 + way_q22 / 256;
@@ -188,10 +167,10 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
     const int64_t *g = b->path.g.c;
     int64_t way_q22, turn_q30, most_q22, held = 1;
-    int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : BENT_FRAMES;
+    int64_t frames = (g[0] | g[1] | g[2]) == 0 ? BODY_REGION_FRAMES : STEP_BENT_FRAMES;
 
     /* with nothing near, a new region costs less than to test the old one */
-    if (!b->def.moving || slice_q30 < left_q30 || slice_q30 < GONE_ON_MIN_Q30 || s->single ||
+    if (!b->def.moving || slice_q30 < left_q30 || slice_q30 < STEP_GONE_ON_MIN_Q30 || s->single ||
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
@@ -203,9 +182,9 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     way_q22 = (way_q22 << 30) / slice_q30 + 1;
     most_q22 =
-        b->def.radius_q22 / (b->search.free                            ? REGION_PARTS_FREE
-                             : b->clock.in_contact || b->clock.touched ? REGION_PARTS
-                                                                       : REGION_PARTS_FLIGHT);
+        b->def.radius_q22 / (b->search.free                            ? STEP_REGION_PARTS_FREE
+                             : b->clock.in_contact || b->clock.touched ? STEP_REGION_PARTS
+                                                                       : STEP_REGION_PARTS_FLIGHT);
     frames = frames * way_q22 > most_q22 ? most_q22 / way_q22 : frames;
     frames = frames > held ? held : frames;
     return left_q30 + ((frames > 1 ? frames - 1 : 0) << 30);
@@ -219,8 +198,8 @@ static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
 
     b->search.active = true;
     b->search.standing = false;
-    room_q22 =
-        room_q22 < b->def.radius_q22 / ROOM_PARTS ? room_q22 : b->def.radius_q22 / ROOM_PARTS;
+    room_q22 = room_q22 < b->def.radius_q22 / STEP_ROOM_PARTS ? room_q22
+                                                              : b->def.radius_q22 / STEP_ROOM_PARTS;
     room_q22 += mesh_drift_most(b->def.mesh); /* contacts are searched that much farther away */
     body_region_begin(b, &s->next->bodies[i], slice_q30, time_q30, (int32_t)room_q22);
     broad_set_box(b);

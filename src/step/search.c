@@ -2,23 +2,8 @@
 /* The next hit of a pair, in the window that both paths have in common. */
 #include "parts.h"
 
-/* A hit earlier than this in the window takes no time. */
-#define NO_TIME_Q30 (CAROM_ONE_Q30 >> 10)
-/*
- * A pair nearer than skin / this approaches no further; otherwise rounding would close the gap in
- * the end.
- */
-#define NEAR_DIVISOR 16
 /* Gaps change by less than this through rounding. */
 #define NOISE_Q22 4
-/* Most parts of a window. */
-#define PARTS_MAX 64
-/* Bodies of many faces turn by at most 1 / this radians in a part, */
-#define TURN_PARTS 4
-/* or by 1 / this if the candidates of the part are kept. */
-#define KEPT_TURN_PARTS 16
-/* Halvings of the time in which features begin to face each other. */
-#define HALVINGS 20
 
 struct boyse_pair *step_set_pair(struct carom_world *w, uint32_t number)
 {
@@ -60,11 +45,11 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
         return 0;
     }
     gap = gap_by(pair, c, root.sign, 0, &valid);
-    if (valid && (gap <= pair->skin_q22 / NEAR_DIVISOR ||
+    if (valid && (gap <= pair->skin_q22 / STEP_NEAR_DIVISOR ||
                   gap - gap_by(pair, c, root.sign, high >> 3, &there) > gap / 16 + NOISE_Q22)) {
         return 0;
     }
-    for (int round = 0; round < HALVINGS && high - low > 1; round++) {
+    for (int round = 0; round < STEP_HALVINGS && high - low > 1; round++) {
         int32_t middle = low + (high - low) / 2;
         int32_t left = gap_by(pair, c, root.sign, middle, &there);
 
@@ -75,7 +60,7 @@ static int32_t later(const struct boyse_pair *pair, const struct candidate *c, i
 
 bool step_put_off(const struct boyse_pair *pair, struct boyse_hit *hit)
 {
-    int32_t t_q30 = hit->t_q30 < NO_TIME_Q30 ? later(pair, &hit->candidate, hit->root_q30) : 0;
+    int32_t t_q30 = hit->t_q30 < STEP_NO_TIME_Q30 ? later(pair, &hit->candidate, hit->root_q30) : 0;
     bool late = t_q30 > hit->t_q30;
 
     hit->t_q30 = late ? t_q30 : hit->t_q30;
@@ -176,14 +161,14 @@ static int32_t parts_of(const struct step *s, const struct pair *p, int32_t time
     int32_t radius_q22 =
         (b->def.goes && b->def.radius_q22 < a->def.radius_q22 ? b : a)->def.radius_q22;
     const struct body_path *path_a = body_path(a), *path_b = body_path(b);
-    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, TURN_PARTS);
+    int64_t way_q40 = 0, parts, parts_turn = parts_of_turn(a, b, STEP_TURN_PARTS);
 
     for (int k = 0; k < 3; k++) {
         way_q40 += carom_abs(path_a->v.c[k] - path_b->v.c[k]);
     }
     parts = (way_q40 >> 17) / radius_q22 + 1;
     parts = parts > parts_turn ? parts : parts_turn;
-    parts = parts < PARTS_MAX ? parts : PARTS_MAX;
+    parts = parts < STEP_PARTS_MAX ? parts : STEP_PARTS_MAX;
     return parts < time_q30 >> 12 ? (int32_t)parts : 1;
 }
 
@@ -194,7 +179,7 @@ int32_t step_parts(const struct step *s, uint32_t number)
 
     return a->clock.in_contact || b->clock.in_contact
                ? 1
-               : (int32_t)parts_of_turn(a, b, KEPT_TURN_PARTS);
+               : (int32_t)parts_of_turn(a, b, STEP_KEPT_TURN_PARTS);
 }
 
 /*

@@ -6,20 +6,6 @@
  */
 #include "parts.h"
 
-/* Most candidates of a region that lasts because nothing was near. */
-#define ENOUGH 8
-/*
- * Product of face counts at which two meshes have many faces. Their candidates are kept if the
- * turns of both bodies in their regions sum to less than TURN_KEPT_Q30.
- */
-#define FACE_PAIRS_MANY 500
-#define TURN_KEPT_Q30   (CAROM_ONE_Q30 / 16 * 5)
-/*
- * A body goes far if its region is longer than radius / FAR_PARTS. From FACE_PAIRS_COSTLY on, a
- * gather costs much.
- */
-#define FAR_PARTS         8
-#define FACE_PAIRS_COSTLY 1000000
 /* Shift from Q30 to the unit of a pair's `until`. */
 #define UNTIL_SHIFT 24
 /* Later than the end of every region. */
@@ -58,7 +44,7 @@ static uint32_t face_pairs(const struct body *a, const struct body *b)
 
 bool step_many_faces(const struct body *a, const struct body *b)
 {
-    return face_pairs(a, b) >= FACE_PAIRS_MANY;
+    return face_pairs(a, b) >= STEP_FACE_PAIRS_MANY;
 }
 
 bool step_goes_far(const struct step *s, const struct pair *p)
@@ -69,7 +55,7 @@ bool step_goes_far(const struct step *s, const struct pair *p)
 
     if ((step_active(s, p->a) ? a->search.region.u_q30 : 0) +
                 (step_active(s, p->b) ? b->search.region.u_q30 : 0) >
-            TURN_KEPT_Q30 / 2 &&
+            STEP_TURN_KEPT_Q30 / 2 &&
         step_many_faces(a, b)) {
         return true;
     }
@@ -152,11 +138,13 @@ static bool goes_on_far(const struct step *s, const struct pair *p)
 {
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
-    if (face_pairs(a, b) < FACE_PAIRS_COSTLY) {
+    if (face_pairs(a, b) < STEP_FACE_PAIRS_COSTLY) {
         return false;
     }
-    return (step_active(s, p->a) && a->search.region.length_q22 > a->def.radius_q22 / FAR_PARTS) ||
-           (step_active(s, p->b) && b->search.region.length_q22 > b->def.radius_q22 / FAR_PARTS);
+    return (step_active(s, p->a) &&
+            a->search.region.length_q22 > a->def.radius_q22 / STEP_FAR_PARTS) ||
+           (step_active(s, p->b) &&
+            b->search.region.length_q22 > b->def.radius_q22 / STEP_FAR_PARTS);
 }
 
 /*
@@ -187,9 +175,9 @@ static int gather_lasting(struct step *s, uint32_t number, struct step_visitor *
         from_q30 = CAROM_ONE_Q30;
     }
     if (result == CAROM_OK) {
-        result = m->count > ENOUGH || v->found || (from_q30 == CAROM_ONE_Q30 && !m->kept)
+        result = m->count > STEP_ENOUGH || v->found || (from_q30 == CAROM_ONE_Q30 && !m->kept)
                      ? INTERFERE_TOO_MANY
-                     : gather_on(s, number, v, from_q30, FOREVER_Q30, ENOUGH);
+                     : gather_on(s, number, v, from_q30, FOREVER_Q30, STEP_ENOUGH);
     }
     if (result == INTERFERE_TOO_MANY) {
         shorten(s, p->a);

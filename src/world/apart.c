@@ -5,16 +5,6 @@
  */
 #include "world.h"
 
-/* Bodies that come apart within this many skins, in some direction, hardly touch. */
-#define SHALLOW_SKINS 2
-/*
- * A body is pushed out in steps that double from this many skins; then the way is halved HALVINGS
- * times.
- */
-#define FIRST_SKINS 4
-#define HALVINGS    10
-/* It goes no farther than its diameter plus this many units. */
-#define WAY_MAX 60
 /* Against gravity, and from the middle of a cube to its faces, edges and corners. */
 #define WAYS 27
 
@@ -95,7 +85,7 @@ static bool is_shallow(struct carom_world *w, const struct body *b, uint32_t pla
 
     for (int way = 0; way < WAYS; way++) {
         if (direction(w, way, &to) &&
-            moved(state, &to, ((int64_t)SHALLOW_SKINS * skin_q22) << 10, &at) &&
+            moved(state, &to, ((int64_t)WORLD_SHALLOW_SKINS * skin_q22) << 10, &at) &&
             !crosses(w, b, place, &at, other)) {
             return true;
         }
@@ -132,7 +122,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
                            int64_t most_q32)
 {
     int64_t inside_q32 = 0, skin_q32 = (int64_t)(b->def.skin_q22 > 0 ? b->def.skin_q22 : 256) << 10;
-    int64_t out_q32 = FIRST_SKINS * skin_q32;
+    int64_t out_q32 = WORLD_FIRST_SKINS * skin_q32;
     struct body_state at;
 
     while (out_q32 < most_q32 &&
@@ -146,7 +136,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
             return most_q32;
         }
     }
-    for (int i = 0; i < HALVINGS; i++) {
+    for (int i = 0; i < WORLD_HALVINGS; i++) {
         int64_t middle_q32 = (inside_q32 + out_q32) / 2;
 
         if (moved(state, way, middle_q32, &at) && !crosses_any(w, b, place, &at)) {
@@ -162,7 +152,7 @@ static int64_t way_out_q32(struct carom_world *w, const struct body *b, uint32_t
 static int push_out(struct carom_world *w, const struct body *b, uint32_t place,
                     struct body_state *state)
 {
-    const int64_t most_q32 = ((int64_t)WAY_MAX << 32) + ((int64_t)b->def.radius_q22 << 11);
+    const int64_t most_q32 = ((int64_t)WORLD_WAY_MAX << 32) + ((int64_t)b->def.radius_q22 << 11);
     int64_t best_q32 = most_q32;
     struct body_state at, best = *state;
     carom_v3_q30 to;

@@ -9,11 +9,6 @@
 #include "../boyse/boyse.h"
 #include "../interfere/narrow.h"
 
-/* Bodies lifted into each other are lifted together: at most this many times. */
-#define ROUNDS_MAX 64
-/* A path is shorter than 64 units; this leaves room for some skins. */
-#define RISE_MAX 60
-
 struct lift {
     struct candidate_visitor base;
     struct carom_world *w;
@@ -220,7 +215,7 @@ static int spread(struct lift *l)
 {
     struct carom_world *w = l->w;
 
-    for (int round = 0; round < ROUNDS_MAX; round++) {
+    for (int round = 0; round < WORLD_LIFT_ROUNDS; round++) {
         int result = pair_lifted(l);
         const struct pair *p;
         int64_t most;
@@ -252,7 +247,7 @@ static int lift_all(struct carom_world *w, uint32_t surface, int64_t rise_q22)
     carom_m3_q30 r;
     int result;
 
-    if (rise_q22 > (int64_t)RISE_MAX << 22) {
+    if (rise_q22 > (int64_t)WORLD_WAY_MAX << 22) {
         return CAROM_ERR_RANGE;
     }
 
