@@ -20,10 +20,10 @@
  *   is. After a step that failed, the lists of what the step found are empty.
  * - **NULL.** A pointer must not be NULL unless its comment says so. A function that returns `int` answers NULL with
  *   CAROM_ERR_NULL; the comments do not repeat this.
- * - **Ranges.** A value outside its stated range gives an error. No input makes behaviour undefined, except a pointer
- *   to memory that is not there.
+ * - **Ranges.** A value outside its stated range gives an error. Only the inline arithmetic of carom_fix.h does not
+ *   check: there ranges are the caller's duty.
  * - **Memory** is the caller's, and nothing is allocated. A block stays where it is while it is in use. A world
- *   refers to the meshes of its bodies, so they outlive it.
+ *   refers to the meshes of its bodies, so they must outlive it.
  * - **Threads.** One thread at a time uses a world. Worlds in several threads may share meshes, except meshes of
  *   carom_surface_build().
  * - **Determinism.** The same calls give the same bits on every processor and compiler.
@@ -49,38 +49,36 @@ extern "C" {
 enum carom_status {
     CAROM_OK = 0,          /**< success */
     CAROM_OVER_BUDGET = 1, /**< bit: the step took more than carom_config.budget_ticks */
-    CAROM_SUBSTEP_CAP = 2  /**< bit: a body had used up its hits, so its island stood still for the
-                                    rest of the frame (#CAROM_EVENT_CUT) */
+    /** bit: a body had used up its hits, so its island stood still for the rest of the frame (#CAROM_EVENT_CUT) */
+    CAROM_SUBSTEP_CAP = 2
 };
 
 /** Errors. All are negative. */
 enum carom_error {
-    CAROM_ERR_NULL = -1,          /**< a pointer that must not be NULL is NULL */
-    CAROM_ERR_ARGUMENT = -2,      /**< a value outside its stated range, for example e or mu */
-    CAROM_ERR_RANGE = -3,         /**< a number larger than the formats hold */
-    CAROM_ERR_MEMORY = -4,        /**< the caller's block is too small, or not aligned to 8 bytes */
-    CAROM_ERR_BODY = -5,          /**< no body has this number */
-    CAROM_ERR_BODIES_FULL = -6,   /**< no room for another body */
-    CAROM_ERR_PAIRS_FULL = -7,    /**< no room for another pair of bodies */
-    CAROM_ERR_CONTACTS_FULL = -8, /**< no room for another contact */
-    CAROM_ERR_FACES_FULL = -9,  /**< no room for another interfering face, or for another result */
-    CAROM_ERR_MESH_EMPTY = -10, /**< a mesh without faces, or without volume */
-    CAROM_ERR_MESH_SIZE = -11,  /**< more than 65535 vertices or 65535 faces */
-    CAROM_ERR_MESH_INDEX =
-        -12, /**< a face names a vertex that does not exist, or one vertex twice */
+    CAROM_ERR_NULL = -1,             /**< a pointer that must not be NULL is NULL */
+    CAROM_ERR_ARGUMENT = -2,         /**< a value outside its stated range, for example e or mu */
+    CAROM_ERR_RANGE = -3,            /**< a number larger than the formats hold */
+    CAROM_ERR_MEMORY = -4,           /**< a block that is too small, or not aligned to 8 */
+    CAROM_ERR_BODY = -5,             /**< no body has this number */
+    CAROM_ERR_BODIES_FULL = -6,      /**< no room for another body */
+    CAROM_ERR_PAIRS_FULL = -7,       /**< no room for another pair of bodies */
+    CAROM_ERR_CONTACTS_FULL = -8,    /**< no room for another contact */
+    CAROM_ERR_FACES_FULL = -9,       /**< no room for another interfering face, or result */
+    CAROM_ERR_MESH_EMPTY = -10,      /**< a mesh without faces, or without volume */
+    CAROM_ERR_MESH_SIZE = -11,       /**< more than 65535 vertices or 65535 faces */
+    CAROM_ERR_MESH_INDEX = -12,      /**< a face names an unknown vertex, or one twice */
     CAROM_ERR_MESH_DEGENERATE = -13, /**< a face without area */
     CAROM_ERR_MESH_OPEN = -14,       /**< an edge of a SOLID has only one face */
     CAROM_ERR_MESH_EDGE = -15,       /**< an edge has three faces, or two that run the same way */
-    CAROM_ERR_MESH_INSIDE_OUT =
-        -16,                      /**< a SOLID of negative volume, or a SURFACE that looks down */
-    CAROM_ERR_MESH_SURFACE = -17, /**< a face of a SURFACE is not single-valued in z */
-    CAROM_ERR_FORMAT = -18,      /**< a blob or snapshot that is cut, altered or of another world */
-    CAROM_ERR_BLOCKED = -19,     /**< a body would be pressed into another one */
-    CAROM_ERR_NO_ENTRIES = -20,  /**< a surface that moves needs a world with `entries` */
-    CAROM_ERR_EXTRAS_FULL = -21, /**< no room for the extra that the body needs */
-    CAROM_ERR_OVERLAP = -22,     /**< a body would cross another one, or lie inside it */
-    CAROM_ERR_JOINT = -23,       /**< no joint has this number */
-    CAROM_ERR_JOINTS_FULL = -24  /**< no room for another joint */
+    CAROM_ERR_MESH_INSIDE_OUT = -16, /**< a SOLID of negative volume, a SURFACE that looks down */
+    CAROM_ERR_MESH_SURFACE = -17,    /**< a face of a SURFACE is not single-valued in z */
+    CAROM_ERR_FORMAT = -18,          /**< a blob or snapshot cut, altered or of another world */
+    CAROM_ERR_BLOCKED = -19,         /**< a body would be pressed into another one */
+    CAROM_ERR_NO_ENTRIES = -20,      /**< a surface that moves needs a world with `entries` */
+    CAROM_ERR_EXTRAS_FULL = -21,     /**< no room for the extra that the body needs */
+    CAROM_ERR_OVERLAP = -22,         /**< a body would cross another one, or lie inside it */
+    CAROM_ERR_JOINT = -23,           /**< no joint has this number */
+    CAROM_ERR_JOINTS_FULL = -24      /**< no room for another joint */
 };
 
 /** Returns a short English text for any result. Never NULL. */
@@ -130,20 +128,22 @@ struct carom_touch {
  */
 typedef bool carom_contact_function(void *user, struct carom_touch *touch);
 
-/** What a world is made with. All zero, except the capacities, is a useful default. */
+/** What a world is made with. Any field except `caps` may be zero. */
 struct carom_config {
     struct carom_caps caps; /**< capacities, see #CAROM_CAPS */
     carom_v3_q40 gravity;   /**< gravity at first, units / frame^2; each component within +-1 */
     bool sleep;             /**< bodies at rest sleep until something wakes them */
-    uint8_t
-        substep_cap;   /**< most hits of one body in a frame; at the last one its island stands for
-                                  the rest of the frame; 0: 32 */
-    uint8_t sweep_cap; /**< most sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of
-                                  a frame; the next frame settles the rest */
+    /** most hits of one body in a frame; at the last one its island stands for the rest of the frame; 0: 32 */
+    uint8_t substep_cap;
+    /**
+     * most sweeps over several contacts; 0: 40 to 70. Fewer bound the cost of a frame; the next frame settles the
+     * rest
+     */
+    uint8_t sweep_cap;
     uint32_t (*ticks)(void); /**< a free-running counter for #carom_stats; NULL: no timing */
     uint32_t budget_ticks;   /**< a step that takes more returns CAROM_OVER_BUDGET; 0: no budget */
-    carom_contact_function
-        *contact;       /**< asked about contacts; NULL: nobody. Needs caps.extras >= 1 */
+    /** asked about contacts; NULL: nobody. Needs caps.extras >= 1 */
+    carom_contact_function *contact;
     void *contact_user; /**< first argument of `contact`; may be NULL */
 };
 
@@ -218,27 +218,29 @@ enum carom_one_way {
  */
 enum carom_overlap {
     CAROM_OVERLAP_REFUSE, /**< the call fails with CAROM_ERR_OVERLAP */
-    CAROM_OVERLAP_PUSH_OUT, /**< the body moves out the shortest way of 27: up against gravity, along the
-                                 world's axes, and between these; at most 60 units and two radii. If all
-                                 are blocked, the call fails with CAROM_ERR_BLOCKED */
-    CAROM_OVERLAP_PASS      /**< the two go through each other until they are apart */
+    /**
+     * the body moves out the shortest way of 27: up against gravity, along the world's axes, and between these; at
+     * most 60 units and two radii. If all are blocked, the call fails with CAROM_ERR_BLOCKED
+     */
+    CAROM_OVERLAP_PUSH_OUT,
+    CAROM_OVERLAP_PASS /**< the two go through each other until they are apart */
 };
 
-/** What a body is made from. All that is zero, except `mesh`, has a meaning. */
+/** What a body is made from. Any field except `mesh` may be zero. */
 struct carom_body_def {
-    const struct carom_mesh
-        *mesh;       /**< a built mesh; it outlives the body. A SURFACE must be stationary */
+    /** a built mesh; it outlives the body. A SURFACE must be stationary */
+    const struct carom_mesh *mesh;
     bool stationary; /**< never moves */
-    bool
-        kinematic; /**< goes where the caller leads it, and pushes what is in the way; takes an extra */
-    carom_v3_q32
-        position; /**< centre of mass (SURFACE: origin of the mesh), units, within +-4096 */
+    /** goes where the caller leads it, and pushes what is in the way; takes an extra */
+    bool kinematic;
+    /** centre of mass (SURFACE: origin of the mesh), units, within +-4096 */
+    carom_v3_q32 position;
     carom_quat_q30 rotation; /**< of length 1 within 2^-10; all zero: none */
     carom_v3_q40 velocity;   /**< units / frame; |velocity| + radius |spin| below 64 */
     carom_v3_q40 spin;       /**< angular velocity, radians / frame, world axes; length below 64 */
     uint32_t mass_q20;       /**< 2^-10 to 2^10; 0: the volume of the mesh, at density 1 */
-    int32_t
-        restitution_q30; /**< e, 0 to 1; a pair uses the smaller one (carom_world_set_combine()) */
+    /** e, 0 to 1; a pair uses the smaller one (carom_world_set_combine()) */
+    int32_t restitution_q30;
     uint32_t friction_q16;      /**< mu, 0 to 4; likewise */
     struct carom_filter filter; /**< which bodies it may touch */
     bool sensor; /**< touches nothing; #CAROM_EVENT_SENSOR_BEGIN and _END report what overlaps it */
@@ -274,8 +276,11 @@ struct carom_body_state {
     carom_v3_q40 velocity;   /**< units / frame, derived from the momentum, which is the state */
     carom_v3_q40 spin;       /**< radians / frame, world axes, derived from the angular momentum */
     bool asleep;             /**< at rest until something wakes it; carom_body_set() ignores it */
-    bool out; /**< left the world's range, or became faster than 64 units or 2^15 radians a frame:
-                                  frozen in its last pose, touched by nothing; carom_body_set() ignores it */
+    /**
+     * left the world's range, or became faster than 64 units or 2^15 radians a frame: frozen in its last pose,
+     * touched by nothing; carom_body_set() ignores it
+     */
+    bool out;
     uint8_t overlap; /**< #carom_overlap, for carom_body_set(); carom_body_get() writes REFUSE */
 };
 
@@ -459,11 +464,14 @@ enum carom_event_kind {
     CAROM_EVENT_REST,  /**< a fell asleep */
     CAROM_EVENT_OUT,   /**< a left the world's range and is frozen */
     CAROM_EVENT_WAKE,  /**< a woke, in this step or since the one before */
-    CAROM_EVENT_CUT, /**< a hit of a and b used up the hits of one of them: both, and whatever touched
-                                   them, stood still for the rest of the frame */
+    /**
+     * a hit of a and b used up the hits of one of them: both, and whatever touched them, stood still for the rest of
+     * the frame
+     */
+    CAROM_EVENT_CUT,
     CAROM_EVENT_SENSOR_BEGIN, /**< b began to overlap the sensor a */
-    CAROM_EVENT_SENSOR_END, /**< b no longer overlaps the sensor a. BEGIN and END in one frame: b went
-                                   through it, or dipped into it */
+    /** b no longer overlaps the sensor a. BEGIN and END in one frame: b went through it, or dipped into it */
+    CAROM_EVENT_SENSOR_END,
     CAROM_EVENT_BREAK, /**< joint a took more than carom_joint_def.most_impulse_q40, and broke */
     CAROM_EVENT_BLOCKED /**< kinematic body a would have crushed b, and stopped: carom_body_move_to() */
 };
@@ -615,19 +623,21 @@ struct carom_stats {
     uint32_t substeps; /**< 1, plus one for each answered hit and each slice that ended */
     uint32_t hits;     /**< hits that were answered */
     uint32_t gathers;  /**< searches for the candidates of one pair */
-    uint32_t
-        refinements; /**< times that a pair's paths were, or were to be, set again to end at its hit */
+    /** times that a pair's paths were, or were to be, set again to end at its hit */
+    uint32_t refinements;
     uint32_t candidates;  /**< candidates that all gathers found */
     uint32_t roots;       /**< candidates that came to the exact test */
     uint32_t contacts;    /**< contacts of the last solve */
     uint32_t sweeps;      /**< sweeps of all solves of several contacts */
     uint32_t impacts;     /**< contacts solved as impacts */
     uint32_t energy_rule; /**< impacts that the energy rule changed */
-    uint32_t
-        cut_islands; /**< islands that stood still as #CAROM_EVENT_CUT says, or were hit again */
-    uint32_t
-        calmed; /**< islands and pairs that went on as one body, or came to rest on what stands still,
-                               because a solve did not part them or nothing pressed them together */
+    /** islands that stood still as #CAROM_EVENT_CUT says, or were hit again */
+    uint32_t cut_islands;
+    /**
+     * islands and pairs that went on as one body, or came to rest on what stands still, because a solve did not part
+     * them or nothing pressed them together
+     */
+    uint32_t calmed;
 };
 
 /** Read what the last step did. */

@@ -131,13 +131,16 @@ int carom_body_velocity_at(const struct carom_world *world, int body, const caro
 struct carom_material {
     int32_t restitution_q30; /**< restitution e, 0 to 1 */
     uint32_t friction_q16;   /**< coefficient of friction mu, 0 to 4 */
-    uint32_t
-        rolling_q16; /**< rolling friction, 0 to 1: the arm of the normal force, in radii. A pair has 64 times
-                                  the product of both, at most 1, so #CAROM_ROLLING_Q16 leaves the other as it is */
-    carom_v3_q40
-        surface_velocity; /**< velocity of the surface along itself while the body stays in place, as of a
-                                        conveyor belt: units / frame, mesh axes, each component within +-16. The part
-                                        along a face's normal has no effect */
+    /**
+     * rolling friction, 0 to 1: the arm of the normal force, in radii. A pair has 64 times the product of both, at
+     * most 1, so #CAROM_ROLLING_Q16 leaves the other as it is
+     */
+    uint32_t rolling_q16;
+    /**
+     * velocity of the surface along itself while the body stays in place, as of a conveyor belt: units / frame, mesh
+     * axes, each component within +-16. The part along a face's normal has no effect
+     */
+    carom_v3_q40 surface_velocity;
 };
 
 /**

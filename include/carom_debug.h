@@ -24,14 +24,14 @@ extern "C" {
 /** What carom_debug_draw() hands over, in this order. Flags are a sum of these. */
 enum carom_debug_flag {
     CAROM_DEBUG_FACES = 1, /**< triangles: the faces of the bodies */
-    CAROM_DEBUG_INTERFERING =
-        2, /**< interfering faces have their own colour; without FACES, only those */
+    /** interfering faces have their own colour; without FACES, only those */
+    CAROM_DEBUG_INTERFERING = 2,
     CAROM_DEBUG_EDGES = 4, /**< lines: each edge of the meshes once */
     CAROM_DEBUG_BOXES = 8, /**< 12 lines: the box of each mesh, along the mesh's axes */
-    CAROM_DEBUG_AXES =
-        16, /**< lines: x, y, z of each body in red, green, blue, from its centre of mass */
-    CAROM_DEBUG_VELOCITIES =
-        32, /**< cyan lines: from the centre of mass to where the body would be in 16 frames */
+    /** lines: x, y, z of each body in red, green, blue, from its centre of mass */
+    CAROM_DEBUG_AXES = 16,
+    /** cyan lines: from the centre of mass to where the body would be in 16 frames */
+    CAROM_DEBUG_VELOCITIES = 32,
     CAROM_DEBUG_CONTACTS = 64, /**< yellow: a point for each contact, and a line along its normal */
     CAROM_DEBUG_JOINTS = 128   /**< reserved for joints */
 };
@@ -51,10 +51,10 @@ struct carom_debug {
     void (*point)(void *context, const carom_v3_q32 *at, uint32_t colour);
     void *context;                   /**< first argument of these functions; may be NULL */
     const struct carom_paint *paint; /**< colours of the bodies; NULL: the usual ones */
-    int64_t
-        size_q32; /**< length of axes and normals, 0 to 256 units; 0: by the size of the bodies */
-    struct carom_contact
-        *contacts;    /**< room that CONTACTS works in; contacts beyond it are left out */
+    /** length of axes and normals, 0 to 256 units; 0: by the size of the bodies */
+    int64_t size_q32;
+    /** room that CONTACTS works in; contacts beyond it are left out */
+    struct carom_contact *contacts;
     int contact_room; /**< how many contacts fit */
 };
 

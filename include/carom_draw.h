@@ -31,8 +31,8 @@ enum carom_draw_style {
 
 /** A camera. z points up the picture; if the camera looks straight up or down, x points right. */
 struct carom_camera {
-    carom_v3_q32
-        eye; /**< units, each component within +-16384; nothing nearer than 1/32 is drawn */
+    /** units, each component within +-16384; nothing nearer than 1/32 is drawn */
+    carom_v3_q32 eye;
     carom_v3_q32 target; /**< what the middle of the picture shows; the same range; not the eye */
     int32_t focal_q16; /**< focal length in picture heights, 1/16 to 16; 1 << 16 sees 53 degrees */
 };
@@ -42,8 +42,11 @@ enum carom_pixel_format {
     CAROM_PALETTE8, /**< 8 bits: indices into #carom_draw_palette */
     CAROM_RGB565,   /**< 16 bits */
     CAROM_XRGB8888, /**< 32 bits */
-    CAROM_GREY4, /**< 4 bits, the left one of two pixels in the upper half of a byte; 0 is black. Ramps 0 to 4 of
-                         #carom_draw_palette have greys of their own, other colours that of their light */
+    /**
+     * 4 bits, the left one of two pixels in the upper half of a byte; 0 is black. Ramps 0 to 4 of #carom_draw_palette
+     * have greys of their own, other colours that of their light
+     */
+    CAROM_GREY4,
     CAROM_BGR555 /**< 16 bits, red in the lowest; written by 2 and 4 bytes at a time only */
 };
 
@@ -90,8 +93,8 @@ int carom_draw_ramp(uint32_t ramp[CAROM_RAMP_SHADES], uint32_t rgb);
 
 /** How one body looks. */
 struct carom_body_paint {
-    const uint8_t *
-        faces; /**< the ramp of each face of its mesh, 0: that of the body; NULL: all of the body's */
+    /** the ramp of each face of its mesh, 0: that of the body; NULL: all of the body's */
+    const uint8_t *faces;
     uint8_t ramp; /**< the ramp of the body; 0: the usual one */
 };
 
@@ -119,11 +122,13 @@ extern const struct carom_smooth carom_smooth;
 
 /** How a picture differs from the usual one; all zero: it does not. It and its arrays are the caller's, and only read. */
 struct carom_paint {
-    const uint32_t *
-        palette; /**< the palette; NULL: #carom_draw_palette. Ramps 0 to 4 and the last 8 of the first 256
-                                  entries have the same uses in each */
-    uint32_t
-        ramps; /**< ramps of `palette`: 8 to 256; CAROM_PALETTE8 needs 8; not used without `palette` */
+    /**
+     * the palette; NULL: #carom_draw_palette. Ramps 0 to 4 and the last 8 of the first 256 entries have the same uses
+     * in each
+     */
+    const uint32_t *palette;
+    /** ramps of `palette`: 8 to 256; CAROM_PALETTE8 needs 8; not used without `palette` */
+    uint32_t ramps;
 
     const struct carom_body_paint *bodies; /**< how bodies look, by body number */
     uint32_t body_count;                   /**< entries of `bodies`; later bodies look as usual */
@@ -133,8 +138,8 @@ struct carom_paint {
 
     carom_v3_q30 light;  /**< direction towards the light, of any length; 0: the usual one */
     int32_t ambient_q30; /**< part of the light that comes from everywhere, 0 to 1 */
-    bool
-        horizon; /**< ramp 0 has 16 shades for the sky above the horizon, and 16 for the ground below */
+    /** ramp 0 has 16 shades for the sky above the horizon, and 16 for the ground below */
+    bool horizon;
 
     /**
      * &#carom_shadows; NULL: no shadows.
@@ -168,8 +173,8 @@ struct carom_picture {
     int32_t stride;  /**< bytes from a row to the next, a multiple of the size of a pixel */
     uint8_t format;  /**< #carom_pixel_format */
     void *workspace; /**< aligned to 8; may be NULL for WIRE, which needs none */
-    size_t
-        workspace_bytes; /**< at least #CAROM_DRAW_BYTES_LEAST; fewer than #CAROM_DRAW_BYTES cost time, not results */
+    /** at least #CAROM_DRAW_BYTES_LEAST; fewer than #CAROM_DRAW_BYTES cost time, not results */
+    size_t workspace_bytes;
 
     /**
      * For a display that is sent rows and keeps them, so that no memory holds a whole picture; otherwise NULL.
@@ -182,8 +187,8 @@ struct carom_picture {
     void *(*row)(void *context, int32_t x0, int32_t x1, int32_t y);
     void *context; /**< first argument of `row`; may be NULL */
 
-    const struct carom_paint
-        *paint; /**< how it differs from the usual picture; NULL: it does not */
+    /** how it differs from the usual picture; NULL: it does not */
+    const struct carom_paint *paint;
 };
 
 /** Workspace that draws bodies of so many vertices and faces, all together, in one go. */
@@ -240,13 +245,12 @@ struct carom_drawn_body {
  * the ramps of bodies, and the lines).
  */
 struct carom_drawn {
-    struct carom_drawn_body
-        *bodies;   /**< the caller's array: one for each body that the world may hold */
+    /** the caller's array: one for each body that the world may hold */
+    struct carom_drawn_body *bodies;
     uint32_t room; /**< entries of `bodies` */
 
-    struct carom_rect
-        touched; /**< in: pixels that something else has written to, as carom_draw_text() notes them;
-                                    made empty by the call */
+    /** in: pixels that something else has written to, as carom_draw_text() notes them; made empty by the call */
+    struct carom_rect touched;
     struct carom_rect changed[CAROM_DRAWN_RECTS]; /**< out: what was drawn last; may overlap */
     int changed_count;                            /**< out: how many of `changed` */
 

@@ -172,7 +172,7 @@ extern "C" {
  */
 
 /**
- * Returns a . b exactly; the formats add up (q30 . q22 gives q52).
+ * Returns the dot product of a and b exactly; the formats add up (q30 and q22 give q52).
  *
  * @range |a| |b| < 2^62 as vectors. This holds for a direction and any int32 vector shorter than 2^31.
  */

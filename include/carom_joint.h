@@ -52,9 +52,8 @@ struct carom_joint_drive {
     int64_t upper_q32; /**< largest coordinate, at least `lower_q32`; of a hinge within +-3.1 */
     bool motor;        /**< the motor runs; hinge and slider only */
     int64_t motor_speed_q40; /**< wanted change of the coordinate in a frame; below 64 */
-    int64_t
-        motor_most_q40; /**< largest torque (mass x units^2 / frame^2) or force (mass x units / frame^2) of the
-                                  motor; 0 to 2^20 */
+    /** largest torque (mass x units^2 / frame^2) or force (mass x units / frame^2) of the motor; 0 to 2^20 */
+    int64_t motor_most_q40;
     bool spring;           /**< the spring acts; not together with a motor */
     int64_t rest_q32;      /**< coordinate at which the spring is loose */
     int64_t stiffness_q40; /**< torque per radian, or force per unit; 0 to 2^20 */
@@ -67,13 +66,13 @@ struct carom_joint_def {
     bool touch;   /**< its bodies may touch each other; otherwise they ignore each other */
     int a;        /**< a body that moves freely */
     int b;        /**< another body, which may be kinematic and lead a; or #CAROM_WORLD */
-    carom_v3_q32
-        anchor; /**< place in the world, with the bodies where they are now, within +-4096 */
+    /** place in the world, with the bodies where they are now, within +-4096 */
+    carom_v3_q32 anchor;
     carom_v3_q32 anchor_b; /**< distance joint: the anchor on b, likewise */
     carom_v3_q30 axis;     /**< hinge and slider: axis in the world, of length 1 within 2^-10 */
     struct carom_joint_drive drive; /**< limits, motor and spring at first */
-    int64_t
-        most_impulse_q40; /**< the joint breaks when a frame takes more, mass x units / frame; 0: never */
+    /** the joint breaks when a frame takes more, mass x units / frame; 0: never */
+    int64_t most_impulse_q40;
 };
 
 /**

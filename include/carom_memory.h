@@ -43,21 +43,26 @@ extern "C" {
 /** Capacities of a world. */
 struct carom_caps {
     uint32_t bodies; /**< bodies, moving and stationary; 1 to 4095 */
-    uint32_t
-        pairs; /**< pairs of bodies: near each other in one frame; or touching (asleep or not), overlapping a
-                              sensor, or passing each other; 1 to 65535 */
+    /**
+     * pairs of bodies: near each other in one frame; or touching (asleep or not), overlapping a sensor, or passing
+     * each other; 1 to 65535
+     */
+    uint32_t pairs;
     uint32_t contacts; /**< contacts within the margin, neighbouring ones merged; 1 to 4096 */
     uint32_t faces;    /**< interfering faces of one frame; 1 to 65535 */
-    uint32_t
-        entries; /**< entries of the z-lists that a step makes for surfaces that move, under the bodies over
-                              them; a working pool; 0 if all meshes are rigid, since these bring their lists */
-    uint32_t
-        candidates; /**< vertex/face and edge/edge pairs kept; a working pool: fewer cost time, not results;
-                              1 to 65535 */
+    /**
+     * entries of the z-lists that a step makes for surfaces that move, under the bodies over them; a working pool; 0
+     * if all meshes are rigid, since these bring their lists
+     */
+    uint32_t entries;
+    /** vertex/face and edge/edge pairs kept; a working pool: fewer cost time, not results; 1 to 65535 */
+    uint32_t candidates;
     uint32_t joints; /**< joints; 0 to 4095 */
-    uint32_t
-        extras; /**< bodies that have more than a mesh, a mass, e and mu: kinematic ones, and those with rolling
-                              friction, materials by face, torque, damping; a contact function needs 1; 0 to 4095 */
+    /**
+     * bodies that have more than a mesh, a mass, e and mu: kinematic ones, and those with rolling friction, materials
+     * by face, torque, damping; a contact function needs 1; 0 to 4095
+     */
+    uint32_t extras;
     uint32_t hits; /**< hits of a frame whose details carom_event_hit() tells; 0 to 65535 */
 };
 

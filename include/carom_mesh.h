@@ -24,9 +24,8 @@ extern "C" {
 
 /** What a mesh is. */
 enum carom_mesh_kind {
-    CAROM_SOLID = 0, /**< closed and oriented outwards */
-    CAROM_SURFACE =
-        1 /**< a height field: open, one z over each x, y, solid below; for stationary bodies */
+    CAROM_SOLID = 0,  /**< closed and oriented outwards */
+    CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y, solid below; stationary */
 };
 
 /** Triangles over int16 vertices, as the converter or the caller makes them. */
@@ -73,8 +72,8 @@ struct carom_spread {
 /** An edge of a mesh. */
 struct carom_edge {
     uint16_t vertex[2]; /**< first and last vertex */
-    uint16_t
-        face[2]; /**< face[0] runs with the edge; face[1] against it, #CAROM_NO_FACE at a border */
+    /** face[0] runs with the edge; face[1] against it, #CAROM_NO_FACE at a border */
+    uint16_t face[2];
     carom_v3_q30 direction; /**< unit vector from vertex[0] to vertex[1] */
     int32_t length_q22;     /**< units */
 };
@@ -86,8 +85,8 @@ struct carom_face {
     carom_v3_q30 normal; /**< unit normal, outwards */
     int32_t offset_q22;  /**< of its plane along the normal, from the centre of mass, units */
     uint32_t edge[3];    /**< edge k joins corners k and k+1 */
-    uint8_t
-        own; /**< bits 0-2: the face owns corner k; bits 3-5: edge k. The owner emits its candidates */
+    /** bits 0-2: the face owns corner k; bits 3-5: edge k. The owner emits its candidates */
+    uint8_t own;
 };
 
 /** Most faces of a leaf. */
@@ -99,8 +98,8 @@ struct carom_leaf {
     carom_v3_q22 centre; /**< centre of a sphere around the leaf, from the centre of mass, units */
     int32_t radius_q22;  /**< radius of that sphere, units */
     carom_v3_q30 axis;   /**< mean normal of the faces */
-    int32_t
-        low_q22; /**< least coordinate of the leaf along the axis, from the centre of mass, units */
+    /** least coordinate of the leaf along the axis, from the centre of mass, units */
+    int32_t low_q22;
     int32_t high_q22;      /**< largest one */
     uint32_t owned;        /**< a bit for each vertex that one of the leaf's faces owns */
     uint32_t first_face;   /**< index into leaf_faces */
@@ -137,16 +136,16 @@ struct carom_mesh {
     uint8_t grid_ny;    /**< cells along y */
     const struct carom_face *faces; /**< faces */
     const struct carom_edge *edges; /**< edges */
-    const uint32_t
-        *ring_start;      /**< the edges of vertex v are ring[ring_start[v] to ring_start[v+1]) */
-    const uint32_t *ring; /**< edge number * 2, + 1 if the edge ends at the vertex */
+    /** the edges of vertex v are ring[ring_start[v]..ring_start[v+1]) */
+    const uint32_t *ring_start;
+    const uint32_t *ring;            /**< edge number * 2, + 1 if the edge ends at the vertex */
     const struct carom_leaf *leaves; /**< leaves */
     const uint16_t *leaf_faces;      /**< face numbers, leaf by leaf */
     const uint16_t *leaf_vertices;   /**< vertex numbers, leaf by leaf */
     const uint8_t (
         *leaf_corners)[3]; /**< corners of a leaf's faces, as indices into the leaf's vertices */
-    const uint32_t
-        *cell_start; /**< the entries of cell c are zrefs[cell_start[c] to cell_start[c+1]) */
+    /** the entries of cell c are zrefs[cell_start[c]..cell_start[c+1]) */
+    const uint32_t *cell_start;
     const struct carom_zref *zrefs; /**< entries, each list sorted by z1, highest first */
     struct carom_surface *surface;  /**< of carom_surface_build(); otherwise NULL */
 };

@@ -33,10 +33,9 @@ enum carom_query_flags {
 struct carom_query_filter {
     uint16_t mask;  /**< bodies with a category in it; 0: all */
     uint16_t flags; /**< a sum of #carom_query_flags */
-    bool (*wants)(void *context,
-                  int body); /**< true for a body to be found; NULL: all. It must not ask or change
-                                                 anything of the world */
-    void *context;           /**< first argument of `wants`; may be NULL */
+    /** true for a body to be found; NULL: all. It must not ask or change anything of the world */
+    bool (*wants)(void *context, int body);
+    void *context; /**< first argument of `wants`; may be NULL */
 };
 
 /** A ray: the places from + t way, with t in 0 to 1. */
@@ -123,8 +122,8 @@ int carom_overlap_mesh(struct carom_world *world, const struct carom_query_mesh 
  */
 struct carom_mesh_way {
     carom_v3_q32 way; /**< units, each component within +-4096, the length at most 512 radii */
-    carom_v3_q30
-        turn; /**< Cayley vector, in the mesh's axes, of length at most 1/4 (half a radian); 0: none */
+    /** Cayley vector, in the mesh's axes, of length at most 1/4 (half a radian); 0: none */
+    carom_v3_q30 turn;
 };
 
 /** What a swept mesh meets first. */
