@@ -36,7 +36,8 @@ static int find(uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         bodies[i].search.region.at = states[i].position;
         bodies[i].search.region.q = states[i].rotation;
-        bodies[i].search.active = broad_active(&bodies[i], &states[i]);
+        bodies[i].search.state =
+            broad_active(&bodies[i], &states[i]) ? BODY_REGION_MOVING : BODY_REGION_STANDING;
         if (bodies[i].def.mesh) {
             broad_set_box(&bodies[i]);
         }

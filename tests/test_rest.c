@@ -90,11 +90,11 @@ static void test_weight(void)
     hand_begin(1, 1 / 367.0);
     hand_set_surface(0.5, 0.5);
     hand_touch_corners(hand.bodies[1].def.skin_q22);
-    CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
-    CHECK(hand.bodies[1].clock.in_contact);
+    CHECK(hand_enter_contact(CAROM_ONE_Q30));
+    CHECK_EQ(hand.bodies[1].clock.contact, BODY_ENTERS);
     hand_velocity_of(1, v, w);
     CHECK_LESS(real_abs(v[2] + 1 / 367.0), 1e-9);
-    CHECK(!rest_enter_contact(&hand.rest, CAROM_ONE_Q30)); /* once a frame */
+    CHECK(!hand_enter_contact(CAROM_ONE_Q30)); /* once a frame */
     hand_velocity_of(1, v, w);
     CHECK_LESS(real_abs(v[2] + 1 / 367.0), 1e-9);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
@@ -125,7 +125,7 @@ static void test_warm(void)
         hand_clear_contacts();
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
         hand_touch_corners(hand.bodies[1].def.skin_q22);
-        CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+        CHECK(hand_enter_contact(CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         if (frame == 0) {
             cold = hand.rest.sweeps;
@@ -148,7 +148,7 @@ static void test_warm(void)
             hand.warm[i].normal =
                 change == 2 ? (carom_v3_q30){{CAROM_ONE_Q30, 0, 0}} : hand.warm[i].normal;
         }
-        CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+        CHECK(hand_enter_contact(CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ(hand.rest.sweeps, cold);
     }
@@ -173,7 +173,7 @@ static void test_ramp(void)
         for (int frame = 1; frame <= 10; frame++) {
             hand_clear_contacts();
             hand_touch_corners(hand.bodies[1].def.skin_q22);
-            CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+            CHECK(hand_enter_contact(CAROM_ONE_Q30));
             CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
             hand_velocity_of(1, v, w);
             if (slides) {
@@ -244,7 +244,7 @@ static void test_enter(void)
         for (int k = 0; k < 4; k++) {
             hand.contacts[k].lasting = cases[n].lasting;
         }
-        CHECK_EQ(rest_enter_contact(&hand.rest, CAROM_ONE_Q30 / 2), cases[n].enters);
+        CHECK_EQ(hand_enter_contact(CAROM_ONE_Q30 / 2), cases[n].enters);
         hand_velocity_of(1, v, w);
         /* gravity of the time that is left */
         CHECK_LESS(real_abs(v[2] - (cases[n].speed - (cases[n].enters ? 0.5 : 0)) * g), 1e-9);
@@ -318,7 +318,7 @@ static void test_impact_warm(void)
         hand_begin(1, 1 / 367.0);
         hand_set_surface(0.5, 0.5);
         hand_touch_corners(hand.bodies[1].def.skin_q22);
-        CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+        CHECK(hand_enter_contact(CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ(hand.rest.warm_count, 4);
         hand_clear_contacts();

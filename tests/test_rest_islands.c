@@ -14,7 +14,7 @@ static void test_sleep(void)
 
     hand_make_cube();
     hand_begin(1, 1 / 367.0);
-    hand.bodies[1].clock.in_contact = true;
+    hand.bodies[1].clock.contact = BODY_LIES;
     hand_set_motion(1, (double[3]){1e-5, 0, 0}, (double[3]){0, 1e-5, 0});
     while (!hand.states[1].asleep && frames < 100) {
         frame_of_sleep(hand_pairs, 1);
@@ -32,14 +32,14 @@ static void test_sleep(void)
             frame_of_sleep(hand_pairs, 1);
         }
         CHECK_EQ(hand.states[1].quiet, 19);
-        hand.bodies[1].clock.in_contact = n != 2;
+        hand.bodies[1].clock.contact = n != 2 ? BODY_LIES : BODY_FLIES;
         hand_set_motion(1, (double[3]){n == 0 ? 1. / 367 / 7 : 0, 0, 0},
                         (double[3]){0, 0, n == 1 ? 1. / 367 / 6 : 0});
         frame_of_sleep(hand_pairs, 1);
         CHECK_EQ(hand.states[1].quiet, 0);
         CHECK(!hand.states[1].asleep);
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-        hand.bodies[1].clock.in_contact = true;
+        hand.bodies[1].clock.contact = BODY_LIES;
     }
 }
 
@@ -57,8 +57,8 @@ static void test_islands(void)
         const struct pair *island = touching ? chain : apart;
 
         hand_begin(3, 1 / 367.0);
-        hand.bodies[1].clock.in_contact = hand.bodies[2].clock.in_contact =
-            hand.bodies[3].clock.in_contact = true;
+        hand.bodies[1].clock.contact = hand.bodies[2].clock.contact = hand.bodies[3].clock.contact =
+            BODY_LIES;
         hand_set_motion(3, (double[3]){0.1, 0, 0}, (double[3]){0, 0, 0});
         for (int frame = 0; frame < 30; frame++) {
             rest_sleep(&hand.rest, island, 3);
@@ -143,11 +143,11 @@ static void test_enter_apart(void)
     hand_make_box();
     begin_apart(TWO | ONE);
     hand_set_motion(3, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
-    hand.bodies[3].clock.in_contact = true;
+    hand.bodies[3].clock.contact = BODY_LIES;
     memcpy(before, hand.states, sizeof before);
-    CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
-    CHECK(hand.bodies[1].clock.in_contact);
-    CHECK(hand.bodies[2].clock.in_contact);
+    CHECK(hand_enter_contact(CAROM_ONE_Q30));
+    CHECK_EQ(hand.bodies[1].clock.contact, BODY_ENTERS);
+    CHECK_EQ(hand.bodies[2].clock.contact, BODY_ENTERS);
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
     CHECK(!same_state(1, &before[1]));
     CHECK(!same_state(2, &before[2]));

@@ -128,7 +128,7 @@ static void test_share(void)
         hand_set_motion(2, (double[3]){slides ? 0.25 : 0, 0, 0}, (double[3]){0, 0, 0});
         hand_touch_corners_of(0, hand.bodies[1].def.skin_q22);
         touch_leaning();
-        CHECK(rest_enter_contact(&hand.rest, CAROM_ONE_Q30));
+        CHECK(hand_enter_contact(CAROM_ONE_Q30));
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ((hand.contacts[4].normal.c[0] == 0), !slides);
         hand_velocity_of(1, v, w);

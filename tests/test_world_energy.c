@@ -44,7 +44,7 @@ static void begin(void)
     for (int i = 0; i < BODIES; i++) {
         struct body *b = &world->bodies[i];
 
-        b->clock.in_contact = false;
+        b->clock.contact = BODY_FLIES;
         CHECK(world_acceleration(b, 1 << 16, &config.gravity, &b->def.force, &b->def.acceleration));
         b->def.acceleration_q40 = fix_length(b->def.acceleration.c);
     }
@@ -149,7 +149,7 @@ static void test_grounded(void)
     begin();
     touch(HIGH, LOW);
     touch(LOW, STILL);
-    world->bodies[LOW].clock.in_contact = true;
+    world->bodies[LOW].clock.contact = BODY_LIES;
     speed_up(LOW, 5);
     speed_up(HIGH, 7);
     memcpy(before, step.next->bodies, sizeof before);
@@ -203,7 +203,7 @@ static void test_climbed(void)
         other = &step.next->bodies[APART];
         other_was = &world_now(world)->bodies[APART];
         touch(LOW, STILL);
-        world->bodies[LOW].clock.in_contact = true;
+        world->bodies[LOW].clock.contact = BODY_LIES;
         s->position.c[2] += (int64_t)8 << 32; /* 8 / 256 more than (1/8)^2 / 2 */
         if (taken > 0) {
             other->position = was->position;

@@ -218,26 +218,39 @@ struct body_def {
 };
 
 /*
- * The present frame. The step writes it, except `in_contact` and `entering`, which
- * rest_enter_contact writes; valid from begin_clock until the next frame.
+ * How a body takes the frame's gravity: along its path; or, once it lies on others, all at once, and
+ * then its path is straight. BODY_ENTERS: since the last rest_enter_contact.
+ */
+enum body_contact { BODY_FLIES, BODY_ENTERS, BODY_LIES };
+
+/*
+ * The present frame. The step writes it, except `contact`, which rest_enter_contact writes; valid
+ * from begin_clock until the next frame.
  */
 struct body_clock {
     int32_t from_q30, to_q30; /* part of the frame that the present path takes */
     uint16_t events;          /* hits that it took part in */
     uint8_t cuts;             /* how often the present path was set again for an earlier end */
     uint8_t shorter; /* slices are shorter by this many factors of 4; one less after each slice */
-    bool in_contact; /* took the frame's acceleration at once, and moves straight */
+    uint8_t contact; /* enum body_contact */
     bool stands;     /* stands for the rest of the frame */
     bool placed;     /* its path is only that of a place where it is looked at */
     bool strained;   /* left a turning path before its end */
     /* of the event at hand */
-    bool member;       /* its path is new; or it belongs to the island of the hit */
-    bool woke : 1;     /* woken by the static check */
-    bool entering : 1; /* in_contact is new */
+    bool member;   /* its path is new; or it belongs to the island of the hit */
+    bool woke : 1; /* woken by the static check */
     /* for the energy rule */
     bool touched;      /* was in contact in the last frame; at the end: its island may not gain */
     bool grounded : 1; /* touches a body that stands still; an island's lowest: any of it does */
     bool rewound : 1;  /* was put back to where the frame found it */
+};
+
+/* What a body's region was set for. */
+enum body_region_state {
+    BODY_REGION_NONE,
+    BODY_REGION_STANDING, /* at rest, with path, region and box those of its place */
+    BODY_REGION_MOVING,   /* a motion */
+    BODY_REGION_FREE      /* a motion, and the body had no candidates then */
 };
 
 /*
@@ -248,24 +261,33 @@ struct body_search {
     struct body_region region;
     int32_t reach_q22;     /* bound on any point's displacement in the region, plus the margin */
     int32_t box_q18[2][3]; /* in world axes, around the region, grown by the reach */
-    bool standing;         /* at rest, with path, region and box those of its place */
-    bool active : 1;       /* was to move when its region was set */
-    bool free : 1;         /* had no candidates then */
-    bool boxed : 1;        /* the box is around the mesh's box; else around the sphere */
+    uint8_t state;         /* enum body_region_state */
+    bool boxed;            /* the box is around the mesh's box; else around the sphere */
 };
 
-/* What the shared memory of a body's solve holds. */
-enum body_work_phase { BODY_WORK, BODY_LIFT };
+/* What a snapshot holds for a body. It waits here until the whole snapshot is read. */
+struct body_loaded {
+    struct carom_forces forces;
+    struct carom_filter filter;
+};
+
+/* What the shared memory of a body's solve holds: a step's, world/moving.c's, a snapshot's. */
+enum body_work_phase { BODY_WORK, BODY_LIFT, BODY_LOADED };
 
 /*
  * A solve. Solve writes it; valid from rest_load_contacts until the solve ends, `work` until the
  * step ends.
  */
 struct body_solve {
-    carom_v3_q40 saved_momentum; /* before the solve, for the energy rule */
-    carom_v3_q40 velocity, spin; /* before the solve */
-    union {                      /* by PHASE_TAG work_phase */
-        struct fix_wide work2;   /* twice the work of surfaces on it in this step, q80 */
+    union { /* by PHASE_TAG work_phase */
+        struct {
+            carom_v3_q40 saved_momentum; /* before the solve, for the energy rule */
+            carom_v3_q40 velocity, spin; /* before the solve */
+        };
+        struct body_loaded loaded; /* carom_snapshot_load writes it, between steps */
+    };
+    union {                    /* by PHASE_TAG work_phase */
+        struct fix_wide work2; /* twice the work of surfaces on it in this step, q80 */
         int64_t
             lift_q32; /* between steps, in world/moving.c: lift of the island, at its lowest body */
     };
@@ -294,6 +316,20 @@ struct body {
 static inline bool body_travels(const struct body *b)
 {
     return b->def.goes && !b->def.moving;
+}
+
+/* True if the body has a region that was set for a motion. */
+static inline bool body_region_moves(const struct body *b)
+{
+    return b->search.state >= BODY_REGION_MOVING;
+}
+
+/* The path, region and box of a body that stands still must be set again. */
+static inline void body_not_standing(struct body *b)
+{
+    if (b->search.state == BODY_REGION_STANDING) {
+        b->search.state = BODY_REGION_NONE;
+    }
 }
 
 /* The path of a body that has one. `start`, `start_x_q32` and `turns` may be read at any time. */
@@ -343,6 +379,12 @@ static inline int64_t *body_lift_q32(struct body *b)
 {
     PHASE_ASSERT(b->solve.work_phase, BODY_LIFT);
     return &b->solve.lift_q32;
+}
+
+static inline struct body_loaded *body_loaded(struct body *b)
+{
+    PHASE_ASSERT(b->solve.work_phase, BODY_LOADED);
+    return &b->solve.loaded;
 }
 
 /* Set mass and its inverse, mass > 0, and what follows from them and the inverse inertia. */
@@ -441,6 +483,9 @@ void body_turned(const carom_quat_q30 *q, const carom_v3_q30 *u, carom_m3_q30 *r
 /* Make the pose at t the new state, with the momentum that gravity gave until then. */
 void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int32_t tau_q30,
                   const carom_v3_q40 *gravity);
+
+/* Add the momentum that the body's acceleration gives it in a part of a frame. */
+void body_accelerate(const struct body *b, struct body_state *s, int32_t tau_q30);
 
 /* Bounds on the displacement of any point, and on the turn, from 0 to t of the path. */
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30);

@@ -295,6 +295,14 @@ void body_advance(const struct body *b, struct body_state *s, int32_t t_q30, int
     s->rotation = body_rotation_at(b, t_q30);
 }
 
+void body_accelerate(const struct body *b, struct body_state *s, int32_t tau_q30)
+{
+    for (int k = 0; k < 3; k++) {
+        s->momentum.c[k] +=
+            fix_mul_scaled(fix_mul(b->def.acceleration.c[k], tau_q30, 30), b->def.mass);
+    }
+}
+
 void body_path_length(const struct body *b, int32_t t_q30, int64_t *way_q22, int64_t *turn_q30)
 {
     const struct body_path *path = body_path(b);

@@ -309,6 +309,8 @@ static inline const struct contact_mixed *contact_mixed(const struct contact_lis
 uint32_t contact_face(const struct body *b, const struct candidate *key, int side,
                       const carom_v3_q30 *normal);
 
+/* Count the surface as standing still along the normal: its drift and V, of a contact before sweeps, lose that part. */
+void contact_hold_drift(struct contact *c, int64_t rise_q40);
 /* The part of the drift along the normal. */
 static inline int64_t contact_rise_q40(const carom_v3_q40 *drift, const carom_v3_q30 *n)
 {

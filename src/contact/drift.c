@@ -61,3 +61,13 @@ void contact_keep_drift(struct contact_list *list, struct contact *c, const caro
         list->mixed[list->next_drift] = mixed ? *mixed : (struct contact_mixed){-1, 0};
     }
 }
+
+void contact_hold_drift(struct contact *c, int64_t rise_q40)
+{
+    for (int k = 0; k < 3; k++) {
+        int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
+
+        c->drift->c[k] -= rise;
+        contact_velocity(c)->c[k] += rise;
+    }
+}

@@ -138,7 +138,6 @@ struct interfere {
     uint32_t gathers, candidate_count; /* for statistics */
 
     bool whole; /* the pool holds every candidate of the pair: no chunk was handed out */
-    bool stale; /* the bodies are not those that regions and pairs were set for */
     int error;
     struct candidate_visitor *visitor;
 
@@ -189,6 +188,19 @@ int interfere_visit(struct interfere *w, const struct body *bodies, const struct
 /* Add the faces that own the candidates' features to the list of interfering faces. */
 void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
                           const struct candidate *c, uint32_t n);
+
+/* Nothing is gathered in this frame yet. */
+static inline void interfere_begin_frame(struct interfere *w)
+{
+    w->gathers = w->candidate_count = 0;
+}
+
+/* The z-lists are those that a copy of w has made. */
+static inline void interfere_take_lists(struct interfere *w, const struct interfere *copy)
+{
+    w->listed = copy->listed;
+    w->area = copy->area;
+}
 
 /* Forget z-lists made within a step: the surface has moved or is gone. */
 void interfere_forget_lists(struct interfere *w);

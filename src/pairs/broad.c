@@ -87,7 +87,7 @@ void broad_set_box(struct body *b)
 {
     int64_t half_q22 = (int64_t)b->def.radius_q22 + b->search.reach_q22 + 1;
 
-    if (!b->search.active) {
+    if (b->search.state == BODY_REGION_STANDING) {
         set_mesh_box(b);
         return;
     }

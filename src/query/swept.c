@@ -187,8 +187,7 @@ static int ask_part(struct swept *s)
     work.candidate_pool = &pool;
     work.meetings = &meeting;
     result = interfere_visit_pair(&work, &all, 0, &span, false, &s->base);
-    s->w->interfere.listed = work.listed;
-    s->w->interfere.area = work.area;
+    interfere_take_lists(&s->w->interfere, &work);
     return result;
 }
 

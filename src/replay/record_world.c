@@ -163,11 +163,12 @@ static void forget(struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         struct body *b = &w->bodies[i];
 
-        b->search.standing = b->search.active = b->search.free = b->search.boxed =
-            b->clock.in_contact = false;
+        b->search.state = BODY_REGION_NONE;
+        b->search.boxed = false;
+        b->clock.contact = BODY_FLIES;
     }
     w->idle = false;
-    w->interfere.stale = true;
+    w->regions_stale = true;
 }
 
 int carom_record_world(struct carom_record *r, struct carom_world *w, void *mem, size_t bytes)

@@ -118,20 +118,22 @@ static void enter(struct rest *r)
             struct body *b = j->b == JOINT_WORLD ? NULL : &r->bodies[j->b];
 
             if (!joint_holds(&r->joints, i) || !b || !b->def.moving ||
-                a->clock.entering == b->clock.entering) {
+                (a->clock.contact == BODY_ENTERS) == (b->clock.contact == BODY_ENTERS)) {
                 continue;
             }
-            b = a->clock.entering ? b : a;
-            if (!b->clock.in_contact) {
-                b->clock.in_contact = b->clock.entering = again = true;
+            b = a->clock.contact == BODY_ENTERS ? b : a;
+            if (b->clock.contact == BODY_FLIES) {
+                b->clock.contact = BODY_ENTERS;
+                again = true;
             }
         }
     }
     for (uint32_t i = 0; i < r->joints.count; i++) {
         struct joint *j = &r->joints.joints[i];
 
-        j->chosen = j->chosen && (r->bodies[j->a].clock.entering ||
-                                  (j->b != JOINT_WORLD && r->bodies[j->b].clock.entering));
+        j->chosen =
+            j->chosen && (r->bodies[j->a].clock.contact == BODY_ENTERS ||
+                          (j->b != JOINT_WORLD && r->bodies[j->b].clock.contact == BODY_ENTERS));
     }
 }
 

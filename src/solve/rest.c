@@ -9,7 +9,12 @@ void rest_load_contacts(struct rest *r)
     }
     r->loaded = true;
     for (uint32_t i = 0; i < r->body_count; i++) {
-        r->bodies[i].solve.solving = r->bodies[i].clock.entering = false;
+        struct body *b = &r->bodies[i];
+
+        b->solve.solving = false;
+        if (b->clock.contact == BODY_ENTERS) {
+            b->clock.contact = BODY_LIES;
+        }
     }
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         struct contact *c = &r->list.contacts[i];
@@ -295,18 +300,18 @@ int rest_project(struct rest *r)
 /* True if a contact has a moving body that has not taken gravity. */
 static bool may_enter(const struct contact *c)
 {
-    return (c->side[0].body && !c->side[0].body->clock.in_contact) ||
-           (c->side[1].body && !c->side[1].body->clock.in_contact);
+    return (c->side[0].body && c->side[0].body->clock.contact == BODY_FLIES) ||
+           (c->side[1].body && c->side[1].body->clock.contact == BODY_FLIES);
 }
 
 /* True if a body of the contact newly took gravity. */
 static bool enters(const struct contact *c)
 {
-    return (c->side[0].body && c->side[0].body->clock.entering) ||
-           (c->side[1].body && c->side[1].body->clock.entering);
+    return (c->side[0].body && c->side[0].body->clock.contact == BODY_ENTERS) ||
+           (c->side[1].body && c->side[1].body->clock.contact == BODY_ENTERS);
 }
 
-bool rest_enter_contact(struct rest *r, int32_t tau_q30)
+bool rest_enter_contact(struct rest *r)
 {
     bool any = false;
 
@@ -321,8 +326,9 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
         for (int s = 0; s < 2; s++) {
             struct body *b = c->side[s].body;
 
-            if (b && !b->clock.in_contact) {
-                b->clock.in_contact = b->clock.entering = any = true;
+            if (b && b->clock.contact == BODY_FLIES) {
+                b->clock.contact = BODY_ENTERS;
+                any = true;
             }
         }
     }
@@ -332,17 +338,18 @@ bool rest_enter_contact(struct rest *r, int32_t tau_q30)
     for (uint32_t i = 0; any && i < r->list.pool->used; i++) {
         r->list.contacts[i].idle = !enters(&r->list.contacts[i]);
     }
-    for (uint32_t i = 0; any && i < r->body_count; i++) {
+    r->loaded = false;
+    return any;
+}
+
+void rest_load_entered(struct rest *r)
+{
+    for (uint32_t i = 0; i < r->body_count; i++) {
         struct body *b = &r->bodies[i];
 
-        if (b->clock.entering) {
-            for (int k = 0; k < 3; k++) {
-                r->states[i].momentum.c[k] +=
-                    fix_mul_scaled(fix_mul(b->def.acceleration.c[k], tau_q30, 30), b->def.mass);
-            }
+        if (b->clock.contact == BODY_ENTERS) {
             body_velocity(b, &r->states[i], &b->solve.velocity);
         }
     }
-    r->loaded = any;
-    return any;
+    r->loaded = true;
 }

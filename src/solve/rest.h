@@ -108,11 +108,13 @@ int rest_project(struct rest *r);
 void rest_load_contacts(struct rest *r);
 
 /*
- * Let bodies with a contact that is slower than 4 g h and not idle take the rest of the frame's
- * gravity at once and move straight. Returns true if any body newly did; then only contacts of such
- * bodies are not idle.
+ * Mark bodies that have a contact slower than 4 g h and not idle as BODY_ENTERS. Returns true if any
+ * body newly is; then only contacts of such bodies are not idle. The caller gives these bodies the
+ * rest of the frame's gravity and calls rest_load_entered before the next solve.
  */
-bool rest_enter_contact(struct rest *r, int32_t tau_q30);
+bool rest_enter_contact(struct rest *r);
+/* Load the velocities of the bodies that entered contact. */
+void rest_load_entered(struct rest *r);
 
 /* v clamped to +-most; v clamped to +-(2^31 - 1). */
 int32_t rest_within(int64_t v, int32_t most);

@@ -8,7 +8,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     carom_m3_q30 m;
     carom_v3_q40 v, w;
 
-    if (!b->clock.in_contact && b->def.joined == BODY_ALONE) {
+    if (b->clock.contact == BODY_FLIES && b->def.joined == BODY_ALONE) {
         return false;
     }
     /* a falling body is never that slow for long */

@@ -11,8 +11,8 @@
 static bool may_rest(const struct contact *c, int32_t e_q30)
 {
     return !rest_bounces_for_ever(e_q30) || c->lasting ||
-           (c->side[0].body && c->side[0].body->clock.in_contact) ||
-           (c->side[1].body && c->side[1].body->clock.in_contact);
+           (c->side[0].body && c->side[0].body->clock.contact != BODY_FLIES) ||
+           (c->side[1].body && c->side[1].body->clock.contact != BODY_FLIES);
 }
 
 /* The larger velocity that gravity and force give either body in a frame. */
@@ -83,12 +83,7 @@ static void hold_above(struct contact *c, int32_t tau_q30, int64_t rise_q40)
     if (c->work->target_q40 + rise_q40 >= least_q40) {
         return;
     }
-    for (int k = 0; k < 3; k++) {
-        int64_t rise = fix_mul(rise_q40, c->normal.c[k], 30);
-
-        c->drift->c[k] -= rise;
-        contact_velocity(c)->c[k] += rise;
-    }
+    contact_hold_drift(c, rise_q40);
     c->speed_q40 += rise_q40;
     c->work->target_q40 = least_q40;
 }

@@ -113,7 +113,7 @@ static int adopt_woken(struct step *s)
     int result = CAROM_OK;
 
     for (uint32_t i = 0; i < s->w->body_count && result == CAROM_OK; i++) {
-        if (s->w->bodies[i].clock.woke && s->w->bodies[i].search.standing) {
+        if (s->w->bodies[i].clock.woke && s->w->bodies[i].search.state == BODY_REGION_STANDING) {
             result = step_adopt(s, i);
         }
     }
@@ -178,15 +178,13 @@ static void leave_others_idle(struct step *s)
 
 static int solve_island(struct step *s)
 {
-    struct carom_world *w = s->w;
-    int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
     int result = step_settle_contacts(s, true);
 
     leave_others_idle(s);
     if (result == CAROM_OK) {
         result = step_solve(s, false);
     }
-    if (result == CAROM_OK && rest_enter_contact(&w->rest, left_q30)) {
+    if (result == CAROM_OK && step_enter_contact(s)) {
         result = step_solve(s, false);
     }
     return result;

@@ -5,7 +5,7 @@
 /* Gravity that acts on a path; a body in contact has taken the frame's gravity already. */
 static const carom_v3_q40 *pull_on(const struct body *b)
 {
-    return b->clock.in_contact || b->clock.stands ? NULL : &b->def.acceleration;
+    return b->clock.contact != BODY_FLIES || b->clock.stands ? NULL : &b->def.acceleration;
 }
 
 /* Convert a time of the frame to one of a body's path. */
@@ -57,7 +57,7 @@ void step_leave_path(struct step *s, uint32_t i, int32_t t_q30)
     }
     if (t_q30 > b->clock.from_q30) {
         b->clock.strained |=
-            b->path.turns && !b->clock.in_contact && path_time(b, t_q30) < CAROM_ONE_Q30;
+            b->path.turns && b->clock.contact == BODY_FLIES && path_time(b, t_q30) < CAROM_ONE_Q30;
         body_region_advance(b, t_q30 - b->clock.from_q30, b->clock.to_q30 - b->clock.from_q30);
         if (step_active(s, i) && !b->clock.stands) {
             body_advance(b, state, path_time(b, t_q30), b->clock.to_q30 - b->clock.from_q30,
@@ -152,8 +152,9 @@ int step_set_path(struct step *s, uint32_t i)
         return set_route(s, i, left_q30);
     }
     /* at the start of a frame, bodies that nothing has changed yet are in range */
-    if (left_q30 == 0 || ((s->now_q30 > 0 || b->clock.in_contact || b->def.joined != BODY_ALONE) &&
-                          step_retire(s, i))) {
+    if (left_q30 == 0 ||
+        ((s->now_q30 > 0 || b->clock.contact != BODY_FLIES || b->def.joined != BODY_ALONE) &&
+         step_retire(s, i))) {
         body_place(b, &s->next->bodies[i]);
         return CAROM_OK;
     }

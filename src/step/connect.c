@@ -103,7 +103,7 @@ static bool group_is_free(const struct step *s, uint16_t group)
         const struct body *b = &s->w->bodies[i];
 
         if (b->def.mesh && b->def.joined == group &&
-            (!step_active(s, i) || b->clock.in_contact || b->clock.stands)) {
+            (!step_active(s, i) || b->clock.contact != BODY_FLIES || b->clock.stands)) {
             return false;
         }
     }

@@ -25,8 +25,8 @@ static bool is_bouncing(const struct step *s, const struct pair *p)
     int32_t e_q30 =
         s->w->rest.list.plain ? rest_plain_restitution(a, b) : rest_restitution(&s->w->rest, a, b);
 
-    return rest_bounces_for_ever(e_q30) && !a->clock.in_contact && !b->clock.in_contact &&
-           !step_is_touching(world_now(s->w), p);
+    return rest_bounces_for_ever(e_q30) && a->clock.contact == BODY_FLIES &&
+           b->clock.contact == BODY_FLIES && !step_is_touching(world_now(s->w), p);
 }
 
 /* Clearance in 16ths of a skin; four bits. */
@@ -355,6 +355,22 @@ static void find_chords(struct step *s)
     forget_paths(s);
 }
 
+bool step_enter_contact(struct step *s)
+{
+    struct carom_world *w = s->w;
+
+    if (!rest_enter_contact(&w->rest)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        if (w->bodies[i].clock.contact == BODY_ENTERS) {
+            body_accelerate(&w->bodies[i], &s->next->bodies[i], CAROM_ONE_Q30 - s->now_q30);
+        }
+    }
+    rest_load_entered(&w->rest);
+    return true;
+}
+
 /* True if all bodies are in range after a solve. Those that are not retire. */
 static bool all_in_range(const struct step *s)
 {
@@ -435,7 +451,7 @@ static int find_contacts(struct step *s)
             break;
         }
         for (uint32_t i = 0; i < w->body_count && result == CAROM_OK; i++) {
-            if (w->bodies[i].clock.woke && w->bodies[i].search.standing) {
+            if (w->bodies[i].clock.woke && w->bodies[i].search.state == BODY_REGION_STANDING) {
                 result = step_adopt(s, i);
             }
         }
@@ -452,7 +468,7 @@ int step_start_contacts(struct step *s)
     if (result < 0) {
         return result;
     }
-    if (w->rest.list.pool->used == 0 || !rest_enter_contact(&w->rest, CAROM_ONE_Q30)) {
+    if (w->rest.list.pool->used == 0 || !step_enter_contact(s)) {
         w->rest.warm_count = 0;
         if (!joints) {
             return CAROM_OK;

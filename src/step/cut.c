@@ -10,9 +10,9 @@ static bool turns_on(const struct step *s, uint32_t i, int32_t t_q30)
 {
     const struct body *b = &s->w->bodies[i];
 
-    return b->def.moving && step_active(s, i) && !b->clock.stands && !b->clock.in_contact &&
-           b->path.turns && b->def.joined == BODY_ALONE && b->clock.cuts < STEP_CUTS_MAX &&
-           body_norm2_q30(&b->path) >= STEP_CUT_TURN2_MIN_Q30 &&
+    return b->def.moving && step_active(s, i) && !b->clock.stands &&
+           b->clock.contact == BODY_FLIES && b->path.turns && b->def.joined == BODY_ALONE &&
+           b->clock.cuts < STEP_CUTS_MAX && body_norm2_q30(&b->path) >= STEP_CUT_TURN2_MIN_Q30 &&
            b->clock.to_q30 - t_q30 > STEP_END_Q30 && t_q30 - b->clock.from_q30 >= STEP_CUT_MIN_Q30;
 }
 

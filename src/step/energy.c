@@ -35,7 +35,7 @@ static void add_lifted2(struct fix_wide *sum, const struct body *b, const struct
         fix_wide_add_product(sum, -2 * weight_q40, carom_shl(way_q32, 8));
     }
     fix_wide_subtract(sum, body_worked2(b));
-    if (b->clock.in_contact) {
+    if (b->clock.contact != BODY_FLIES) {
         body_add_lift2(sum, b, -1);
     }
 }
@@ -169,7 +169,7 @@ static void hold_still(struct step *s, uint32_t first)
 {
     bool again = true;
 
-    s->w->interfere.stale = true;
+    s->w->regions_stale = true;
     rewind_island(s, first, true);
     while (again) {
         again = false;
@@ -303,7 +303,8 @@ static void give_back_gravity(struct step *s, uint32_t first)
     for (uint32_t i = first; i != ISLAND_END; i = s->w->bodies[i].island.next) {
         const struct body *b = &s->w->bodies[i];
 
-        for (int k = 0; step_active(s, i) && b->clock.stands && b->clock.in_contact && k < 3; k++) {
+        for (int k = 0;
+             step_active(s, i) && b->clock.stands && b->clock.contact != BODY_FLIES && k < 3; k++) {
             s->next->bodies[i].momentum.c[k] -= fix_mul_scaled(
                 fix_mul_q30(b->def.acceleration.c[k], CAROM_ONE_Q30 - b->clock.from_q30),
                 b->def.mass);
@@ -362,8 +363,8 @@ void step_limit_energy(struct step *s)
 
     island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].clock.touched = w->bodies[i].clock.in_contact || w->bodies[i].clock.stands ||
-                                     w->bodies[i].clock.strained;
+        w->bodies[i].clock.touched = w->bodies[i].clock.contact != BODY_FLIES ||
+                                     w->bodies[i].clock.stands || w->bodies[i].clock.strained;
         w->bodies[i].clock.grounded = w->bodies[i].clock.rewound = false;
     }
     for (uint32_t i = 0; i < s->next->touching_count; i++) {

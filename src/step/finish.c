@@ -41,7 +41,7 @@ bool step_retire(struct step *s, uint32_t i)
     last.rotation = state->rotation;
     *state = world_in_range(&w->bodies[i], &last) ? last : world_now(w)->bodies[i];
     state->out = 1;
-    w->interfere.stale = true;
+    w->regions_stale = true;
     return true;
 }
 

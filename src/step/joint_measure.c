@@ -94,7 +94,7 @@ static struct joint_pose pose_of(struct step *s, uint16_t i, int32_t slice_q30)
         carom_v3_q32 way;
 
         body_predict(b, &s->next->bodies[i], slice_q30,
-                     b->clock.in_contact ? NULL : &b->def.acceleration);
+                     b->clock.contact != BODY_FLIES ? NULL : &b->def.acceleration);
         way = body_way_at(b, CAROM_ONE_Q30);
         pose.rotation = body_rotation_at(b, CAROM_ONE_Q30);
         for (int k = 0; k < 3; k++) {

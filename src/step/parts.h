@@ -239,6 +239,11 @@ int step_check_pair(struct step *s, uint32_t number);
 int step_settle_contacts(struct step *s, bool members);
 /* Ask the caller about all contacts, or about those of members. */
 void step_ask_contacts(struct step *s, bool members);
+/*
+ * Find the bodies that enter contact and give them the rest of the frame's gravity at once. Returns
+ * true if there are any.
+ */
+bool step_enter_contact(struct step *s);
 /* Solve the contacts that are not idle. */
 int step_solve(struct step *s, bool warm);
 

@@ -145,7 +145,7 @@ static bool is_free(const struct carom_world *w, uint32_t i)
 static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
 {
     int64_t way_q22, turn_q30, skin_q22 = b->def.skin_q22;
-    bool contact = b->clock.in_contact || b->clock.touched;
+    bool contact = b->clock.contact != BODY_FLIES || b->clock.touched;
 
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     if (s->active > 1) {
@@ -162,7 +162,7 @@ static int64_t room_for(const struct step *s, const struct body *b, bool lasts)
  * farther than a part of its radius. It lasts as long as the last region held, or twice that if
  * that held to its end.
  */
-static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30)
+static int64_t region_time(const struct step *s, const struct body *b, int32_t slice_q30, bool free)
 {
     int32_t left_q30 = CAROM_ONE_Q30 - s->now_q30;
     const int64_t *g = b->path.g.c;
@@ -174,30 +174,29 @@ static int64_t region_time(const struct step *s, const struct body *b, int32_t s
         s->w->pools[CAROM_POOL_pairs].used == 0) {
         return slice_q30;
     }
-    if (b->search.active) {
+    if (body_region_moves(b)) {
         bool to_end = b->search.region.until_q30 - b->search.region.elapsed_q30 < CAROM_ONE_Q30;
 
         held = (b->search.region.elapsed_q30 >> 30) << to_end;
     }
     body_path_length(b, CAROM_ONE_Q30, &way_q22, &turn_q30);
     way_q22 = (way_q22 << 30) / slice_q30 + 1;
-    most_q22 =
-        b->def.radius_q22 / (b->search.free                            ? STEP_REGION_PARTS_FREE
-                             : b->clock.in_contact || b->clock.touched ? STEP_REGION_PARTS
-                                                                       : STEP_REGION_PARTS_FLIGHT);
+    most_q22 = b->def.radius_q22 / (free ? STEP_REGION_PARTS_FREE
+                                    : b->clock.contact != BODY_FLIES || b->clock.touched
+                                        ? STEP_REGION_PARTS
+                                        : STEP_REGION_PARTS_FLIGHT);
     frames = frames * way_q22 > most_q22 ? most_q22 / way_q22 : frames;
     frames = frames > held ? held : frames;
     return left_q30 + ((frames > 1 ? frames - 1 : 0) << 30);
 }
 
-static void begin_region(struct step *s, uint32_t i, int32_t slice_q30)
+static void begin_region(struct step *s, uint32_t i, int32_t slice_q30, bool free)
 {
     struct body *b = &s->w->bodies[i];
-    int64_t time_q30 = region_time(s, b, slice_q30);
+    int64_t time_q30 = region_time(s, b, slice_q30, free);
     int64_t room_q22 = room_for(s, b, time_q30 != slice_q30);
 
-    b->search.active = true;
-    b->search.standing = false;
+    b->search.state = free ? BODY_REGION_FREE : BODY_REGION_MOVING;
     room_q22 = room_q22 < b->def.radius_q22 / STEP_ROOM_PARTS ? room_q22
                                                               : b->def.radius_q22 / STEP_ROOM_PARTS;
     room_q22 += mesh_drift_most(b->def.mesh); /* contacts are searched that much farther away */
@@ -210,8 +209,7 @@ static void begin_standing(struct step *s, uint32_t i)
 {
     struct body *b = &s->w->bodies[i];
 
-    b->search.active = false;
-    b->search.standing = true;
+    b->search.state = BODY_REGION_STANDING;
     body_place(b, &s->next->bodies[i]);
     body_region_begin(b, &s->next->bodies[i], CAROM_ONE_Q30, CAROM_ONE_Q30,
                       mesh_drift_most(b->def.mesh));
@@ -220,8 +218,7 @@ static void begin_standing(struct step *s, uint32_t i)
 
 int step_set_region(struct step *s, uint32_t i, int32_t slice_q30)
 {
-    s->w->bodies[i].search.free = is_free(s->w, i);
-    begin_region(s, i, slice_q30);
+    begin_region(s, i, slice_q30, is_free(s->w, i));
     return set_pairs(s, i);
 }
 
@@ -275,11 +272,10 @@ static int begin_all(struct step *s)
     int result;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].search.free = false;
         if (step_active(s, i)) {
-            begin_region(s, i, foresee(s, i));
+            begin_region(s, i, foresee(s, i), false);
             body_place(&w->bodies[i], &s->next->bodies[i]);
-        } else if (w->bodies[i].def.mesh && !w->bodies[i].search.standing) {
+        } else if (w->bodies[i].def.mesh && w->bodies[i].search.state != BODY_REGION_STANDING) {
             begin_standing(s, i);
         }
     }
@@ -290,7 +286,7 @@ static int begin_all(struct step *s)
     for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {
         w->meetings[n] = new_meeting(w, &w->pairs[n]);
     }
-    w->interfere.stale = false;
+    w->regions_stale = false;
     s->pairs_changed = true;
     return result;
 }
@@ -301,13 +297,13 @@ static int begin_one(struct step *s, uint32_t i)
     struct body *b = &s->w->bodies[i];
 
     if (!step_active(s, i)) {
-        if (b->search.standing) {
+        if (b->search.state == BODY_REGION_STANDING) {
             return CAROM_OK;
         }
         begin_standing(s, i);
         return set_pairs(s, i);
     }
-    if (b->search.active && b->def.moving) { /* its path stayed within its region */
+    if (body_region_moves(b) && b->def.moving) { /* its path stayed within its region */
         if (s->w->pools[CAROM_POOL_pairs].used > 0) {
             body_place(b, &s->next->bodies[i]);
             CAROM_ASSERT(body_region_holds(b, 0));
@@ -336,7 +332,7 @@ int step_begin_regions(struct step *s)
     struct carom_world *w = s->w;
     int result = CAROM_OK;
 
-    if (w->interfere.stale || s->single) {
+    if (w->regions_stale || s->single) {
         result = begin_all(s);
     } else {
         for (uint32_t n = 0; n < w->pools[CAROM_POOL_pairs].used; n++) {

@@ -177,7 +177,7 @@ int32_t step_parts(const struct step *s, uint32_t number)
     const struct pair *p = &s->w->pairs[number];
     const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
 
-    return a->clock.in_contact || b->clock.in_contact
+    return a->clock.contact != BODY_FLIES || b->clock.contact != BODY_FLIES
                ? 1
                : (int32_t)parts_of_turn(a, b, STEP_KEPT_TURN_PARTS);
 }

@@ -18,7 +18,7 @@ FIX_APART static void forget(struct carom_world *w)
 {
     w->event_count = 0;
     w->rest.joints.states = w->now->joints;
-    w->interfere.stale = true;
+    w->regions_stale = true;
     pool_clear(&w->pools[CAROM_POOL_hits]);
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);
@@ -27,9 +27,9 @@ FIX_APART static void forget(struct carom_world *w)
 
 FIX_APART static void begin_clock(struct body *b)
 {
-    b->clock.touched = b->clock.in_contact;
-    b->clock.in_contact = b->clock.stands = b->clock.strained = b->clock.placed = b->clock.member =
-        false;
+    b->clock.touched = b->clock.contact != BODY_FLIES;
+    b->clock.contact = BODY_FLIES;
+    b->clock.stands = b->clock.strained = b->clock.placed = b->clock.member = false;
     b->clock.from_q30 = b->clock.to_q30 = 0;
     b->clock.events = b->clock.cuts = b->clock.shorter = 0;
     PHASE_BEGIN(b->solve.work_phase, BODY_WORK);
@@ -106,7 +106,7 @@ void step_begin(struct step *s, struct carom_world *w)
     w->rest.warm = next->warm;
     w->rest.warm_count = next->warm_count;
     w->rest.sweeps = w->rest.impacts = w->rest.energy_rules = 0;
-    w->interfere.gathers = w->interfere.candidate_count = 0;
+    interfere_begin_frame(&w->interfere);
     memset(&w->stats, 0, sizeof w->stats);
     w->stats.substeps = 1;
     w->event_count = 0;

@@ -123,7 +123,7 @@ void world_group_joints(struct carom_world *w)
         }
     }
     w->rest.joints.states = w->now->joints;
-    w->interfere.stale = true;
+    w->regions_stale = true;
 }
 
 /* ----------------------------------------------------------------- calls */

@@ -296,9 +296,9 @@ static void stir(struct carom_world *w, uint32_t body)
 
 static void forget_found(struct carom_world *w)
 {
-    w->interfere.stale = true;
+    w->regions_stale = true;
     for (uint32_t i = 0; i < w->body_count; i++) {
-        w->bodies[i].search.standing = false; /* paths, regions and boxes have changed */
+        body_not_standing(&w->bodies[i]); /* paths, regions and boxes have changed */
     }
     pool_clear(&w->pools[CAROM_POOL_pairs]);
     pool_clear(&w->pools[CAROM_POOL_faces]);
@@ -367,8 +367,8 @@ void world_halt_surfaces(struct carom_world *w)
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].def.mesh && mesh_drift_most(w->bodies[i].def.mesh) > 0) {
             mesh_surface_halt(w->bodies[i].def.mesh->surface);
-            w->bodies[i].search.standing = false; /* its region had room for the drift */
-            w->interfere.stale = true;
+            body_not_standing(&w->bodies[i]); /* its region had room for the drift */
+            w->regions_stale = true;
         }
     }
 }

@@ -160,41 +160,16 @@ static bool pairs_plausible(const struct carom_world *w, const struct pair *list
     return true;
 }
 
-struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body)
-{
-    const struct body *b = &w->bodies[body];
-    struct carom_forces f;
-
-    memset(&f, 0, sizeof f);
-    f.force = b->solve.velocity;
-    f.torque = b->solve.saved_momentum;
-    f.gravity_scale_q16 = (int32_t)b->solve.spin.c[0];
-    f.linear_damping_q30 = (int32_t)b->solve.spin.c[1];
-    f.angular_damping_q30 = (int32_t)b->solve.spin.c[2];
-    return f;
-}
-
-void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f)
-{
-    struct body *b = &w->bodies[body];
-
-    b->solve.velocity = f->force;
-    b->solve.saved_momentum = f->torque;
-    b->solve.spin =
-        (carom_v3_q40){{f->gravity_scale_q16, f->linear_damping_q30, f->angular_damping_q30}};
-}
-
-bool world_plausible(const struct carom_world *w, const struct world_state *s,
+bool world_plausible(struct carom_world *w, const struct world_state *s,
                      const carom_v3_q40 *gravity)
 {
     if (!world_gravity_in_range(gravity)) {
         return false;
     }
     for (uint32_t i = 0; i < w->body_count; i++) {
-        const struct carom_forces forces = world_forces_read(w, i);
+        struct body *b = &w->bodies[i];
 
-        if (w->bodies[i].def.mesh &&
-            !body_plausible(&w->bodies[i], &s->bodies[i], gravity, &forces)) {
+        if (b->def.mesh && !body_plausible(b, &s->bodies[i], gravity, &body_loaded(b)->forces)) {
             return false;
         }
     }

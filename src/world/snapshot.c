@@ -33,18 +33,20 @@
 static void stream_body(struct stream *s, const struct carom_world *w, uint32_t i,
                         struct body_state *state)
 {
-    static const struct carom_forces forces = {.gravity_scale_q16 = 1 << 16};
-    struct body *b = &w->bodies[i];
+    const struct body *b = &w->bodies[i];
+    carom_v3_q40 force = b->def.force;
 
     stream_expect(s, !b->def.mesh ? 0 : b->def.moving ? 2 : world_is_kinematic(b) ? 3 : 1, 1);
     if (b->def.mesh) {
         stream_vector64(s, state->position.c);
         stream_vector64(s, state->momentum.c);
         stream_vector64(s, state->angular.c);
+        stream_vector64(s, force.c);
         if (s->loading) {
-            world_keep_forces(w, i, &forces);
+            PHASE_BEGIN(s->into[i].solve.work_phase, BODY_LOADED);
+            body_loaded(&s->into[i])->forces =
+                (struct carom_forces){.force = force, .gravity_scale_q16 = 1 << 16};
         }
-        stream_vector64(s, s->loading ? b->solve.velocity.c : b->def.force.c);
         stream_vector32(s, state->rotation.c, 4);
         stream_8(s, &state->asleep);
         stream_8(s, &state->out);
@@ -110,14 +112,15 @@ static uint32_t next_acted_on(const struct carom_world *w, uint32_t i)
 /* Pass everything that acts on a body beside its force. */
 static void stream_forces(struct stream *s, const struct carom_world *w, uint32_t i)
 {
-    struct carom_forces f = s->loading ? world_forces_read(w, i) : world_forces(&w->bodies[i]);
+    struct carom_forces f =
+        s->loading ? body_loaded(&s->into[i])->forces : world_forces(&w->bodies[i]);
 
     stream_vector64(s, f.torque.c);
     stream_32(s, &f.gravity_scale_q16);
     stream_32(s, &f.linear_damping_q30);
     stream_32(s, &f.angular_damping_q30);
     if (s->loading) {
-        world_keep_forces(w, i, &f);
+        body_loaded(&s->into[i])->forces = f;
         s->failed |= !world_forces_need_extra(&f);
     }
 }
@@ -153,10 +156,7 @@ static bool has_filter(const struct body *b)
     return b->def.mesh && !(b->def.category == 1 && b->def.mask == 0xffff && b->def.group == 0);
 }
 
-/*
- * Pass all filters. Filters that are read wait in the bodies' boxes, which the next step sets anew,
- * until everything is read.
- */
+/* Pass all filters. */
 static void stream_filters(struct stream *s, const struct carom_world *w)
 {
     bool any = false;
@@ -166,30 +166,39 @@ static void stream_filters(struct stream *s, const struct carom_world *w)
     }
     any = stream_section(s, FILTERS, any);
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
-        struct body *b = &w->bodies[i];
+        const struct body *b = &w->bodies[i];
         uint16_t parts[3] = {b->def.category, b->def.mask, (uint16_t)b->def.group};
 
+        if (!b->def.mesh) {
+            continue;
+        }
         if (s->loading) {
             parts[0] = 1;
             parts[1] = 0xffff;
             parts[2] = 0;
         }
-        for (int k = 0; k < 3 && any && b->def.mesh; k++) {
+        for (int k = 0; k < 3 && any; k++) {
             stream_16(s, &parts[k]);
         }
-        for (int k = 0; k < 3 && s->loading; k++) {
-            b->search.box_q18[0][k] = parts[k];
+        if (s->loading) {
+            int group = parts[2] < 0x8000 ? parts[2] : parts[2] - 0x10000;
+
+            body_loaded(&s->into[i])->filter =
+                (struct carom_filter){parts[0], parts[1], (int16_t)group};
         }
     }
 }
 
-/* Give a body the filter that was read. */
-static void keep_filter(struct body *b)
+/* Give a body the filter and the forces that were read for it. */
+static void take_loaded(struct carom_world *w, uint32_t i)
 {
-    b->def.category = (uint16_t)b->search.box_q18[0][0];
-    b->def.mask = (uint16_t)b->search.box_q18[0][1];
-    b->def.group = (int16_t)(b->search.box_q18[0][2] < 0x8000 ? b->search.box_q18[0][2]
-                                                              : b->search.box_q18[0][2] - 0x10000);
+    struct body *b = &w->bodies[i];
+    const struct body_loaded *loaded = body_loaded(b);
+
+    b->def.category = loaded->filter.category;
+    b->def.mask = loaded->filter.mask;
+    b->def.group = loaded->filter.group;
+    (void)world_set_forces(w, i, &loaded->forces);
 }
 
 static void stream_through(struct stream *s, const struct carom_world *w, struct world_state *state)
@@ -234,7 +243,7 @@ static void stream_drives(struct stream *s, const struct carom_world *w,
 {
     s->drives = s->at;
     for (uint32_t i = 0; i < w->body_count && !s->failed; i++) {
-        struct body *b = &w->bodies[i];
+        const struct body *b = &w->bodies[i];
         struct body_drive drive = {.kind = BODY_DRIVE_NONE};
 
         if (!b->def.mesh || !world_is_kinematic(b)) {
@@ -243,8 +252,8 @@ static void stream_drives(struct stream *s, const struct carom_world *w,
         drive = s->loading ? drive : b->def.extra->drive;
         stream_drive(s, &drive);
         if (what == DRIVES_TAKE) {
-            b->def.extra->drive = drive;
-            b->def.goes = drive.kind != BODY_DRIVE_NONE;
+            s->into[i].def.extra->drive = drive;
+            s->into[i].def.goes = drive.kind != BODY_DRIVE_NONE;
         } else if (what == DRIVES_ASK) {
             s->failed |= !world_drive_plausible(b, &state->bodies[i], &drive);
         }
@@ -396,15 +405,15 @@ int carom_snapshot_save(const struct carom_world *w, void *out, size_t bytes)
 }
 
 /* True if there are extras for all bodies that need one. */
-static bool extras_suffice(const struct carom_world *w)
+static bool extras_suffice(struct carom_world *w)
 {
     const struct pool *pool = &w->pools[CAROM_POOL_extras];
     uint32_t missing = 0;
 
     for (uint32_t i = 0; i < w->body_count; i++) {
-        const struct carom_forces f = world_forces_read(w, i);
+        struct body *b = &w->bodies[i];
 
-        missing += w->bodies[i].def.mesh && !w->bodies[i].def.extra && world_forces_need_extra(&f);
+        missing += b->def.mesh && !b->def.extra && world_forces_need_extra(&body_loaded(b)->forces);
     }
     return missing <= pool->size - pool->used;
 }
@@ -424,6 +433,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     s.in = (const uint8_t *)in;
     s.size = bytes;
     s.loading = true;
+    s.into = w->bodies;
     memset(next->bodies, 0, w->body_count * sizeof *next->bodies);
     stream_state(&s, w, next);
     good = !s.failed && s.at == bytes && world_plausible(w, next, &s.gravity) &&
@@ -440,10 +450,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
     /* a step relies on bodies that stand still being equal in both states */
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (good && w->bodies[i].def.mesh) {
-            keep_filter(&w->bodies[i]);
-            const struct carom_forces f = world_forces_read(w, i);
-
-            (void)world_set_forces(w, i, &f);
+            take_loaded(w, i);
         }
         world_put(w, i, &world_now(w)->bodies[i]);
     }
@@ -451,7 +458,7 @@ int carom_snapshot_load(struct carom_world *w, const void *in, size_t bytes)
         w->joint_steps->regroup(w);
     }
     w->idle = false;
-    w->interfere.stale = true;
+    w->regions_stale = true;
     w->sense_anew = false;
     return good ? CAROM_OK : fits ? CAROM_ERR_FORMAT : CAROM_ERR_EXTRAS_FULL;
 }

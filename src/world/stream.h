@@ -17,6 +17,7 @@ struct stream {
     uint64_t fnv;
     carom_v3_q40 gravity; /* as read */
     size_t drives;        /* where the drives of kinematic bodies begin */
+    struct body *into;    /* bodies of the world to load into; NULL while saving */
     bool loading, failed;
 };
 

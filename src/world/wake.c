@@ -52,7 +52,7 @@ void world_wake_around(struct carom_world *w, uint32_t body)
     struct world_state *now = w->now;
     const struct body *b = &w->bodies[body];
 
-    w->interfere.stale = true;
+    w->regions_stale = true;
     w->sense_anew = w->sensors > 0;
     world_wake_island(w, body);
     for (uint32_t i = 0; i < now->touching_count; i++) {

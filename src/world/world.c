@@ -290,7 +290,7 @@ int carom_body_add(struct carom_world *w, const struct carom_body_def *def)
 void world_put(struct carom_world *w, uint32_t body, const struct body_state *state)
 {
     w->states[0].bodies[body] = w->states[1].bodies[body] = *state;
-    w->bodies[body].search.standing = false;
+    body_not_standing(&w->bodies[body]);
     world_accelerate(w, body);
 }
 

@@ -63,9 +63,10 @@ struct carom_world {
     /* world: what the caller gave, and arrays in the block; 108 bytes */
     struct carom_config config; /* with the present gravity */
     uint32_t body_count;        /* places in use, with free ones between */
-    bool idle;       /* the last step found no body awake, and nothing has changed since */
-    bool passing;    /* pairs may pass through each other: there is or was a reason for it */
-    bool sense_anew; /* bodies were added or set: a sleeping body may overlap another sensor now */
+    bool idle;              /* the last step found no body awake, and nothing has changed since */
+    bool passing;           /* pairs may pass through each other: there is or was a reason for it */
+    bool regions_stale : 1; /* bodies have changed since regions and pairs were set */
+    bool sense_anew : 1; /* bodies were added or set: a sleeping body may overlap another sensor */
     PHASE_TAG(scratch_phase)
     struct body *bodies;
     union world_scratch *scratch;
@@ -182,16 +183,10 @@ bool world_rotation_valid(carom_quat_q30 *q);
 /* True if each coordinate is within BODY_WORLD_LIMIT. */
 bool world_position_in_range(const carom_v3_q32 *p);
 /*
- * Forces that are read for a body wait until the whole snapshot is read. Their room is the body's
- * velocity, spin and saved momentum, which are a step's.
+ * True if a state that was read, with the forces in body_loaded and this gravity, could be what a
+ * step has left.
  */
-struct carom_forces world_forces_read(const struct carom_world *w, uint32_t body);
-void world_keep_forces(const struct carom_world *w, uint32_t body, const struct carom_forces *f);
-/*
- * True if a state that was read, with the forces kept and this gravity, could be what a step has
- * left.
- */
-bool world_plausible(const struct carom_world *w, const struct world_state *s,
+bool world_plausible(struct carom_world *w, const struct world_state *s,
                      const carom_v3_q40 *gravity);
 
 /* An id is a body's number with its generation in the bits above. */

@@ -45,7 +45,7 @@ void hand_clear_contacts(void)
     hand.rest.sweeps = hand.rest.impacts = hand.rest.energy_rules = 0;
     for (int i = 0; i < HAND_BODIES; i++) {
         body_place(&hand.bodies[i], &hand.states[i]);
-        hand.bodies[i].clock.in_contact = false;
+        hand.bodies[i].clock.contact = BODY_FLIES;
     }
 }
 
@@ -142,4 +142,18 @@ double hand_pressure(const struct contact *c, double *across)
     }
     *across = real_length(p);
     return along;
+}
+
+bool hand_enter_contact(int32_t tau_q30)
+{
+    if (!rest_enter_contact(&hand.rest)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < hand.rest.body_count; i++) {
+        if (hand.bodies[i].clock.contact == BODY_ENTERS) {
+            body_accelerate(&hand.bodies[i], &hand.states[i], tau_q30);
+        }
+    }
+    rest_load_entered(&hand.rest);
+    return true;
 }

@@ -53,6 +53,9 @@ void hand_touch(uint16_t number, uint32_t vertex, const int32_t arm_q22[3], caro
 void hand_touch_corners_of(uint16_t number, int32_t gap_q22);
 void hand_touch_corners(int32_t gap_q22);
 
+/* Bodies enter contact as in a step: they take so much of a frame's gravity. */
+bool hand_enter_contact(int32_t tau_q30);
+
 /* P along the normal, and its length across, of one contact. */
 double hand_pressure(const struct contact *c, double *across);
 
