@@ -100,29 +100,29 @@ void body_angular(const struct body *b, const struct body_state *s, const carom_
 }
 
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
-               carom_v3_q40 *w)
+               carom_v3_q40 *spin)
 {
-    *w = (carom_v3_q40){{0, 0, 0}};
+    *spin = (carom_v3_q40){{0, 0, 0}};
     if (!b->def.moving) {
         return;
     }
     if (!body_spin_fits(b, s, r)) {
-        body_spin_most(s, w);
+        body_spin_most(s, spin);
         return;
     }
-    body_angular(b, s, r, w->c);
-    inverse_mul(b, w->c, w->c);
-    fix_rotate(w->c, r, w->c);
+    body_angular(b, s, r, spin->c);
+    inverse_mul(b, spin->c, spin->c);
+    fix_rotate(spin->c, r, spin->c);
 }
 
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
-                     const carom_v3_q40 *w)
+                     const carom_v3_q40 *spin)
 {
     carom_m3_q30 r;
     int64_t l[3];
 
     fix_matrix(&r, &s->rotation);
-    fix_rotate_back(l, &r, w->c);
+    fix_rotate_back(l, &r, spin->c);
     body_sym3_mul(l, &b->def.mesh->mass.inertia, l);
     fix_rotate(l, &r, l);
     for (int k = 0; k < 3; k++) {
@@ -134,12 +134,12 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
                        const carom_m3_q30 *r)
 {
-    carom_v3_q40 v, w;
+    carom_v3_q40 v, spin;
 
     body_velocity(b, s, &v);
-    body_spin(b, s, r, &w);
+    body_spin(b, s, r, &spin);
     fix_wide_add_dot(sum, s->momentum.c, v.c);
-    fix_wide_add_dot(sum, s->angular.c, w.c);
+    fix_wide_add_dot(sum, s->angular.c, spin.c);
 }
 
 /*

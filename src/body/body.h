@@ -396,7 +396,7 @@ void body_set_mass(struct body *b, struct fix_scaled mass);
  */
 void body_velocity(const struct body *b, const struct body_state *s, carom_v3_q40 *v);
 void body_spin(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
-               carom_v3_q40 *w);
+               carom_v3_q40 *spin);
 /* R^T L / m: the angular momentum in the body's axes, divided by the mass. */
 void body_angular(const struct body *b, const struct body_state *s, const carom_m3_q30 *r,
                   int64_t out[3]);
@@ -406,10 +406,10 @@ void body_angular(const struct body *b, const struct body_state *s, const carom_
  */
 bool body_spin_fits(const struct body *b, const struct body_state *s, const carom_m3_q30 *r);
 /* The largest spin, along L. */
-void body_spin_most(const struct body_state *s, carom_v3_q40 *w);
+void body_spin_most(const struct body_state *s, carom_v3_q40 *spin);
 /* Set the momenta that give v and w. */
 void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
-                     const carom_v3_q40 *w);
+                     const carom_v3_q40 *spin);
 /* Add p.v + L.w, twice the kinetic energy, 80 fractional bits. */
 void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
                        const carom_m3_q30 *r);

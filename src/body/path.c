@@ -220,15 +220,15 @@ void body_cut_path(struct body *b, const struct body_state *s, int32_t from_q30,
 int32_t body_slice(const struct body *b, const struct body_state *s, int32_t tau_q30)
 {
     carom_m3_q30 r;
-    carom_v3_q40 w;
+    carom_v3_q40 spin;
     int64_t rate_q40, turn_q40;
 
     if (body_calm(b, s)) {
         return tau_q30;
     }
     fix_matrix(&r, &s->rotation);
-    body_spin(b, s, &r, &w);
-    rate_q40 = fix_length(w.c);
+    body_spin(b, s, &r, &spin);
+    rate_q40 = fix_length(spin.c);
     turn_q40 = fix_mul_q30(rate_q40, tau_q30);
     if (turn_q40 <= (int64_t)BODY_TURN_MAX_Q30 << 10) {
         return tau_q30;

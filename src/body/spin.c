@@ -45,12 +45,12 @@ bool body_spin_fits(const struct body *b, const struct body_state *s, const caro
            (angular_fits(b, s) && spin_fits(b, s, r));
 }
 
-void body_spin_most(const struct body_state *s, carom_v3_q40 *w)
+void body_spin_most(const struct body_state *s, carom_v3_q40 *spin)
 {
     carom_v3_q30 along = {{0, 0, 0}};
 
     fix_normalise(&along, s->angular.c);
     for (int k = 0; k < 3; k++) {
-        w->c[k] = carom_shl(along.c[k], 10 + BODY_SPIN_BITS);
+        spin->c[k] = carom_shl(along.c[k], 10 + BODY_SPIN_BITS);
     }
 }

@@ -91,48 +91,50 @@ static uint32_t safe_step_q30(int32_t size, int32_t d, int32_t c)
     return curve_quotient_q30((uint32_t)d + root - (root >> 13) - 1, 2 * (uint32_t)-c);
 }
 
-static void advance(struct walk *w, uint32_t step_q30)
+static void advance(struct walk *walk, uint32_t step_q30)
 {
-    w->t_q30 = step_q30 < (uint32_t)(CAROM_ONE_Q30 - w->t_q30) ? w->t_q30 + (int32_t)step_q30
-                                                               : CAROM_ONE_Q30;
+    walk->t_q30 = step_q30 < (uint32_t)(CAROM_ONE_Q30 - walk->t_q30)
+                      ? walk->t_q30 + (int32_t)step_q30
+                      : CAROM_ONE_Q30;
 }
 
 /*
  * Begin at 0, and take the first safe step. At the start all of P is known: |P| >= |a0| + d t + (a2
  * - rest) t^2, rest being the sum of the higher coefficients.
  */
-void walk_begin(struct walk *w, const struct curve *q)
+void walk_begin(struct walk *walk, const struct curve *q)
 {
     int32_t size = fix_abs32(q->a[0]), d = q->a[1] >> 3, c = q->a[2] >> 3;
 
-    w->t_q30 = w->side = w->rounds = 0;
-    w->stride = BOYSE_STRIDE_Q30;
+    walk->t_q30 = walk->side = walk->rounds = 0;
+    walk->stride = BOYSE_STRIDE_Q30;
     if (size > CURVE_NOISE) {
-        w->side = q->a[0] < 0 ? -1 : 1;
-        if (w->side < 0) {
+        walk->side = q->a[0] < 0 ? -1 : 1;
+        if (walk->side < 0) {
             d = -d - 1;
             c = -c - 1;
         }
         for (int k = 3; k <= q->degree; k++) {
             c -= (fix_abs32(q->a[k]) >> 3) + 1;
         }
-        advance(w, safe_step_q30(size - CURVE_NOISE / 2, d, c));
+        advance(walk, safe_step_q30(size - CURVE_NOISE / 2, d, c));
     }
 }
 
 /* A safe step from the present place. 16: slope8 may be too low by as much. */
-static uint32_t walk_step_q30(const struct walk *w, const struct curve *q)
+static uint32_t walk_step_q30(const struct walk *walk, const struct curve *q)
 {
-    return safe_step_q30(fix_abs32(w->p), w->p < 0 ? -w->slope8 - 16 : w->slope8, -q->bend8);
+    return safe_step_q30(fix_abs32(walk->p), walk->p < 0 ? -walk->slope8 - 16 : walk->slope8,
+                         -q->bend8);
 }
 
 /*
  * The last step to a root, q30: P's slope alone leads to it, and its bend changes nothing above the
  * noise. 0 if that is not yet so.
  */
-static uint32_t last_step_q30(const struct walk *w, const struct curve *q)
+static uint32_t last_step_q30(const struct walk *walk, const struct curve *q)
 {
-    int32_t size = fix_abs32(w->p), fall8 = w->p < 0 ? w->slope8 : -w->slope8;
+    int32_t size = fix_abs32(walk->p), fall8 = walk->p < 0 ? walk->slope8 : -walk->slope8;
     uint32_t step;
 
     if (fall8 <= 0 || size >> 3 > fall8 >> 8) {
@@ -143,35 +145,35 @@ static uint32_t last_step_q30(const struct walk *w, const struct curve *q)
     return (((uint64_t)(uint32_t)q->bend8 * step >> 30) * step) >> 27 < CURVE_NOISE / 2 ? step : 0;
 }
 
-bool walk_next(struct walk *w, const struct curve *q)
+bool walk_next(struct walk *walk, const struct curve *q)
 {
-    while (w->t_q30 < CAROM_ONE_Q30 && w->rounds++ < ROUNDS) {
+    while (walk->t_q30 < CAROM_ONE_Q30 && walk->rounds++ < ROUNDS) {
         int32_t side;
         uint32_t step;
         bool crossed;
 
-        curve_slope(q, w->t_q30, &w->p, &w->slope8);
-        side = fix_abs32(w->p) <= CURVE_NOISE ? 0 : w->p > 0 ? 1 : -1;
+        curve_slope(q, walk->t_q30, &walk->p, &walk->slope8);
+        side = fix_abs32(walk->p) <= CURVE_NOISE ? 0 : walk->p > 0 ? 1 : -1;
         /* rounding may carry t across a root: a change of sign is a root, too */
-        crossed = side != 0 && side == -w->side;
+        crossed = side != 0 && side == -walk->side;
         if (side != 0) {
-            w->side = side;
+            walk->side = side;
         }
         if (side == 0 || crossed) {
             return true;
         }
-        step = last_step_q30(w, q);
+        step = last_step_q30(walk, q);
         if (step > 0) {
-            advance(w, step);
-            w->p = 0;
-            return w->t_q30 < CAROM_ONE_Q30;
+            advance(walk, step);
+            walk->p = 0;
+            return walk->t_q30 < CAROM_ONE_Q30;
         }
-        step = walk_step_q30(w, q);
+        step = walk_step_q30(walk, q);
         if (step <= 1) {
             return true;
         }
-        advance(w, step);
-        w->stride = BOYSE_STRIDE_Q30;
+        advance(walk, step);
+        walk->stride = BOYSE_STRIDE_Q30;
     }
     return false;
 }
@@ -181,22 +183,22 @@ bool walk_next(struct walk *w, const struct curve *q)
  * / (2 bend) that is above the noise, and has been since the root. Elsewhere step by growing
  * strides while P stays in the noise. The sign found beyond starts anew: it is no root passed by.
  */
-void walk_over(struct walk *w, const struct curve *q)
+void walk_over(struct walk *walk, const struct curve *q)
 {
-    int64_t steep = fix_abs32(w->slope8);
+    int64_t steep = fix_abs32(walk->slope8);
     uint32_t step;
 
-    w->side = 0;
+    walk->side = 0;
     if (steep * steep > (int64_t)(2 * CURVE_NOISE) * q->bend8) {
         step = curve_quotient_q30((uint32_t)steep, (uint32_t)q->bend8) / 2;
     } else {
-        step = walk_step_q30(w, q);
+        step = walk_step_q30(walk, q);
     }
-    if (step < (uint32_t)w->stride) {
-        advance(w, (uint32_t)w->stride);
-        w->stride *= 2;
+    if (step < (uint32_t)walk->stride) {
+        advance(walk, (uint32_t)walk->stride);
+        walk->stride *= 2;
     } else {
-        advance(w, step);
-        w->stride = BOYSE_STRIDE_Q30;
+        advance(walk, step);
+        walk->stride = BOYSE_STRIDE_Q30;
     }
 }

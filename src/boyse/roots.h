@@ -65,10 +65,10 @@ struct walk {
     int rounds;
 };
 
-void walk_begin(struct walk *w, const struct curve *q);
+void walk_begin(struct walk *walk, const struct curve *q);
 /* Go on to the next root, or to within rounding of one. Returns false if there is none up to 1. */
-bool walk_next(struct walk *w, const struct curve *q);
+bool walk_next(struct walk *walk, const struct curve *q);
 /* Step over a root that is no hit. */
-void walk_over(struct walk *w, const struct curve *q);
+void walk_over(struct walk *walk, const struct curve *q);
 
 #endif

@@ -30,57 +30,58 @@ static int32_t clamp(int64_t v, int32_t low, int32_t high)
 }
 
 /* Draw pixels from <= x < to of a row, clipped to the picture. */
-static void run(const struct writing *w, uint8_t *row, int64_t from, int64_t to, uint32_t pixel)
+static void run(const struct writing *writing, uint8_t *row, int64_t from, int64_t to,
+                uint32_t pixel)
 {
-    draw_run(row, w->pixel_shift, clamp(from, w->rect.x0, w->rect.x1),
-             clamp(to, w->rect.x0, w->rect.x1), pixel);
+    draw_run(row, writing->pixel_shift, clamp(from, writing->rect.x0, writing->rect.x1),
+             clamp(to, writing->rect.x0, writing->rect.x1), pixel);
 }
 
 /* Draw, in row y of the picture, row `line` of the glyphs. */
-static void write_row(const struct writing *w, int32_t y, int32_t line)
+static void write_row(const struct writing *writing, int32_t y, int32_t line)
 {
-    const struct carom_picture *picture = w->picture;
-    int64_t x = w->x;
+    const struct carom_picture *picture = writing->picture;
+    int64_t x = writing->x;
     uint8_t *row = (uint8_t *)picture->pixels;
 
     if (picture->row) {
-        row = (uint8_t *)picture->row(picture->context, w->rect.x0, w->rect.x1, y);
+        row = (uint8_t *)picture->row(picture->context, writing->rect.x0, writing->rect.x1, y);
     } else {
         row += (size_t)y * (size_t)picture->stride;
     }
-    if (w->opaque) {
-        run(w, row, w->rect.x0, w->rect.x1, w->paper);
+    if (writing->opaque) {
+        run(writing, row, writing->rect.x0, writing->rect.x1, writing->paper);
     }
-    for (const char *c = w->text; c < w->end && x < w->rect.x1 && line < 8; c++) {
+    for (const char *c = writing->text; c < writing->end && x < writing->rect.x1 && line < 8; c++) {
         const uint8_t *glyph = glyph_of(*c);
 
         for (int column = 0; column < DRAW_GLYPH_WIDTH; column++) {
             if (glyph[column] >> line & 1) {
-                int64_t from = x + column * w->scale;
+                int64_t from = x + column * writing->scale;
 
-                run(w, row, from, from + w->scale, w->colour);
+                run(writing, row, from, from + writing->scale, writing->colour);
             }
         }
-        x += CAROM_TEXT_WIDTH * w->scale;
+        x += CAROM_TEXT_WIDTH * writing->scale;
     }
 }
 
 /* Draw a line of text whose top is at y. */
-static void write_line(struct writing *w, int64_t y, struct carom_rect *touched)
+static void write_line(struct writing *writing, int64_t y, struct carom_rect *touched)
 {
-    const struct carom_picture *picture = w->picture;
-    int64_t cells = w->end - w->text;
-    struct draw_rect *r = &w->rect;
+    const struct carom_picture *picture = writing->picture;
+    int64_t cells = writing->end - writing->text;
+    struct draw_rect *r = &writing->rect;
 
-    r->x0 = clamp(w->x, 0, picture->width);
-    r->x1 = clamp(w->x + cells * CAROM_TEXT_WIDTH * w->scale, 0, picture->width);
+    r->x0 = clamp(writing->x, 0, picture->width);
+    r->x1 = clamp(writing->x + cells * CAROM_TEXT_WIDTH * writing->scale, 0, picture->width);
     r->y0 = clamp(y, 0, picture->height);
-    r->y1 = clamp(y + CAROM_TEXT_HEIGHT * w->scale, 0, picture->height);
+    r->y1 = clamp(y + CAROM_TEXT_HEIGHT * writing->scale, 0, picture->height);
     if (r->x0 >= r->x1) {
         return;
     }
     for (int32_t at = r->y0; at < r->y1; at++) {
-        write_row(w, at, (int32_t)((at - y) / w->scale));
+        write_row(writing, at, (int32_t)((at - y) / writing->scale));
     }
     draw_touch(touched,
                (struct carom_rect){(int16_t)r->x0, (int16_t)r->y0, (int16_t)r->x1, (int16_t)r->y1});
@@ -113,32 +114,32 @@ int carom_draw_text(const struct carom_picture *picture, const struct carom_text
                     const char *text, struct carom_rect *touched)
 {
     int result = check_text(picture, where, text);
-    struct writing w;
+    struct writing writing;
     ptrdiff_t longest = 0;
     int64_t y;
 
     if (result != CAROM_OK) {
         return result;
     }
-    w = (struct writing){.picture = picture,
-                         .x = where->x,
-                         .scale = where->scale ? where->scale : 1,
-                         .pixel_shift = draw_pixel_shift(picture->format),
-                         .opaque = where->opaque,
-                         .colour = draw_colour(picture, where->colour),
-                         .paper = where->opaque ? draw_colour(picture, where->paper) : 0};
+    writing = (struct writing){.picture = picture,
+                               .x = where->x,
+                               .scale = where->scale ? where->scale : 1,
+                               .pixel_shift = draw_pixel_shift(picture->format),
+                               .opaque = where->opaque,
+                               .colour = draw_colour(picture, where->colour),
+                               .paper = where->opaque ? draw_colour(picture, where->paper) : 0};
     y = where->y;
     for (;;) {
-        w.text = w.end = text;
-        while (*w.end != '\0' && *w.end != '\n') {
-            w.end++;
+        writing.text = writing.end = text;
+        while (*writing.end != '\0' && *writing.end != '\n') {
+            writing.end++;
         }
-        longest = w.end - text > longest ? w.end - text : longest;
-        write_line(&w, y, touched);
-        if (*w.end == '\0') {
+        longest = writing.end - text > longest ? writing.end - text : longest;
+        write_line(&writing, y, touched);
+        if (*writing.end == '\0') {
             return longest < INT_MAX ? (int)longest : INT_MAX;
         }
-        text = w.end + 1;
-        y += CAROM_TEXT_HEIGHT * w.scale;
+        text = writing.end + 1;
+        y += CAROM_TEXT_HEIGHT * writing.scale;
     }
 }

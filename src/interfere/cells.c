@@ -24,23 +24,23 @@ struct interfere_cells interfere_cells_under(const struct carom_mesh *mb, const 
 }
 
 /* Highest z of b in a cell; below every vertex if the cell is empty. */
-static inline int32_t cell_top(const struct interfere *w, uint32_t cell)
+static inline int32_t cell_top(const struct interfere *in, uint32_t cell)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
+    const struct carom_mesh *mb = in->b->def.mesh;
     const uint32_t *start = &mb->cell_start[cell];
 
-    if (w->pooled) {
-        uint16_t head = w->lists.head[cell];
+    if (in->pooled) {
+        uint16_t head = in->lists.head[cell];
 
-        return head == ZLIST_NONE ? INT16_MIN - 1 : w->lists.entry[head].z1;
+        return head == ZLIST_NONE ? INT16_MIN - 1 : in->lists.entry[head].z1;
     }
     return start[0] == start[1] ? INT16_MIN - 1 : mb->zrefs[start[0]].z1;
 }
 
-int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+int32_t interfere_highest(const struct interfere *in, const int32_t low[3], const int32_t high[3],
                           int32_t enough)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
+    const struct carom_mesh *mb = in->b->def.mesh;
     struct interfere_cells cells = interfere_cells_under(mb, low, high);
     int32_t top = INT16_MIN - 1;
 
@@ -48,7 +48,7 @@ int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const
         uint32_t cell = (uint32_t)(row * mb->grid_nx + cells.col[0]);
 
         for (int32_t n = cells.col[1] - cells.col[0]; n >= 0; n--) {
-            int32_t z = cell_top(w, cell++);
+            int32_t z = cell_top(in, cell++);
 
             top = z > top ? z : top;
             if (z >= enough) {
@@ -59,10 +59,10 @@ int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const
     return top;
 }
 
-bool interfere_reaches_leaf(const struct interfere *w)
+bool interfere_reaches_leaf(const struct interfere *in)
 {
-    const struct interfere_leaf *l = w->leaf;
+    const struct interfere_leaf *l = in->leaf;
     int32_t low = l->quanta_low[2];
 
-    return interfere_highest(w, l->quanta_low, l->quanta_high, low) >= low;
+    return interfere_highest(in, l->quanta_low, l->quanta_high, low) >= low;
 }

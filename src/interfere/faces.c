@@ -24,10 +24,10 @@ static uint32_t face_key(struct carom_face_ref f)
 
 SORT_DEFINE(sort_faces, struct carom_face_ref, face_key)
 
-void interfere_finish(struct interfere *w)
+void interfere_finish(struct interfere *in)
 {
-    struct carom_face_ref *f = w->faces;
-    uint32_t n = w->face_pool->used, kept = 0;
+    struct carom_face_ref *f = in->faces;
+    uint32_t n = in->face_pool->used, kept = 0;
 
     sort_faces(f, n);
     for (uint32_t i = 0; i < n; i++) {
@@ -35,9 +35,9 @@ void interfere_finish(struct interfere *w)
             f[kept++] = f[i];
         }
     }
-    w->face_pool->used = kept;
-    if (kept > w->face_pool->peak) {
-        w->face_pool->peak = kept;
+    in->face_pool->used = kept;
+    if (kept > in->face_pool->peak) {
+        in->face_pool->peak = kept;
     }
 }
 
@@ -48,48 +48,48 @@ static bool face_before(const void *record, const void *key)
 }
 
 /* True if the sorted list contains the face. */
-static bool has_face(const struct interfere *w, struct carom_face_ref face)
+static bool has_face(const struct interfere *in, struct carom_face_ref face)
 {
-    uint32_t used = w->face_pool->used;
-    uint32_t place = sort_lower_bound(w->faces, used, sizeof *w->faces, &face, face_before);
+    uint32_t used = in->face_pool->used;
+    uint32_t place = sort_lower_bound(in->faces, used, sizeof *in->faces, &face, face_before);
 
-    return place < used && face_key(w->faces[place]) == face_key(face);
+    return place < used && face_key(in->faces[place]) == face_key(face);
 }
 
 /* True if the face is one of the last INTERFERE_LAST_FACES in the list. */
-static bool is_among_last(const struct interfere *w, struct carom_face_ref face)
+static bool is_among_last(const struct interfere *in, struct carom_face_ref face)
 {
-    uint32_t used = w->face_pool->used,
+    uint32_t used = in->face_pool->used,
              first = used > INTERFERE_LAST_FACES ? used - INTERFERE_LAST_FACES : 0;
 
     for (uint32_t i = used; i-- > first;) {
-        if (face_key(w->faces[i]) == face_key(face)) {
+        if (face_key(in->faces[i]) == face_key(face)) {
             return true;
         }
     }
     return false;
 }
 
-static void add_face(struct interfere *w, uint16_t body, uint16_t face)
+static void add_face(struct interfere *in, uint16_t body, uint16_t face)
 {
     struct carom_face_ref ref = {body, face};
-    struct pool *pool = w->face_pool;
+    struct pool *pool = in->face_pool;
 
-    if (is_among_last(w, ref)) {
+    if (is_among_last(in, ref)) {
         return;
     }
     if (pool->used == pool->size) {
-        interfere_finish(w); /* a full list is mostly repetitions */
-        if (has_face(w, ref)) {
+        interfere_finish(in); /* a full list is mostly repetitions */
+        if (has_face(in, ref)) {
             return;
         }
     }
     if (pool->used == pool->size) {
         pool->refused++;
-        w->error = CAROM_ERR_FACES_FULL;
+        in->error = CAROM_ERR_FACES_FULL;
         return;
     }
-    w->faces[pool->used++] = ref;
+    in->faces[pool->used++] = ref;
 }
 
 /* The face that owns a vertex. Each vertex that can be a candidate has exactly one owner. */
@@ -125,10 +125,10 @@ static uint16_t owner_of_edge(const struct carom_mesh *mesh, uint32_t e)
     return CAROM_NO_FACE;
 }
 
-void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+void interfere_note_faces(struct interfere *in, const struct interfere_pairs *all,
                           const struct candidate *c, uint32_t n)
 {
-    for (uint32_t i = 0; i < n && !w->error; i++) {
+    for (uint32_t i = 0; i < n && !in->error; i++) {
         const struct pair *p = &all->pairs[c[i].pair];
         const struct carom_mesh *a = all->bodies[p->a].def.mesh, *b = all->bodies[p->b].def.mesh;
         uint16_t of_a, of_b;
@@ -143,7 +143,7 @@ void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all
             of_a = (uint16_t)c[i].j;
             of_b = owner_of_vertex(b, c[i].i);
         }
-        add_face(w, p->a, of_a);
-        add_face(w, p->b, of_b);
+        add_face(in, p->a, of_a);
+        add_face(in, p->b, of_b);
     }
 }

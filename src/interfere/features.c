@@ -32,9 +32,9 @@ static bool stays_beside(const struct interfere_leaf *l, const struct interfere_
     return false;
 }
 
-bool interfere_vertex_face(const struct interfere *w, const struct target *t, uint32_t at)
+bool interfere_vertex_face(const struct interfere *in, const struct target *t, uint32_t at)
 {
-    const struct interfere_leaf *l = w->leaf;
+    const struct interfere_leaf *l = in->leaf;
     const struct interfere_vec *const corners[3] = {&t->p[0], &t->p[1], &t->p[2]};
     int32_t n[3];
 
@@ -42,16 +42,16 @@ bool interfere_vertex_face(const struct interfere *w, const struct target *t, ui
         return false;
     }
     carom_rotate_back(n, &l->to_b, t->face->normal.c);
-    return mesh_vertex_cone(w->a->def.mesh, interfere_vertex(w, at), n, l->cone_q30);
+    return mesh_vertex_cone(in->a->def.mesh, interfere_vertex(in, at), n, l->cone_q30);
 }
 
-bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k)
+bool interfere_face_vertex(const struct interfere *in, const struct target *t, uint32_t i, int k)
 {
-    const struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_leaf *l = in->leaf;
+    const uint8_t *corner = interfere_corners(in, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
     const int32_t *n = l->planes[i].n_q30;
-    const struct carom_mesh *mb = w->b->def.mesh;
+    const struct carom_mesh *mb = in->b->def.mesh;
 
     return !stays_beside(l, &t->p[k], p, n) &&
            mesh_vertex_cone(mb, mb->raw.faces[t->number][k], n, l->cone_q30);
@@ -153,15 +153,15 @@ static bool edges_may_touch(const struct interfere *in, struct edge_pair *l)
            !passes_by(in, l->w, l->e, &d_back, f, l->b->length_q22);
 }
 
-bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
+bool interfere_edge_edge(const struct interfere *in, const struct target *t, uint32_t i, int k,
                          int j)
 {
     /* an owned edge runs in the direction of its face's corners */
     struct edge_pair edges;
 
-    edges.a = &w->a->def.mesh->edges[w->a->def.mesh->faces[interfere_face(w, i)].edge[k]];
-    edges.b = &w->b->def.mesh->edges[t->face->edge[j]];
-    edges.start_a = &w->leaf->p[interfere_corners(w, i)[k]];
+    edges.a = &in->a->def.mesh->edges[in->a->def.mesh->faces[interfere_face(in, i)].edge[k]];
+    edges.b = &in->b->def.mesh->edges[t->face->edge[j]];
+    edges.start_a = &in->leaf->p[interfere_corners(in, i)[k]];
     edges.start_b = &t->p[j];
-    return edges_may_touch(w, &edges);
+    return edges_may_touch(in, &edges);
 }

@@ -20,13 +20,13 @@ static bool in_range(const struct body *a, const struct body *b)
  * Measure of how far `by`'s turn carries `other` around it: |u|^2 radius^2, radius in q12. The
  * factors are below 2^27 and 2^34.
  */
-FIX_APART static int64_t carried_around(const struct interfere *w, const struct body *other,
+FIX_APART static int64_t carried_around(const struct interfere *in, const struct body *other,
                                         const struct body *by)
 {
     int64_t radius = other->def.radius_q22 >> 10;
     int32_t u2_q30 = by->path.turns ? by->path.u2_q30 : 0;
 
-    if (!w->by_paths) {
+    if (!in->by_paths) {
         u2_q30 = carom_mul_q30(by->search.region.u_q30, by->search.region.u_q30);
     }
     return u2_q30 * radius * radius;
@@ -38,18 +38,18 @@ FIX_APART static int64_t carried_around(const struct interfere *w, const struct 
  * swept. Between bodies of about one size the pair's order stays. interfere_emit swaps kinds and
  * features back.
  */
-static void choose_asker(struct interfere *w)
+static void choose_asker(struct interfere *in)
 {
-    const struct body *a = w->a;
-    int64_t from_a_q30 = w->span.from_a_q30;
+    const struct body *a = in->a;
+    int64_t from_a_q30 = in->span.from_a_q30;
 
-    w->swapped = w->b->def.moving && a->def.radius_q22 / 5 > w->b->def.radius_q22 / 4 &&
-                 carried_around(w, a, w->b) > carried_around(w, w->b, a);
-    if (w->swapped) {
-        w->a = w->b;
-        w->b = a;
-        w->span.from_a_q30 = w->span.from_b_q30;
-        w->span.from_b_q30 = from_a_q30;
+    in->swapped = in->b->def.moving && a->def.radius_q22 / 5 > in->b->def.radius_q22 / 4 &&
+                  carried_around(in, a, in->b) > carried_around(in, in->b, a);
+    if (in->swapped) {
+        in->a = in->b;
+        in->b = a;
+        in->span.from_a_q30 = in->span.from_b_q30;
+        in->span.from_b_q30 = from_a_q30;
     }
 }
 
@@ -58,46 +58,46 @@ static void choose_asker(struct interfere *w)
  * any time of the span: half of what both bodies turn in the span, whatever the axes, plus the room
  * that their regions leave for turns.
  */
-static int64_t off_the_middle_q30(const struct interfere *w)
+static int64_t off_the_middle_q30(const struct interfere *in)
 {
-    int64_t turn_q30 = w->leaf->angle_q30 / 2 + INTERFERE_CONE_NOISE_Q30;
+    int64_t turn_q30 = in->leaf->angle_q30 / 2 + INTERFERE_CONE_NOISE_Q30;
 
-    if (!w->by_paths) {
-        turn_q30 += body_region_turn_off_q30(w->a);
-        turn_q30 += body_region_turn_off_q30(w->b);
+    if (!in->by_paths) {
+        turn_q30 += body_region_turn_off_q30(in->a);
+        turn_q30 += body_region_turn_off_q30(in->b);
     }
     return turn_q30;
 }
 
-static void gather_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
+static void gather_pair(struct interfere *in, const struct interfere_pairs *all, uint32_t number)
 {
     const struct pair *p = &all->pairs[number];
     const struct body *bodies = all->bodies;
     int64_t cone_q30;
 
-    w->pair = (uint16_t)number;
-    w->a = &bodies[p->a];
-    w->b = &bodies[p->b];
-    choose_asker(w);
-    w->pooled = mesh_lists_in_step(w->b->def.mesh);
-    if (!interfere_set_motion(w)) {
+    in->pair = (uint16_t)number;
+    in->a = &bodies[p->a];
+    in->b = &bodies[p->b];
+    choose_asker(in);
+    in->pooled = mesh_lists_in_step(in->b->def.mesh);
+    if (!interfere_set_motion(in)) {
         return;
     }
-    if (!in_range(w->a, w->b)) {
-        w->error = CAROM_ERR_RANGE;
+    if (!in_range(in->a, in->b)) {
+        in->error = CAROM_ERR_RANGE;
         return;
     }
-    cone_q30 = INTERFERE_CONE_Q30 + off_the_middle_q30(w);
-    w->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
-    w->meet = interfere_features;
-    interfere_leaves(w);
+    cone_q30 = INTERFERE_CONE_Q30 + off_the_middle_q30(in);
+    in->leaf->cone_q30 = cone_q30 > CAROM_ONE_Q30 ? CAROM_ONE_Q30 : (int32_t)cone_q30;
+    in->meet = interfere_features;
+    interfere_leaves(in);
 }
 
 /*
  * gather_pair against each chunk of b's z-lists. The lists cover what any pair with b reaches, so
  * later pairs of the same step can use them.
  */
-static void gather_over(struct interfere *w, const struct interfere_pairs *all, uint32_t number)
+static void gather_over(struct interfere *in, const struct interfere_pairs *all, uint32_t number)
 {
     const uint16_t b = all->pairs[number].b;
     const struct carom_mesh *mesh = all->bodies[b].def.mesh;
@@ -106,84 +106,84 @@ static void gather_over(struct interfere *w, const struct interfere_pairs *all, 
     struct interfere_place place = {0, 0};
     bool last = false;
 
-    while (!last && !w->error) {
-        last = does->make_lists(w, mesh, &area, &place);
-        gather_pair(w, all, number);
+    while (!last && !in->error) {
+        last = does->make_lists(in, mesh, &area, &place);
+        gather_pair(in, all, number);
     }
 }
 
-static void gather(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
+static void gather(struct interfere *in, const struct interfere_pairs *all, uint32_t number,
                    struct candidate_visitor *visitor)
 {
-    w->visitor = visitor;
-    w->whole = true;
-    w->error = CAROM_OK;
-    w->pair_count = all->count;
-    w->gathers++;
+    in->visitor = visitor;
+    in->whole = true;
+    in->error = CAROM_OK;
+    in->pair_count = all->count;
+    in->gathers++;
     if (mesh_lists_in_step(all->bodies[all->pairs[number].b].def.mesh)) {
-        gather_over(w, all, number);
+        gather_over(in, all, number);
     } else {
-        gather_pair(w, all, number);
+        gather_pair(in, all, number);
     }
 }
 
-int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
+int interfere_visit_pair(struct interfere *in, const struct interfere_pairs *all, uint32_t number,
                          const struct interfere_span *span, bool keep,
                          struct candidate_visitor *visitor)
 {
-    struct pair_work *m = &w->meetings[number];
-    struct pool *pool = w->candidate_pool;
+    struct pair_work *m = &in->meetings[number];
+    struct pool *pool = in->candidate_pool;
     uint16_t old = span->more ? m->count : 0;
 
     CAROM_ASSERT(!span->more || (m->kept && m->first + old == pool->used));
-    w->own_first = pool->used - old;
+    in->own_first = pool->used - old;
     m->kept = false;
-    w->span = *span;
-    w->by_paths = !keep;
-    gather(w, all, number, visitor);
-    m->first = (uint16_t)w->own_first;
-    m->count = (uint16_t)(pool->used - w->own_first);
-    m->kept = keep && w->whole && !w->error;
-    m->found = m->count > 0 || !w->whole;
-    if (w->error == INTERFERE_TOO_MANY && span->more && w->whole) {
+    in->span = *span;
+    in->by_paths = !keep;
+    gather(in, all, number, visitor);
+    m->first = (uint16_t)in->own_first;
+    m->count = (uint16_t)(pool->used - in->own_first);
+    m->kept = keep && in->whole && !in->error;
+    m->found = m->count > 0 || !in->whole;
+    if (in->error == INTERFERE_TOO_MANY && span->more && in->whole) {
         m->count = old;
         m->kept = true;
     }
-    pool->used = w->own_first + (m->kept ? m->count : 0);
-    if (w->error) {
-        return w->error;
+    pool->used = in->own_first + (m->kept ? m->count : 0);
+    if (in->error) {
+        return in->error;
     }
-    old = w->whole ? old : 0;
-    visitor->visit(visitor, &w->candidates[m->first + old], (uint32_t)m->count - old);
+    old = in->whole ? old : 0;
+    visitor->visit(visitor, &in->candidates[m->first + old], (uint32_t)m->count - old);
     return CAROM_OK;
 }
 
-void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate_visitor *visitor)
+void interfere_visit_kept(struct interfere *in, uint32_t number, struct candidate_visitor *visitor)
 {
-    const struct pair_work *m = &w->meetings[number];
+    const struct pair_work *m = &in->meetings[number];
 
-    interfere_number(w, number);
-    visitor->visit(visitor, &w->candidates[m->first], m->count);
+    interfere_number(in, number);
+    visitor->visit(visitor, &in->candidates[m->first], m->count);
 }
 
-int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+int interfere_visit(struct interfere *in, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor)
 {
     const struct interfere_pairs all = {bodies, pairs, pair_count};
-    struct pair_work *meetings = w->meetings;
+    struct pair_work *meetings = in->meetings;
 
-    w->meetings = NULL;
-    w->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX, false};
-    w->by_paths = false;
-    w->error = CAROM_OK;
-    for (uint32_t i = 0; i < pair_count && !w->error; i++) {
-        pool_clear(w->candidate_pool);
-        w->own_first = 0;
-        gather(w, &all, i, visitor);
-        if (!w->error) {
-            visitor->visit(visitor, w->candidates, w->candidate_pool->used);
+    in->meetings = NULL;
+    in->span = (struct interfere_span){0, 0, INT64_MAX, UINT32_MAX, false};
+    in->by_paths = false;
+    in->error = CAROM_OK;
+    for (uint32_t i = 0; i < pair_count && !in->error; i++) {
+        pool_clear(in->candidate_pool);
+        in->own_first = 0;
+        gather(in, &all, i, visitor);
+        if (!in->error) {
+            visitor->visit(visitor, in->candidates, in->candidate_pool->used);
         }
     }
-    w->meetings = meetings;
-    return w->error;
+    in->meetings = meetings;
+    return in->error;
 }

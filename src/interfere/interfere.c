@@ -17,31 +17,31 @@
 /* ------------------------------------------------------------------- leaves */
 
 /* Highest z of b in the cells that a passes over during the span, quanta. */
-static int32_t highest_of_b(const struct interfere *w)
+static int32_t highest_of_b(const struct interfere *in)
 {
     int64_t around_q22 =
-        w->a->def.radius_q22 + w->leaf->near_q22 +
-        fix_mul(w->a->def.radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30, 30);
+        in->a->def.radius_q22 + in->leaf->near_q22 +
+        fix_mul(in->a->def.radius_q22, in->leaf->angle_q30 / 2 + in->leaf->skew_q30, 30);
     int32_t low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
 
     for (int k = 0; k < 2; k++) {
-        int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(w->leaf->moves.c[k]) / 2 +
+        int32_t reach = (int32_t)(around_q22 >> 2) + (int32_t)carom_abs(in->leaf->moves.c[k]) / 2 +
                         2 * PLACE_NOISE_Q20;
 
-        low[k] = interfere_quanta(w->b->def.mesh, w->leaf->at.c[k] - reach, k);
-        high[k] = interfere_quanta(w->b->def.mesh, w->leaf->at.c[k] + reach, k) + 1;
+        low[k] = interfere_quanta(in->b->def.mesh, in->leaf->at.c[k] - reach, k);
+        high[k] = interfere_quanta(in->b->def.mesh, in->leaf->at.c[k] + reach, k) + 1;
     }
-    return interfere_highest(w, low, high, INT32_MAX);
+    return interfere_highest(in, low, high, INT32_MAX);
 }
 
 /* Set shift, reach and box along axis k from the leaf's sphere. */
-static inline void sweep_sphere(struct interfere *w, int k)
+static inline void sweep_sphere(struct interfere *in, int k)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    struct interfere_leaf *l = w->leaf;
+    const struct carom_mesh *mb = in->b->def.mesh;
+    struct interfere_leaf *l = in->leaf;
     int32_t radius = (l->leaf->radius_q22 >> 2) + 1;
-    int32_t x = interfere_dot(w->leaf->to_b.c[k], l->leaf->centre.c) + w->leaf->at.c[k];
-    int32_t shift = interfere_dot(w->leaf->change.c[k], l->leaf->centre.c) + w->leaf->moves.c[k];
+    int32_t x = interfere_dot(in->leaf->to_b.c[k], l->leaf->centre.c) + in->leaf->at.c[k];
+    int32_t shift = interfere_dot(in->leaf->change.c[k], l->leaf->centre.c) + in->leaf->moves.c[k];
     int32_t reach = l->near_q20 + (int32_t)carom_abs(shift) / 2 + 1;
 
     l->shift.c[k] = shift;
@@ -51,26 +51,26 @@ static inline void sweep_sphere(struct interfere *w, int k)
 }
 
 /* Sweep the leaf's sphere. Returns true if it meets b's box and is not above all of b under it. */
-static bool leaf_near(struct interfere *w, const struct carom_leaf *leaf)
+static bool leaf_near(struct interfere *in, const struct carom_leaf *leaf)
 {
-    const int16_t(*box)[3] = w->b->def.mesh->box;
-    struct interfere_leaf *l = w->leaf;
+    const int16_t(*box)[3] = in->b->def.mesh->box;
+    struct interfere_leaf *l = in->leaf;
     int32_t around_q22 =
-        carom_mul_q30(leaf->radius_q22, w->leaf->angle_q30 / 2 + w->leaf->skew_q30);
+        carom_mul_q30(leaf->radius_q22, in->leaf->angle_q30 / 2 + in->leaf->skew_q30);
 
     l->leaf = leaf;
-    l->near_q20 = (int32_t)((w->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
-    sweep_sphere(w, 2);
-    if (l->quanta_low[2] > w->leaf->top || l->quanta_high[2] < box[0][2]) {
+    l->near_q20 = (int32_t)((in->leaf->near_q22 + around_q22) >> 2) + 2 * PLACE_NOISE_Q20;
+    sweep_sphere(in, 2);
+    if (l->quanta_low[2] > in->leaf->top || l->quanta_high[2] < box[0][2]) {
         return false;
     }
     for (int k = 0; k < 2; k++) {
-        sweep_sphere(w, k);
+        sweep_sphere(in, k);
         if (l->quanta_low[k] > box[1][k] || l->quanta_high[k] < box[0][k]) {
             return false;
         }
     }
-    return interfere_reaches_leaf(w);
+    return interfere_reaches_leaf(in);
 }
 
 static inline int32_t along_slab_q15(const struct interfere_leaf *l, const int16_t p[3])
@@ -88,10 +88,10 @@ static inline bool is_beside(int32_t p, int32_t q, int32_t r, int32_t low, int32
  * True if a face of b meets the leaf's box in x and y, and the leaf's slab. The caller has compared
  * z in the cell.
  */
-static inline bool face_near(const struct interfere *w, uint16_t face)
+static inline bool face_near(const struct interfere *in, uint16_t face)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    const struct interfere_leaf *l = w->leaf;
+    const struct carom_mesh *mb = in->b->def.mesh;
+    const struct interfere_leaf *l = in->leaf;
     const uint16_t *corner = mb->raw.faces[face];
     const int16_t *p = mb->raw.vertices[corner[0]], *q = mb->raw.vertices[corner[1]],
                   *r = mb->raw.vertices[corner[2]];
@@ -103,9 +103,9 @@ static inline bool face_near(const struct interfere *w, uint16_t face)
 }
 
 /* True if the face is not remembered as tested against this leaf; remembers it. */
-static inline bool is_new(struct interfere *w, uint16_t face)
+static inline bool is_new(struct interfere *in, uint16_t face)
 {
-    uint16_t *seen = &w->leaf->seen[face % INTERFERE_SEEN];
+    uint16_t *seen = &in->leaf->seen[face % INTERFERE_SEEN];
 
     if (*seen == face) {
         return false;
@@ -114,60 +114,60 @@ static inline bool is_new(struct interfere *w, uint16_t face)
     return true;
 }
 
-static inline void visit_face(struct interfere *w, uint16_t face)
+static inline void visit_face(struct interfere *in, uint16_t face)
 {
-    if (is_new(w, face) && face_near(w, face)) {
-        interfere_narrow(w, face);
+    if (is_new(in, face) && face_near(in, face)) {
+        interfere_narrow(in, face);
     }
 }
 
 /* Visit b's faces in a cell, highest z1 first, down to the bottom of the leaf's box. */
-static void visit_cell(struct interfere *w, uint32_t cell)
+static void visit_cell(struct interfere *in, uint32_t cell)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
+    const struct carom_mesh *mb = in->b->def.mesh;
+    int32_t low = in->leaf->quanta_low[2], high = in->leaf->quanta_high[2];
     const struct carom_zref *r = &mb->zrefs[mb->cell_start[cell]];
     const struct carom_zref *end = &mb->zrefs[mb->cell_start[cell + 1]];
 
     for (; r < end && r->z1 >= low; r++) {
         if (r->z0 <= high) {
-            visit_face(w, r->face);
+            visit_face(in, r->face);
         }
     }
 }
 
 /* visit_cell, for z-lists made within the step. */
-static void visit_made(struct interfere *w, uint32_t cell)
+static void visit_made(struct interfere *in, uint32_t cell)
 {
-    const struct zentry *entry = w->lists.entry;
-    int32_t low = w->leaf->quanta_low[2], high = w->leaf->quanta_high[2];
+    const struct zentry *entry = in->lists.entry;
+    int32_t low = in->leaf->quanta_low[2], high = in->leaf->quanta_high[2];
 
-    for (uint16_t i = w->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
+    for (uint16_t i = in->lists.head[cell]; i != ZLIST_NONE && entry[i].z1 >= low;
          i = entry[i].next) {
         if (entry[i].z0 <= high) {
-            visit_face(w, entry[i].face);
+            visit_face(in, entry[i].face);
         }
     }
 }
 
-static void visit_leaf(struct interfere *w)
+static void visit_leaf(struct interfere *in)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
+    const struct carom_mesh *mb = in->b->def.mesh;
     struct interfere_cells cells;
 
-    if (!interfere_place_leaf(w)) {
+    if (!interfere_place_leaf(in)) {
         return;
     }
-    memset(w->leaf->seen, 0xff, sizeof w->leaf->seen); /* = CAROM_NO_FACE */
-    cells = interfere_cells_under(mb, w->leaf->quanta_low, w->leaf->quanta_high);
+    memset(in->leaf->seen, 0xff, sizeof in->leaf->seen); /* = CAROM_NO_FACE */
+    cells = interfere_cells_under(mb, in->leaf->quanta_low, in->leaf->quanta_high);
     for (int32_t row = cells.row[0]; row <= cells.row[1]; row++) {
         for (int32_t col = cells.col[0]; col <= cells.col[1]; col++) {
             uint32_t cell = (uint32_t)(row * mb->grid_nx + col);
 
-            if (w->pooled) {
-                visit_made(w, cell);
+            if (in->pooled) {
+                visit_made(in, cell);
             } else {
-                visit_cell(w, cell);
+                visit_cell(in, cell);
             }
         }
     }
@@ -180,16 +180,16 @@ static void visit_leaf(struct interfere *w)
  * below `top`. Each leaf's sphere lies within twice a's radius of a's centre, which bounds the
  * effect of turns.
  */
-static int64_t highest_leaf(const struct interfere *w, int32_t top)
+static int64_t highest_leaf(const struct interfere *in, int32_t top)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    const struct interfere_leaf *l = w->leaf;
+    const struct carom_mesh *mb = in->b->def.mesh;
+    const struct interfere_leaf *l = in->leaf;
     int64_t turns_q30 = l->angle_q30 / 2 + l->skew_q30, reach_q20;
 
     for (int k = 0; k < 3; k++) {
         turns_q30 += carom_abs(l->change.c[2][k]) / 2;
     }
-    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, w->a->def.radius_q22, 30)) >> 2) +
+    reach_q20 = ((l->near_q22 + fix_mul(2 * turns_q30, in->a->def.radius_q22, 30)) >> 2) +
                 carom_abs(l->moves.c[2]) / 2 + 2 * PLACE_NOISE_Q20 + 6;
     reach_q20 += (int64_t)(top + 1) * (1 << (20 - mb->raw.quantum_bits)) -
                  (mb->mass.centre.c[2] >> 2) - l->at.c[2];
@@ -197,11 +197,11 @@ static int64_t highest_leaf(const struct interfere *w, int32_t top)
 }
 
 /* Skip leaves whose centre.z - radius exceeds the bound. Most leaves end here. */
-static const struct carom_leaf *next_leaf(const struct interfere *w, const struct carom_leaf *leaf,
+static const struct carom_leaf *next_leaf(const struct interfere *in, const struct carom_leaf *leaf,
                                           int64_t highest_q20)
 {
-    const struct carom_leaf *end = w->a->def.mesh->leaves + w->a->def.mesh->leaf_count;
-    const int32_t *up = w->leaf->to_b.c[2];
+    const struct carom_leaf *end = in->a->def.mesh->leaves + in->a->def.mesh->leaf_count;
+    const int32_t *up = in->leaf->to_b.c[2];
     const int32_t x = up[0], y = up[1], z = up[2];
     const int64_t highest_q52 = highest_q20 * ((int64_t)1 << 32);
 
@@ -214,21 +214,21 @@ static const struct carom_leaf *next_leaf(const struct interfere *w, const struc
     return leaf;
 }
 
-void interfere_leaves(struct interfere *w)
+void interfere_leaves(struct interfere *in)
 {
-    const struct carom_leaf *leaf = w->a->def.mesh->leaves,
-                            *end = leaf + w->a->def.mesh->leaf_count;
+    const struct carom_leaf *leaf = in->a->def.mesh->leaves,
+                            *end = leaf + in->a->def.mesh->leaf_count;
     int64_t highest_q20;
 
-    leaf = next_leaf(w, leaf, highest_leaf(w, w->b->def.mesh->box[1][2]));
+    leaf = next_leaf(in, leaf, highest_leaf(in, in->b->def.mesh->box[1][2]));
     if (leaf == end) {
         return;
     }
-    w->leaf->top = highest_of_b(w);
-    highest_q20 = highest_leaf(w, w->leaf->top);
-    for (; (leaf = next_leaf(w, leaf, highest_q20)) < end && !w->error; leaf++) {
-        if (leaf_near(w, leaf)) {
-            visit_leaf(w);
+    in->leaf->top = highest_of_b(in);
+    highest_q20 = highest_leaf(in, in->leaf->top);
+    for (; (leaf = next_leaf(in, leaf, highest_q20)) < end && !in->error; leaf++) {
+        if (leaf_near(in, leaf)) {
+            visit_leaf(in);
         }
     }
 }

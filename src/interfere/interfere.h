@@ -145,7 +145,7 @@ struct interfere {
      * Called for the leaf and each face of b whose plane the leaf reaches: emits candidates in a
      * step, lists face pairs in a query.
      */
-    void (*meet)(struct interfere *w, struct target *t);
+    void (*meet)(struct interfere *in, struct target *t);
     struct interfere_query *query; /* the query that runs; NULL in a step */
 
     /* the pair being gathered */
@@ -163,7 +163,7 @@ struct interfere {
 };
 
 /* Hand the candidates that the pool keeps of a pair to the visitor. */
-void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate_visitor *visitor);
+void interfere_visit_kept(struct interfere *in, uint32_t number, struct candidate_visitor *visitor);
 
 /*
  * Gather the candidates of a pair anew and hand them to the visitor; in chunks if the pool is too
@@ -174,7 +174,7 @@ void interfere_visit_kept(struct interfere *w, uint32_t number, struct candidate
  *
  * Returns CAROM_OK, INTERFERE_TOO_MANY, or CAROM_ERR_RANGE for a pair too large and fast for q22.
  */
-int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all, uint32_t number,
+int interfere_visit_pair(struct interfere *in, const struct interfere_pairs *all, uint32_t number,
                          const struct interfere_span *span, bool keep,
                          struct candidate_visitor *visitor);
 
@@ -182,11 +182,11 @@ int interfere_visit_pair(struct interfere *w, const struct interfere_pairs *all,
  * Gather all pairs in turn, for the whole of their regions, and keep none. Returns as
  * interfere_visit_pair.
  */
-int interfere_visit(struct interfere *w, const struct body *bodies, const struct pair *pairs,
+int interfere_visit(struct interfere *in, const struct body *bodies, const struct pair *pairs,
                     uint32_t pair_count, struct candidate_visitor *visitor);
 
 /* Add the faces that own the candidates' features to the list of interfering faces. */
-void interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
+void interfere_note_faces(struct interfere *in, const struct interfere_pairs *all,
                           const struct candidate *c, uint32_t n);
 
 /* Nothing is gathered in this frame yet. */
@@ -203,10 +203,10 @@ static inline void interfere_take_lists(struct interfere *w, const struct interf
 }
 
 /* Forget z-lists made within a step: the surface has moved or is gone. */
-void interfere_forget_lists(struct interfere *w);
+void interfere_forget_lists(struct interfere *in);
 
 /* Sort the list of interfering faces and drop repetitions. */
-void interfere_finish(struct interfere *w);
+void interfere_finish(struct interfere *in);
 
 /* A body and its pose. */
 struct interfere_placed {
@@ -216,10 +216,10 @@ struct interfere_placed {
 
 /*
  * List the face pairs of a and b that interfere at their poses, each pair once: every pair with a
- * common point, and hardly any other. Candidates and interfering faces in w stay as they are.
+ * common point, and hardly any other. Candidates and interfering faces in `in` stay as they are.
  * Returns the number of pairs, or CAROM_ERR_FACES_FULL after `room` pairs were written.
  */
-int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+int interfere_query(struct interfere *in, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room);
 
 /* Exact test of a face of a and a face of b that may cross: true if they do. */
@@ -228,8 +228,8 @@ struct interfere_sure {
 };
 
 /* True if `sure` confirms any pair of faces. a must be a SOLID. */
-bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
-                          struct interfere_sure *sure);
+bool interfere_query_sure(struct interfere *in, struct interfere_placed a,
+                          struct interfere_placed b, struct interfere_sure *sure);
 
 /*
  * True if a's first vertex is inside b, or under b if that is a SURFACE. Precondition: no faces of

@@ -6,13 +6,13 @@
 #include "narrow.h"
 
 /* Carry coordinate k of the leaf's vertices into b's frame, and set its swept box along k. */
-static void place_axis(struct interfere *w, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
+static void place_axis(struct interfere *in, const carom_v3_q22 local[CAROM_LEAF_VERTICES], int k)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    struct interfere_leaf *l = w->leaf;
-    /* copies: the compiler must assume that a store may alias w */
-    const int32_t row[3] = {w->leaf->to_b.c[k][0], w->leaf->to_b.c[k][1], w->leaf->to_b.c[k][2]},
-                  at = w->leaf->at.c[k];
+    const struct carom_mesh *mb = in->b->def.mesh;
+    struct interfere_leaf *l = in->leaf;
+    /* copies: the compiler must assume that a store may alias `in` */
+    const int32_t row[3] = {in->leaf->to_b.c[k][0], in->leaf->to_b.c[k][1], in->leaf->to_b.c[k][2]},
+                  at = in->leaf->at.c[k];
     const carom_v3_q22 *end = local + l->leaf->vertex_count;
     int32_t low = INT32_MAX, high = INT32_MIN, *to = &l->p[0].c[k];
 
@@ -41,15 +41,15 @@ FIX_APART static int32_t to_quanta_q15(const struct carom_mesh *mesh, int64_t x_
  * component of the axis is rounded by up to half a unit, so the product is off by up to half the
  * sum of the vertex's coordinates (rounding_q15).
  */
-static void place_slab(struct interfere *w)
+static void place_slab(struct interfere *in)
 {
-    const struct carom_mesh *mb = w->b->def.mesh;
-    struct interfere_leaf *l = w->leaf;
+    const struct carom_mesh *mb = in->b->def.mesh;
+    struct interfere_leaf *l = in->leaf;
     int32_t axis_q30[3], at_q18, reach_q18, rounding_q15 = 0;
 
-    carom_rotate(axis_q30, &w->leaf->to_b, l->leaf->axis.c);
+    carom_rotate(axis_q30, &in->leaf->to_b, l->leaf->axis.c);
     at_q18 =
-        interfere_dot(axis_q30, w->leaf->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
+        interfere_dot(axis_q30, in->leaf->at.c) + (interfere_dot(axis_q30, mb->mass.centre.c) >> 2);
     for (int k = 0; k < 3; k++) {
         int32_t low = -mb->box[0][k], high = mb->box[1][k];
 
@@ -58,16 +58,16 @@ static void place_slab(struct interfere *w)
     }
     /* low_q22 and high_q22 are measured in a's own axes; to_b preserves them but for its skew */
     reach_q18 = interfere_reach_q18(l, axis_q30) +
-                (int32_t)(fix_mul(w->a->def.radius_q22, w->leaf->skew_q30, 30) >> 4) + 2 +
+                (int32_t)(fix_mul(in->a->def.radius_q22, in->leaf->skew_q30, 30) >> 4) + 2 +
                 (rounding_q15 >> (mb->raw.quantum_bits - 3));
     l->slab_low_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->low_q22 >> 4) - reach_q18);
     l->slab_high_q15 = to_quanta_q15(mb, (int64_t)at_q18 + (l->leaf->high_q22 >> 4) + reach_q18);
 }
 
-bool interfere_place_leaf(struct interfere *w)
+bool interfere_place_leaf(struct interfere *in)
 {
-    const struct carom_mesh *ma = w->a->def.mesh;
-    struct interfere_leaf *l = w->leaf;
+    const struct carom_mesh *ma = in->a->def.mesh;
+    struct interfere_leaf *l = in->leaf;
     const struct carom_leaf *leaf = l->leaf;
     const uint16_t *vertex = &ma->leaf_vertices[leaf->first_vertex];
     /* copies: see place_axis */
@@ -83,35 +83,35 @@ bool interfere_place_leaf(struct interfere *w)
         to->c[1] = from[1] * one + y;
         to->c[2] = from[2] * one + z;
     }
-    place_axis(w, local, 2);
-    if (!interfere_reaches_leaf(w)) {
+    place_axis(in, local, 2);
+    if (!interfere_reaches_leaf(in)) {
         return false;
     }
-    place_axis(w, local, 0);
-    place_axis(w, local, 1);
-    place_slab(w);
+    place_axis(in, local, 0);
+    place_axis(in, local, 1);
+    place_slab(in);
     l->listed = false;
     return true;
 }
 
-void interfere_list_faces(struct interfere *w)
+void interfere_list_faces(struct interfere *in)
 {
-    struct interfere_leaf *l = w->leaf;
+    struct interfere_leaf *l = in->leaf;
 
     l->listed = true;
     l->boxed = l->placed = 0;
     for (uint32_t i = 0; i < l->leaf->face_count; i++) {
-        const uint8_t *corner = interfere_corners(w, i);
+        const uint8_t *corner = interfere_corners(in, i);
 
         l->corners[i] = 1u << corner[0] | 1u << corner[1] | 1u << corner[2];
-        l->own_edges[i] = w->a->def.mesh->faces[interfere_face(w, i)].own >> 3;
+        l->own_edges[i] = in->a->def.mesh->faces[interfere_face(in, i)].own >> 3;
     }
 }
 
-void interfere_box_face(struct interfere *w, uint32_t i)
+void interfere_box_face(struct interfere *in, uint32_t i)
 {
-    struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
+    struct interfere_leaf *l = in->leaf;
+    const uint8_t *corner = interfere_corners(in, i);
 
     l->boxed |= 1u << i;
     interfere_bound(&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]], &l->face_low[i],
@@ -122,15 +122,15 @@ void interfere_box_face(struct interfere *w, uint32_t i)
     }
 }
 
-void interfere_place_plane(struct interfere *w, uint32_t i)
+void interfere_place_plane(struct interfere *in, uint32_t i)
 {
-    struct interfere_leaf *l = w->leaf;
+    struct interfere_leaf *l = in->leaf;
     struct interfere_plane *plane = &l->planes[i];
     int32_t offset_q18, reach_q18;
 
     l->placed |= 1u << i;
-    carom_rotate(plane->n_q30, &l->to_b, w->a->def.mesh->faces[interfere_face(w, i)].normal.c);
-    offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(w, i)[0]].c);
+    carom_rotate(plane->n_q30, &l->to_b, in->a->def.mesh->faces[interfere_face(in, i)].normal.c);
+    offset_q18 = interfere_dot(plane->n_q30, l->p[interfere_corners(in, i)[0]].c);
     reach_q18 = interfere_reach_q18(l, plane->n_q30);
     plane->above_q18 = offset_q18 + reach_q18;
     plane->below_q18 = offset_q18 - reach_q18;

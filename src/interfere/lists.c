@@ -25,11 +25,12 @@ static bool face_in(const struct carom_mesh *mesh, uint32_t face, const struct i
 }
 
 /* True if the lists at hand are complete, of that mesh, and cover the area. */
-static bool hold(const struct interfere *w, const struct carom_mesh *mesh,
+static bool hold(const struct interfere *in, const struct carom_mesh *mesh,
                  const struct interfere_area *area)
 {
-    return w->listed == mesh && w->area.low[0] <= area->low[0] && w->area.low[1] <= area->low[1] &&
-           w->area.high[0] >= area->high[0] && w->area.high[1] >= area->high[1];
+    return in->listed == mesh && in->area.low[0] <= area->low[0] &&
+           in->area.low[1] <= area->low[1] && in->area.high[0] >= area->high[0] &&
+           in->area.high[1] >= area->high[1];
 }
 
 /* Enlarge the requested area a little: a body that a hit deflects asks again in the same step. */
@@ -46,25 +47,25 @@ static struct interfere_area grown(const struct interfere_area *area)
     return more;
 }
 
-bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
+bool interfere_make_lists(struct interfere *in, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from)
 {
     const struct interfere_area more = grown(area);
     bool first = from->face == 0 && from->cells == 0;
 
-    if (first && hold(w, mesh, area)) {
+    if (first && hold(in, mesh, area)) {
         return true;
     }
-    w->listed = NULL;
-    zlist_clear(&w->lists);
+    in->listed = NULL;
+    zlist_clear(&in->lists);
     for (; from->face < mesh->raw.face_count; from->face++, from->cells = 0) {
         if (face_in(mesh, from->face, &more) &&
-            !mesh->surface->does->list_face(mesh, from->face, &w->lists, &from->cells)) {
+            !mesh->surface->does->list_face(mesh, from->face, &in->lists, &from->cells)) {
             return false;
         }
     }
-    w->listed = first ? mesh : NULL;
-    w->area = more;
+    in->listed = first ? mesh : NULL;
+    in->area = more;
     return true;
 }
 
@@ -99,7 +100,7 @@ struct interfere_area interfere_area_under(const struct body *bodies, const stru
     return area;
 }
 
-void interfere_forget_lists(struct interfere *w)
+void interfere_forget_lists(struct interfere *in)
 {
-    w->listed = NULL;
+    in->listed = NULL;
 }

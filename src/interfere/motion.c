@@ -27,18 +27,18 @@ void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q
  * comes on top. A point that meets b or comes within the margin is then within b's radius plus the
  * margin of b's centre; its motion before and after bounds its distance at other times.
  */
-static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
+static int64_t sag_q22(const struct interfere *in, const struct body_sweep *a,
                        const struct body_sweep *b, int64_t distance_q22, int64_t margin_q22)
 {
     int64_t bend = 2 * ((int64_t)a->bend_q22 + b->bend_q22);
     int64_t way = (int64_t)a->length_q22 + b->length_q22;
     int32_t twice_q30 = 2 * a->u_q30;
 
-    way += fix_mul(w->a->def.radius_q22, twice_q30, 30);
-    bend += fix_mul(fix_mul(w->a->def.radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
+    way += fix_mul(in->a->def.radius_q22, twice_q30, 30);
+    bend += fix_mul(fix_mul(in->a->def.radius_q22, twice_q30, 30), twice_q30 + a->whole_u_q30, 30);
     if (b->u_q30 > 0) {
-        int64_t from_a = distance_q22 + w->a->def.radius_q22,
-                from_b = w->b->def.radius_q22 + margin_q22;
+        int64_t from_a = distance_q22 + in->a->def.radius_q22,
+                from_b = in->b->def.radius_q22 + margin_q22;
 
         twice_q30 = 2 * b->u_q30;
         bend += 2 * fix_mul(way, twice_q30, 30);
@@ -52,42 +52,42 @@ static int64_t sag_q22(const struct interfere *w, const struct body_sweep *a,
  * Set the sweep of a body over the span. Returns the tolerance that its motion needs beyond the
  * sweep.
  */
-FIX_APART static int32_t sweep_body(const struct interfere *w, const struct body *b,
+FIX_APART static int32_t sweep_body(const struct interfere *in, const struct body *b,
                                     int64_t from_q30, struct body_sweep *sweep)
 {
-    if (w->by_paths) {
+    if (in->by_paths) {
         body_path_sweep(b, sweep);
         return mesh_drift_most(b->def.mesh) + PATH_NOISE_Q22;
     }
-    body_region_sweep(&b->search.region, from_q30, w->span.time_q30, sweep);
+    body_region_sweep(&b->search.region, from_q30, in->span.time_q30, sweep);
     return b->search.region.room_q22;
 }
 
 /* True if the body's axes are the world's throughout the sweep. */
-static bool is_upright(const struct interfere *w, const struct body *b,
+static bool is_upright(const struct interfere *in, const struct body *b,
                        const struct body_sweep *sweep)
 {
-    const carom_quat_q30 *q = w->by_paths ? &body_path(b)->q : &b->search.region.q;
+    const carom_quat_q30 *q = in->by_paths ? &body_path(b)->q : &b->search.region.q;
 
     return (q->c[1] | q->c[2] | q->c[3]) == 0 && sweep->u_q30 == 0;
 }
 
-bool interfere_set_motion(struct interfere *w)
+bool interfere_set_motion(struct interfere *in)
 {
-    struct interfere_leaf *l = w->leaf;
+    struct interfere_leaf *l = in->leaf;
     struct body_sweep sweep[2], *a = &sweep[0], *b = &sweep[1];
-    const struct body *skin = w->a->def.skin_q22 > w->b->def.skin_q22 ? w->a : w->b;
+    const struct body *skin = in->a->def.skin_q22 > in->b->def.skin_q22 ? in->a : in->b;
     int64_t start[3], end[3], distance = 0, margin_q22;
 
     margin_q22 = BODY_MARGIN_SKINS * (int64_t)skin->def.skin_q22;
-    margin_q22 += sweep_body(w, w->a, w->span.from_a_q30, a);
-    margin_q22 += sweep_body(w, w->b, w->span.from_b_q30, b);
+    margin_q22 += sweep_body(in, in->a, in->span.from_a_q30, a);
+    margin_q22 += sweep_body(in, in->b, in->span.from_b_q30, b);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
         start[k] = a->at.c[k] - b->at.c[k];
         end[k] = start[k] + ((a->way.c[k] - b->way.c[k]) >> 8);
     }
-    if (!is_upright(w, w->b, b)) { /* skipped for most ground */
+    if (!is_upright(in, in->b, b)) { /* skipped for most ground */
         fix_rotate_back(start, &b->start, start);
         fix_rotate_back(end, &b->end, end);
     }
@@ -114,6 +114,6 @@ bool interfere_set_motion(struct interfere *w)
     l->angle_q30 = 2 * (a->u_q30 + b->u_q30);
     /* 1 - cos^2 of half the angle, at most a quarter of the angle's square */
     l->skew_q30 = carom_mul_q30(l->angle_q30, l->angle_q30) / 4 + 1;
-    l->near_q22 = margin_q22 + sag_q22(w, a, b, distance, margin_q22);
+    l->near_q22 = margin_q22 + sag_q22(in, a, b, distance, margin_q22);
     return true;
 }

@@ -45,10 +45,10 @@ struct target {
 void interfere_relate(carom_m3_q30 *out, const carom_m3_q30 *b, const carom_m3_q30 *a);
 
 /* Set the relative motion of a as seen from b. Returns false if they are too far apart to meet. */
-bool interfere_set_motion(struct interfere *w);
+bool interfere_set_motion(struct interfere *in);
 
-/* Visit each leaf of a that comes near faces of b; call w->meet for the leaf and each such face. */
-void interfere_leaves(struct interfere *w);
+/* Visit each leaf of a that comes near faces of b; call in->meet for the leaf and each such face. */
+void interfere_leaves(struct interfere *in);
 
 /* 1 if a < b, else 0; |a - b| < 2^31. */
 static inline uint32_t interfere_is_less(int32_t a, int32_t b)
@@ -70,25 +70,25 @@ struct interfere_cells interfere_cells_under(const struct carom_mesh *mb, const 
                                              const int32_t high[3]);
 
 /* Highest z of b in the cells under a box, in quanta; stops early, at any z >= `enough`. */
-int32_t interfere_highest(const struct interfere *w, const int32_t low[3], const int32_t high[3],
+int32_t interfere_highest(const struct interfere *in, const int32_t low[3], const int32_t high[3],
                           int32_t enough);
 
 /* True if b is as high as the bottom of the leaf's box in some cell under the box. */
-bool interfere_reaches_leaf(const struct interfere *w);
+bool interfere_reaches_leaf(const struct interfere *in);
 
 /*
  * Carry the leaf into b's frame after sweep_sphere: vertices, swept box, slab. Returns false if the
  * leaf stays above all of b under it.
  */
-bool interfere_place_leaf(struct interfere *w);
+bool interfere_place_leaf(struct interfere *in);
 
 /*
  * Set parts of the leaf when a face of b first needs them: its faces' corners and owned edges; the
  * swept box of face i; the plane of face i.
  */
-void interfere_list_faces(struct interfere *w);
-void interfere_box_face(struct interfere *w, uint32_t i);
-void interfere_place_plane(struct interfere *w, uint32_t i);
+void interfere_list_faces(struct interfere *in);
+void interfere_box_face(struct interfere *in, uint32_t i);
+void interfere_place_plane(struct interfere *in, uint32_t i);
 
 static inline void interfere_bound(const struct interfere_vec *p, const struct interfere_vec *q,
                                    const struct interfere_vec *r, struct interfere_vec *low,
@@ -105,49 +105,49 @@ static inline void interfere_bound(const struct interfere_vec *p, const struct i
 }
 
 /* Vertex number in a of the leaf's vertex `at`. */
-static inline uint32_t interfere_vertex(const struct interfere *w, uint32_t at)
+static inline uint32_t interfere_vertex(const struct interfere *in, uint32_t at)
 {
-    return w->a->def.mesh->leaf_vertices[w->leaf->leaf->first_vertex + at];
+    return in->a->def.mesh->leaf_vertices[in->leaf->leaf->first_vertex + at];
 }
 
 /*
  * Face number in a of the leaf's face i; the corners of that face as numbers of the leaf's
  * vertices.
  */
-static inline uint32_t interfere_face(const struct interfere *w, uint32_t i)
+static inline uint32_t interfere_face(const struct interfere *in, uint32_t i)
 {
-    return w->a->def.mesh->leaf_faces[w->leaf->leaf->first_face + i];
+    return in->a->def.mesh->leaf_faces[in->leaf->leaf->first_face + i];
 }
 
-static inline const uint8_t *interfere_corners(const struct interfere *w, uint32_t i)
+static inline const uint8_t *interfere_corners(const struct interfere *in, uint32_t i)
 {
-    return w->a->def.mesh->leaf_corners[w->leaf->leaf->first_face + i];
+    return in->a->def.mesh->leaf_corners[in->leaf->leaf->first_face + i];
 }
 
 /*
  * Cull the leaf against a face of b by that face's plane; if the leaf reaches the plane call
- * w->meet.
+ * in->meet.
  */
-void interfere_narrow(struct interfere *w, uint16_t face_b);
+void interfere_narrow(struct interfere *in, uint16_t face_b);
 
 /*
  * The leaf's faces, a bit each, that reach the plane of b's face and whose swept boxes meet its
  * box.
  */
-uint32_t interfere_faces_near(struct interfere *w, const struct target *t);
+uint32_t interfere_faces_near(struct interfere *in, const struct target *t);
 
 /*
  * True if two features can touch: the leaf's vertex `at` and b's face; corner k of b's face and the
  * leaf's face i; edge k of the leaf's face i and edge j of b's face. Precondition: each feature
  * reaches the plane and the box of the other one.
  */
-bool interfere_vertex_face(const struct interfere *w, const struct target *t, uint32_t at);
-bool interfere_face_vertex(const struct interfere *w, const struct target *t, uint32_t i, int k);
-bool interfere_edge_edge(const struct interfere *w, const struct target *t, uint32_t i, int k,
+bool interfere_vertex_face(const struct interfere *in, const struct target *t, uint32_t at);
+bool interfere_face_vertex(const struct interfere *in, const struct target *t, uint32_t i, int k);
+bool interfere_edge_edge(const struct interfere *in, const struct target *t, uint32_t i, int k,
                          int j);
 
 /* Cull the leaf's features against b's face, then emit the vertex/face and edge/edge candidates. */
-void interfere_features(struct interfere *w, struct target *t);
+void interfere_features(struct interfere *in, struct target *t);
 
 /* The rectangle that the bodies paired with b can reach, in b's quanta. */
 struct interfere_area interfere_area_under(const struct body *bodies, const struct pair *pairs,
@@ -162,16 +162,16 @@ struct interfere_place {
  * Make a mesh's z-lists within an area, starting at `from`, until all are made or the pool of
  * entries is full. Advances `from`. Returns true if all are made.
  */
-bool interfere_make_lists(struct interfere *w, const struct carom_mesh *mesh,
+bool interfere_make_lists(struct interfere *in, const struct carom_mesh *mesh,
                           const struct interfere_area *area, struct interfere_place *from);
 
 /* Renumber the candidates that the pool keeps of a pair: the pair's number has changed. */
-void interfere_number(struct interfere *w, uint32_t number);
+void interfere_number(struct interfere *in, uint32_t number);
 
 /*
  * Add a candidate of the pair at hand to the pool. If the pool stays full, hand a chunk to the
  * visitor first.
  */
-void interfere_emit(struct interfere *w, uint8_t kind, uint32_t i, uint32_t j);
+void interfere_emit(struct interfere *in, uint8_t kind, uint32_t i, uint32_t j);
 
 #endif

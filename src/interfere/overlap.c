@@ -130,9 +130,9 @@ static bool intervals_apart(struct overlap *m, const struct interfere_vec *const
 }
 
 /* Add a pair unless listed: a face lies in several cells and may come up again. */
-static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
+static void add_pair(struct interfere *in, uint16_t face_a, uint16_t face_b)
 {
-    struct interfere_query *q = w->query;
+    struct interfere_query *q = in->query;
     const struct carom_face_pair pair = {q->swapped ? face_b : face_a,
                                          q->swapped ? face_a : face_b};
 
@@ -142,7 +142,7 @@ static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
         }
     }
     if (q->count == q->room) {
-        w->error = CAROM_ERR_FACES_FULL;
+        in->error = CAROM_ERR_FACES_FULL;
         return;
     }
     q->out[q->count++] = pair;
@@ -152,12 +152,12 @@ static void add_pair(struct interfere *w, uint16_t face_a, uint16_t face_b)
  * True if face i of the leaf and b's face may have a common point. Precondition: each reaches the
  * other's plane.
  */
-static bool faces_cross(const struct interfere *w, const struct target *t, uint32_t i)
+static bool faces_cross(const struct interfere *in, const struct target *t, uint32_t i)
 {
-    const struct interfere_leaf *l = w->leaf;
-    const uint8_t *corner = interfere_corners(w, i);
+    const struct interfere_leaf *l = in->leaf;
+    const uint8_t *corner = interfere_corners(in, i);
     const struct interfere_vec *const p[3] = {&l->p[corner[0]], &l->p[corner[1]], &l->p[corner[2]]};
-    struct overlap m = {.scale_p = w->query->edge_scale, .near_q20 = l->near_q20};
+    struct overlap m = {.scale_p = in->query->edge_scale, .near_q20 = l->near_q20};
     uint32_t over_p = 0;
     int32_t size = 0;
 
@@ -169,27 +169,27 @@ static bool faces_cross(const struct interfere *w, const struct target *t, uint3
     return !intervals_apart(&m, p, t->p, over_p, t->corners_over);
 }
 
-static void list_pair(struct interfere *w, const struct target *t, uint32_t i)
+static void list_pair(struct interfere *in, const struct target *t, uint32_t i)
 {
-    struct interfere_query *q = w->query;
+    struct interfere_query *q = in->query;
 
-    if (q->leaf != w->leaf->leaf) {
-        begin_leaf(q, w->leaf->leaf);
+    if (q->leaf != in->leaf->leaf) {
+        begin_leaf(q, in->leaf->leaf);
     }
-    if (faces_cross(w, t, i) &&
-        (!q->sure || q->sure->cross(q->sure, (uint16_t)interfere_face(w, i), t->number))) {
-        add_pair(w, (uint16_t)interfere_face(w, i), t->number);
+    if (faces_cross(in, t, i) &&
+        (!q->sure || q->sure->cross(q->sure, (uint16_t)interfere_face(in, i), t->number))) {
+        add_pair(in, (uint16_t)interfere_face(in, i), t->number);
     }
 }
 
 /* True if b's face reaches the plane of face i of the leaf; sets corners_over and corners_under. */
-static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
+static bool is_reached(struct interfere *in, struct target *t, uint32_t i)
 {
-    const struct interfere_plane *plane = &w->leaf->planes[i];
+    const struct interfere_plane *plane = &in->leaf->planes[i];
     int32_t above_q18, below_q18, p_q18, q_q18, r_q18;
 
-    if (!(w->leaf->placed >> i & 1)) {
-        interfere_place_plane(w, i);
+    if (!(in->leaf->placed >> i & 1)) {
+        interfere_place_plane(in, i);
     }
     above_q18 = plane->above_q18;
     below_q18 = plane->below_q18;
@@ -206,15 +206,15 @@ static bool is_reached(struct interfere *w, struct target *t, uint32_t i)
 }
 
 /*
- * w->meet of a query: list the leaf's faces that neither boxes nor planes separate from b's face.
+ * in->meet of a query: list the leaf's faces that neither boxes nor planes separate from b's face.
  */
-static void meet(struct interfere *w, struct target *t)
+static void meet(struct interfere *in, struct target *t)
 {
-    uint32_t near = interfere_faces_near(w, t);
+    uint32_t near = interfere_faces_near(in, t);
 
     for (uint32_t i = 0; near != 0; i++, near >>= 1) {
-        if ((near & 1) && is_reached(w, t, i)) {
-            list_pair(w, t, i);
+        if ((near & 1) && is_reached(in, t, i)) {
+            list_pair(in, t, i);
         }
     }
 }
@@ -229,15 +229,15 @@ static int32_t side_q20(const struct carom_mesh *mesh, int side, int k)
 }
 
 /* True if the box around a's sphere, in b's axes, is apart from b's box. */
-static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
+static bool sphere_apart(const struct interfere *in, const int64_t d_q32[3])
 {
-    int64_t around = (w->a->def.radius_q22 + BOX_MARGIN_Q22) >> 2;
+    int64_t around = (in->a->def.radius_q22 + BOX_MARGIN_Q22) >> 2;
 
     for (int k = 0; k < 3; k++) {
         int64_t at = d_q32[k] >> 12;
 
-        if (at + around < side_q20(w->b->def.mesh, 0, k) ||
-            at - around > side_q20(w->b->def.mesh, 1, k)) {
+        if (at + around < side_q20(in->b->def.mesh, 0, k) ||
+            at - around > side_q20(in->b->def.mesh, 1, k)) {
             return true;
         }
     }
@@ -245,13 +245,13 @@ static bool sphere_apart(const struct interfere *w, const int64_t d_q32[3])
 }
 
 /* True if the box around a's own box, in b's axes, is apart from b's box. */
-static bool box_apart(const struct interfere *w)
+static bool box_apart(const struct interfere *in)
 {
-    const struct interfere_leaf *l = w->leaf;
+    const struct interfere_leaf *l = in->leaf;
     int32_t middle[3], half[3];
 
     for (int k = 0; k < 3; k++) {
-        int32_t low = side_q20(w->a->def.mesh, 0, k), high = side_q20(w->a->def.mesh, 1, k);
+        int32_t low = side_q20(in->a->def.mesh, 0, k), high = side_q20(in->a->def.mesh, 1, k);
 
         middle[k] = (low + high) / 2;
         half[k] = (high - low) / 2 + 1;
@@ -263,8 +263,8 @@ static bool box_apart(const struct interfere *w)
             at += carom_mul_q30(middle[i], l->to_b.c[k][i]);
             around += carom_mul_q30(half[i], (int32_t)carom_abs(l->to_b.c[k][i]));
         }
-        if (at + around < side_q20(w->b->def.mesh, 0, k) ||
-            at - around > side_q20(w->b->def.mesh, 1, k)) {
+        if (at + around < side_q20(in->b->def.mesh, 0, k) ||
+            at - around > side_q20(in->b->def.mesh, 1, k)) {
             return true;
         }
     }
@@ -276,7 +276,7 @@ static bool box_apart(const struct interfere *w)
  * within 444 units of its centre and of its origin, so if the boxes meet every place in b's frame
  * is within 1332 units and fits q20.
  */
-static bool place_pair(struct interfere *w, const struct body_state *a, const struct body_state *b)
+static bool place_pair(struct interfere *in, const struct body_state *a, const struct body_state *b)
 {
     carom_m3_q30 r_a, r_b;
     int64_t d_q32[3];
@@ -286,49 +286,49 @@ static bool place_pair(struct interfere *w, const struct body_state *a, const st
         d_q32[k] = a->position.c[k] - b->position.c[k];
     }
     fix_rotate_back(d_q32, &r_b, d_q32);
-    if (sphere_apart(w, d_q32)) {
+    if (sphere_apart(in, d_q32)) {
         return false;
     }
     for (int k = 0; k < 3; k++) {
-        w->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
+        in->leaf->at.c[k] = (int32_t)(d_q32[k] >> 12);
     }
     fix_matrix(&r_a, &a->rotation);
-    interfere_relate(&w->leaf->to_b, &r_b, &r_a);
-    return !box_apart(w);
+    interfere_relate(&in->leaf->to_b, &r_b, &r_a);
+    return !box_apart(in);
 }
 
 /* The rectangle of b that a may reach, in b's quanta; everything is below 2^31 in q20. */
-static struct interfere_area area_at(const struct interfere *w)
+static struct interfere_area area_at(const struct interfere *in)
 {
-    int shift = 20 - w->b->def.mesh->raw.quantum_bits;
-    int32_t around = (w->a->def.radius_q22 >> 2) + BOX_MARGIN_Q22;
+    int shift = 20 - in->b->def.mesh->raw.quantum_bits;
+    int32_t around = (in->a->def.radius_q22 >> 2) + BOX_MARGIN_Q22;
     struct interfere_area area;
 
     for (int k = 0; k < 2; k++) {
-        area.low[k] = (w->leaf->at.c[k] - around) >> shift;
-        area.high[k] = (w->leaf->at.c[k] + around) >> shift;
+        area.low[k] = (in->leaf->at.c[k] - around) >> shift;
+        area.high[k] = (in->leaf->at.c[k] + around) >> shift;
     }
     return area;
 }
 
 /* Visit all leaves of a, against each chunk of b's z-lists if those are made from the pool. */
-static void visit_leaves(struct interfere *w)
+static void visit_leaves(struct interfere *in)
 {
-    const struct interfere_area area = area_at(w);
+    const struct interfere_area area = area_at(in);
     struct interfere_place place = {0, 0};
     bool last = false;
 
-    w->pooled = mesh_lists_in_step(w->b->def.mesh);
-    while (!last && !w->error) {
-        last = !w->pooled ||
-               w->b->def.mesh->surface->does->make_lists(w, w->b->def.mesh, &area, &place);
-        interfere_leaves(w);
-        w->query->again = true;
+    in->pooled = mesh_lists_in_step(in->b->def.mesh);
+    while (!last && !in->error) {
+        last = !in->pooled ||
+               in->b->def.mesh->surface->does->make_lists(in, in->b->def.mesh, &area, &place);
+        interfere_leaves(in);
+        in->query->again = true;
     }
 }
 
 /* interfere_query if sure is NULL, else only pairs that `sure` confirms. */
-static int query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+static int query(struct interfere *in, struct interfere_placed a, struct interfere_placed b,
                  struct interfere_sure *sure, struct carom_face_pair *out, uint32_t room)
 {
     struct interfere_query q;
@@ -336,9 +336,9 @@ static int query(struct interfere *w, struct interfere_placed a, struct interfer
 
     q.sure = sure;
     q.swapped = a.body->def.mesh->raw.kind == CAROM_SURFACE;
-    w->a = q.swapped ? b.body : a.body;
-    w->b = q.swapped ? a.body : b.body;
-    if (!place_pair(w, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state)) {
+    in->a = q.swapped ? b.body : a.body;
+    in->b = q.swapped ? a.body : b.body;
+    if (!place_pair(in, q.swapped ? b.state : a.state, q.swapped ? a.state : b.state)) {
         return 0;
     }
     q.out = out;
@@ -346,31 +346,31 @@ static int query(struct interfere *w, struct interfere_placed a, struct interfer
     q.count = 0;
     q.leaf = NULL;
     q.again = false;
-    memset(&w->leaf->change, 0, sizeof w->leaf->change);
-    memset(&w->leaf->moves, 0, sizeof w->leaf->moves);
-    w->leaf->near_q22 = 0;
-    w->leaf->angle_q30 = w->leaf->skew_q30 = 0;
-    w->error = CAROM_OK;
-    w->meet = meet;
-    w->query = &q;
-    visit_leaves(w);
-    w->query = NULL;
-    result = w->error ? w->error : (int)q.count;
-    w->error = CAROM_OK;
+    memset(&in->leaf->change, 0, sizeof in->leaf->change);
+    memset(&in->leaf->moves, 0, sizeof in->leaf->moves);
+    in->leaf->near_q22 = 0;
+    in->leaf->angle_q30 = in->leaf->skew_q30 = 0;
+    in->error = CAROM_OK;
+    in->meet = meet;
+    in->query = &q;
+    visit_leaves(in);
+    in->query = NULL;
+    result = in->error ? in->error : (int)q.count;
+    in->error = CAROM_OK;
     return result;
 }
 
-int interfere_query(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
+int interfere_query(struct interfere *in, struct interfere_placed a, struct interfere_placed b,
                     struct carom_face_pair *out, uint32_t room)
 {
-    return query(w, a, b, NULL, out, room);
+    return query(in, a, b, NULL, out, room);
 }
 
-bool interfere_query_sure(struct interfere *w, struct interfere_placed a, struct interfere_placed b,
-                          struct interfere_sure *sure)
+bool interfere_query_sure(struct interfere *in, struct interfere_placed a,
+                          struct interfere_placed b, struct interfere_sure *sure)
 {
     CAROM_ASSERT(a.body->def.mesh->raw.kind == CAROM_SOLID);
-    return query(w, a, b, sure, NULL, 0) !=
+    return query(in, a, b, sure, NULL, 0) !=
            0; /* room is 0: the first pair found ends the search with an error */
 }
 

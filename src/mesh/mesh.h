@@ -57,7 +57,7 @@ struct mesh_moving {
     struct interfere_area (*area_under)(const struct body *bodies, const struct pair *pairs,
                                         uint32_t pair_count, uint16_t b);
     /* NULL: the surface keeps z-lists of its own, made anew with each move; no step makes any */
-    bool (*make_lists)(struct interfere *w, const struct carom_mesh *mesh,
+    bool (*make_lists)(struct interfere *in, const struct carom_mesh *mesh,
                        const struct interfere_area *area, struct interfere_place *from);
 };
 

@@ -35,39 +35,39 @@ static int headroom(uint32_t v, uint32_t full)
 }
 
 /* Shift every row up until it is normal; its right-hand side follows in 64 bits. */
-static int normalise_rows(struct gauss *w, int n)
+static int normalise_rows(struct gauss *g, int n)
 {
     for (int i = 0; i < n; i++) {
         uint32_t largest = 0;
         int z;
 
         for (int j = 0; j < n; j++) {
-            largest |= (uint32_t)carom_abs(w->a[i][j]);
+            largest |= (uint32_t)carom_abs(g->a[i][j]);
         }
         if (largest == 0) {
             return -1;
         }
         z = headroom(largest, NORMAL);
-        w->up[i] = (uint8_t)z;
+        g->up[i] = (uint8_t)z;
         CAROM_ASSERT(largest < 2 * (uint32_t)FULL && z <= 29);
         for (int j = 0; j < n; j++) {
-            w->a[i][j] = (int32_t)carom_shl(w->a[i][j], z);
+            g->a[i][j] = (int32_t)carom_shl(g->a[i][j], z);
         }
-        w->residual[i] = carom_shl(w->a[i][n], z); /* <= 2^59 */
+        g->residual[i] = carom_shl(g->a[i][n], z); /* <= 2^59 */
     }
     return 0;
 }
 
 /* The unused row with the largest entry in column k; -1 if all are noise. */
-static int choose_pivot(const struct gauss *w, int n, int k)
+static int choose_pivot(const struct gauss *g, int n, int k)
 {
     uint32_t largest = SMALLEST_PIVOT - 1;
     int best = -1;
 
     for (int i = 0; i < n; i++) {
-        uint32_t entry = magnitude(w->a[i][k]);
+        uint32_t entry = magnitude(g->a[i][k]);
 
-        if (w->step[i] < 0 && entry > largest) {
+        if (g->step[i] < 0 && entry > largest) {
             largest = entry;
             best = i;
         }
@@ -94,19 +94,19 @@ static uint32_t combine(int32_t *row, const int32_t *other, int32_t scale, int32
  * Eliminate column k from row i. The entry a_ik is not cleared: nobody reads it as a coefficient
  * any more, and later right-hand sides need it as the multiplier.
  */
-FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
+FIX_APART static void eliminate(struct gauss *g, int n, int k, int i)
 {
-    int32_t *row = w->a[i];
-    int32_t pivot = w->pivot[k], f = -row[k];
+    int32_t *row = g->a[i];
+    int32_t pivot = g->pivot[k], f = -row[k];
     int own =
-        w->step[i]; /* the row's own column, if it has been the pivot: its diagonal scales along */
+        g->step[i]; /* the row's own column, if it has been the pivot: its diagonal scales along */
     int z = headroom(magnitude(pivot) | magnitude(f), (uint32_t)FULL);
     int up = 0;
     uint32_t used;
 
     pivot = (int32_t)carom_shl(pivot, z);
     f = (int32_t)carom_shl(f, z);
-    used = combine(row, w->a[w->row[k]], pivot, f, k + 1, n);
+    used = combine(row, g->a[g->row[k]], pivot, f, k + 1, n);
     if (own >= 0) {
         row[own] = (int32_t)carom_round((int64_t)pivot * row[own], 32);
         used |= magnitude(row[own]);
@@ -123,38 +123,38 @@ FIX_APART static void eliminate(struct gauss *w, int n, int k, int i)
             row[own] = (int32_t)carom_shl(row[own], up);
         }
     }
-    w->shift[i][k] = (uint8_t)(32 - z - up);
+    g->shift[i][k] = (uint8_t)(32 - z - up);
 }
 
 /* Reduce the rows to a diagonal, column by column, keeping the multipliers. */
-static int factor(struct gauss *w, int n)
+static int factor(struct gauss *g, int n)
 {
     for (int i = 0; i < n; i++) {
-        w->step[i] = -1;
+        g->step[i] = -1;
     }
     for (int k = 0; k < n; k++) {
-        int p = choose_pivot(w, n, k);
+        int p = choose_pivot(g, n, k);
 
         if (p < 0) {
             return -1;
         }
-        w->row[k] = (uint8_t)p;
-        w->pivot[k] = w->a[p][k];
+        g->row[k] = (uint8_t)p;
+        g->pivot[k] = g->a[p][k];
         for (int i = 0; i < n; i++) {
-            if (i != p && w->a[i][k] != 0) {
-                eliminate(w, n, k, i);
+            if (i != p && g->a[i][k] != 0) {
+                eliminate(g, n, k, i);
             }
         }
-        w->step[p] = (int8_t)k;
+        g->step[p] = (int8_t)k;
     }
     return 0;
 }
 
 /* Invert the diagonal: one division a row, however many right-hand sides follow. */
-static int invert_diagonal(struct gauss *w, int n)
+static int invert_diagonal(struct gauss *g, int n)
 {
     for (int k = 0; k < n; k++) {
-        int32_t *d = &w->a[w->row[k]][k];
+        int32_t *d = &g->a[g->row[k]][k];
         int z;
 
         if (*d == 0) {
@@ -163,7 +163,7 @@ static int invert_diagonal(struct gauss *w, int n)
         z = headroom((uint32_t)carom_abs(*d), NORMAL);
         /* 2^59 over at least 2^29: at most 2^30 */
         *d = (int32_t)(((int64_t)1 << 59) / carom_shl(*d, z));
-        w->inverse_shift[k] = (uint8_t)z;
+        g->inverse_shift[k] = (uint8_t)z;
     }
     return 0;
 }
@@ -186,33 +186,33 @@ static int64_t scale_down(int64_t v, int s)
 }
 
 /*
- * Carry w->y through all steps. Before each step |y| <= 2^30, so products are within 2^62. If a
+ * Carry g->y through all steps. Before each step |y| <= 2^30, so products are within 2^62. If a
  * step lets y grow past that all of y is scaled down. Returns the number of bits in all.
  */
-static int replay(struct gauss *w, int n)
+static int replay(struct gauss *g, int n)
 {
     int down = 0;
 
     for (int k = 0; k < n; k++) {
-        int p = w->row[k];
-        int32_t pivot = w->pivot[k], yp = (int32_t)w->y[p];
+        int p = g->row[k];
+        int32_t pivot = g->pivot[k], yp = (int32_t)g->y[p];
         uint64_t used = 0;
 
         for (int i = 0; i < n; i++) {
-            int32_t f = w->a[i][k];
+            int32_t f = g->a[i][k];
 
             if (i != p && f != 0) {
-                int64_t t = (int64_t)pivot * (int32_t)w->y[i] - (int64_t)f * yp;
+                int64_t t = (int64_t)pivot * (int32_t)g->y[i] - (int64_t)f * yp;
 
-                w->y[i] = carom_round(t, w->shift[i][k]);
-                used |= (uint64_t)carom_abs(w->y[i]);
+                g->y[i] = carom_round(t, g->shift[i][k]);
+                used |= (uint64_t)carom_abs(g->y[i]);
             }
         }
         if (used >= (uint64_t)FULL) {
             int s = fix_bits(used) - 30;
 
             for (int i = 0; i < n; i++) {
-                w->y[i] = scale_down(w->y[i], s);
+                g->y[i] = scale_down(g->y[i], s);
             }
             down += s;
         }
@@ -224,34 +224,34 @@ static int replay(struct gauss *w, int n)
  * x_k = y / d = (y inverse) 2^(z - 59), z being the shift of the inverse; this is y inverse, 60
  * bits.
  */
-static inline int64_t quotient(const struct gauss *w, int k)
+static inline int64_t quotient(const struct gauss *g, int k)
 {
-    return (int64_t)(int32_t)w->y[w->row[k]] * w->a[w->row[k]][k];
+    return (int64_t)(int32_t)g->y[g->row[k]] * g->a[g->row[k]][k];
 }
 
 /*
  * Solve for the residual, which has `bits` bits, times 2^-q. The answer is digits 2^-h; returns h.
  */
-static int correction(struct gauss *w, int n, int bits, int q)
+static int correction(struct gauss *g, int n, int bits, int q)
 {
     int s = bits - 30;
     int most = 0, top;
     uint64_t used = 0;
 
     for (int i = 0; i < n; i++) {
-        w->y[i] = scale_down(w->residual[i], s);
+        g->y[i] = scale_down(g->residual[i], s);
     }
     q -= s;
-    q -= replay(w, n);
+    q -= replay(g, n);
     for (int k = 0; k < n; k++) {
-        most = w->inverse_shift[k] > most ? w->inverse_shift[k] : most;
+        most = g->inverse_shift[k] > most ? g->inverse_shift[k] : most;
     }
     for (int k = 0; k < n; k++) {
-        used |= (uint64_t)carom_abs(quotient(w, k)) >> (most - w->inverse_shift[k]);
+        used |= (uint64_t)carom_abs(quotient(g, k)) >> (most - g->inverse_shift[k]);
     }
     top = fix_bits(used) + most - DIGITS_BITS;
     for (int k = 0; k < n; k++) {
-        w->a[k][GAUSS_MAX] = (int32_t)scale_down(quotient(w, k), top - w->inverse_shift[k]);
+        g->a[k][GAUSS_MAX] = (int32_t)scale_down(quotient(g, k), top - g->inverse_shift[k]);
     }
     return q + 59 - top;
 }
@@ -260,82 +260,82 @@ static int correction(struct gauss *w, int n, int bits, int q)
  * residual = (residual 2^(h - q)) - row digits, in the scale 2^-h. The terms nearly cancel; only the
  * difference needs to fit, so the sum is formed modulo 2^64.
  */
-void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row)
+void gauss_take_out(struct gauss *g, int n, int i, const int32_t *row)
 {
     uint64_t sum = 0;
 
     for (int j = 0; j < n; j++) {
-        sum += (uint64_t)((int64_t)row[j] * w->a[j][GAUSS_MAX]);
+        sum += (uint64_t)((int64_t)row[j] * g->a[j][GAUSS_MAX]);
     }
-    w->residual[i] = (int64_t)((uint64_t)w->residual[i] - (sum << w->up[i]));
+    g->residual[i] = (int64_t)((uint64_t)g->residual[i] - (sum << g->up[i]));
 }
 
 /* x += digits 2^-h */
-static void add_digits(struct gauss *w, int n, int h)
+static void add_digits(struct gauss *g, int n, int h)
 {
     for (int k = 0; k < n; k++) {
-        w->x_q40[k] += h - 40 > 62 ? 0 : scale_down(w->a[k][GAUSS_MAX], h - 40);
+        g->x_q40[k] += h - 40 > 62 ? 0 : scale_down(g->a[k][GAUSS_MAX], h - 40);
     }
 }
 
-int gauss_begin(struct gauss *w, int n)
+int gauss_begin(struct gauss *g, int n)
 {
     CAROM_ASSERT(n >= 1 && n <= GAUSS_MAX);
-    if (normalise_rows(w, n) || factor(w, n) || invert_diagonal(w, n)) {
+    if (normalise_rows(g, n) || factor(g, n) || invert_diagonal(g, n)) {
         return -1;
     }
-    memset(w->x_q40, 0, sizeof w->x_q40);
-    w->round = w->first = w->last = 0;
-    return block_bits(w->residual, n) > 0;
+    memset(g->x_q40, 0, sizeof g->x_q40);
+    g->round = g->first = g->last = 0;
+    return block_bits(g->residual, n) > 0;
 }
 
 /* Go on: bring the residual to the scale of the correction to be taken out of it. Returns 1. */
-static int go_on(struct gauss *w, int n, int h)
+static int go_on(struct gauss *g, int n, int h)
 {
     for (int i = 0; i < n; i++) {
-        int up = h - w->last;
+        int up = h - g->last;
 
-        w->residual[i] = up < 64 ? (int64_t)((uint64_t)w->residual[i] << up) : 0;
+        g->residual[i] = up < 64 ? (int64_t)((uint64_t)g->residual[i] << up) : 0;
     }
-    w->last = h;
+    g->last = h;
     return 1;
 }
 
-int gauss_correct(struct gauss *w, int n)
+int gauss_correct(struct gauss *g, int n)
 {
-    int bits = block_bits(w->residual, n), h, gained;
+    int bits = block_bits(g->residual, n), h, gained;
 
-    if (bits > RESIDUAL_BITS || w->round == ROUNDS_MAX) {
+    if (bits > RESIDUAL_BITS || g->round == ROUNDS_MAX) {
         return -1;
     }
     if (bits == 0) {
         return 0;
     }
-    h = correction(w, n, bits, w->last);
-    if (h < DIGITS_BITS - 20 || h < w->last + 4) {
+    h = correction(g, n, bits, g->last);
+    if (h < DIGITS_BITS - 20 || h < g->last + 4) {
         return -1; /* out of range, or the corrections hardly shrink */
     }
-    add_digits(w, n, h);
-    w->first = w->round == 0 ? h : w->first;
+    add_digits(g, n, h);
+    g->first = g->round == 0 ? h : g->first;
     /* each correction is as good, relative to itself, as the first solution was */
-    gained = (h - w->first) + (h - w->last);
-    return w->round++ > 0 && gained >= 34 ? 0 : go_on(w, n, h);
+    gained = (h - g->first) + (h - g->last);
+    return g->round++ > 0 && gained >= 34 ? 0 : go_on(g, n, h);
 }
 
-int gauss_solve(struct gauss *w, int n, const int32_t (*rows)[GAUSS_MAX + 1])
+int gauss_solve(struct gauss *g, int n, const int32_t (*rows)[GAUSS_MAX + 1])
 {
-    int more = gauss_begin(w, n);
+    int more = gauss_begin(g, n);
 
     while (more > 0) {
-        more = gauss_correct(w, n);
+        more = gauss_correct(g, n);
         for (int i = 0; i < n && more > 0; i++) {
-            gauss_take_out(w, n, i, rows[i]);
+            gauss_take_out(g, n, i, rows[i]);
         }
     }
     return more;
 }
 
-int gauss_add(struct gauss *w, int n, const int64_t *b_q10)
+int gauss_add(struct gauss *g, int n, const int64_t *b_q10)
 {
     int bits, h;
 
@@ -347,12 +347,12 @@ int gauss_add(struct gauss *w, int n, const int64_t *b_q10)
         return -1;
     }
     for (int i = 0; i < n; i++) {
-        w->residual[i] = carom_shl(b_q10[i], w->up[i]); /* < 2^(32 + 29) */
+        g->residual[i] = carom_shl(b_q10[i], g->up[i]); /* < 2^(32 + 29) */
     }
-    h = correction(w, n, block_bits(w->residual, n), 10);
+    h = correction(g, n, block_bits(g->residual, n), 10);
     if (h < DIGITS_BITS - 20) {
         return -1;
     }
-    add_digits(w, n, h);
+    add_digits(g, n, h);
     return 0;
 }

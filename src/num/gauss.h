@@ -41,13 +41,13 @@ struct gauss {
 };
 
 /*
- * Solve the n x n system in w->a; the solution goes to w->x_q40.
+ * Solve the n x n system in g->a; the solution goes to g->x_q40.
  *
- *   more = gauss_begin(w, n), and while more > 0: more = gauss_correct(w, n), and if that is > 0 as
- *   well gauss_take_out(w, n, i, row i) for every i.
+ *   more = gauss_begin(g, n), and while more > 0: more = gauss_correct(g, n), and if that is > 0 as
+ *   well gauss_take_out(g, n, i, row i) for every i.
  *
  *   n  3, 9 or 15 (any 1 .. GAUSS_MAX works)
- *   w  in/out  rows in any scale, a row's entries sharing one; |entry| <= 2^30
+ *   g  in/out  rows in any scale, a row's entries sharing one; |entry| <= 2^30
  *
  * Range    |x| < 2^20
  * Error    2^-41 plus 1e-9 of the largest component; see SPEC.md
@@ -55,17 +55,17 @@ struct gauss {
  *          out of range. Unless 0, x_q40 means nothing.
  * Source   paper section 3 (Gauss-Jordan elimination)
  */
-int gauss_begin(struct gauss *w, int n);
-int gauss_correct(struct gauss *w, int n);
+int gauss_begin(struct gauss *g, int n);
+int gauss_correct(struct gauss *g, int n);
 
 /*
- * Subtract the last correction's effect from the residual of row i; `row` is that row of w->a as it
+ * Subtract the last correction's effect from the residual of row i; `row` is that row of g->a as it
  * was at first.
  */
-void gauss_take_out(struct gauss *w, int n, int i, const int32_t *row);
+void gauss_take_out(struct gauss *g, int n, int i, const int32_t *row);
 
-/* Solve in one call, for a caller that has the rows of w->a elsewhere, too. Returns 0 or -1. */
-int gauss_solve(struct gauss *w, int n, const int32_t (*rows)[GAUSS_MAX + 1]);
+/* Solve in one call, for a caller that has the rows of g->a elsewhere, too. Returns 0 or -1. */
+int gauss_solve(struct gauss *g, int n, const int32_t (*rows)[GAUSS_MAX + 1]);
 
 /*
  * After a solve: solve the same rows for another right-hand side and add the result to x_q40. For a
@@ -75,6 +75,6 @@ int gauss_solve(struct gauss *w, int n, const int32_t (*rows)[GAUSS_MAX + 1]);
  *
  * Returns 0; or -1, with x_q40 unchanged, if b or the result is out of range.
  */
-int gauss_add(struct gauss *w, int n, const int64_t *b_q10);
+int gauss_add(struct gauss *g, int n, const int64_t *b_q10);
 
 #endif

@@ -456,13 +456,13 @@ int32_t ahead_first(const struct ahead *h, int32_t from)
 
 void ahead_visit(struct ahead *h, int32_t from, int32_t to, struct candidate_visitor *visitor)
 {
-    struct interfere *w = &h->work;
+    struct interfere *in = &h->work;
 
-    w->visitor = visitor;
+    in->visitor = visitor;
     place_leaf(h, from, to);
     for (uint32_t i = 0; i < h->count; i++) {
         if (h->list[i].enter <= to && h->list[i].leave >= from) {
-            interfere_narrow(w, h->list[i].face);
+            interfere_narrow(in, h->list[i].face);
         }
     }
     visitor->visit(visitor, h->candidates, h->pool.used);

@@ -48,9 +48,9 @@ static int slide(struct impact_problem *p, bool slips, const struct impact_answe
     return 0;
 }
 
-int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out)
+int impact_solve(struct gauss *g, const struct impact *in, struct impact_result *out)
 {
-    struct impact_problem p = {.w = w, .in = in, .frame = {.n = in->normal}};
+    struct impact_problem p = {.gauss = g, .in = in, .frame = {.n = in->normal}};
     struct impact_result result = {.slid = false, .energy_rule = false};
     struct impact_answer x, other; /* the sticking answer, later the frictionless one */
     bool slips;

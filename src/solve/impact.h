@@ -50,7 +50,7 @@ struct impact_result {
 /*
  * Solve one impact.
  *
- *   w    workspace
+ *   g    workspace
  *   in   at least one side moves; |V| < 2^12, |arm| <= 2^6, masses 2^-10 .. 2^10, mu <= 4
  *   out  the impulse; zero if V.N >= target already (a contact does not pull)
  *
@@ -59,6 +59,6 @@ struct impact_result {
  * unknowns if one
  *          side moves, 15 if both do.
  */
-int impact_solve(struct gauss *w, const struct impact *in, struct impact_result *out);
+int impact_solve(struct gauss *g, const struct impact *in, struct impact_result *out);
 
 #endif

@@ -254,16 +254,16 @@ static void set_points(struct joint *j, const struct joint_pose pose[2], int64_t
     }
 }
 
-static void add_axis(struct joint_work *w, const carom_m3_q30 *axes, int at, bool angular)
+static void add_axis(struct joint_work *work, const carom_m3_q30 *axes, int at, bool angular)
 {
-    column(axes, at, w->direction[w->rows]);
-    w->angular = (uint8_t)(w->angular | (angular ? 1 << w->rows : 0));
-    w->rows++;
+    column(axes, at, work->direction[work->rows]);
+    work->angular = (uint8_t)(work->angular | (angular ? 1 << work->rows : 0));
+    work->rows++;
 }
 
 void joint_set_rows(struct joint *j, const struct joint_state *s, const struct joint_pose pose[2])
 {
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
     carom_quat_q30 b = axes_of(j, 1, &pose[1]);
     carom_m3_q30 axes,
         world = {{{CAROM_ONE_Q30, 0, 0}, {0, CAROM_ONE_Q30, 0}, {0, 0, CAROM_ONE_Q30}}};
@@ -272,37 +272,37 @@ void joint_set_rows(struct joint *j, const struct joint_state *s, const struct j
 
     fix_matrix(&axes, &b);
     set_points(j, pose, apart);
-    w->rows = 0;
-    w->angular = 0;
+    work->rows = 0;
+    work->angular = 0;
     for (int k = 0; k < 3 && j->kind != CAROM_JOINT_SLIDER && j->kind != CAROM_JOINT_DISTANCE;
          k++) {
-        add_axis(w, &world, k, false);
+        add_axis(work, &world, k, false);
     }
     switch (j->kind) {
     case CAROM_JOINT_HINGE:
-        add_axis(w, &axes, 0, true);
-        add_axis(w, &axes, 1, true);
+        add_axis(work, &axes, 0, true);
+        add_axis(work, &axes, 1, true);
         break;
     case CAROM_JOINT_SLIDER:
-        add_axis(w, &axes, 0, false);
-        add_axis(w, &axes, 1, false);
+        add_axis(work, &axes, 0, false);
+        add_axis(work, &axes, 1, false);
         /* fall through */
     case CAROM_JOINT_FIXED:
         for (int k = 0; k < 3; k++) {
-            add_axis(w, &axes, k, true);
+            add_axis(work, &axes, k, true);
         }
         break;
     default:
         break;
     }
-    w->held = w->rows;
+    work->held = work->rows;
     if (driven) {
-        add_axis(w, &axes, 2, j->kind == CAROM_JOINT_HINGE);
+        add_axis(work, &axes, 2, j->kind == CAROM_JOINT_HINGE);
         if (j->kind == CAROM_JOINT_DISTANCE) {
             carom_v3_q30 n = {{0, 0, CAROM_ONE_Q30}};
 
             (void)fix_normalise(&n, apart);
-            memcpy(w->direction[0], n.c, sizeof n.c);
+            memcpy(work->direction[0], n.c, sizeof n.c);
         }
     }
 }

@@ -92,9 +92,9 @@ struct joint_work {
     int64_t row_q40[JOINT_ROWS];
 };
 
-static inline bool joint_is_angular(const struct joint_work *w, int row)
+static inline bool joint_is_angular(const struct joint_work *work, int row)
 {
-    return (w->angular >> row & 1) != 0;
+    return (work->angular >> row & 1) != 0;
 }
 
 /* The part of a joint that a step changes; there are two, and all of it is hashed and saved. */

@@ -264,12 +264,13 @@ static void accelerate(struct rest *r, int32_t part_q30)
 {
     FOR_JOINTS(r, j)
     {
-        struct joint_work *w = &j->work;
+        struct joint_work *work = &j->work;
 
-        for (int i = 0; i < w->rows; i++) {
-            w->way[i] = part_q30 == 0 ? 0 : carom_mul_q30(w->way[i] + w->gain[i], part_q30);
-            w->impulse[i] += w->way[i];
-            w->gain[i] = 0;
+        for (int i = 0; i < work->rows; i++) {
+            work->way[i] =
+                part_q30 == 0 ? 0 : carom_mul_q30(work->way[i] + work->gain[i], part_q30);
+            work->impulse[i] += work->way[i];
+            work->gain[i] = 0;
         }
     }
 }
@@ -310,20 +311,22 @@ static void refresh(const struct rest *r, struct joint *j)
  */
 static void book_drive(struct rest *r, const struct joint *j)
 {
-    const struct joint_work *w = &j->work;
+    const struct joint_work *work = &j->work;
     struct fix_wide *sum = &r->bodies[j->a].solve.work2;
-    int last = w->rows - 1;
-    int64_t before_q40 = w->speed_q40[last], p_q40 = w->row_q40[last];
-    int64_t after_q40 = joint_speed_q40(w, last);
+    int last = work->rows - 1;
+    int64_t before_q40 = work->speed_q40[last], p_q40 = work->row_q40[last];
+    int64_t after_q40 = joint_speed_q40(work, last);
 
-    if (w->law.spring) {
-        p_q40 += w->elastic_q40 + joint_product_q40(w->half_stiff_q40, after_q40 - before_q40);
+    if (work->law.spring) {
+        p_q40 +=
+            work->elastic_q40 + joint_product_q40(work->half_stiff_q40, after_q40 - before_q40);
     }
-    if (w->law.motor) {
-        bool limited = w->law.lower || w->law.upper; /* then a limit may have given a part of it */
-        int64_t motor_q40 = limited && p_q40 > w->most_q40    ? w->most_q40
-                            : limited && p_q40 < -w->most_q40 ? -w->most_q40
-                                                              : p_q40;
+    if (work->law.motor) {
+        bool limited =
+            work->law.lower || work->law.upper; /* then a limit may have given a part of it */
+        int64_t motor_q40 = limited && p_q40 > work->most_q40    ? work->most_q40
+                            : limited && p_q40 < -work->most_q40 ? -work->most_q40
+                                                                 : p_q40;
 
         fix_wide_add_product(sum, motor_q40, before_q40 + after_q40);
         p_q40 -= motor_q40;
@@ -340,13 +343,14 @@ static void book_drive(struct rest *r, const struct joint *j)
  */
 static void book_led(struct rest *r, const struct joint *j)
 {
-    const struct joint_work *w = &j->work;
+    const struct joint_work *work = &j->work;
     struct fix_wide *sum = &r->bodies[j->a].solve.work2;
 
-    for (int i = 0; i < w->rows; i++) {
-        fix_wide_add_product(sum, w->row_q40[i], -2 * joint_led_speed_q40(w, i));
-        if (i < w->held) {
-            fix_wide_add_product(sum, w->row_q40[i], w->speed_q40[i] + joint_speed_q40(w, i));
+    for (int i = 0; i < work->rows; i++) {
+        fix_wide_add_product(sum, work->row_q40[i], -2 * joint_led_speed_q40(work, i));
+        if (i < work->held) {
+            fix_wide_add_product(sum, work->row_q40[i],
+                                 work->speed_q40[i] + joint_speed_q40(work, i));
         }
     }
 }
@@ -356,26 +360,27 @@ static void book(struct rest *r)
     FOR_JOINTS(r, j)
     {
         struct joint_state *state = state_of(r, j);
-        struct joint_work *w = &j->work;
+        struct joint_work *work = &j->work;
 
-        w->idle = true;
+        work->idle = true;
         for (int k = 0; k < 3; k++) {
-            state->push.c[k] = joint_limited(state->push.c[k] + w->push.c[k], 60);
-            state->moment.c[k] = joint_limited(state->moment.c[k] + w->moment.c[k], 60);
+            state->push.c[k] = joint_limited(state->push.c[k] + work->push.c[k], 60);
+            state->moment.c[k] = joint_limited(state->moment.c[k] + work->moment.c[k], 60);
         }
-        state->axial_q40 =
-            joint_limited(state->axial_q40 + (w->held < w->rows ? w->row_q40[w->held] : 0), 60);
+        state->axial_q40 = joint_limited(
+            state->axial_q40 + (work->held < work->rows ? work->row_q40[work->held] : 0), 60);
         refresh(r, j);
-        if (w->held < w->rows && r->joints.solve != JOINT_PROJECT) {
+        if (work->held < work->rows && r->joints.solve != JOINT_PROJECT) {
             book_drive(r, j);
         }
-        if (w->led) {
+        if (work->led) {
             book_led(r, j);
         }
         for (int i = 0; i < JOINT_ROWS && r->joints.solve <= JOINT_MORE; i++) {
             int64_t kept = r->joints.solve == JOINT_MORE ? state->impulse_q40[i] : 0;
 
-            state->impulse_q40[i] = joint_limited(kept + (i < w->rows ? w->row_q40[i] : 0), 60);
+            state->impulse_q40[i] =
+                joint_limited(kept + (i < work->rows ? work->row_q40[i] : 0), 60);
         }
     }
 }

@@ -48,14 +48,14 @@ static bool lay_out(struct rest *r)
     uint32_t place = 0, used = 0;
 
     for (struct joint *j = first_of(r); j; j = next_of(r, j)) {
-        struct joint_work *w = &j->work;
+        struct joint_work *work = &j->work;
         uint32_t first = place;
 
-        w->row_at = (uint16_t)place;
+        work->row_at = (uint16_t)place;
         for (struct joint *k = first_of(r); k != j && first == place; k = next_of(r, k)) {
-            first = shares_body(&k->work, w) ? k->work.row_at : place;
+            first = shares_body(&k->work, work) ? k->work.row_at : place;
         }
-        for (int i = 0; i < w->held; i++, place++) {
+        for (int i = 0; i < work->held; i++, place++) {
             struct joint_row *row = &r->joints.rows[place];
 
             row->first = (uint16_t)first;
@@ -85,8 +85,8 @@ static int64_t product_q60(const struct rest *r, const struct joint_row *i,
 /* Factor row i of joint j; the rows before it are done. */
 static void factor_row(struct rest *r, const struct joint *j, int i)
 {
-    const struct joint_work *w = &j->work;
-    uint32_t place = w->row_at + (uint32_t)i;
+    const struct joint_work *work = &j->work;
+    uint32_t place = work->row_at + (uint32_t)i;
     struct joint_row *row = &r->joints.rows[place];
     int32_t *c = &r->joints.room[row->start];
     int64_t pivot_q60;
@@ -97,7 +97,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
 
         for (uint32_t n = 0; n < end && k->work.row_at + n >= row->first; n++) {
             c[k->work.row_at + n - row->first] =
-                rest_within(joint_entry_q30(w, i, &k->work, (int)n), CAROM_ONE_Q30);
+                rest_within(joint_entry_q30(work, i, &k->work, (int)n), CAROM_ONE_Q30);
         }
         if (k == j) {
             break;
@@ -109,7 +109,7 @@ static void factor_row(struct rest *r, const struct joint *j, int i)
 
         c[n - row->first] = rest_within(fix_mul_scaled(left, other->inverse) >> 30, CAROM_ONE_Q30);
     }
-    pivot_q60 = carom_shl(joint_entry_q30(w, i, w, i), 30) - product_q60(r, row, row, place);
+    pivot_q60 = carom_shl(joint_entry_q30(work, i, work, i), 30) - product_q60(r, row, row, place);
     row->inverse = (struct fix_scaled){0, 0};
     if (pivot_q60 > PIVOT_MIN_Q60) {
         row->inverse = fix_scaled_inverse(fix_scale((int64_t)fix_sqrt((uint64_t)pivot_q60), 30));

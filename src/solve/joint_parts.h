@@ -22,8 +22,8 @@ int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_wo
 bool joint_factor(struct rest *r);
 int64_t joint_solve_held(struct rest *r, int32_t quiet);
 /* V - wanted V of a row now, or V of the last row. joint_push applies changes of impulses. */
-int32_t joint_present(const struct joint_work *w, int row);
-void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
+int32_t joint_present(const struct joint_work *work, int row);
+void joint_push(struct joint_work *work, const int64_t change[JOINT_ROWS]);
 /*
  * Parts of joint_push. Effects on a body are summed modulo 2^64: a light body between heavy ones is
  * pushed hard from both sides, and the sum is short though the pushes are long.
@@ -31,16 +31,16 @@ void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS]);
 struct joint_sum {
     uint64_t way[3], turn[3];
 };
-void joint_note(struct joint_work *w, const int64_t change[JOINT_ROWS]);
-void joint_add_effect(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS],
+void joint_note(struct joint_work *work, const int64_t change[JOINT_ROWS]);
+void joint_add_effect(const struct joint_work *work, int side, const int64_t change[JOINT_ROWS],
                       struct joint_sum *sum);
 /* Round a sum to units of dv and du; add it to the body's velocity. */
 void joint_round_sum(const struct body *b, const struct joint_sum *sum, int64_t dv[3],
                      int64_t du[3]);
 void joint_move(struct body *b, const struct joint_sum *sum);
 /* V of a row, q40; the part of it that a kinematic body contributes. */
-int64_t joint_speed_q40(const struct joint_work *w, int row);
-int64_t joint_led_speed_q40(const struct joint_work *w, int row);
+int64_t joint_speed_q40(const struct joint_work *work, int row);
+int64_t joint_led_speed_q40(const struct joint_work *work, int row);
 int64_t joint_largest_q40(const struct joint *j);
 void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);
 void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw);

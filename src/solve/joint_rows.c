@@ -15,15 +15,16 @@
  * V of a row by du, with 31 - turn_bits fractional bits. For a linear row d.(column x arm); for an
  * angular row d.column at the arm of 2^length_bits.
  */
-static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lever, int row, int j)
+static int64_t turn_of(const struct joint_work *work, const struct joint_lever *lever, int row,
+                       int j)
 {
     const struct body *b = lever->body;
-    const int32_t *column = body_solved(b)->columns[j], *d = w->direction[row];
+    const int32_t *column = body_solved(b)->columns[j], *d = work->direction[row];
     int down = b->solve.turn_bits - 31 + b->def.mesh->spread.e[j];
 
-    if (joint_is_angular(w, row)) {
+    if (joint_is_angular(work, row)) {
         /* q30 over 2^e, times 2^(length_bits - 22) */
-        return fix_round_shift(carom_dot(d, column), -(down + 30 + 22 - w->length_bits));
+        return fix_round_shift(carom_dot(d, column), -(down + 30 + 22 - work->length_bits));
     }
     {
         int64_t cross[3], sum = 0;
@@ -32,7 +33,7 @@ static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lev
         for (int k = 0; k < 3; k++) {
             sum += fix_mul(cross[k], d[k], 30);
         }
-        return fix_round_shift(sum, -(down + lever->arm_bits + w->down));
+        return fix_round_shift(sum, -(down + lever->arm_bits + work->down));
     }
 }
 
@@ -40,11 +41,11 @@ static int64_t turn_of(const struct joint_work *w, const struct joint_lever *lev
  * Set a lever's turns. Returns false if turn_bits had to be raised: then everything must be
  * prepared anew.
  */
-static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
+static bool prepare_turns(const struct joint_work *work, struct joint_lever *lever)
 {
-    for (int row = 0; row < w->rows; row++) {
+    for (int row = 0; row < work->rows; row++) {
         for (int j = 0; j < 3; j++) {
-            int64_t turn = turn_of(w, lever, row, j);
+            int64_t turn = turn_of(work, lever, row, j);
 
             if (turn >= CAROM_ONE_Q30 || turn <= -CAROM_ONE_Q30) {
                 if (lever->body->solve.turn_bits < TURN_BITS_MAX) {
@@ -60,16 +61,16 @@ static bool prepare_turns(const struct joint_work *w, struct joint_lever *lever)
 }
 
 /* Set each body's share of the lightest one's mass. */
-static void prepare_joint_shares(struct joint_work *w, const struct body *lightest)
+static void prepare_joint_shares(struct joint_work *work, const struct body *lightest)
 {
     int64_t unit_q40 = fix_mul_scaled((int64_t)1 << 40, lightest->def.mass);
 
-    w->lightest = lightest;
+    work->lightest = lightest;
     for (int s = 0; s < 2; s++) {
-        const struct body *own = w->lever[s].body;
+        const struct body *own = work->lever[s].body;
 
         if (own) {
-            w->lever[s].share_q30 =
+            work->lever[s].share_q30 =
                 own->def.mass.m == lightest->def.mass.m && own->def.mass.e == lightest->def.mass.e
                     ? CAROM_ONE_Q30
                     : (int32_t)(fix_mul_scaled(unit_q40, own->def.inverse_mass) >> 10);
@@ -107,13 +108,13 @@ int64_t joint_entry_q30(const struct joint_work *a, int i, const struct joint_wo
 }
 
 /* Bits by which the largest diagonal entry of the linear, or of the angular, rows is above 1. */
-static int bits_above(const struct joint_work *w, bool angular)
+static int bits_above(const struct joint_work *work, bool angular)
 {
     int64_t most = 0;
 
-    for (int i = 0; i < w->rows; i++) {
-        if (joint_is_angular(w, i) == angular) {
-            int64_t own = joint_entry_q30(w, i, w, i);
+    for (int i = 0; i < work->rows; i++) {
+        if (joint_is_angular(work, i) == angular) {
+            int64_t own = joint_entry_q30(work, i, work, i);
 
             most = own > most ? own : most;
         }
@@ -174,15 +175,15 @@ static void invert(int64_t m[JOINT_ROWS][JOINT_ROWS], int n)
 }
 
 /* Set K^-1, to 30 bits of its largest entry. */
-static void invert_k(struct joint_work *w)
+static void invert_k(struct joint_work *work)
 {
     int64_t k_q30[JOINT_ROWS][JOINT_ROWS];
     uint64_t all = 0;
-    int n = w->rows, over, last = n - 1;
+    int n = work->rows, over, last = n - 1;
 
     for (int i = 0; i < n; i++) {
         for (int k = 0; k <= i; k++) {
-            k_q30[i][k] = k_q30[k][i] = joint_entry_q30(w, i, w, k);
+            k_q30[i][k] = k_q30[k][i] = joint_entry_q30(work, i, work, k);
         }
     }
     invert(k_q30, n);
@@ -192,53 +193,54 @@ static void invert_k(struct joint_work *w)
         }
     }
     over = fix_bits(all) > 30 ? fix_bits(all) - 30 : 0;
-    w->inverse_bits = (int8_t)(30 - over);
+    work->inverse_bits = (int8_t)(30 - over);
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < n; k++) {
-            w->inverse[i][k] = (int32_t)(k_q30[i][k] >> over);
+            work->inverse[i][k] = (int32_t)(k_q30[i][k] >> over);
         }
     }
-    for (int i = 0; i < n && w->held < n; i++) {
+    for (int i = 0; i < n && work->held < n; i++) {
         /*
          * if K is near 1 a row of K^-1 is at most some 2^3 times as long as the last row's own
          * entry
          */
-        w->ratio_q28[i] =
-            w->inverse[last][last] > 0
-                ? rest_clamp(carom_shl(w->inverse[i][last], 28) / w->inverse[last][last])
+        work->ratio_q28[i] =
+            work->inverse[last][last] > 0
+                ? rest_clamp(carom_shl(work->inverse[i][last], 28) / work->inverse[last][last])
                 : 0;
     }
 }
 
 bool joint_prepare(struct joint *j, const struct body *lightest)
 {
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
 
-    prepare_joint_shares(w, lightest);
-    w->down = 0;
-    w->length_bits = (w->lever[0].body ? w->lever[0].body : w->lever[1].body)->def.unit_bits;
+    prepare_joint_shares(work, lightest);
+    work->down = 0;
+    work->length_bits =
+        (work->lever[0].body ? work->lever[0].body : work->lever[1].body)->def.unit_bits;
     for (int pass = 0; pass < 2; pass++) {
         for (int s = 0; s < 2; s++) {
-            if (w->lever[s].body && !prepare_turns(w, &w->lever[s])) {
+            if (work->lever[s].body && !prepare_turns(work, &work->lever[s])) {
                 return false;
             }
         }
         if (pass == 0) {
-            w->down = (int8_t)half_up(bits_above(w, false));
-            w->length_bits = (int8_t)(w->length_bits - half_up(bits_above(w, true)));
+            work->down = (int8_t)half_up(bits_above(work, false));
+            work->length_bits = (int8_t)(work->length_bits - half_up(bits_above(work, true)));
         }
     }
-    invert_k(w);
-    for (int i = 0; i < w->rows; i++) {
-        w->speed_q40[i] = joint_speed_q40(w, i);
-        w->change_q40[i] = w->wanted_q40[i] - (w->by_speed ? w->speed_q40[i] : 0);
+    invert_k(work);
+    for (int i = 0; i < work->rows; i++) {
+        work->speed_q40[i] = joint_speed_q40(work, i);
+        work->change_q40[i] = work->wanted_q40[i] - (work->by_speed ? work->speed_q40[i] : 0);
     }
     return true;
 }
 
 /* -------------------------------------------------------------------- velocities */
 
-/* w x r at a lever. */
+/* spin x r at a lever. */
 static void turn_velocity(const struct joint_lever *lever, const int64_t spin_q40[3],
                           int64_t out[3])
 {
@@ -265,33 +267,33 @@ static void own_velocity(const struct joint_lever *lever, bool angular, int64_t 
     }
 }
 
-int64_t joint_led_speed_q40(const struct joint_work *w, int row)
+int64_t joint_led_speed_q40(const struct joint_work *work, int row)
 {
-    const struct joint_lever *lever = &w->lever[1];
+    const struct joint_lever *lever = &work->lever[1];
     carom_v3_q40 arm, v;
 
-    if (!w->led) {
+    if (!work->led) {
         return 0;
     }
-    v = w->led->def.extra->route.spin;
-    if (!joint_is_angular(w, row)) {
+    v = work->led->def.extra->route.spin;
+    if (!joint_is_angular(work, row)) {
         for (int k = 0; k < 3; k++) {
             arm.c[k] = fix_round_shift(lever->arm[k], 40 - lever->arm_bits);
         }
-        body_route_velocity(w->led, &arm, &v);
+        body_route_velocity(work->led, &arm, &v);
     }
-    return -fix_dot_q30(v.c, w->direction[row]);
+    return -fix_dot_q30(v.c, work->direction[row]);
 }
 
-int64_t joint_speed_q40(const struct joint_work *w, int row)
+int64_t joint_speed_q40(const struct joint_work *work, int row)
 {
-    int64_t sum = joint_led_speed_q40(w, row), at[3];
+    int64_t sum = joint_led_speed_q40(work, row), at[3];
 
     for (int s = 0; s < 2; s++) {
-        if (w->lever[s].body) {
-            own_velocity(&w->lever[s], joint_is_angular(w, row), at);
-            sum +=
-                s == 0 ? fix_dot_q30(at, w->direction[row]) : -fix_dot_q30(at, w->direction[row]);
+        if (work->lever[s].body) {
+            own_velocity(&work->lever[s], joint_is_angular(work, row), at);
+            sum += s == 0 ? fix_dot_q30(at, work->direction[row])
+                          : -fix_dot_q30(at, work->direction[row]);
         }
     }
     return sum;
@@ -300,43 +302,43 @@ int64_t joint_speed_q40(const struct joint_work *w, int row)
 /* --------------------------------------------------------------------------- units */
 
 /* Bits by which a row's velocities are scaled. */
-static int row_shift(const struct joint_work *w, int row)
+static int row_shift(const struct joint_work *work, int row)
 {
-    return joint_is_angular(w, row) ? w->length_bits - 22 : -w->down;
+    return joint_is_angular(work, row) ? work->length_bits - 22 : -work->down;
 }
 
 int64_t joint_largest_q40(const struct joint *j)
 {
-    const struct joint_work *w = &j->work;
+    const struct joint_work *work = &j->work;
     int64_t most = 0;
 
-    for (int i = 0; i < w->rows; i++) {
-        int64_t v =
-            i < w->held ? w->change_q40[i] : carom_abs(w->speed_q40[i]) + carom_abs(w->least_q40);
+    for (int i = 0; i < work->rows; i++) {
+        int64_t v = i < work->held ? work->change_q40[i]
+                                   : carom_abs(work->speed_q40[i]) + carom_abs(work->least_q40);
 
-        v = carom_abs(fix_round_shift(v, row_shift(w, i)));
+        v = carom_abs(fix_round_shift(v, row_shift(work, i)));
         most = v > most ? v : most;
     }
     return most;
 }
 
-static int32_t in_units(const struct joint_work *w, int row, int64_t v_q40, int unit)
+static int32_t in_units(const struct joint_work *work, int row, int64_t v_q40, int unit)
 {
     int64_t most = (int64_t)1 << 60;
 
     v_q40 = v_q40 > most ? most : v_q40 < -most ? -most : v_q40;
     return rest_within(
-        fix_round_shift(v_q40, row_shift(w, row) - unit < 2 ? row_shift(w, row) - unit : 2),
+        fix_round_shift(v_q40, row_shift(work, row) - unit < 2 ? row_shift(work, row) - unit : 2),
         1 << 27);
 }
 
 /* An impulse of a row in solver units. */
-static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q40, int unit)
+static int64_t impulse_in_units(const struct joint_work *work, int row, int64_t p_q40, int unit)
 {
-    struct fix_scaled by = w->lightest->def.inverse_mass;
+    struct fix_scaled by = work->lightest->def.inverse_mass;
     const int64_t most = (int64_t)1 << 58;
 
-    by.e += unit + row_shift(w, row) - JOINT_FINE_BITS;
+    by.e += unit + row_shift(work, row) - JOINT_FINE_BITS;
     if (fix_bits((uint64_t)carom_abs(p_q40)) + 30 - by.e > 58) {
         return p_q40 < 0 ? -most : most;
     }
@@ -347,13 +349,13 @@ static int64_t impulse_in_units(const struct joint_work *w, int row, int64_t p_q
  * The spring's part of the impulse that leads to the spring's own velocity: k / (k + M), M being
  * the impulse for a unit of velocity.
  */
-static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
+static int32_t softness_q30(const struct joint_work *work, int64_t stiff_q40)
 {
-    int last = w->rows - 1, bits = -2 * row_shift(w, last);
-    int64_t own_q40 = carom_shl(w->inverse[last][last], 10), k_q40;
+    int last = work->rows - 1, bits = -2 * row_shift(work, last);
+    int64_t own_q40 = carom_shl(work->inverse[last][last], 10), k_q40;
 
-    own_q40 = fix_round_shift(own_q40, 30 - w->inverse_bits);
-    k_q40 = fix_mul_scaled(stiff_q40, w->lightest->def.inverse_mass);
+    own_q40 = fix_round_shift(own_q40, 30 - work->inverse_bits);
+    k_q40 = fix_mul_scaled(stiff_q40, work->lightest->def.inverse_mass);
     if (fix_bits((uint64_t)k_q40) + bits > 60 || own_q40 == 0) {
         return CAROM_ONE_Q30;
     }
@@ -364,23 +366,24 @@ static int32_t softness_q30(const struct joint_work *w, int64_t stiff_q40)
 /* Set a joint's velocities in solver units, and no impulses. */
 void joint_begin(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
 {
-    struct joint_work *w = &j->work;
-    struct joint_law *law = &w->law;
-    int last = w->rows - 1;
+    struct joint_work *work = &j->work;
+    struct joint_law *law = &work->law;
+    int last = work->rows - 1;
 
-    for (int i = 0; i < w->rows; i++) {
-        w->before[i] = in_units(w, i, i < w->held ? -w->change_q40[i] : w->speed_q40[i], sw->unit);
-        w->gain[i] = w->way[i] = 0;
+    for (int i = 0; i < work->rows; i++) {
+        work->before[i] =
+            in_units(work, i, i < work->held ? -work->change_q40[i] : work->speed_q40[i], sw->unit);
+        work->gain[i] = work->way[i] = 0;
     }
-    if (w->held == w->rows) {
+    if (work->held == work->rows) {
         return;
     }
-    law->low_v = in_units(w, last, w->speed_q40[last] + w->low_q40, sw->unit);
-    law->high_v = in_units(w, last, w->speed_q40[last] + w->high_q40, sw->unit);
-    law->motor_v = in_units(w, last, state->drive.motor_speed_q40, sw->unit);
-    law->most = impulse_in_units(w, last, w->most_q40, sw->unit);
-    law->spring_v = in_units(w, last, w->speed_q40[last] + w->spring_q40, sw->unit);
-    law->soft_q30 = w->law.spring ? softness_q30(w, w->stiff_q40) : 0;
+    law->low_v = in_units(work, last, work->speed_q40[last] + work->low_q40, sw->unit);
+    law->high_v = in_units(work, last, work->speed_q40[last] + work->high_q40, sw->unit);
+    law->motor_v = in_units(work, last, state->drive.motor_speed_q40, sw->unit);
+    law->most = impulse_in_units(work, last, work->most_q40, sw->unit);
+    law->spring_v = in_units(work, last, work->speed_q40[last] + work->spring_q40, sw->unit);
+    law->soft_q30 = work->law.spring ? softness_q30(work, work->stiff_q40) : 0;
 }
 
 void joint_load(struct joint *j, const struct joint_state *state, const struct rest_sweep *sw)
@@ -391,43 +394,43 @@ void joint_load(struct joint *j, const struct joint_state *state, const struct r
 }
 
 /* An impulse of a row as momentum, at most 2^57. */
-static int64_t impulse_q40(const struct joint_work *w, int row, int unit)
+static int64_t impulse_q40(const struct joint_work *work, int row, int unit)
 {
     const int64_t most = (int64_t)1 << 57;
-    struct fix_scaled by = w->lightest->def.mass;
+    struct fix_scaled by = work->lightest->def.mass;
 
-    by.e += JOINT_FINE_BITS - unit - row_shift(w, row);
-    if (fix_bits((uint64_t)carom_abs(w->impulse[row])) + 30 - by.e > 57) {
-        return w->impulse[row] < 0 ? -most : most;
+    by.e += JOINT_FINE_BITS - unit - row_shift(work, row);
+    if (fix_bits((uint64_t)carom_abs(work->impulse[row])) + 30 - by.e > 57) {
+        return work->impulse[row] < 0 ? -most : most;
     }
-    return fix_mul_scaled(w->impulse[row], by);
+    return fix_mul_scaled(work->impulse[row], by);
 }
 
 void joint_end(struct joint *j, const struct rest_sweep *sw)
 {
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
 
-    memset(&w->push, 0, sizeof w->push);
-    memset(&w->moment, 0, sizeof w->moment);
-    for (int i = 0; i < w->rows; i++) {
-        int64_t p = impulse_q40(w, i, sw->unit);
-        int64_t *to = joint_is_angular(w, i) ? w->moment.c : w->push.c;
+    memset(&work->push, 0, sizeof work->push);
+    memset(&work->moment, 0, sizeof work->moment);
+    for (int i = 0; i < work->rows; i++) {
+        int64_t p = impulse_q40(work, i, sw->unit);
+        int64_t *to = joint_is_angular(work, i) ? work->moment.c : work->push.c;
 
         for (int k = 0; k < 3; k++) {
-            to[k] += fix_mul_q30(p, w->direction[i][k]);
+            to[k] += fix_mul_q30(p, work->direction[i][k]);
         }
-        w->row_q40[i] = p;
+        work->row_q40[i] = p;
     }
 }
 
 void joint_apply(struct rest *r, const struct joint *j)
 {
-    const struct joint_work *w = &j->work;
+    const struct joint_work *work = &j->work;
 
     for (int s = 0; s < 2; s++) {
-        const struct joint_lever *lever = &w->lever[s];
+        const struct joint_lever *lever = &work->lever[s];
         struct body_state *state;
-        const int64_t *p = w->push.c;
+        const int64_t *p = work->push.c;
         int64_t limited[3], back[3];
 
         if (!lever->body) {
@@ -439,7 +442,7 @@ void joint_apply(struct rest *r, const struct joint *j)
         }
         turn_velocity(lever, limited, back); /* P x r */
         for (int k = 0; k < 3; k++) {
-            int64_t moment = w->moment.c[k] - back[k];
+            int64_t moment = work->moment.c[k] - back[k];
 
             state->momentum.c[k] += s == 0 ? p[k] : -p[k];
             state->angular.c[k] += s == 0 ? moment : -moment;

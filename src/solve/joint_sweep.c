@@ -6,10 +6,10 @@
 #include "joint_parts.h"
 
 /* V - wanted V of a row now; V of the last row. */
-int32_t joint_present(const struct joint_work *w, int row)
+int32_t joint_present(const struct joint_work *work, int row)
 {
-    const struct body *a = w->lever[0].body, *b = w->lever[1].body;
-    const int32_t *d = w->direction[row];
+    const struct body *a = work->lever[0].body, *b = work->lever[1].body;
+    const int32_t *d = work->direction[row];
     uint64_t turn = (uint64_t)1 << 31;
     int32_t way[3] = {0, 0, 0};
     int64_t v = 0;
@@ -17,7 +17,7 @@ int32_t joint_present(const struct joint_work *w, int row)
     if (a) {
         const struct body_path *in = body_solved(a);
 
-        turn += (uint64_t)carom_dot(w->lever[0].turn[row], in->du);
+        turn += (uint64_t)carom_dot(work->lever[0].turn[row], in->du);
         for (int k = 0; k < 3; k++) {
             way[k] = in->dv[k];
         }
@@ -25,15 +25,15 @@ int32_t joint_present(const struct joint_work *w, int row)
     if (b) {
         const struct body_path *in = body_solved(b);
 
-        turn -= (uint64_t)carom_dot(w->lever[1].turn[row], in->du);
+        turn -= (uint64_t)carom_dot(work->lever[1].turn[row], in->du);
         for (int k = 0; k < 3; k++) {
             way[k] -= in->dv[k];
         }
     }
-    if (!joint_is_angular(w, row)) {
-        v = carom_round(carom_dot(d, way), 30 + REST_FINER_BITS + w->down);
+    if (!joint_is_angular(work, row)) {
+        v = carom_round(carom_dot(d, way), 30 + REST_FINER_BITS + work->down);
     }
-    return rest_clamp(w->before[row] + v + ((int64_t)turn >> 32));
+    return rest_clamp(work->before[row] + v + ((int64_t)turn >> 32));
 }
 
 /* If K is all but singular an impulse is long though its effect is short. */
@@ -48,20 +48,20 @@ static int finer_bits(const struct body *b)
     return s > WAY_FINER_BITS ? WAY_FINER_BITS : s - 1;
 }
 
-void joint_add_effect(const struct joint_work *w, int side, const int64_t change[JOINT_ROWS],
+void joint_add_effect(const struct joint_work *work, int side, const int64_t change[JOINT_ROWS],
                       struct joint_sum *sum)
 {
-    const struct joint_lever *lever = &w->lever[side];
+    const struct joint_lever *lever = &work->lever[side];
     const int s = rest_turn_shift(lever->body, JOINT_FINE_BITS) - finer_bits(lever->body);
-    const int down = 30 + w->down + JOINT_FINE_BITS - REST_FINER_BITS - WAY_FINER_BITS;
+    const int down = 30 + work->down + JOINT_FINE_BITS - REST_FINER_BITS - WAY_FINER_BITS;
 
-    for (int i = 0; i < w->rows; i++) {
+    for (int i = 0; i < work->rows; i++) {
         int64_t own = side == 0 ? change[i] : -change[i];
 
         own = lever->share_q30 == CAROM_ONE_Q30 ? own : fix_mul_q30(own, lever->share_q30);
         for (int k = 0; k < 3; k++) {
             sum->way[k] +=
-                joint_is_angular(w, i) ? 0 : (uint64_t)fix_mul(own, w->direction[i][k], down);
+                joint_is_angular(work, i) ? 0 : (uint64_t)fix_mul(own, work->direction[i][k], down);
             sum->turn[k] += (uint64_t)fix_mul(own, lever->turn[i][k], s);
         }
     }
@@ -88,23 +88,23 @@ void joint_move(struct body *b, const struct joint_sum *sum)
     }
 }
 
-void joint_note(struct joint_work *w, const int64_t change[JOINT_ROWS])
+void joint_note(struct joint_work *work, const int64_t change[JOINT_ROWS])
 {
-    for (int i = 0; i < w->rows; i++) {
-        w->impulse[i] = joint_limited(w->impulse[i] + change[i], IMPULSE_BITS);
-        w->gain[i] = rest_clamp(w->gain[i] + change[i]);
+    for (int i = 0; i < work->rows; i++) {
+        work->impulse[i] = joint_limited(work->impulse[i] + change[i], IMPULSE_BITS);
+        work->gain[i] = rest_clamp(work->gain[i] + change[i]);
     }
 }
 
-void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
+void joint_push(struct joint_work *work, const int64_t change[JOINT_ROWS])
 {
-    joint_note(w, change);
+    joint_note(work, change);
     for (int s = 0; s < 2; s++) {
         struct joint_sum sum = {{0, 0, 0}, {0, 0, 0}};
 
-        if (w->lever[s].body) {
-            joint_add_effect(w, s, change, &sum);
-            joint_move(w->lever[s].body, &sum);
+        if (work->lever[s].body) {
+            joint_add_effect(work, s, change, &sum);
+            joint_move(work->lever[s].body, &sum);
         }
     }
 }
@@ -114,11 +114,11 @@ void joint_push(struct joint_work *w, const int64_t change[JOINT_ROWS])
  * is v then. The result is the motor's, the spring's, or none, plus what the limits ask for beyond
  * that.
  */
-static int64_t by_law(const struct joint_work *w, int64_t now, int32_t v)
+static int64_t by_law(const struct joint_work *work, int64_t now, int32_t v)
 {
-    const struct joint_law *law = &w->law;
-    int last = w->rows - 1, bits = w->inverse_bits - JOINT_FINE_BITS;
-    int64_t own = w->inverse[last][last], impulse = 0, least;
+    const struct joint_law *law = &work->law;
+    int last = work->rows - 1, bits = work->inverse_bits - JOINT_FINE_BITS;
+    int64_t own = work->inverse[last][last], impulse = 0, least;
 
 #define LEADS_TO(wanted) (now + fix_round_shift(((int64_t)(wanted) - (v)) * own, -bits))
     if (law->motor) {
@@ -141,31 +141,31 @@ static int64_t by_law(const struct joint_work *w, int64_t now, int32_t v)
 
 int64_t joint_sweep(struct joint *j, int32_t quiet)
 {
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
     int64_t change[JOINT_ROWS], moved = 0;
     int32_t error[JOINT_ROWS];
-    int last = w->rows - 1;
+    int last = work->rows - 1;
 
-    for (int i = 0; i < w->held; i++) {
-        error[i] = -rest_within(joint_present(w, i), 1 << 29);
+    for (int i = 0; i < work->held; i++) {
+        error[i] = -rest_within(joint_present(work, i), 1 << 29);
         moved = fix_larger((int32_t)moved, fix_abs32(error[i]));
     }
-    for (int i = 0; i < w->rows; i++) {
+    for (int i = 0; i < work->rows; i++) {
         int64_t sum = 0;
 
         /* six products of numbers below 2^30 and 2^29 */
-        for (int k = 0; k < w->held; k++) {
-            sum += (int64_t)w->inverse[i][k] * error[k];
+        for (int k = 0; k < work->held; k++) {
+            sum += (int64_t)work->inverse[i][k] * error[k];
         }
         change[i] =
-            joint_limited(fix_round_shift(sum, JOINT_FINE_BITS - w->inverse_bits), IMPULSE_BITS);
+            joint_limited(fix_round_shift(sum, JOINT_FINE_BITS - work->inverse_bits), IMPULSE_BITS);
     }
-    if (w->held < w->rows) {
-        int64_t more =
-            by_law(w, w->impulse[last] + change[last], joint_present(w, last)) - w->impulse[last];
+    if (work->held < work->rows) {
+        int64_t more = by_law(work, work->impulse[last] + change[last], joint_present(work, last)) -
+                       work->impulse[last];
 
         for (int i = 0; i < last; i++) {
-            change[i] += fix_mul(more - change[last], w->ratio_q28[i], 28);
+            change[i] += fix_mul(more - change[last], work->ratio_q28[i], 28);
         }
         change[last] = more;
         more = carom_abs(more) >> JOINT_FINE_BITS;
@@ -174,6 +174,6 @@ int64_t joint_sweep(struct joint *j, int32_t quiet)
     if (moved < quiet) {
         return 0;
     }
-    joint_push(w, change);
+    joint_push(work, change);
     return moved;
 }

@@ -50,9 +50,9 @@ struct rest_warm_parts {
     int64_t normal_q40;
     carom_v3_q40 tangent;
 };
-struct rest_warm_parts rest_warm_parts(const struct rest_warm *w);
+struct rest_warm_parts rest_warm_parts(const struct rest_warm *warm);
 /* Set the impulse that has these parts. Returns false if there is none. */
-bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts);
+bool rest_warm_join(struct rest_warm *warm, const struct rest_warm_parts *parts);
 
 struct rest {
     /* scratch: one impact (gauss), or contacts and rolling pairs; one use at a time */

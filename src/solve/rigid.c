@@ -171,7 +171,7 @@ static void add_inertia(const struct rest *r, const struct rest_rigid *rigid, ui
 static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
                       const struct fix_wide angular_q72[3])
 {
-    struct gauss *w = r->gauss;
+    struct gauss *g = r->gauss;
     int32_t rows[3][GAUSS_MAX + 1];
     int64_t inertia_q30[6] = {0};
     uint64_t all = 0;
@@ -187,18 +187,18 @@ static bool find_spin(const struct rest *r, struct rest_rigid *rigid,
     bits = bits > 30 ? bits - 30 : 0;
     for (int m = 0; m < 3; m++) {
         for (int n = 0; n < 3; n++) {
-            w->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
+            g->a[m][n] = (int32_t)fix_round_shift(inertia_q30[fix_sym3_at[m][n]], -down);
         }
-        w->a[m][3] = (int32_t)fix_wide_shift(&angular_q72[m], bits);
+        g->a[m][3] = (int32_t)fix_wide_shift(&angular_q72[m], bits);
     }
-    memcpy(rows, w->a, sizeof rows);
-    if (gauss_solve(w, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
+    memcpy(rows, g->a, sizeof rows);
+    if (gauss_solve(g, 3, (const int32_t(*)[GAUSS_MAX + 1]) rows) != 0) {
         return false;
     }
     /* q72 over q30, in units of mass and squared length */
     up = bits - 72 - (down - 30) - (30 - rigid->mass_e) - 2 * (rigid->length_bits - 32);
     for (int k = 0; k < 3; k++) {
-        rigid->spin.c[k] = fix_round_shift(w->x_q40[k], up);
+        rigid->spin.c[k] = fix_round_shift(g->x_q40[k], up);
     }
     return true;
 }
@@ -235,14 +235,14 @@ struct body_state rest_rigid_state(const struct rest *r, const struct rest_rigid
 {
     struct body_state state = r->states[i];
     carom_v3_q40 v = rigid->velocity;
-    const int64_t *w = rigid->spin.c;
+    const int64_t *spin = rigid->spin.c;
     int32_t arm[3];
 
     arm_q30(r, rigid, i, arm);
     for (int k = 0; k < 3; k++) {
         int m = fix_next(k), n = fix_next(m), bits = 62 - rigid->length_bits;
 
-        v.c[k] += fix_mul(w[m], arm[n], bits) - fix_mul(w[n], arm[m], bits);
+        v.c[k] += fix_mul(spin[m], arm[n], bits) - fix_mul(spin[n], arm[m], bits);
     }
     body_set_motion(&r->bodies[i], &state, &v, &rigid->spin);
     return state;

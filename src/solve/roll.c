@@ -30,7 +30,7 @@ static bool may_roll(const struct rest *r, uint32_t i)
     return all <= 2 || (pressed > 0 && pressed <= 2);
 }
 
-/* True if a body that turns about the contact rises: its centre moves by arm x w. */
+/* True if a body that turns about the contact rises: its centre moves by arm x spin. */
 static bool rises(const struct contact_side *side)
 {
     const struct body *b = side->body;
@@ -171,10 +171,10 @@ bool rest_roll_prepare(struct rest *r, uint32_t i, const struct rest_sweep *sw)
         }
         mass_q30 += turning_q30(c, s);
         for (int k = 0; k < 3; k++) {
-            int64_t w =
+            int64_t part =
                 fix_round_shift(side->body->solve.spin.c[k], roll->unit_bits - 22 - sw->unit);
 
-            spin[k] += s == 0 ? w : -w;
+            spin[k] += s == 0 ? part : -part;
         }
     }
     rest_cut(spin, INT32_MAX);

@@ -247,7 +247,7 @@ void impact_row(const struct impact_problem *p, bool sticks, uint32_t friction_q
     }
 }
 
-/* Gauss-Jordan on the rows; the solution is in p->w. */
+/* Gauss-Jordan on the rows; the solution is in p->gauss. */
 static int eliminate(const struct impact_problem *p, const struct goal *goal)
 {
     int32_t row[GAUSS_MAX + 1];
@@ -256,17 +256,17 @@ static int eliminate(const struct impact_problem *p, const struct goal *goal)
     for (int i = 0; i < p->n; i++) {
         int last = i - (p->n - 3);
 
-        impact_row(p, goal->sticks, goal->friction_q16, i, p->w->a[i]);
+        impact_row(p, goal->sticks, goal->friction_q16, i, p->gauss->a[i]);
         if (last == 0 || (last > 0 && goal->sticks)) {
-            p->w->a[i][p->n] = (int32_t)carom_round(goal->change_q40[last], 10);
+            p->gauss->a[i][p->n] = (int32_t)carom_round(goal->change_q40[last], 10);
         }
     }
-    more = gauss_begin(p->w, p->n);
+    more = gauss_begin(p->gauss, p->n);
     while (more > 0) {
-        more = gauss_correct(p->w, p->n);
+        more = gauss_correct(p->gauss, p->n);
         for (int i = 0; i < p->n && more > 0; i++) {
             impact_row(p, goal->sticks, goal->friction_q16, i, row);
-            gauss_take_out(p->w, p->n, i, row);
+            gauss_take_out(p->gauss, p->n, i, row);
         }
     }
     return more;
@@ -293,7 +293,7 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
     memset(out_q40, 0, 3 * sizeof out_q40[0]);
     for (int b = 0; b < p->movers; b++) {
         const struct impact_mover *m = &p->mover[b];
-        const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3;
+        const int64_t *dv = p->gauss->x_q40 + 6 * b, *dw = dv + 3;
 
         for (int k = 0; k < 3; k++) {
             out_q40[k] += m->sign * (fix_round_shift(dv[k], -p->arm_shift) + cross_arm(m, dw, k));
@@ -305,7 +305,8 @@ static void velocity_change(const struct impact_problem *p, int64_t out_q40[3])
 static void body_residual(const struct impact_problem *p, int b, int64_t *out_q40)
 {
     const struct impact_mover *m = &p->mover[b];
-    const int64_t *dv = p->w->x_q40 + 6 * b, *dw = dv + 3, *impulse = p->w->x_q40 + p->n - 3;
+    const int64_t *dv = p->gauss->x_q40 + 6 * b, *dw = dv + 3,
+                  *impulse = p->gauss->x_q40 + p->n - 3;
     int64_t share[3];
 
     for (int k = 0; k < 3; k++) {
@@ -326,7 +327,7 @@ static void body_residual(const struct impact_problem *p, int b, int64_t *out_q4
  */
 static int refine(const struct impact_problem *p, const struct goal *goal)
 {
-    const int64_t *impulse = p->w->x_q40 + p->n - 3;
+    const int64_t *impulse = p->gauss->x_q40 + p->n - 3;
     const struct impact_frame *f = &p->frame;
     int64_t residual_q40[GAUSS_MAX], *last = residual_q40 + p->n - 3, change[3], row[3];
 
@@ -349,12 +350,12 @@ static int refine(const struct impact_problem *p, const struct goal *goal)
         last[1] = fix_mul(normal, f->un_q52, 52) - impact_dot(impulse, &f->u);
         last[2] = -fix_round_shift(excess, 46 - slide_direction(p, goal->friction_q16, row));
     }
-    return gauss_add(p->w, p->n, residual_q40);
+    return gauss_add(p->gauss, p->n, residual_q40);
 }
 
 static int solve(const struct impact_problem *p, const struct goal *goal, struct impact_answer *out)
 {
-    const int64_t *x = p->w->x_q40;
+    const int64_t *x = p->gauss->x_q40;
     uint64_t used = 0;
 
     if (eliminate(p, goal)) {

@@ -40,7 +40,7 @@ struct impact_frame {
 };
 
 struct impact_problem {
-    struct gauss *w;
+    struct gauss *gauss;
     const struct impact *in;
     struct impact_mover mover[2];
     int movers, n;
@@ -70,7 +70,7 @@ void impact_add_speed_q70(struct fix_wide *sum, const struct impact *in, const c
  */
 bool impact_set_frame(struct impact_frame *f, const int64_t t[3]);
 
-/* Set everything of a problem but w, in, frame and wanted_q70. */
+/* Set everything of a problem but gauss, in, frame and wanted_q70. */
 void impact_prepare(struct impact_problem *p);
 
 /*

@@ -6,7 +6,7 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
 {
     int64_t limit_q40;
     carom_m3_q30 m;
-    carom_v3_q40 v, w;
+    carom_v3_q40 v, spin;
 
     if (b->clock.contact == BODY_FLIES && b->def.joined == BODY_ALONE) {
         return false;
@@ -15,8 +15,8 @@ static bool is_quiet(const struct body *b, const struct body_state *s)
     limit_q40 = b->def.acceleration_q40 / REST_QUIET_DIVISOR;
     fix_matrix(&m, &s->rotation);
     body_velocity(b, s, &v);
-    body_spin(b, s, &m, &w);
-    return fix_length(v.c) + fix_mul(fix_length(w.c), b->def.radius_q22, 22) < limit_q40;
+    body_spin(b, s, &m, &spin);
+    return fix_length(v.c) + fix_mul(fix_length(spin.c), b->def.radius_q22, 22) < limit_q40;
 }
 
 /* True if every active body of an island is quiet: one that is not keeps the others awake. */

@@ -4,47 +4,48 @@
 #include "parts.h"
 
 /* The part of an impulse across its normal. */
-static inline void find_tangent(const struct rest_warm *w, int64_t normal_q40, int64_t tangent[3])
+static inline void find_tangent(const struct rest_warm *warm, int64_t normal_q40,
+                                int64_t tangent[3])
 {
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
-        tangent[k] = w->impulse.c[k] - fix_mul_q30(normal_q40, w->normal.c[k]);
+        tangent[k] = warm->impulse.c[k] - fix_mul_q30(normal_q40, warm->normal.c[k]);
     }
 }
 
-struct rest_warm_parts rest_warm_parts(const struct rest_warm *w)
+struct rest_warm_parts rest_warm_parts(const struct rest_warm *warm)
 {
     struct rest_warm_parts parts;
 
-    parts.normal_q40 = rest_along_q40(&w->impulse, &w->normal);
-    find_tangent(w, parts.normal_q40, parts.tangent.c);
+    parts.normal_q40 = rest_along_q40(&warm->impulse, &warm->normal);
+    find_tangent(warm, parts.normal_q40, parts.tangent.c);
     return parts;
 }
 
 /* Bounds: with a normal's components up to 2^30.1 and parts up to 2^60 an impulse is below 2^61.1. */
-bool rest_warm_join(struct rest_warm *w, const struct rest_warm_parts *parts)
+bool rest_warm_join(struct rest_warm *warm, const struct rest_warm_parts *parts)
 {
     const int64_t most = (int64_t)1 << 60, *across = parts->tangent.c;
     const int32_t longest = CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 10);
 
     for (int k = 0; k < 3; k++) {
-        int32_t n = w->normal.c[k];
+        int32_t n = warm->normal.c[k];
 
         if (n > longest || n < -longest || across[k] > most || across[k] < -most ||
             parts->normal_q40 > most || parts->normal_q40 < -most) {
             return false;
         }
-        w->impulse.c[k] = across[k] + fix_mul_q30(parts->normal_q40, n);
+        warm->impulse.c[k] = across[k] + fix_mul_q30(parts->normal_q40, n);
     }
-    return rest_warm_parts(w).normal_q40 == parts->normal_q40;
+    return rest_warm_parts(warm).normal_q40 == parts->normal_q40;
 }
 
 static bool before(const void *record, const void *key)
 {
-    const struct rest_warm *w = (const struct rest_warm *)record;
+    const struct rest_warm *warm = (const struct rest_warm *)record;
     const struct pair *p = (const struct pair *)key;
 
-    return w->a < p->a || (w->a == p->a && w->b < p->b);
+    return warm->a < p->a || (warm->a == p->a && warm->b < p->b);
 }
 
 /* The first kept impulse of a pair; they are in the order of pairs. */
@@ -84,17 +85,18 @@ static struct rest_warm *find_warm(struct rest *r, const struct contact *c, uint
     carom_v3_q22 arm = contact_arm(c);
 
     carom_rotate_back(arm.c, &a->path.start.r, arm.c);
-    for (struct rest_warm *w = &r->warm[first], *end = &r->warm[r->warm_count];
-         w < end && w->a == p->a && w->b == p->b; w++) {
-        int32_t distance = distance_below(&w->arm, &arm, nearest);
+    for (struct rest_warm *warm = &r->warm[first], *end = &r->warm[r->warm_count];
+         warm < end && warm->a == p->a && warm->b == p->b; warm++) {
+        int32_t distance = distance_below(&warm->arm, &arm, nearest);
 
-        if (distance < nearest && (w->impulse.c[0] | w->impulse.c[1] | w->impulse.c[2]) != 0 &&
-            carom_dot(w->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
-            int64_t along_q40 = rest_along_q40(&w->impulse, &w->normal);
+        if (distance < nearest &&
+            (warm->impulse.c[0] | warm->impulse.c[1] | warm->impulse.c[2]) != 0 &&
+            carom_dot(warm->normal.c, c->normal.c) >> 30 >= CAROM_ONE_Q30 / 10 * 9) {
+            int64_t along_q40 = rest_along_q40(&warm->impulse, &warm->normal);
 
             if (along_q40 != 0) {
                 nearest = distance;
-                best = w;
+                best = warm;
                 *normal_q40 = along_q40;
             }
         }
@@ -130,15 +132,15 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
 {
     carom_v3_q40 tangent;
     int64_t along, impulse[4];
-    struct rest_warm *w = find_warm(r, c, first, divisor, &impulse[3]);
+    struct rest_warm *warm = find_warm(r, c, first, divisor, &impulse[3]);
     struct fix_scaled inverse;
 
-    if (!w) {
+    if (!warm) {
         return;
     }
     inverse = contact_lighter(c)->def.inverse_mass;
     inverse.e += sw->unit - c->work->fine_bits;
-    find_tangent(w, impulse[3], tangent.c);
+    find_tangent(warm, impulse[3], tangent.c);
     along = rest_along_q40(&tangent, &c->normal);
     FIX_UNROLL
     for (int k = 0; k < 3; k++) {
@@ -147,7 +149,7 @@ static void load(struct rest *r, struct contact *c, const struct rest_sweep *sw,
     to_units(impulse, inverse);
     memcpy(c->work->tangent_impulse, impulse, sizeof c->work->tangent_impulse);
     c->work->normal_impulse = impulse[3];
-    w->impulse = (carom_v3_q40){{0, 0, 0}}; /* used */
+    warm->impulse = (carom_v3_q40){{0, 0, 0}}; /* used */
 }
 
 /* Load contacts that have no impulse yet, from places within a part of a radius. */
@@ -181,18 +183,18 @@ void rest_store_warm(struct rest *r)
     r->warm_count = 0;
     for (uint32_t i = 0; i < r->list.pool->used; i++) {
         const struct contact *c = &r->list.contacts[i];
-        struct rest_warm *w = &r->warm[r->warm_count];
+        struct rest_warm *warm = &r->warm[r->warm_count];
         carom_v3_q22 arm;
 
         if (!c->resting) {
             continue;
         }
         r->warm_count++;
-        w->a = r->pairs[c->key.pair].a;
-        w->b = r->pairs[c->key.pair].b;
-        w->normal = c->normal;
+        warm->a = r->pairs[c->key.pair].a;
+        warm->b = r->pairs[c->key.pair].b;
+        warm->normal = c->normal;
         arm = contact_arm(c);
-        carom_rotate_back(w->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
-        w->impulse = *contact_impulse(c);
+        carom_rotate_back(warm->arm.c, &rest_body(r, c, 0)->path.start.r, arm.c);
+        warm->impulse = *contact_impulse(c);
     }
 }

@@ -10,7 +10,7 @@ static void add_velocity(const struct step *s, uint32_t i, const carom_v3_q32 *p
     const struct body *b = &s->w->bodies[i];
     struct body_state state = step_state_at(s, i, s->now_q30);
     int32_t arm_q22[3];
-    carom_v3_q40 v, w;
+    carom_v3_q40 v, spin;
     carom_m3_q30 r;
 
     if (!b->def.moving) {
@@ -18,15 +18,15 @@ static void add_velocity(const struct step *s, uint32_t i, const carom_v3_q32 *p
     }
     fix_matrix(&r, &state.rotation);
     body_velocity(b, &state, &v);
-    body_spin(b, &state, &r, &w);
+    body_spin(b, &state, &r, &spin);
     for (int k = 0; k < 3; k++) { /* below 2^28: a place of the body, except for its margin */
         arm_q22[k] = (int32_t)((point->c[k] - state.position.c[k]) >> 10);
     }
     for (int k = 0; k < 3; k++) {
         int m = fix_next(k), n = fix_next(m);
 
-        sum->c[k] +=
-            sign * (v.c[k] + fix_mul(w.c[m], arm_q22[n], 22) - fix_mul(w.c[n], arm_q22[m], 22));
+        sum->c[k] += sign * (v.c[k] + fix_mul(spin.c[m], arm_q22[n], 22) -
+                             fix_mul(spin.c[n], arm_q22[m], 22));
     }
 }
 

@@ -117,23 +117,23 @@ static int64_t per_frame(int64_t v_q40, int32_t time_q30)
  * Measure a spring over the frame: half of the coordinate's change is added to where it is now.
  * False if it has neither stiffness nor damping.
  */
-static bool measure_spring(struct joint_work *w, const struct carom_joint_drive *d, int64_t now_q40,
-                           int64_t rate_q40)
+static bool measure_spring(struct joint_work *work, const struct carom_joint_drive *d,
+                           int64_t now_q40, int64_t rate_q40)
 {
     int64_t off_q40 = now_q40 - carom_shl(d->rest_q32, 8);
     struct fix_wide pull = fix_wide_mul(d->stiffness_q40, off_q40);
     struct fix_scaled loose; /* velocity that leads to no pull: q80 over q40 */
 
-    w->half_stiff_q40 = d->stiffness_q40 / 2;
-    w->stiff_q40 = w->half_stiff_q40 + d->damping_q40;
-    if (w->stiff_q40 == 0) {
+    work->half_stiff_q40 = d->stiffness_q40 / 2;
+    work->stiff_q40 = work->half_stiff_q40 + d->damping_q40;
+    if (work->stiff_q40 == 0) {
         return false;
     }
-    loose = fix_wide_over(&pull, w->stiff_q40);
-    w->spring_q40 = -rate_q40 - fix_mul_scaled(1, loose);
-    w->elastic_q40 = joint_product_q40(d->stiffness_q40, off_q40) +
-                     joint_product_q40(w->half_stiff_q40, rate_q40);
-    w->least_q40 += carom_abs(w->spring_q40);
+    loose = fix_wide_over(&pull, work->stiff_q40);
+    work->spring_q40 = -rate_q40 - fix_mul_scaled(1, loose);
+    work->elastic_q40 = joint_product_q40(d->stiffness_q40, off_q40) +
+                        joint_product_q40(work->half_stiff_q40, rate_q40);
+    work->least_q40 += carom_abs(work->spring_q40);
     return true;
 }
 
@@ -158,26 +158,28 @@ static void measure_drive(struct joint *j, const struct joint_state *state, int6
                           int64_t change_q40, int32_t slice_q30, enum joint_solve solve)
 {
     const struct carom_joint_drive *d = &state->drive;
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
     int32_t time_q30 = slice_q30 > STEP_MEASURED_MIN_Q30 ? slice_q30 : STEP_MEASURED_MIN_Q30;
 
-    w->law.lower = w->law.upper = d->limited && solve != JOINT_PROJECT;
-    w->law.motor = d->motor && solve == JOINT_FRAME;
-    w->least_q40 = 0;
+    work->law.lower = work->law.upper = d->limited && solve != JOINT_PROJECT;
+    work->law.motor = d->motor && solve == JOINT_FRAME;
+    work->least_q40 = 0;
     if (d->limited) {
         int64_t below_q40 = carom_shl(d->lower_q32, 8) - now_q40;
         int64_t above_q40 = carom_shl(d->upper_q32, 8) - now_q40;
 
-        w->low_q40 = to_limit(below_q40, below_q40 > 0, change_q40, time_q30);
-        w->high_q40 = to_limit(above_q40, above_q40 < 0, change_q40, time_q30);
-        w->least_q40 = w->low_q40 > 0 ? w->low_q40 : w->high_q40 < 0 ? -w->high_q40 : 0;
+        work->low_q40 = to_limit(below_q40, below_q40 > 0, change_q40, time_q30);
+        work->high_q40 = to_limit(above_q40, above_q40 < 0, change_q40, time_q30);
+        work->least_q40 = work->low_q40 > 0    ? work->low_q40
+                          : work->high_q40 < 0 ? -work->high_q40
+                                               : 0;
     }
-    if (w->law.motor) {
-        w->most_q40 = d->motor_most_q40;
-        w->least_q40 += carom_abs(d->motor_speed_q40);
+    if (work->law.motor) {
+        work->most_q40 = d->motor_most_q40;
+        work->least_q40 += carom_abs(d->motor_speed_q40);
     }
-    w->law.spring = d->spring && solve == JOINT_FRAME &&
-                    measure_spring(w, d, now_q40, per_frame(change_q40, time_q30));
+    work->law.spring = d->spring && solve == JOINT_FRAME &&
+                       measure_spring(work, d, now_q40, per_frame(change_q40, time_q30));
 }
 
 /* Size of a row's change at the farthest point of body a, in units, q40. */
@@ -236,16 +238,16 @@ static int32_t measure_sides(struct step *s, struct joint *j, int64_t *skin_q40)
 static int64_t measure_held(const struct step *s, struct joint *j, const struct joint_error *at,
                             const struct joint_error *to, int32_t slice_q30)
 {
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
     int64_t most_q40 = 0;
 
-    for (int k = 0; k < w->held; k++) {
-        int64_t off_q40 = w->by_speed ? 0 : as_way(s, j, k, to->row_q40[k]);
+    for (int k = 0; k < work->held; k++) {
+        int64_t off_q40 = work->by_speed ? 0 : as_way(s, j, k, to->row_q40[k]);
 
         most_q40 = off_q40 > most_q40 ? off_q40 : most_q40;
-        w->wanted_q40[k] = -per_frame(at->row_q40[k], recovery(slice_q30));
-        if (!w->by_speed) {
-            w->wanted_q40[k] -= per_frame(to->row_q40[k] - at->row_q40[k], slice_q30);
+        work->wanted_q40[k] = -per_frame(at->row_q40[k], recovery(slice_q30));
+        if (!work->by_speed) {
+            work->wanted_q40[k] -= per_frame(to->row_q40[k] - at->row_q40[k], slice_q30);
         }
     }
     return most_q40;
@@ -281,7 +283,7 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
 {
     struct joint *j = &s->w->rest.joints.joints[i];
     const struct joint_state *state = &s->next->joints[i];
-    struct joint_work *w = &j->work;
+    struct joint_work *work = &j->work;
     const uint16_t side[2] = {j->a, j->b};
     struct joint_pose now[2], then[2];
     struct joint_error at, to;
@@ -295,18 +297,18 @@ static bool measure_one(struct step *s, uint32_t i, enum joint_solve solve)
         then[k] = pose_of(s, side[k], solve == JOINT_PROJECT ? 0 : slice_q30);
     }
     joint_set_rows(j, state, now);
-    w->idle = !j->chosen || w->rows == 0 || (!w->lever[0].body && !w->lever[1].body);
+    work->idle = !j->chosen || work->rows == 0 || (!work->lever[0].body && !work->lever[1].body);
     joint_measure(j, now, &at);
     joint_measure(j, then, &to);
-    w->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
+    work->by_speed = solve == JOINT_PROJECT || slice_q30 < STEP_MEASURED_MIN_Q30;
     held_q40 = measure_held(s, j, &at, &to, slice_q30);
     if (solve == JOINT_PROJECT) {
-        memset(w->wanted_q40, 0, sizeof w->wanted_q40);
+        memset(work->wanted_q40, 0, sizeof work->wanted_q40);
     }
-    if (w->held < w->rows) {
+    if (work->held < work->rows) {
         last_q40 = measure_last(s, j, state, &at, &to, slice_q30, solve);
     }
-    w->torn = !w->by_speed && held_q40 > STEP_TORN_SKINS * skin_q40;
+    work->torn = !work->by_speed && held_q40 > STEP_TORN_SKINS * skin_q40;
     return (held_q40 > last_q40 ? held_q40 : last_q40) > skin_q40 / STEP_LEFT_DIVISOR;
 }
 

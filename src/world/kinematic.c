@@ -7,9 +7,9 @@ bool world_is_kinematic(const struct body *b)
     return b->def.extra && b->def.extra->kinematic;
 }
 
-bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
+bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *spin)
 {
-    return world_motion_in_range(b, v, w) && fix_length(w->c) <= WORLD_ROUTE_SPIN_MAX_Q40;
+    return world_motion_in_range(b, v, spin) && fix_length(spin->c) <= WORLD_ROUTE_SPIN_MAX_Q40;
 }
 
 bool world_leads(const struct body_drive *drive, const struct body_state *s)
@@ -37,14 +37,14 @@ void world_drive(struct carom_world *w, uint32_t body, const struct body_drive *
     }
 }
 
-struct body_drive world_drive_on(const carom_v3_q40 *v, const carom_v3_q40 *w)
+struct body_drive world_drive_on(const carom_v3_q40 *v, const carom_v3_q40 *spin)
 {
     struct body_drive drive = {.kind = BODY_DRIVE_NONE};
 
-    if ((fix_sum(v->c) | fix_sum(w->c)) != 0) {
+    if ((fix_sum(v->c) | fix_sum(spin->c)) != 0) {
         drive.kind = BODY_DRIVE_ON;
         drive.velocity = *v;
-        drive.spin = *w;
+        drive.spin = *spin;
     }
     return drive;
 }

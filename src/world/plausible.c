@@ -116,9 +116,10 @@ static bool arm_plausible(const struct carom_world *w, const struct rest_warm *w
 /* True if an earlier kept impulse of the pair has the same place and normal. */
 static bool repeats(const struct rest_warm *first, const struct rest_warm *warm)
 {
-    for (const struct rest_warm *w = warm; w-- > first && w->a == warm->a && w->b == warm->b;) {
-        if (memcmp(&w->arm, &warm->arm, sizeof w->arm) == 0 &&
-            memcmp(&w->normal, &warm->normal, sizeof w->normal) == 0) {
+    for (const struct rest_warm *kept = warm;
+         kept-- > first && kept->a == warm->a && kept->b == warm->b;) {
+        if (memcmp(&kept->arm, &warm->arm, sizeof kept->arm) == 0 &&
+            memcmp(&kept->normal, &warm->normal, sizeof kept->normal) == 0) {
             return true;
         }
     }

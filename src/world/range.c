@@ -116,23 +116,23 @@ static int64_t exact_length(const int64_t v[3])
  * 64. Then no impact can make the centre faster than that within a frame, because energy does not
  * rise and I <= m r^2; so reach, angular momentum and everything that follows are bounded.
  */
-bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w)
+bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *spin)
 {
     const int64_t limit_q40 = (int64_t)BODY_SPEED_LIMIT << 40;
     int64_t turn_q40;
 
-    if (!world_each_within(v->c, limit_q40) || !world_each_within(w->c, limit_q40)) {
+    if (!world_each_within(v->c, limit_q40) || !world_each_within(spin->c, limit_q40)) {
         return false;
     }
-    turn_q40 = exact_length(w->c);
+    turn_q40 = exact_length(spin->c);
     return turn_q40 < limit_q40 &&
            exact_length(v->c) + fix_mul(turn_q40, b->def.radius_q22, 22) < limit_q40;
 }
 
 void world_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
-                      const carom_v3_q40 *w)
+                      const carom_v3_q40 *spin)
 {
-    body_set_motion(b, s, v, w);
+    body_set_motion(b, s, v, spin);
     if (!world_in_range(b, s)) {
         for (int k = 0; k < 3; k++) {
             s->momentum.c[k] -= s->momentum.c[k] / (1 << 25);
@@ -151,7 +151,7 @@ bool world_in_range(const struct body *b, const struct body_state *s)
     const int64_t angular_limit_q40 = (int64_t)1 << 62;
     int64_t momentum_limit_q40 =
         b->def.moving ? fix_mul_scaled((int64_t)BODY_SPEED_LIMIT << 40, b->def.mass) : 0;
-    carom_v3_q40 v, w;
+    carom_v3_q40 v, spin;
     int64_t by_mass[3] = {0, 0, 0};
     struct fix_wide sum = {0, 0};
     carom_m3_q30 r;
@@ -170,17 +170,17 @@ bool world_in_range(const struct body *b, const struct body_state *s)
         (b->def.moving && !body_spin_fits(b, s, &r))) {
         return false;
     }
-    body_spin(b, s, &r, &w);
+    body_spin(b, s, &r, &spin);
     for (int k = 0; b->def.moving && k < 3; k++) {
         by_mass[k] = fix_mul_scaled(s->angular.c[k], b->def.inverse_mass);
     }
-    fix_wide_add_dot(&sum, by_mass, w.c);
+    fix_wide_add_dot(&sum, by_mass, spin.c);
     return fix_wide_bits(&sum) <= 80 + SQUARE_BITS;
 }
 
 bool world_momenta_in_range(const struct body *b, const struct body_state *s)
 {
-    carom_v3_q40 v, w;
+    carom_v3_q40 v, spin;
     carom_m3_q30 r;
 
     fix_matrix(&r, &s->rotation);
@@ -189,6 +189,6 @@ bool world_momenta_in_range(const struct body *b, const struct body_state *s)
         return false;
     }
     body_velocity(b, s, &v);
-    body_spin(b, s, &r, &w);
-    return world_motion_in_range(b, &v, &w);
+    body_spin(b, s, &r, &spin);
+    return world_motion_in_range(b, &v, &spin);
 }

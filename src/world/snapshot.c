@@ -55,20 +55,20 @@ static void stream_body(struct stream *s, const struct carom_world *w, uint32_t 
     }
 }
 
-static void stream_warm(struct stream *s, struct rest_warm *w)
+static void stream_warm(struct stream *s, struct rest_warm *warm)
 {
     struct rest_warm_parts parts = {0};
 
     if (!s->loading) {
-        parts = rest_warm_parts(w);
+        parts = rest_warm_parts(warm);
     }
-    stream_16(s, &w->a);
-    stream_16(s, &w->b);
-    stream_vector32(s, w->arm.c, 3);
-    stream_vector32(s, w->normal.c, 3);
+    stream_16(s, &warm->a);
+    stream_16(s, &warm->b);
+    stream_vector32(s, warm->arm.c, 3);
+    stream_vector32(s, warm->normal.c, 3);
     stream_64(s, &parts.normal_q40);
     stream_vector64(s, parts.tangent.c);
-    if (s->loading && !rest_warm_join(w, &parts)) {
+    if (s->loading && !rest_warm_join(warm, &parts)) {
         s->failed = true;
     }
 }

@@ -210,14 +210,14 @@ void world_drop_extra(struct carom_world *w, uint32_t body);
 bool world_each_within(const int64_t v[3], int64_t limit);
 
 /* True if a body may be given this velocity and spin. */
-bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w);
+bool world_motion_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *spin);
 
 /*
  * Give a state a velocity and a spin that the body may be given. Momenta are rounded, and a step
  * retires a body at the limit: so just below the limit the momentum is reduced by 2^-25 of itself.
  */
 void world_set_motion(const struct body *b, struct body_state *s, const carom_v3_q40 *v,
-                      const carom_v3_q40 *w);
+                      const carom_v3_q40 *spin);
 
 /* True if each component of a gravity is within +-1. */
 bool world_gravity_in_range(const carom_v3_q40 *gravity);
@@ -329,7 +329,7 @@ bool world_is_kinematic(const struct body *b);
 void world_motion(const struct body *b, const struct body_state *s, carom_v3_q40 *velocity,
                   carom_v3_q40 *spin);
 #define WORLD_ROUTE_SPIN_MAX_Q40 3454217652358LL /* pi */
-bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *w);
+bool world_drive_in_range(const struct body *b, const carom_v3_q40 *v, const carom_v3_q40 *spin);
 bool world_pose_in_reach(const struct body *b, const struct body_state *s,
                          const carom_v3_q32 *position, const carom_quat_q30 *rotation);
 /*
@@ -337,7 +337,7 @@ bool world_pose_in_reach(const struct body *b, const struct body_state *s,
  * spin. world_drive: lead a body from now on.
  */
 bool world_leads(const struct body_drive *drive, const struct body_state *s);
-struct body_drive world_drive_on(const carom_v3_q40 *v, const carom_v3_q40 *w);
+struct body_drive world_drive_on(const carom_v3_q40 *v, const carom_v3_q40 *spin);
 void world_drive(struct carom_world *w, uint32_t body, const struct body_drive *drive);
 /* True if a drive that was read leads the body somewhere, and is in range. */
 bool world_drive_plausible(const struct body *b, const struct body_state *s,
