@@ -21,7 +21,7 @@ static inline int gauss_rows_solve(struct gauss *w, int n)
 static inline int gauss_rows_of(struct gauss *w, const struct impact *in,
                                 int32_t rows[GAUSS_MAX][GAUSS_MAX + 1])
 {
-    struct impact_problem p = {.w = w, .in = in, .frame.n = in->normal};
+    struct impact_problem p = {.gauss = w, .in = in, .frame.n = in->normal};
     struct impact_result out;
     struct impact_answer x;
     int result = impact_solve(w, in, &out);
