@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * island - moving bodies that pairs connect: begin, join each pair, end. Then body.island is the
- * lowest number in a body's island, and the others follow by next_in_island.
+ * island - moving bodies that pairs connect: begin, join each pair, end. Then body.island.lowest
+ * is the lowest number in a body's island, and the others follow by body.island.next.
  */
 #ifndef CAROM_SRC_ISLAND_H
 #define CAROM_SRC_ISLAND_H

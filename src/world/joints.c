@@ -63,14 +63,6 @@ bool world_joint_plausible(const struct joint *j, const struct joint_state *stat
 
 /* --------------------------------------------------------------------- groups */
 
-static uint16_t lowest(struct body *bodies, uint16_t i)
-{
-    while (bodies[i].def.joined != i + 1) {
-        i = (uint16_t)(bodies[i].def.joined - 1);
-    }
-    return i;
-}
-
 static void ignore(struct carom_world *w, const struct joint *j)
 {
     bool first = !w->bodies[j->b].def.moving || j->a > j->b;
@@ -88,6 +80,7 @@ void world_group_joints(struct carom_world *w)
     const struct joint_list *list = &w->rest.joints;
 
     w->ignored_count = 0;
+    island_begin(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         w->bodies[i].def.joined = BODY_ALONE;
     }
@@ -97,9 +90,7 @@ void world_group_joints(struct carom_world *w)
         if (!j->used || w->now->joints[i].broken) {
             continue;
         }
-        if (w->bodies[j->a].def.joined == BODY_ALONE) {
-            w->bodies[j->a].def.joined = (uint16_t)(j->a + 1);
-        }
+        w->bodies[j->a].def.joined = (uint16_t)(j->a + 1);
         if (j->b == JOINT_WORLD) {
             continue;
         }
@@ -107,19 +98,16 @@ void world_group_joints(struct carom_world *w)
             ignore(w, j);
         }
         if (w->bodies[j->b].def.moving) {
-            uint16_t a, b;
+            const struct pair p = {j->a, j->b};
 
-            if (w->bodies[j->b].def.joined == BODY_ALONE) {
-                w->bodies[j->b].def.joined = (uint16_t)(j->b + 1);
-            }
-            a = lowest(w->bodies, j->a);
-            b = lowest(w->bodies, j->b);
-            w->bodies[a > b ? a : b].def.joined = (uint16_t)((a < b ? a : b) + 1);
+            w->bodies[j->b].def.joined = (uint16_t)(j->b + 1);
+            island_join(w->bodies, &p);
         }
     }
+    island_end(w->bodies, w->body_count);
     for (uint32_t i = 0; i < w->body_count; i++) {
         if (w->bodies[i].def.joined != BODY_ALONE) {
-            w->bodies[i].def.joined = (uint16_t)(lowest(w->bodies, (uint16_t)i) + 1);
+            w->bodies[i].def.joined = (uint16_t)(w->bodies[i].island.lowest + 1);
         }
     }
     w->rest.joints.states = w->now->joints;
