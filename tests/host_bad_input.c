@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "lib/lab.h"
+#include "num/fnv.h"
 
 enum { FRAMES_BEFORE = 60, FRAMES_AFTER = 60 };
 
@@ -409,7 +410,7 @@ static void test_mesh_memory(struct lab *lab)
 static size_t write_blob(uint8_t *out)
 {
     const uint8_t header[16] = {'C', 'R', 'M', '1', 1, CAROM_SOLID, 12, 0, 8, 0, 0, 0, 12, 0, 0, 0};
-    uint64_t fnv = 0xcbf29ce484222325u;
+    uint64_t fnv = FNV_START;
     size_t n = sizeof header;
 
     memcpy(out, header, n);
@@ -421,7 +422,7 @@ static size_t write_blob(uint8_t *out)
         out[n++] = (uint8_t)(word >> 8);
     }
     for (size_t i = 0; i < n; i++) {
-        fnv = (fnv ^ out[i]) * 0x100000001b3u;
+        fnv = fnv_add(fnv, out[i]);
     }
     for (int i = 0; i < 8; i++) {
         out[n++] = (uint8_t)(fnv >> (8 * i));

@@ -14,6 +14,7 @@
 
 #include "lib/fuzz.h"
 #include "lib/open_cases.h"
+#include "num/fnv.h"
 
 #define WORLDS    40
 #define CALLS     250
@@ -65,10 +66,10 @@ static bool step(uint64_t seed, int call)
 
 static void mend(uint8_t *bytes, int size)
 {
-    uint64_t fnv = 0xcbf29ce484222325u;
+    uint64_t fnv = FNV_START;
 
     for (int i = 0; i < size - 8; i++) {
-        fnv = (fnv ^ bytes[i]) * 0x100000001b3u;
+        fnv = fnv_add(fnv, bytes[i]);
     }
     for (int i = 0; i < 8; i++) {
         bytes[size - 8 + i] = (uint8_t)(fnv >> (8 * i));

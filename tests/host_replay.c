@@ -12,6 +12,7 @@
 
 #include "lib/fuzz.h"
 #include "lib/recorded.h"
+#include "num/fnv.h"
 #include "world/world.h"
 
 #define WORLDS     40
@@ -131,10 +132,10 @@ static void test_worlds(uint64_t count)
 
 static void mend(uint8_t *bytes, size_t count)
 {
-    uint32_t sum = 0x811c9dc5u;
+    uint32_t sum = FNV32_START;
 
     for (size_t i = 0; i + 4 < count; i++) {
-        sum = (sum ^ bytes[i]) * 0x01000193u;
+        sum = fnv32_add(sum, bytes[i]);
     }
     for (int i = 0; i < 4; i++) {
         bytes[count - 4 + (size_t)i] = (uint8_t)(sum >> 8 * i);

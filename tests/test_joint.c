@@ -8,6 +8,7 @@
 #include "lib/real.h"
 #include "lib/shapes.h"
 #include "lib/test.h"
+#include "num/fnv.h"
 
 #define PAIRS 4
 #define CAPS  4, PAIRS, 24, 32, 0, 32, 3, 1
@@ -483,14 +484,14 @@ static void test_snapshot(void)
     CHECK_EQ(carom_world_hash(world), hash);
     /* a number that no step could have left, with a check sum that fits: limits the wrong way round */
     {
-        uint64_t fnv = 0xcbf29ce484222325u;
+        uint64_t fnv = FNV_START;
         int at =
             size - 8 - 16 - 8 - 48 - 48 - 56; /* lower_q32: the last 180 bytes are the joint's */
 
         snapshot[at - 3] = 1;
         snapshot[at] = 1;
         for (int i = 0; i < size - 8; i++) {
-            fnv = (fnv ^ snapshot[i]) * 0x100000001b3u;
+            fnv = fnv_add(fnv, snapshot[i]);
         }
         for (int i = 0; i < 8; i++) {
             snapshot[size - 8 + i] = (uint8_t)(fnv >> (8 * i));

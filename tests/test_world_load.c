@@ -7,6 +7,7 @@
 
 #include "lib/shapes.h"
 #include "lib/test.h"
+#include "num/fnv.h"
 
 #if defined TEST_LONG
 #define CHANGES 2000 /* of each state of each world */
@@ -65,10 +66,10 @@ static struct carom_world *make(bool stack)
 
 static uint64_t fnv(const uint8_t *bytes, int n)
 {
-    uint64_t h = 0xcbf29ce484222325u;
+    uint64_t h = FNV_START;
 
     for (int i = 0; i < n; i++) {
-        h = (h ^ bytes[i]) * 0x100000001b3u;
+        h = fnv_add(h, bytes[i]);
     }
     return h;
 }
