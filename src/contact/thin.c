@@ -12,7 +12,7 @@
 #define LENGTH_BITS 13
 
 /* The place of a contact relative to the first, in units in which no component is above 2^13. */
-struct place {
+struct offset {
     int32_t c[3];
 };
 
@@ -23,7 +23,7 @@ static inline void subtract(const int32_t a[3], const int32_t b[3], int32_t d[3]
     d[2] = a[2] - b[2];
 }
 
-static void find_places(const struct contact *contacts, uint32_t n, struct place *places)
+static void find_places(const struct contact *contacts, uint32_t n, struct offset *places)
 {
     carom_v3_q22 first = contact_arm(&contacts[0]);
     uint32_t used = 0;
@@ -44,7 +44,8 @@ static void find_places(const struct contact *contacts, uint32_t n, struct place
 }
 
 /* True if a place lies between two others and hardly stands out. */
-static bool is_between(const struct place *at, const struct place *one, const struct place *other)
+static bool is_between(const struct offset *at, const struct offset *one,
+                       const struct offset *other)
 {
     int32_t d[3], e[3];
     int64_t along, square, off2;
@@ -74,7 +75,7 @@ static bool on_one_plane(const struct contact *a, const struct contact *b)
 }
 
 /* The nearest of n places to the i-th. */
-static uint32_t nearest(const struct place *places, uint32_t n, uint32_t i)
+static uint32_t nearest(const struct offset *places, uint32_t n, uint32_t i)
 {
     int64_t least = INT64_MAX;
     uint32_t best = i;
@@ -92,7 +93,7 @@ static uint32_t nearest(const struct place *places, uint32_t n, uint32_t i)
 }
 
 /* True if the i-th contact hardly stands out between the one nearest to it and any other. */
-static bool is_dispensable(const struct contact *contacts, const struct place *places, uint32_t n,
+static bool is_dispensable(const struct contact *contacts, const struct offset *places, uint32_t n,
                            uint32_t i)
 {
     const struct contact *c = &contacts[i];
@@ -115,7 +116,7 @@ static bool is_dispensable(const struct contact *contacts, const struct place *p
 
 uint32_t contact_thin(struct contact *contacts, uint32_t n)
 {
-    struct place places[MOST];
+    struct offset places[MOST];
 
     if (n <= CONTACT_ENOUGH || n > MOST) {
         return n;

@@ -16,7 +16,7 @@
 /* ----------------------------------------------------------------- vertices */
 
 /* A face at a vertex, and the number of that corner. */
-struct place {
+struct face_corner {
     uint32_t face;
     int k;
 };
@@ -31,8 +31,8 @@ struct fan {
  * Go to the next face around a vertex, counter-clockwise if forward. Returns false at a border or a
  * crease. Sets `bends` if the face is in another plane.
  */
-static bool go_on(const struct draw_shades *shades, uint32_t vertex, struct place *at, bool forward,
-                  bool *bends)
+static bool go_on(const struct draw_shades *shades, uint32_t vertex, struct face_corner *at,
+                  bool forward, bool *bends)
 {
     const struct carom_mesh *mesh = shades->body->mesh;
     const struct carom_face *face = &mesh->faces[at->face];
@@ -68,7 +68,7 @@ static int64_t shade_of(const struct draw_shades *shades, uint32_t face)
  * Add the faces that follow a face. Returns true if they come round to it; else `at` is the last
  * face before a border or crease.
  */
-static bool add_fan(const struct draw_shades *shades, uint32_t vertex, struct place *at,
+static bool add_fan(const struct draw_shades *shades, uint32_t vertex, struct face_corner *at,
                     bool forward, struct fan *fan)
 {
     const uint32_t first = at->face;
@@ -100,7 +100,7 @@ static int32_t mean_q8(const struct fan *fan)
 static int32_t corner_q8(const struct draw_shades *shades, uint32_t face, int k)
 {
     const uint32_t vertex = shades->body->mesh->raw.faces[face][k];
-    struct place at = {face, k};
+    struct face_corner at = {face, k};
     struct fan fan = {shade_of(shades, face), 1};
 
     if (shades->at[vertex] != 0 && shades->at[vertex] != DRAW_SHADES_MANY) {

@@ -42,12 +42,12 @@ static int side_of_plane(const place *a, const place *b, const place *c, const p
 /* ------------------------------------------------------------------- in a plane */
 
 /* The two axes along which places in a plane are compared. */
-struct seen {
+struct plane_axes {
     int i, j;
 };
 
 /* The side of the line from a to b on which p lies. Bounds: below 2^61. */
-static int side_of_line(struct seen s, const place *a, const place *b, const place *p)
+static int side_of_line(struct plane_axes s, const place *a, const place *b, const place *p)
 {
     return sign_of((int64_t)(b->c[s.i] - a->c[s.i]) * (p->c[s.j] - a->c[s.j]) -
                    (int64_t)(b->c[s.j] - a->c[s.j]) * (p->c[s.i] - a->c[s.i]));
@@ -60,7 +60,7 @@ static bool intervals_meet(int k, const place *a, const place *b, const place *c
            fix_smaller(c->c[k], d->c[k]) <= fix_larger(a->c[k], b->c[k]);
 }
 
-static bool segments_meet(struct seen s, const place *a, const place *b, const place *c,
+static bool segments_meet(struct plane_axes s, const place *a, const place *b, const place *c,
                           const place *d)
 {
     return side_of_line(s, a, b, c) * side_of_line(s, a, b, d) <= 0 &&
@@ -78,7 +78,7 @@ static bool agree(int x, int y, int z)
 static bool edge_meets_in_plane(const place t[3], const place *a, const place *b)
 {
     const place e = minus(&t[1], &t[0]), f = minus(&t[2], &t[0]);
-    struct seen s;
+    struct plane_axes s;
     int64_t n[3];
     int most;
 

@@ -12,7 +12,7 @@
 /* Edges count as parallel if the sine squared is below this, q30. */
 #define PARALLEL_Q30 (1 << 8)
 
-struct place {
+struct point {
     int64_t c[3]; /* q22 */
 };
 
@@ -22,17 +22,17 @@ struct nearest {
     int64_t at_q22[3]; /* a's centre of mass */
 
     /* vertices of a's leaf at hand */
-    struct place p[CAROM_LEAF_VERTICES];
+    struct point p[CAROM_LEAF_VERTICES];
 
     uint64_t best_q40; /* square of the best distance */
-    struct place point[2];
+    struct point point[2];
     uint16_t face[2];
 };
 
-static struct place placed(const struct nearest *n, uint32_t vertex)
+static struct point placed(const struct nearest *n, uint32_t vertex)
 {
     carom_v3_q22 v = mesh_vertex(n->body[0]->def.mesh, vertex);
-    struct place p;
+    struct point p;
 
     for (int k = 0; k < 3; k++) {
         p.c[k] = carom_round(carom_dot(n->axes.c[k], v.c), 30) + n->at_q22[k];
@@ -40,15 +40,15 @@ static struct place placed(const struct nearest *n, uint32_t vertex)
     return p;
 }
 
-static struct place of_b(const struct nearest *n, uint32_t vertex)
+static struct point of_b(const struct nearest *n, uint32_t vertex)
 {
     carom_v3_q22 v = mesh_vertex(n->body[1]->def.mesh, vertex);
 
-    return (struct place){{v.c[0], v.c[1], v.c[2]}};
+    return (struct point){{v.c[0], v.c[1], v.c[2]}};
 }
 
 /* Differences are below 2^33 in q22 and 2^31 in q20, sums of squares below 2^64. */
-static uint64_t square_q40(const struct place *p, const struct place *q)
+static uint64_t square_q40(const struct point *p, const struct point *q)
 {
     uint64_t sum = 0;
 
@@ -61,7 +61,7 @@ static uint64_t square_q40(const struct place *p, const struct place *q)
 }
 
 /* The displacement from one place to another along a direction, q22. */
-static int64_t along_q22(const struct place *from, const struct place *to, const int32_t n_q30[3])
+static int64_t along_q22(const struct point *from, const struct point *to, const int32_t n_q30[3])
 {
     int64_t d[3];
 
@@ -71,9 +71,9 @@ static int64_t along_q22(const struct place *from, const struct place *to, const
     return fix_dot_q30(d, n_q30);
 }
 
-static struct place moved(const struct place *p, int64_t by_q22, const int32_t n_q30[3])
+static struct point moved(const struct point *p, int64_t by_q22, const int32_t n_q30[3])
 {
-    struct place to;
+    struct point to;
 
     for (int k = 0; k < 3; k++) {
         to.c[k] = p->c[k] + fix_mul_q30(by_q22, n_q30[k]);
@@ -82,7 +82,7 @@ static struct place moved(const struct place *p, int64_t by_q22, const int32_t n
 }
 
 /* Keep two points if they are the closest so far. */
-static void offer(struct nearest *n, const struct place *a, const struct place *b, uint16_t face_a,
+static void offer(struct nearest *n, const struct point *a, const struct point *b, uint16_t face_a,
                   uint16_t face_b)
 {
     uint64_t square = square_q40(a, b);
@@ -104,7 +104,7 @@ static void offer(struct nearest *n, const struct place *a, const struct place *
  */
 struct facet {
     uint16_t number;
-    struct place p[3];
+    struct point p[3];
     int32_t n_q30[3], e_q30[3][3], length_q22[3];
     int64_t low[3], high[3];
 };
@@ -148,11 +148,11 @@ static void set_directions(const struct nearest *n, int side, struct facet *f)
 }
 
 /* Offer a corner of one face and its foot on the other face, if that is inside all three edges. */
-static void try_corner(struct nearest *n, const struct place *p, const struct facet *on, int side,
+static void try_corner(struct nearest *n, const struct point *p, const struct facet *on, int side,
                        uint16_t face)
 {
     int64_t height = along_q22(&on->p[0], p, on->n_q30);
-    struct place foot = moved(p, -height, on->n_q30);
+    struct point foot = moved(p, -height, on->n_q30);
 
     for (int k = 0; k < 3; k++) {
         int32_t in_q30[3];
@@ -185,7 +185,7 @@ static void try_edges(struct nearest *n, const struct facet *a, int i, const str
     int64_t b_q30 = carom_dot(e, f) >> 30, s = 0, t;
     int64_t rest_q30 = CAROM_ONE_Q30 - (b_q30 * b_q30 >> 30);
     int64_t c = along_q22(&b->p[j], &a->p[i], e), g = along_q22(&b->p[j], &a->p[i], f);
-    struct place on[2];
+    struct point on[2];
 
     if (rest_q30 > PARALLEL_Q30) {
         s = clamped((fix_mul(g, (int32_t)b_q30, 30) - c) * (1 << 26) / (rest_q30 >> 4),
