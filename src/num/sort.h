@@ -6,8 +6,8 @@
 #include "fix.h"
 
 /*
- * Define the static function `name(type *list, uint32_t n)`: a heap sort in rising order of `key_of(record)`, in
- * place, without recursion, and as fast at its worst.
+ * Define the static function `name(type *list, uint32_t n)`, a heap sort: rising order of
+ * `key_of(record)`, in place, no recursion, and n log n at worst.
  */
 #define SORT_DEFINE(name, type, key_of)                                                            \
     /* Let the record at `root` sink to its place in a heap of n. */                               \
@@ -46,8 +46,8 @@
 void sort_keys(uint64_t *keys, uint32_t n);
 
 /*
- * The first of `count` sorted records, each of `size` bytes, that does not come before the key; `count` when all do.
- * Inline, so that `before` is no call where speed counts.
+ * The place of the first of `count` sorted records, of `size` bytes each, that does not come before
+ * the key; `count` if all do. Inline, so that `before` is not a call where speed counts.
  */
 static inline uint32_t sort_lower_bound(const void *list, uint32_t count, size_t size,
                                         const void *key,

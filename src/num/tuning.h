@@ -20,9 +20,14 @@
 
 /* ------------------------------------------------------------------- lengths */
 
-/* Skins: the margin within which features are contacts. Chosen; in body/, interfere/, step/, world/. */
+/*
+ * Skins: the margin within which features are contacts. Chosen; in body/, interfere/, step/,
+ * world/.
+ */
 #define BODY_MARGIN_SKINS 5
-/* The same of bodies that bounce for ever. Chosen: a wider margin holds them; in step/contacts.c. */
+/*
+ * The same of bodies that bounce for ever. Chosen: a wider margin holds them; in step/contacts.c.
+ */
 #define BODY_BOUNCE_MARGIN_SKINS 2
 
 /* --------------------------------------------------------------------- paths */
@@ -36,7 +41,9 @@
 
 /* ----------------------------------------------------------------- interfere */
 
-/* Cosine tolerance of the normal cones, 0.02. Chosen; in interfere/, boyse/touch.c, query/ahead.c. */
+/*
+ * Cosine tolerance of the normal cones, 0.02. Chosen; in interfere/, boyse/touch.c, query/ahead.c.
+ */
 #define INTERFERE_CONE_Q30 21474836
 /*
  * Slots that remember faces of b which the leaf was tested against: a face lies in several cells.
@@ -45,7 +52,10 @@
 #define INTERFERE_SEEN 64
 /* Faces at the list's end in which a repetition is sought. Cost; in interfere/faces.c. */
 #define INTERFERE_LAST_FACES 8
-/* Other candidates are dropped when less than this part of the pool would be free. Cost; in keep.c. */
+/*
+ * Other candidates are dropped when less than this part of the pool would be free. Cost; in
+ * keep.c.
+ */
 #define INTERFERE_FREE_DIVISOR 8
 /* Z-lists extend beyond the area that is asked by this part of it. Cost; in interfere/lists.c. */
 #define INTERFERE_AREA_DIVISOR 256
@@ -73,7 +83,10 @@
 #define CONTACT_SAME_NORMAL_Q30 (CAROM_ONE_Q30 - 107374)
 /* Faces lie on each other when no part of their normals differs by more. Chosen. */
 #define CONTACT_LEAN_MAX_Q30 (CAROM_ONE_Q30 >> 10)
-/* A corner stands out if it does by this part of the way between its neighbours. Chosen; in thin.c. */
+/*
+ * A corner stands out if it does by this part of the way between its neighbours. Chosen; in
+ * thin.c.
+ */
 #define CONTACT_STANDS_OUT_DIVISOR 32
 /* Contacts that hold a face. Derived: three hold a plane, four a quadrangle; in contact/thin.c. */
 #define CONTACT_ENOUGH 4
@@ -104,10 +117,16 @@
 #define REST_DEAD_DIVISOR 8
 /* Contacts, or fewer, that are swept without momentum. Chosen; in solve/sweep.c. */
 #define REST_UNHURRIED 3
-/* How often sweeps may outgrow their unit; with momentum and warm impulses. Chosen; in solve/sweep.c. */
+/*
+ * How often sweeps may outgrow their unit; with momentum and warm impulses. Chosen; in
+ * solve/sweep.c.
+ */
 #define REST_OUTGREW_MAX     6
 #define REST_OUTGREW_HURRIED 2
-/* How often an exact solve sums up its impulses anew, as each push rounds. Chosen; in solve/sweep.c. */
+/*
+ * How often an exact solve sums up its impulses anew, as each push rounds. Chosen; in
+ * solve/sweep.c.
+ */
 #define REST_EXACT_SUMS 2
 /* Skins a frame above which a body moves. Chosen: far above what sweeps leave; in solve/rest.c. */
 #define REST_MOVES_SKINS 8
@@ -198,33 +217,47 @@
 /* How often time is halved to find when features face each other. Chosen. */
 #define STEP_HALVINGS 20
 
-/* The answer to a hit (step/answer.c): times between event and root at which the touch is computed. Chosen. */
+/*
+ * The answer to a hit (step/answer.c): times between event and root at which the touch is
+ * computed. Chosen.
+ */
 #define STEP_ROOT_TRIES 8
-/* How often slices become shorter by a factor of 4 if the same pair hits at the same time. Chosen. */
+/*
+ * How often slices become shorter by a factor of 4 if the same pair hits at the same time. Chosen.
+ */
 #define STEP_SHORTER_MAX 5
 /* Repeats after which the island then moves as one body. Chosen. */
 #define STEP_CALM_AFTER 1
-/* Hits of a pair in a frame after which an island that no solve parted moves as one body. Chosen. */
+/*
+ * Hits of a pair in a frame after which an island that no solve parted moves as one body. Chosen.
+ */
 #define STEP_UNSETTLED_HITS 6
 /* Repeats after which a kinematic body stops, instead of moving its island along. Derived. */
 #define STEP_HARD_AFTER (STEP_CALM_AFTER + STEP_SHORTER_MAX + 4)
 /* An island that goes along may approach another body by this much. Chosen; in step/led.c. */
 #define STEP_NO_APPROACH_DIVISOR 64
 
-/* Chords of bent paths (step/contacts.c): none for shorter slices, but of lasting contact. Chosen. */
+/*
+ * Chords of bent paths (step/contacts.c): none for shorter slices, but of lasting contact. Chosen.
+ */
 #define STEP_CHORD_MIN_Q30   STEP_SLICE_MIN_Q30
 #define STEP_LASTING_MIN_Q30 (1 << 12)
 /* Nor for what bends by less: the gap of the next frame makes up for it. Chosen. */
 #define STEP_CHORD_BEND_DIVISOR 16
 /* A pair is in lasting contact that hit more often in the frame, ... Chosen. */
 #define STEP_LASTING_HITS 3
-/* ... or more often than this where a gap is below that part of a skin: hits stop at half of one. */
+/*
+ * ... or more often than this where a gap is below that part of a skin: hits stop at half of one.
+ */
 #define STEP_CLOSED_HITS    1
 #define STEP_CLOSED_DIVISOR 16
 /* The opening of a lasting contact is also measured at 1/2 and 1 / this of the slice. Chosen. */
 #define STEP_SOONEST 8
 
-/* Regions (step/regions.c): a region ends when this part of the radius is gone. Cost: in contact, ... */
+/*
+ * Regions (step/regions.c): a region ends when this part of the radius is gone. Cost: in contact,
+ * ...
+ */
 #define STEP_REGION_PARTS 10
 /* ... in flight, where a hit may change the path long before, and while nothing is near. */
 #define STEP_REGION_PARTS_FLIGHT 20
@@ -244,32 +277,52 @@
 #define STEP_FACE_PAIRS_MANY 500
 /* Radians that both turn, below which candidates of many faces are kept. Cost. */
 #define STEP_TURN_KEPT_Q30 (CAROM_ONE_Q30 / 16 * 5)
-/* A body goes far that goes this part of its radius in its region; pairs of faces that are dear. Cost. */
+/*
+ * A body goes far that goes this part of its radius in its region; pairs of faces that are dear.
+ * Cost.
+ */
 #define STEP_FAR_PARTS         8
 #define STEP_FACE_PAIRS_COSTLY 1000000
 
-/* Joints: solves at most, as paths bend and anchors may be off after one. Chosen; in step/contacts.c. */
+/*
+ * Joints: solves at most, as paths bend and anchors may be off after one. Chosen; in
+ * step/contacts.c.
+ */
 #define STEP_JOINT_ROUNDS 8
-/* Shorter slices are not measured: their rows are lost in positions' last places. In joint_measure.c. */
+/*
+ * Shorter slices are not measured: their rows are lost in positions' last places. In
+ * joint_measure.c.
+ */
 #define STEP_MEASURED_MIN_Q30 (CAROM_ONE_Q30 / 32)
-/* The shortest part of a frame in which an anchor that is off comes back. Chosen; in joint_measure.c. */
+/*
+ * The shortest part of a frame in which an anchor that is off comes back. Chosen; in
+ * joint_measure.c.
+ */
 #define STEP_RECOVERY_MIN_Q30 (CAROM_ONE_Q30 / 4)
 /* The error allowed at the end of a slice. Chosen; in joint_measure.c. */
 #define STEP_LEFT_DIVISOR 8
-/* A kinematic body stops if it would leave an error of this many skins. Chosen; in joint_measure.c. */
+/*
+ * A kinematic body stops if it would leave an error of this many skins. Chosen; in
+ * joint_measure.c.
+ */
 #define STEP_TORN_SKINS 4
 /*
  * Radians that what joints hold turns in a slice at most. Chosen: anchors part by what that bends,
  * and solves see it as straight. In joint_measure.c.
  */
 #define STEP_JOINT_TURN_Q30 (CAROM_ONE_Q30 / 8)
-/* Momenta are multiplied by 7/8 to 9/8 to change energy by what is owed. Chosen; in step/energy.c. */
+/*
+ * Momenta are multiplied by 7/8 to 9/8 to change energy by what is owed. Chosen; in step/energy.c.
+ */
 #define STEP_CONSERVE_LEAST_Q30 (CAROM_ONE_Q30 - (CAROM_ONE_Q30 >> 3))
 #define STEP_CONSERVE_MOST_Q30  (CAROM_ONE_Q30 + (CAROM_ONE_Q30 >> 3))
 
 /* --------------------------------------------------------------------- world */
 
-/* Skins: bodies that come apart within so many, one way or another, hardly touch. In world/apart.c. */
+/*
+ * Skins: bodies that come apart within so many, one way or another, hardly touch. In
+ * world/apart.c.
+ */
 #define WORLD_SHALLOW_SKINS 2
 /* Skins: the first step of a push out; steps double from there. Chosen; in world/apart.c. */
 #define WORLD_FIRST_SKINS 4
