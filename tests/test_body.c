@@ -379,7 +379,7 @@ static void test_parabola(void)
     }
 }
 
-/* What does not move: stationary, asleep and frozen bodies. */
+/* Stationary, sleeping and frozen bodies do not move. */
 static void test_still(void)
 {
     struct test_random r = {7};

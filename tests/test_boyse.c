@@ -62,7 +62,7 @@ static bool first_of_all(int kind, struct boyse_hit *best)
     return any;
 }
 
-/* Within the search's slack of four units of length and rounding, at that speed. */
+/* The time of impact is right to the search's slack: four units of length, and rounding, at that speed. */
 static void check_time(const struct boyse_hit *hit, double t, double speed)
 {
     CHECK_AT_MOST(real_abs(real(hit->t_q30, 30) - t), 7 * DUO_UNIT / speed + 1e-8);

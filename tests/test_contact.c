@@ -433,7 +433,7 @@ static void test_merge(void)
     CHECK_EQ(pool.used, 4);
 }
 
-/* How far a place is from the line between two others, and how long that is; from its ends beside it. */
+/* Distance of a place from the segment between two others; the segment's length goes out, too. */
 static double off_line(const struct contact *c, const struct contact *one,
                        const struct contact *other, double *length)
 {

@@ -257,7 +257,7 @@ static void wire_edges(void)
     }
 }
 
-/* From above a cube shows the four edges of its top and the diagonal between its two triangles. */
+/* Seen from above, a cube shows the four edges of its top and the diagonal between its two triangles. */
 static void wire_back_edges(void)
 {
     struct carom_world *world = new_world();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a carom_paint changes in pictures, and what it does not. */
+/* carom_paint: which pixels of a picture it changes, and which stay. */
 #include "lib/draw_scene.h"
 
 enum { RAMPS = 12, ENTRIES = RAMPS * DRAW_SHADES };
@@ -81,7 +81,7 @@ static void bodies(void)
     }
 }
 
-/* From above, 3.5 units away, a cube shows the two triangles of its top: 18 x 18 pixels. */
+/* Seen from 3.5 units above, a cube shows the two triangles of its top: 18 x 18 pixels. */
 static void faces(void)
 {
     static const uint8_t ramps[12] = {5, 5, 6, 0, 5, 5, 5, 5, 5, 5, 5, 200};

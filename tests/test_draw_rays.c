@@ -80,7 +80,7 @@ static double meet(const struct ray *ray, const struct solid *s)
     return part[0] < part[1] && part[0] > 1.0 / 32 ? part[0] : 1e30;
 }
 
-/* How far ahead a ray meets the ground at z = -1, +-32 wide, from above. */
+/* Distance along a ray to the ground at z = -1, which is +-32 wide and visible from above. */
 static double meet_ground(const struct ray *ray)
 {
     double t = ray->along[2] < 0 ? (-1 - ray->from[2]) / ray->along[2] : 1e30;

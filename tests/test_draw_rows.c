@@ -92,7 +92,7 @@ static struct carom_picture by_rows(uint8_t format, size_t bytes)
     return picture;
 }
 
-/* What the panel shows is the picture. */
+/* The panel shows the picture. */
 static void compare(const struct carom_picture *picture)
 {
     take_row();

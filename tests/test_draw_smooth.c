@@ -231,7 +231,7 @@ static double see(const struct oracle *o, double x, double y)
     return shade;
 }
 
-/* Where corners may be, since they are rounded to a 16th of a pixel, shades are so far apart; -1 near an edge. */
+/* Corners are rounded to a 16th of a pixel. Returns how much the shade varies over that square; -1 near an edge. */
 static double slack(const struct oracle *o, double x, double y)
 {
     double low = see(o, x, y), high = low;
@@ -395,7 +395,7 @@ static void boxes(void)
     }
 }
 
-/* What is too little room is said, and what is enough is enough. */
+/* Too little room is refused by name; the room that the engine asks for is enough. */
 static void room(void)
 {
     struct test_random random = {79};

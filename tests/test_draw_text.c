@@ -79,7 +79,7 @@ static void font(void)
 
 /* -------------------------------------------------------- against the font */
 
-/* What pixel (x, y) gets of a text: 2 ink, 1 paper, 0 nothing. */
+/* The layer of a text at pixel (x, y): 2 ink, 1 paper, 0 none. */
 static int expect_at(const struct carom_text *where, const char *text, int x, int y)
 {
     int scale = where->scale ? where->scale : 1;
@@ -211,7 +211,7 @@ static void *row_of(void *context, int32_t x0, int32_t x1, int32_t y)
     return sent[y];
 }
 
-/* By rows, from the top down, each once: the same. */
+/* Drawn by rows, from the top down, each row once, a text is the same. */
 static void by_rows(void)
 {
     struct test_random random = {43};

@@ -225,7 +225,7 @@ static void random_scene(struct test_random *r, bool turn_b)
 
 /* ------------------------------------------------------------ by trying all */
 
-/* Of both bodies together. */
+/* Reach and turn of both bodies together. */
 static int64_t reach_q22;
 static double turn;
 

@@ -9,7 +9,7 @@ static int64_t dot64(const int64_t a[3], const int64_t b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* From vertex a to vertex b, quanta. */
+/* The vector from vertex a to vertex b, in quanta. */
 static void between(int64_t out[3], uint32_t a, uint32_t b)
 {
     for (int k = 0; k < 3; k++) {
@@ -241,7 +241,7 @@ static void test_good_surface(void)
     }
 }
 
-/* Where several errors hold, the first named in carom.h is returned. */
+/* A mesh with several errors is refused with the one that carom.h names first. */
 static void test_error_order(void)
 {
     make_box(100, 100, 100);
@@ -301,7 +301,7 @@ static void test_range(void)
 
 /* ----------------------------------------------------------------------- edges */
 
-/* What must hold of the edges and rings of any mesh. */
+/* The invariants of edges and rings, which hold for any mesh. */
 static void check_edges(void)
 {
     uint32_t sides = 0;

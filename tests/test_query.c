@@ -158,7 +158,7 @@ static void begin(void)
     work.face_pool = &face_pool;
 }
 
-/* In 2^-12 units. */
+/* Place body i; x, y and z are in 2^-12 units. */
 static void put(int i, int64_t x, int64_t y, int64_t z)
 {
     states[i].position = (carom_v3_q32){{x * (1 << 20), y * (1 << 20), z * (1 << 20)}};

@@ -110,7 +110,7 @@ static void set_all(struct carom_world *w)
     CHECK_LESS(carom_record_body_set_mass(r, w, 0, 1 << 20), 0); /* an error is recorded, too */
 }
 
-/* What is done before a frame, by its number. */
+/* The calls before a frame, chosen by its number. */
 static void act(struct carom_world *w, int frame, struct test_random *random)
 {
     const carom_v3_q40 push = {{test_random_range(random, -(1 << 29), 1 << 29), 0, 1 << 30}};
@@ -168,7 +168,7 @@ static uint64_t record_all(bool stages, uint64_t seed)
     return carom_world_hash(world);
 }
 
-/* How playing ends. */
+/* Play the recording; returns the result it ends with. */
 static int play(size_t bytes)
 {
     int result = carom_replay_begin(&player, file, bytes, room, sizeof room);
@@ -206,7 +206,7 @@ static void test_cut(void)
     }
 }
 
-/* Whatever byte is another one, that is found. */
+/* A changed byte anywhere is found. */
 static void test_altered(void)
 {
     record_all(true, 1);

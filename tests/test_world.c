@@ -71,7 +71,7 @@ static void setup_bodies(void)
     CHECK_EQ(carom_body_add(world, &box_def), 1);
 }
 
-/* What an error must leave as it was. */
+/* The state that an error must leave as it was. */
 struct record {
     uint64_t hash;
     struct carom_usage usage[CAROM_POOL_COUNT];

@@ -123,7 +123,7 @@ static void test_nothing(void)
     CHECK_EQ((int64_t)carom_world_hash(worlds[0]), (int64_t)hash);
 }
 
-/* What wakes the box, with number n; what does not. */
+/* Disturbance number n: some wake the box, some do not. */
 static void disturb(int n)
 {
     static const carom_v3_q40 impulse = {{1 << 30, 0, (int64_t)1 << 34}};
@@ -203,7 +203,7 @@ static void test_snapshot(void)
     CHECK(woke);
 }
 
-/* What was worked out for another place of the plane, and another gravity, is forgotten. */
+/* Heights cached for another place of the plane, or another gravity, are forgotten. */
 static void test_detour(void)
 {
     uint64_t hash;

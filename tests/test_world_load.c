@@ -91,7 +91,7 @@ static uint64_t number_at(const uint8_t *bytes, int n)
     return v;
 }
 
-/* Where a number is, and how long. */
+/* A number in the snapshot: its offset and its length in bytes. */
 struct field {
     int at, bytes;
 };

@@ -112,7 +112,7 @@ static void test_places(void)
     CHECK_EQ(carom_query_inside(world, 0, 1), 0);
 }
 
-/* Of two worlds that do the same one is asked between its steps, also with too little room. */
+/* Two worlds run the same steps; one of them is asked between its steps, with too little room, too. Both stay equal. */
 static void test_no_change(void)
 {
     struct carom_world *asked, *other;
@@ -183,7 +183,7 @@ static void test_contacts(void)
     }
 }
 
-/* What is to be seen of a body is what it was made from and where it is; free numbers show nothing. */
+/* A look at a body shows the mesh it was made from and where it is; free numbers show nothing. */
 static void test_look(void)
 {
     struct carom_body_look look = {.mesh = NULL};

@@ -193,7 +193,7 @@ static void test_energy(void)
     CHECK_AT_LEAST(hits, 3);
 }
 
-/* What a hit changes the momentum by is its impulse; the speeds before and after are as 1 to e. */
+/* A hit changes the momentum by its impulse; the speeds before and after are as 1 to e. */
 static void test_hit(void)
 {
     struct carom_world *world;

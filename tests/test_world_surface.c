@@ -261,7 +261,7 @@ static void test_jump(void)
     CHECK_LESS(state_of(BOX).velocity.c[2], 3002 * QUANTUM_Q40);
 }
 
-/* What flies past at the height where the surface comes up is lifted with what it meets. */
+/* A body that flies past where the surface rises is lifted together with the body that it meets. */
 static void test_spread(void)
 {
     struct carom_body_state s;
@@ -474,7 +474,7 @@ static bool listed(const struct carom_face_pair *list, int count, struct carom_f
     return i < count;
 }
 
-/* What is asked of a surface that has moved is what a rigid mesh of its shape says. */
+/* Queries of a surface that has moved answer as those of a rigid mesh of its shape do. */
 static void ask(int rigid)
 {
     enum { ROOM = 128 };

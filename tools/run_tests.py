@@ -6,19 +6,25 @@ run_board.py runs a .elf file on the board that it was built for. The last line 
 M > 0 or N = 0. With --select, the runner of the suites (tests.elf) runs the tests whose names contain PART; other files run only
 if their own names match it.
 
-With --boards, every scene of those boards (or with --first the first one) runs there and on the host, and after so many frames
-both must be in the same state.
+With --boards, every scene of those boards (or with --first the first one) runs there and on the
+host, and after so many frames both must be in the same state.
+
+Two workers share the files. Scripts and scenes on boards call make in this tree, so one worker runs them, one after
+another; the other one begins with the programs, and both end there. The lines of a file are printed together, and
+after them how long it took.
 """
 import argparse
+import concurrent.futures
 import os
 import re
 import subprocess
 import sys
 import threading
+import time
 
 import run_board
 
-SECONDS = 240  # a program that takes longer hangs
+SECONDS = 480  # a program that takes longer hangs; it shares the machine with another one
 
 
 def stem(path):
@@ -44,28 +50,39 @@ def command(path, select):
     return run_board.command(path, [select] if select and is_runner(path) else [])
 
 
-def run(path, select):
-    """Run one file and pass its lines on; returns how many tests passed and failed, and how many cases were left out because
-    they are known to fail (tests/lib/open_cases.c)."""
-    passed = failed = left_out = 0
-    nothing_selected = False
+class Counts:
+    """Tests that passed, that failed, and cases that are left out since they are known to fail (tests/lib/open_cases.c)."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.passed = self.failed = self.left_out = 0
+
+    def add(self, said, passed, failed, left_out=0):
+        """Print the lines of a file, and count."""
+        with self.lock:
+            print(said, end="", flush=True)
+            self.passed += passed
+            self.failed += failed
+            self.left_out += left_out
+
+
+def run(path, select, counts):
+    """Run one file."""
+    began = time.monotonic()
     process = subprocess.Popen(command(path, select), stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, text=True, errors="replace")
     clock = threading.Timer(SECONDS, process.kill)
     clock.start()
-    for line in process.stdout:
-        print(line, end="", flush=True)
-        passed += bool(re.match(r"ok\b", line))
-        failed += bool(re.match(r"not ok\b", line))
-        known = re.match(r"# (\d+) known to fail, left out", line)
-        left_out += int(known.group(1)) if known else 0
-        nothing_selected |= line.startswith("1..0") and bool(select)
+    said = process.stdout.read()
     status = process.wait()
     clock.cancel()
+    passed, failed = len(re.findall(r"^ok\b", said, re.M)), len(re.findall(r"^not ok\b", said, re.M))
+    left_out = sum(map(int, re.findall(r"^# (\d+) known to fail, left out", said, re.M)))
+    nothing_selected = bool(select) and re.search(r"^1\.\.0", said, re.M)
     if failed == 0 and not nothing_selected and (status != 0 or passed == 0):
-        print("not ok - %s: %d tests, exit status %d" % (path, passed, status))
+        said += "not ok - %s: %d tests, exit status %d\n" % (path, passed, status)
         failed += 1
-    return passed, failed, left_out
+    counts.add("# %s\n%s# %s: %.0f s\n" % (path, said, path, time.monotonic() - began), passed, failed, left_out)
 
 
 def scene_ends(board, scene, frames):
@@ -77,9 +94,10 @@ def scene_ends(board, scene, frames):
     return result.said.get("hash", "no state")
 
 
-def run_scenes(boards, first, frames, select):
-    """Compare boards with the host, scene by scene; returns how many passed and failed."""
-    expected, passed, failed = {}, 0, 0
+def run_scenes(boards, first, frames, select, counts):
+    """Compare boards with the host, scene by scene."""
+    expected, number = {}, 0
+    counts.add("# scenes on boards, against the host\n", 0, 0)
     for board in boards:
         for scene in list(run_board.scenes(board))[:1 if first else None]:
             name = "%s/%s" % (board, scene)
@@ -88,12 +106,11 @@ def run_scenes(boards, first, frames, select):
             if scene not in expected:
                 expected[scene] = scene_ends("host", scene, frames)
             found = scene_ends(board, scene, frames)
-            ok = found == expected[scene] and re.fullmatch("[0-9a-f]{16}", found)
-            passed, failed = passed + bool(ok), failed + (not ok)
-            print("%s %d - %s %s (%d frames)%s" % (
-                "ok" if ok else "not ok", passed + failed, name, found, frames,
-                "" if ok else ", on the host " + expected[scene]), flush=True)
-    return passed, failed
+            ok = found == expected[scene] and bool(re.fullmatch("[0-9a-f]{16}", found))
+            number += 1
+            counts.add("%s %d - %s %s (%d frames)%s\n" % (
+                "ok" if ok else "not ok", number, name, found, frames,
+                "" if ok else ", on the host " + expected[scene]), ok, not ok)
 
 
 def main():
@@ -104,22 +121,31 @@ def main():
     parser.add_argument("--first", action="store_true")
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
-    passed = failed = left_out = 0
-    if arguments.boards:
-        print("# scenes on boards, against the host", flush=True)
-        passed, failed = run_scenes(arguments.boards.split(), arguments.first, arguments.frames,
-                                    arguments.select)
-    for path in arguments.files:
-        if wanted(path, arguments.select):
-            print("# " + path, flush=True)
-            counts = run(path, arguments.select)
-            passed += counts[0]
-            failed += counts[1]
-            left_out += counts[2]
-    if left_out:
-        print("%d cases that are known to fail were left out" % left_out)
-    print("%d passed, %d failed" % (passed, failed))
-    return failed > 0 or passed == 0
+    counts = Counts()
+    programs = [path for path in arguments.files if path.endswith(".elf") and wanted(path, arguments.select)]
+    programs.reverse()  # the first is taken from the end
+
+    def run_programs():
+        while True:
+            try:
+                path = programs.pop()
+            except IndexError:
+                return
+            run(path, arguments.select, counts)
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        other = pool.submit(run_programs)
+        if arguments.boards:
+            run_scenes(arguments.boards.split(), arguments.first, arguments.frames, arguments.select, counts)
+        for path in arguments.files:
+            if not path.endswith(".elf") and wanted(path, arguments.select):
+                run(path, arguments.select, counts)
+        run_programs()
+        other.result()
+    if counts.left_out:
+        print("%d cases that are known to fail were left out" % counts.left_out)
+    print("%d passed, %d failed" % (counts.passed, counts.failed))
+    return counts.failed > 0 or counts.passed == 0
 
 
 if __name__ == "__main__":

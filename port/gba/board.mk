@@ -18,5 +18,5 @@ ROM_SCENES := head48 head450
 CAPS := 2,1,32,256,0,256
 DRAW_BYTES := 12992
 PICTURES := 1
-SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact
+SUITES := port num_fix num_arena num_gauss num_gauss_cost mesh_scan mesh_zlist mesh_mass mesh_blob solve_impact
 SUITE_IMAGES := 1

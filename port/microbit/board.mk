@@ -15,5 +15,5 @@ CAPS := 4,3,10,32,0,24
 DRAW_BYTES := 0
 LINE_BYTES := 96
 PICTURES := 0
-SUITES := port fix arena gauss gauss_cost scan zlist mass impact
+SUITES := port num_fix num_arena num_gauss num_gauss_cost mesh_scan mesh_zlist mesh_mass solve_impact
 SUITE_IMAGES := 1

@@ -17,5 +17,5 @@ CAPS := 2,1,16,128,1,128
 # With pictures only, which are drawn in parts.
 DRAW_BYTES := 20480
 PICTURES := 0
-SUITES := port fix arena gauss gauss_cost scan zlist mass mesh_blob impact world_cost world_idle world_step draw_rays
+SUITES := port num_fix num_arena num_gauss num_gauss_cost mesh_scan mesh_zlist mesh_mass mesh_blob solve_impact world_cost world_idle world_step draw_rays
 SUITE_IMAGES := 1

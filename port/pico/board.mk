@@ -19,5 +19,5 @@ ROM_SCENES := head450 boxes3
 CAPS := 4,3,16,128,1,256
 DRAW_BYTES := 20144
 PICTURES := 1
-SUITES := port fix arena gauss scan zlist mass mesh_blob body impact draw_picture draw_rays
+SUITES := port num_fix num_arena num_gauss mesh_scan mesh_zlist mesh_mass mesh_blob body solve_impact draw_picture draw_rays
 SUITE_IMAGES := 1

@@ -21,6 +21,6 @@ CAPS := 2,1,64,1024,256,1024
 GAME_CAPS := 16,32,128,512,0,1024,1,4
 PICTURES := 1
 # the parts that need no floating point: the processor has none
-SUITES := port ask debug draw draw_paint draw_picture draw_text filter identity mesh_blob overlap pick scan scene \
-    sensor surface world_idle world_query world_range world_snapshot zlist
+SUITES := port world_ask draw_debug draw draw_paint draw_picture draw_text world_filter world_identity mesh_blob world_overlap draw_pick mesh_scan scene \
+    world_sensor mesh_surface world_idle world_query world_range world_snapshot mesh_zlist
 SUITE_IMAGES := 1

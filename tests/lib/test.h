@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 struct test {
-    const char *name; /* file/what, lower case: "gauss/singular_pivot" */
+    const char *name; /* file/what, lower case: "num_gauss/singular" */
     void (*run)(void);
 };
 

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/* Joints where it is hard to hold: limits on a bent way, what is owed when a joint breaks, a light body between heavy ones. */
+#include <string.h>
+
+#include "carom_joint.h"
+#include "lib/one_world.h"
+#include "lib/shapes.h"
+#include "lib/test.h"
+
+#define CAPS 4, 4, 24, 32, 0, 32, 3, 1
+#define UNIT ((int64_t)1 << 32)
+#define ONE  ((int64_t)1 << 40)
+#define FALL (ONE / 367) /* 9.81 m / s^2 at 60 frames */
+
+static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
+static struct shape box, small;
+static struct carom_body_def def;
+
+/* A box with sides of 1, 1/2 and 1/4 and one of a sixteenth of them. */
+static void setup(int64_t gravity_q40)
+{
+    struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -gravity_q40}}};
+
+    shape_box(&box, 12, 4096, 2048, 1024);
+    shape_box(&small, 12, 256, 128, 64);
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    memset(&def, 0, sizeof def);
+    def.mesh = &box.mesh;
+    def.mass_q20 = 1 << 20;
+}
+
+static int add(int64_t x, int64_t y, int64_t z)
+{
+    int body;
+
+    def.position = (carom_v3_q32){{x, y, z}};
+    body = carom_body_add(world, &def);
+    CHECK_AT_LEAST(body, 0);
+    return body;
+}
+
+static struct carom_joint_def joint(int kind, int a, int b, int64_t x, int64_t y, int64_t z)
+{
+    struct carom_joint_def j;
+
+    memset(&j, 0, sizeof j);
+    j.kind = (uint8_t)kind;
+    j.a = a;
+    j.b = b;
+    j.anchor = (carom_v3_q32){{x, y, z}};
+    j.axis.c[0] = CAROM_ONE_Q30;
+    return j;
+}
+
+static int64_t apart(int number)
+{
+    struct carom_joint_state s;
+    int64_t most = 0;
+
+    CHECK_EQ(carom_joint_get(world, number, &s), CAROM_OK);
+    for (int k = 0; k < 3; k++) {
+        int64_t d = carom_abs(s.anchor[0].c[k] - s.anchor[1].c[k]);
+
+        most = d > most ? d : most;
+    }
+    return most;
+}
+
+/* A body that whirls at a rope by 0.4 radian a frame stays within its length and four skins: its way bends by 8 % of it. */
+static void test_rope(void)
+{
+    struct carom_joint_def j;
+    struct carom_joint_state s;
+    int body;
+
+    setup(0);
+    def.velocity.c[1] = ONE * 2 / 5;
+    body = add(UNIT, 0, 0);
+    j = joint(CAROM_JOINT_DISTANCE, body, CAROM_WORLD, UNIT, 0, 0);
+    j.drive.limited = true;
+    j.drive.upper_q32 = UNIT;
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    for (int i = 0; i < 100; i++) {
+        steps(1);
+        CHECK_EQ(carom_joint_get(world, 0, &s), CAROM_OK);
+        CHECK_LESS(s.coordinate_q32, UNIT + (UNIT >> 10));
+    }
+    CHECK_MORE(s.coordinate_q32, UNIT - (UNIT >> 6)); /* and it is at its end */
+}
+
+/*
+ * A body goes along a slider, and a joint that is going to break holds another one to it, which comes across: what that has lost
+ * in the frame is no part's to get back.
+ */
+static void test_break_owes_nothing(void)
+{
+    struct carom_joint_def j;
+    int rider, other;
+    int64_t speed;
+
+    setup(0);
+    def.velocity.c[0] = ONE / 64;
+    rider = add(0, 0, 0);
+    def.velocity.c[1] = ONE / 4;
+    other = add(0, 2 * UNIT, 0);
+    j = joint(CAROM_JOINT_SLIDER, rider, CAROM_WORLD, 0, 0, 0);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    j = joint(CAROM_JOINT_FIXED, other, rider, 0, UNIT, 0);
+    j.most_impulse_q40 = ONE / 64;
+    CHECK_EQ(carom_joint_add(world, &j), 1);
+    steps(1);
+    CHECK_EQ(carom_joint_get(world, 1, &(struct carom_joint_state){.broken = false}), CAROM_OK);
+    speed = state_of(rider).velocity.c[0];
+    CHECK_MORE(speed, ONE / 128);
+    steps(20);
+    CHECK_NEAR((double)state_of(rider).velocity.c[0], (double)speed, (double)speed / 256);
+}
+
+/* A light body, small as well, holds a heavy one that is far off to the world. It hangs, and nobody's anchor is off by a skin of the large one. */
+static void test_light_between(void)
+{
+    struct carom_joint_def j;
+    int light, heavy;
+
+    setup(FALL);
+    def.mesh = &small.mesh;
+    def.mass_q20 = 1 << 16;
+    light = add(0, 0, 0);
+    def.mesh = &box.mesh;
+    def.mass_q20 = 4 << 20;
+    heavy = add(UNIT, UNIT / 2, -UNIT);
+    j = joint(CAROM_JOINT_FIXED, light, CAROM_WORLD, UNIT / 8, 0, UNIT / 2);
+    CHECK_EQ(carom_joint_add(world, &j), 0);
+    j = joint(CAROM_JOINT_FIXED, heavy, light, UNIT / 4, UNIT / 4, -UNIT / 4);
+    CHECK_EQ(carom_joint_add(world, &j), 1);
+    for (int i = 0; i < 100; i++) {
+        steps(1);
+        CHECK_LESS(apart(0), UNIT >> 14);
+        CHECK_LESS(apart(1), UNIT >> 14);
+    }
+    CHECK_LESS(carom_abs(state_of(heavy).position.c[2] + UNIT), UNIT >> 12);
+}
+
+const struct test tests_solve_joint_hold[] = {
+    {"solve_joint_hold/rope", test_rope},
+    {"solve_joint_hold/break_owes_nothing", test_break_owes_nothing},
+    {"solve_joint_hold/light_between", test_light_between},
+    {0},
+};

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: MIT */
+/* An island put into its motion as one rigid body, or to rest: the last resort of a step. */
+#include "solve/rigid.h"
+#include "lib/hand.h"
+#include "lib/real.h"
+
+static const struct pair chain[2] = {{2, 1}, {3, 2}};
+
+static void join(uint32_t count)
+{
+    island_begin(hand.bodies, HAND_BODIES);
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        island_join(hand.bodies, &chain[i]);
+    }
+    island_end(hand.bodies, HAND_BODIES);
+}
+
+static void put(int body, const double x[3])
+{
+    for (int k = 0; k < 3; k++) {
+        hand.states[body].position.c[k] = real_round(x[k] * real_power2(32));
+    }
+    body_place(&hand.bodies[body], &hand.states[body]);
+}
+
+/* Twice the energy of bodies 1 to `count`, by their masses and what they weigh about their axes. */
+static double energy2(uint32_t count)
+{
+    double sum = 0;
+
+    for (uint32_t i = 1; i <= count; i++) {
+        double v[3], w[3], p[3], l[3];
+
+        hand_velocity_of((int)i, v, w);
+        for (int k = 0; k < 3; k++) {
+            p[k] = real(hand.states[i].momentum.c[k], 40);
+            l[k] = real(hand.states[i].angular.c[k], 40);
+        }
+        sum += real_dot(p, v) + real_dot(l, w);
+    }
+    return sum;
+}
+
+/* Sums of p and, about the origin, of x x p + L with 72 fractional bits, both modulo 2^64. */
+struct sums {
+    uint64_t linear[3], angular[3];
+};
+
+static struct sums sums_of(uint32_t count)
+{
+    struct sums sums = {{0}, {0}};
+
+    for (uint32_t i = 1; i <= count; i++) {
+        const struct body_state *s = &hand.states[i];
+
+        for (int k = 0; k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3;
+
+            sums.linear[k] += (uint64_t)s->momentum.c[k];
+            sums.angular[k] += (uint64_t)s->position.c[m] * (uint64_t)s->momentum.c[n] -
+                               (uint64_t)s->position.c[n] * (uint64_t)s->momentum.c[m] +
+                               ((uint64_t)s->angular.c[k] << 32);
+        }
+    }
+    return sums;
+}
+
+static void check_kept(const struct sums *before, uint32_t count)
+{
+    struct sums after = sums_of(count);
+
+    for (int k = 0; k < 3; k++) {
+        /* half a unit of the last place, 2^-40 */
+        int64_t off_q72 = (int64_t)(after.angular[k] - before->angular[k]);
+
+        CHECK_EQ(after.linear[k], before->linear[k]);
+        CHECK_AT_MOST(off_q72, (int64_t)1 << 31);
+        CHECK_AT_LEAST(off_q72, -((int64_t)1 << 31));
+    }
+}
+
+/*
+ * Whether all bodies move as body 1 does: v - v1 = w1 x (x - x1), and w = w1. By 2^-20 of the speeds
+ * there are, what lies far apart may be off: arms and spins have 30 bits.
+ */
+static bool moves_as_one(uint32_t count)
+{
+    double v1[3], w1[3];
+    bool one = true;
+
+    hand_velocity_of(1, v1, w1);
+    for (uint32_t i = 2; i <= count; i++) {
+        double v[3], w[3], x[3], speed;
+
+        hand_velocity_of((int)i, v, w);
+        for (int k = 0; k < 3; k++) {
+            x[k] = real(hand.states[i].position.c[k] - hand.states[1].position.c[k], 32);
+        }
+        speed = real_length(v1) + real_length(w1) * (1 + real_length(x));
+        for (int k = 0; k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3;
+
+            one = one && real_abs(w[k] - w1[k]) < speed * real_power2(-20) &&
+                  real_abs(v[k] - v1[k] - w1[m] * x[n] + w1[n] * x[m]) < speed * real_power2(-20);
+        }
+    }
+    return one;
+}
+
+/*
+ * Two cubes of mass 1 and J = 1/6 at x = -1/2 and 1/2, which fly past each other along y: they turn
+ * about z by L / I, L = 2 * 1/2 * v and I = 2 (1/6 + 1/4) = 5/6. Beside that they fly along z.
+ */
+static void test_pair(void)
+{
+    struct sums before;
+    double v[3], w[3];
+
+    hand_make_cube();
+    hand_begin(2, 0);
+    put(1, (double[3]){-0.5, 0, 0});
+    put(2, (double[3]){0.5, 0, 0});
+    hand_set_motion(1, (double[3]){0.25, -0.125, 0.0625}, (double[3]){0.25, 0, 0});
+    hand_set_motion(2, (double[3]){-0.25, 0.125, 0.0625}, (double[3]){-0.25, 0, 0});
+    join(2);
+    before = sums_of(2);
+    CHECK(rest_unite(&hand.rest, hand.bodies[2].island.lowest, false));
+    check_kept(&before, 2);
+    for (int i = 1; i <= 2; i++) {
+        hand_velocity_of(i, v, w);
+        CHECK_LESS(real_abs(v[0]), 1e-9);
+        CHECK_LESS(real_abs(v[2] - 0.0625), 1e-9);
+        CHECK_LESS(real_abs(v[1] - (i == 1 ? -0.075 : 0.075)), 1e-9); /* 1/2 w */
+        CHECK_LESS(real_abs(w[0]), 1e-9);
+        CHECK_LESS(real_abs(w[1]), 1e-9);
+        CHECK_LESS(real_abs(w[2] - 0.15), 1e-9);
+    }
+}
+
+/* On the ground it is at rest; a body by itself in the air keeps its motion. */
+static void test_grounded(void)
+{
+    for (int grounded = 0; grounded < 2; grounded++) {
+        struct body_state before;
+
+        hand_make_box();
+        hand_begin(3, 0);
+        for (int i = 1; i <= 3; i++) {
+            hand_set_motion(i, (double[3]){0.25, -0.5, 1}, (double[3]){0.5, 0.25, 0.125});
+        }
+        join(grounded ? 2 : 1);
+        before = hand.states[1];
+        CHECK(rest_unite(&hand.rest, 1, grounded));
+        if (grounded) {
+            for (int i = 1; i <= 2; i++) {
+                for (int k = 0; k < 3; k++) {
+                    CHECK_EQ(hand.states[i].momentum.c[k], 0);
+                    CHECK_EQ(hand.states[i].angular.c[k], 0);
+                }
+            }
+        } else {
+            CHECK_EQ(memcmp(&before, &hand.states[1], sizeof before), 0);
+        }
+        /* nobody else */
+        CHECK_EQ(hand.states[3].momentum.c[2], hand.states[3].momentum.c[0] * 4);
+        CHECK_MORE(hand.states[3].momentum.c[2], 0);
+    }
+}
+
+/* Any poses, motions and masses to 1000:1: all of both momenta stay, and no energy is gained. */
+static void test_random(void)
+{
+    struct test_random r = {12};
+
+    for (int n = 0; n < (TEST_BARS ? 50 : 2000); n++) {
+        uint32_t count = n % 2 ? 3 : 2;
+        struct sums before;
+        double energy;
+
+        shape_plane(&hand.ground, 9, 2, 4096);
+        shape_box(&hand.solid, 12, 4096, (int)test_random_range(&r, 200, 4096),
+                  (int)test_random_range(&r, 200, 4096));
+        hand_begin(3, 0);
+        for (uint32_t i = 1; i <= count; i++) {
+            double x[3], v[3], w[3];
+
+            for (int k = 0; k < 3; k++) {
+                x[k] = (double)test_random_range(&r, -4096, 4096) / (n % 3 ? 1024 : 512);
+                v[k] = (double)test_random_range(&r, -4096, 4096) / (n % 5 ? 4096 : 256);
+                w[k] = (double)test_random_range(&r, -4096, 4096) / 4096;
+            }
+            body_set_mass(&hand.bodies[i], fix_scale(test_random_range(&r, 1, 1000) << 30, 39));
+            hand.states[i].rotation = shape_random_turn(&r);
+            put((int)i, x);
+            hand_set_motion((int)i, v, w);
+        }
+        join(count);
+        before = sums_of(count);
+        energy = energy2(count);
+        CHECK(rest_unite(&hand.rest, 1, false));
+        check_kept(&before, count);
+        CHECK_AT_MOST(energy2(count), energy * (1 + 1e-9));
+        CHECK(moves_as_one(count));
+        /* twice is as good as once */
+        energy = energy2(count);
+        before = sums_of(count);
+        CHECK(rest_unite(&hand.rest, 1, false));
+        check_kept(&before, count);
+        CHECK_AT_MOST(real_abs(energy2(count) - energy), energy * 1e-7);
+    }
+}
+
+const struct test tests_solve_rest_unite[] = {
+    {"solve_rest_unite/pair", test_pair},
+    {"solve_rest_unite/grounded", test_grounded},
+    {"solve_rest_unite/random", test_random},
+    {0},
+};

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT */
+/* The caller's say about contacts: what it is told, and what comes of its answer. */
+#include <string.h>
+
+#include "lib/boxes.h"
+
+enum { PLATE, BOX };
+
+/* Orders for the callback, and what it saw. */
+static struct said {
+    int calls, body; /* contacts of this body are dropped; -1: none */
+    bool changes;
+    int32_t e_q30;
+    uint32_t mu_q16;
+    struct carom_touch first; /* with an approach of more than 1/1024 unit a frame */
+} said;
+
+static bool answer(void *user, struct carom_touch *touch)
+{
+    struct said *s = user;
+
+    s->calls++;
+    if (touch->speed_q40 > BOXES_Q40(1) && s->first.speed_q40 == 0) {
+        s->first = *touch;
+    }
+    if (s->changes) {
+        touch->restitution_q30 = s->e_q30;
+        touch->friction_q16 = s->mu_q16;
+    }
+    return touch->a != s->body && touch->b != s->body;
+}
+
+static struct carom_world *make(int number, bool asks, int32_t e_q30, uint32_t mu_q16)
+{
+    struct carom_world *w;
+    struct carom_body_def def;
+
+    boxes_begin();
+    boxes_config.caps.contacts = 64; /* the room of an extra */
+    boxes_config.caps.extras = 1;
+    boxes_make(PLATE, 2048, 2048, 128);
+    boxes_make(BOX, 256, 200, 150);
+    memset(&said, 0, sizeof said);
+    said.body = -1;
+    if (asks) {
+        boxes_config.contact = answer;
+        boxes_config.contact_user = &said;
+    }
+    w = boxes_world(number);
+    def = boxes_def(PLATE, 0, 0, 0);
+    def.stationary = true;
+    def.restitution_q30 = e_q30;
+    def.friction_q16 = mu_q16;
+    CHECK_EQ(boxes_add(w, &def), 0);
+    def = boxes_def(BOX, 30, 20, 400);
+    def.restitution_q30 = e_q30;
+    def.friction_q16 = mu_q16;
+    def.velocity = (carom_v3_q40){{BOXES_Q40(4), 0, BOXES_Q40(-10)}};
+    CHECK_EQ(boxes_add(w, &def), 1);
+    return w;
+}
+
+/* One face on another: four corners, at the height of the plate's face, at the speed that the box has. */
+static void test_told(void)
+{
+    struct carom_world *w = make(0, true, 0, 1 << 15);
+    int64_t fall_q40;
+
+    do {
+        fall_q40 = -boxes_state(w, 1).velocity.c[2];
+        boxes_step(w, 1);
+    } while (said.first.speed_q40 == 0 && fall_q40 < BOXES_Q40(100));
+    CHECK_EQ(said.first.a, 1);
+    CHECK_EQ(said.first.b, 0);
+    CHECK_EQ(said.first.normal.c[2], CAROM_ONE_Q30);
+    CHECK_NEAR(said.first.point.c[2], BOXES_Q32(128), BOXES_Q32(1));
+    /* it gains g within the frame at most */
+    CHECK_AT_LEAST(said.first.speed_q40, fall_q40);
+    CHECK_AT_MOST(said.first.speed_q40, fall_q40 - boxes_config.gravity.c[2] + 1000);
+    /* boxes.c: the faces at the top are 6 and 7 or such; each corner of them is up there */
+    for (int k = 0; k < 3; k++) {
+        const struct carom_mesh_raw *plate = &boxes_mesh[PLATE].raw, *box = &boxes_mesh[BOX].raw;
+
+        CHECK_EQ(plate->vertices[plate->faces[said.first.face_b][k]][2], 128);
+        CHECK_EQ(box->vertices[box->faces[said.first.face_a][k]][2], -150);
+    }
+    CHECK_EQ(said.first.restitution_q30, 0);
+    CHECK_EQ(said.first.friction_q16, 1 << 15);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 1, 0), 1);
+}
+
+/* Another e and mu do what those of the bodies would have done, bit for bit; who keeps all changes nothing. */
+static void test_changed(void)
+{
+    for (int kind = 0; kind < 3; kind++) {
+        int32_t e_q30 = kind == 1 ? CAROM_ONE_Q30 / 2 : 0;
+        uint32_t mu_q16 = kind == 2 ? 1 << 14 : 1 << 16;
+        struct carom_world *own = make(0, false, e_q30, mu_q16), *w;
+
+        w = kind == 0 ? make(1, true, 0, 1 << 16) : make(1, true, CAROM_ONE_Q30 / 8, 3 << 12);
+        said.changes = kind > 0;
+        said.e_q30 = e_q30;
+        said.mu_q16 = mu_q16;
+        for (int frame = 0; frame < 60; frame++) {
+            struct carom_body_state one, other;
+
+            boxes_step(own, 1);
+            boxes_step(w, 1);
+            one = boxes_state(own, 1);
+            other = boxes_state(w, 1);
+            CHECK(boxes_same(&one, &other));
+        }
+        CHECK_MORE(said.calls, 20);
+    }
+}
+
+/* A snapshot holds whatever friction the function has chosen: bodies without any slide on a plate that answers with mu 4. */
+static void test_saved(void)
+{
+    static uint8_t saved[8192];
+    struct carom_world *w = make(0, true, 0, 0);
+    const carom_v3_q40 weight = {{0, 0, BOXES_Q40(-200)}};
+    struct carom_body_state state;
+    int loads = 0;
+
+    said.changes = true;
+    said.mu_q16 = 4 << 16;
+    CHECK_EQ(carom_world_set_gravity(w, &weight), CAROM_OK);
+    boxes_step(w, 10); /* it lies on the plate by now */
+    state = boxes_state(w, 1);
+    state.velocity.c[0] = BOXES_Q40(700);
+    CHECK_EQ(carom_body_set(w, 1, &state), CAROM_OK);
+    for (int frame = 0; frame < 60; frame++) {
+        int size = carom_snapshot_save(w, saved, sizeof saved);
+
+        CHECK_MORE(size, 0);
+        loads += size > 0 && carom_snapshot_load(w, saved, (size_t)size) == CAROM_OK;
+        boxes_step(w, 1);
+    }
+    CHECK_EQ(loads, 60);
+    CHECK_NEAR(boxes_state(w, 1).velocity.c[0], 0, BOXES_Q40(1)); /* so friction did act */
+}
+
+/* A box whose contacts are dropped falls through and takes no hits; the other box stays. */
+static void test_dropped(void)
+{
+    struct carom_world *w = make(0, true, 0, 1 << 15);
+    struct carom_body_def def = boxes_def(BOX, 1000, 0, 400);
+    int other = boxes_add(w, &def), calls;
+
+    said.body = 1;
+    for (int frame = 0; frame < 50; frame++) {
+        calls = said.calls;
+        boxes_step(w, 1); /* CAROM_OK: none is cut */
+        CHECK_LESS(said.calls - calls, 40);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 1, 0), 0);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_BEGIN, 1, 0), 0);
+    }
+    /* free fall: 10 a frame and g n (n + 1) / 2; paths that were left early round, and gravity is exact */
+    CHECK_NEAR(boxes_state(w, 1).velocity.c[2], BOXES_Q40(-10) + 50 * boxes_config.gravity.c[2],
+               100000);
+    CHECK_NEAR(boxes_state(w, 1).velocity.c[0], BOXES_Q40(4), 1000);
+    CHECK_MORE(boxes_state(w, other).position.c[2], BOXES_Q32(128));
+}
+
+static void test_needs(void)
+{
+    struct carom_world *w = NULL;
+    static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(1, 1, 1, 1, 0, 1)];
+    struct carom_config config = {.caps = CAROM_CAPS(1, 1, 1, 1, 0, 1), .contact = answer};
+
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_ERR_ARGUMENT);
+    config.contact = NULL;
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &w), CAROM_OK);
+}
+
+const struct test tests_world_ask[] = {
+    {"world_ask/told", test_told},   {"world_ask/changed", test_changed},
+    {"world_ask/saved", test_saved}, {"world_ask/dropped", test_dropped},
+    {"world_ask/needs", test_needs}, {0}};

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT */
+/* Sensors: what is in them, to the frame; and that nothing else notices them. */
+#include <string.h>
+
+#include "lib/boxes.h"
+
+enum { PLATE, BOX, FLOOR, ZONE };
+
+static uint8_t saved[4096];
+
+static void begin(void)
+{
+    boxes_begin();
+    boxes_make(PLATE, 2048, 2048, 16);
+    boxes_make(BOX, 256, 200, 150);
+    boxes_make(FLOOR, 4096, 4096, 256);
+    boxes_make(ZONE, 1024, 1024, 512);
+}
+
+static int add_sensor(struct carom_world *w, int mesh, int x, int y, int z, bool stationary)
+{
+    struct carom_body_def def = boxes_def(mesh, x, y, z);
+
+    def.sensor = true;
+    def.stationary = stationary;
+    return boxes_add(w, &def);
+}
+
+/* A box falls through a zone: heights say when it overlaps. */
+static void test_fall(void)
+{
+    struct carom_world *w;
+    int sensor, box, begins = 0, ends = 0;
+    bool was = false;
+
+    begin();
+    w = boxes_world(0);
+    sensor = add_sensor(w, ZONE, 0, 0, 0, true);
+    {
+        struct carom_body_def def = boxes_def(BOX, 10, 20, 1500);
+
+        box = boxes_add(w, &def);
+    }
+    for (int frame = 0; frame < 60; frame++) {
+        int64_t z_q32;
+        bool is;
+
+        boxes_step(w, 1);
+        z_q32 = boxes_state(w, box).position.c[2];
+        is = carom_abs(z_q32) <= BOXES_Q32(512 + 150);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), is && !was);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), was && !is);
+        begins += is && !was;
+        ends += was && !is;
+        was = is;
+    }
+    CHECK_EQ(begins, 1);
+    CHECK_EQ(ends, 1);
+}
+
+/* Both events in the one frame in which a fast box goes through a thin plate; none beside it. */
+static void test_through(void)
+{
+    struct test_random r = {3};
+    int through = 0, beside = 0;
+
+    begin();
+    boxes_config.gravity = (carom_v3_q40){{0, 0, 0}};
+    for (int i = 0; i < 60; i++) {
+        struct carom_world *w = boxes_world(0);
+        struct carom_body_def def;
+        int x = (int)test_random_range(&r, -3000, 3000), sensor, box, begins, ends;
+        bool moving = i % 3 == 0, hits = x > -2048 - 256 && x < 2048 + 256;
+
+        def = boxes_def(BOX, x, 0, 1000);
+        def.velocity.c[2] = BOXES_Q40(-2500);
+        def.spin.c[2] = i % 2 ? CAROM_RATIO(1, 10, 40) : 0;
+        if (carom_abs(carom_abs(x) - 2048) < 400) {
+            continue; /* how it turns would have to be known */
+        }
+        box = boxes_add(w, &def);
+        sensor = add_sensor(w, PLATE, 0, 0, 0, !moving);
+        boxes_step(w, 1);
+        begins = boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box);
+        ends = boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box);
+        CHECK_EQ(begins, hits);
+        CHECK_EQ(ends, hits);
+        CHECK_NEAR(boxes_state(w, box).position.c[2], BOXES_Q32(-1500), 64);
+        boxes_step(w, 1);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 0);
+        CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 0);
+        through += hits;
+        beside += !hits;
+    }
+    CHECK_MORE(through, 10);
+    CHECK_MORE(beside, 5);
+}
+
+/* Bodies that fall, hit, lie and sleep do all of that bit for bit as without sensors. */
+static void test_unnoticed(void)
+{
+    int seen = 0;
+
+    begin();
+    for (int moving = 0; moving < 2; moving++) {
+        struct carom_world *w[2];
+        int sensor = 0;
+
+        for (int n = 0; n < 2; n++) {
+            struct carom_body_def def = boxes_def(FLOOR, 0, 0, -256);
+
+            w[n] = boxes_world(n);
+            def.stationary = true;
+            CHECK_EQ(boxes_add(w[n], &def), 0);
+            for (int i = 0; i < 4; i++) {
+                def = boxes_def(BOX, 60 * i, 30 * i, 300 + 500 * i);
+                def.restitution_q30 = CAROM_ONE_Q30 / 2;
+                def.spin.c[i % 3] = CAROM_RATIO(1, 20, 40);
+                CHECK_EQ(boxes_add(w[n], &def), 1 + i);
+            }
+        }
+        if (moving) {
+            struct carom_body_def def = boxes_def(BOX, 700, 0, 900);
+
+            def.sensor = true;
+            def.velocity = (carom_v3_q40){{BOXES_Q40(-8), 0, BOXES_Q40(20)}};
+            def.spin = (carom_v3_q40){{BOXES_Q40(700), BOXES_Q40(300), 0}};
+            sensor = boxes_add(w[1], &def);
+        } else {
+            sensor = add_sensor(w[1], ZONE, 100, 0, 500, true);
+        }
+        for (int frame = 0; frame < 160; frame++) {
+            for (int n = 0; n < 2; n++) {
+                boxes_step(w[n], 1);
+            }
+            for (int body = 1; body <= 4; body++) {
+                struct carom_body_state one = boxes_state(w[0], body);
+                struct carom_body_state other = boxes_state(w[1], body);
+
+                CHECK(boxes_same(&one, &other));
+                seen += boxes_events(w[1], CAROM_EVENT_SENSOR_BEGIN, sensor, body);
+            }
+        }
+        CHECK(boxes_state(w[1], 1).asleep);
+    }
+    CHECK_MORE(seen, 5);
+}
+
+/* A sensor that comes finds a sleeping body, one that goes leaves it, and the body sleeps on. */
+static void test_asleep(void)
+{
+    struct carom_world *w;
+    struct carom_body_def def;
+    int box, sensor, size;
+
+    begin();
+    w = boxes_world(0);
+    def = boxes_def(FLOOR, 0, 0, -256);
+    def.stationary = true;
+    boxes_add(w, &def);
+    def = boxes_def(BOX, 0, 0, 151);
+    box = boxes_add(w, &def);
+    boxes_step(w, 60);
+    CHECK(boxes_state(w, box).asleep);
+    sensor = add_sensor(w, ZONE, 0, 0, 0, true);
+    CHECK(boxes_state(w, box).asleep);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, 0), 0);
+    boxes_step(w, 5);
+    size = carom_snapshot_save(w, saved, sizeof saved);
+    CHECK_MORE(size, 0);
+    CHECK_EQ(boxes_set(w, sensor, 5000, 0, 0, 0), CAROM_OK);
+    CHECK(boxes_state(w, box).asleep);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 1);
+    /* as it was: it is in, and that is not news */
+    CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 0);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 0);
+    CHECK(boxes_state(w, box).asleep);
+    /* a body that is set out of it */
+    CHECK_EQ(boxes_set(w, box, 0, 3000, 151, 0), CAROM_OK);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 1);
+    /* one that goes while something is in it */
+    CHECK_EQ(boxes_set(w, box, 0, 0, 151, 0), CAROM_OK);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 1);
+    CHECK_EQ(carom_body_remove(w, sensor), CAROM_OK);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 0);
+}
+
+/* Two sensors do not see each other; filters hold; a body may be wholly inside, and be set there. */
+static void test_who(void)
+{
+    struct carom_world *w;
+    struct carom_body_def def;
+    int sensor, inside, filtered;
+    const struct carom_event *events;
+
+    begin();
+    boxes_config.gravity = (carom_v3_q40){{0, 0, 0}};
+    w = boxes_world(0);
+    sensor = add_sensor(w, ZONE, 0, 0, 0, true);
+    add_sensor(w, BOX, 0, 0, 0, false);
+    def = boxes_def(BOX, 0, 0, 0);
+    inside = boxes_add(w, &def);
+    def = boxes_def(BOX, 700, 0, 0);
+    def.filter = (struct carom_filter){1, 0xfffe, 0};
+    filtered = boxes_add(w, &def);
+    boxes_step(w, 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, inside), 1);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, filtered), 0);
+    CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor + 1, inside), 1);
+    CHECK_EQ(carom_events(w, &events), 2);
+    CHECK_EQ(boxes_state(w, inside).velocity.c[0], 0);
+}
+
+const struct test tests_world_sensor[] = {{"world_sensor/fall", test_fall},
+                                          {"world_sensor/through", test_through},
+                                          {"world_sensor/unnoticed", test_unnoticed},
+                                          {"world_sensor/asleep", test_asleep},
+                                          {"world_sensor/who", test_who},
+                                          {0}};
