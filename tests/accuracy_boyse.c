@@ -30,7 +30,7 @@ struct truth {
     int sign;           /* the separation is sign times the gap */
 };
 
-/* What happens at a root. UNCLEAR: too close to call, or grazing. */
+/* The kind of a root. UNCLEAR: too close to call, or grazing. */
 enum root { NOTHING, MEETING, UNCLEAR };
 
 static long double size(long double v)
@@ -96,7 +96,7 @@ static void push(struct samples *s, long double t, long double p, bool dip)
     s->dip[s->count++] = dip;
 }
 
-/* Where |P| is least between two times, by thirds, or a place where P has changed its sign. */
+/* The time of the least |P| between two times, by thirds, or a time at which P has changed its sign. */
 static long double nearest_approach(long double low, long double high)
 {
     bool positive = smooth_gap(low) > 0;

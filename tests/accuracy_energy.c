@@ -59,7 +59,7 @@ struct momenta {
     int64_t p_q40[3], l_q40[3];
 };
 
-/* What the energy of a body needs: 1 / m, the inverse of J, the arm. */
+/* The terms of a body's energy: 1 / m, the inverse of J, the arm. */
 struct rigid {
     wide inverse_mass;
     struct wide3 inverse[3]; /* of J, rows; J is symmetric */

@@ -272,7 +272,7 @@ static whole product2(const whole f[3], const whole g[3])
     return sum;
 }
 
-/* What lies between a face and z = 0. */
+/* Add the moments of the column between a face and z = 0. */
 static void add_column(struct moments *sum, const struct mesh *m, const uint16_t face[3])
 {
     whole x[3], y[3], z[3], area2;

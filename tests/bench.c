@@ -126,7 +126,7 @@ static bool all_asleep(const struct carom_world *world, int bodies)
     return true;
 }
 
-/* What the last step was about: all slept, bodies touched, boxes of two bodies met, or none did. */
+/* The phase of the last step: all slept, bodies touched, boxes of two bodies met, or none did. */
 static const char *phase(const struct carom_world *world, bool slept,
                          const struct carom_stats *stats)
 {

@@ -22,7 +22,7 @@
 #define PARTS              (1 + 2 * CAR_WHEELS)
 #define STILL              (1 + CAR_RAMPS + CAR_TOWERS) /* the ground and what stands on it */
 
-/* What a run was seen to be off by. */
+/* The largest errors of a run. */
 struct seen {
     double apart;     /* anchors, in skins of the smaller body; of sliders, across their axis */
     double axes;      /* of hinges; of sliders, all axes of one against the other; radians */
@@ -189,7 +189,7 @@ static void place(const struct car *car, double at[2])
     }
 }
 
-/* Where it is, and how far it went about the middle since the last frame. */
+/* Look at the car's place and at the angle that it went about the middle since the last frame. */
 static void look_at_way(const struct car *car, double last[2], struct seen *seen)
 {
     const struct carom_body_state s = lab_state(car->world, CAR_CHASSIS);

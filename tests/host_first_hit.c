@@ -39,7 +39,7 @@
 #define HEAD_MOTIONS 25
 #define SHARE        50 /* of which make test does one */
 #define PROCESSES    2
-/* Of special positions, a fourth of which are met in the first frame. */
+/* Motions that end in special positions; a fourth of them meet in the first frame. */
 #define SPECIAL_CASES  100000
 #define SPECIAL_STRIDE 50
 

@@ -21,7 +21,7 @@
 #define WORLDS_LONG 1000
 #define LINKS       20
 
-/* What the joints of a run were seen to be off by. */
+/* The largest errors of a run's joints. */
 struct seen {
     double apart; /* anchors, in skins of the smaller body */
     double axes;  /* of hinges, radians */
@@ -376,7 +376,7 @@ static void test_random(long worlds)
                worlds, frames, crossed, errors, capped, all.apart, all.frame, all.axes);
 }
 
-/* How a kinematic body goes about: to and fro along a way, and about an axis. */
+/* The motion of a kinematic body: to and fro along a way, and about an axis. */
 struct wander {
     double centre[3], way[3], rate, axis[3], angle, turn_rate;
 };

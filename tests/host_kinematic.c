@@ -40,7 +40,7 @@ static void lead(struct crowd *crowd, int body, const double at[3], const carom_
     lab_expect(carom_body_move_to(crowd->world, body, &pose), "move_to");
 }
 
-/* How many events of a kind the last step had. */
+/* The number of events of a kind in the last step. */
 static int events_of(const struct crowd *crowd, int kind)
 {
     const struct carom_event *events;

@@ -22,7 +22,7 @@
 
 enum { SHEET, BOX, BALL, NEEDLE, CUBE, PLATE, SLAB };
 
-/* What goes on far away, at 30, 30. */
+/* A disturbance far away, at 30, 30. */
 struct trouble {
     const char *name;
     void (*add)(struct crowd *crowd, double size);
@@ -197,7 +197,7 @@ static void prepare(struct crowd *crowd, const struct trouble *trouble, enum wha
     lab_expect(crowd_start(crowd), trouble->name);
 }
 
-/* What a run was like. */
+/* A run: the states of the watched bodies in each frame, and what the world reported. */
 struct run {
     struct carom_body_state states[FRAMES][WATCH]; /* of the first bodies */
     double seconds;

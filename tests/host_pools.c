@@ -112,7 +112,7 @@ static int go_on(const struct lab *from, int frame)
     return frame;
 }
 
-/* What the last step found is empty after an error. */
+/* After an error the world reports no events, contacts or faces of the last step. */
 static bool nothing_found(const struct lab *lab)
 {
     const struct carom_event *events;

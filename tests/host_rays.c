@@ -132,7 +132,7 @@ static long first_of_all(const struct query_ray *ray, int64_t *best_way)
 
 /* ----------------------------------------------------------------- doubles */
 
-/* How far the carried ray is, at both ends of the mesh's box, from the given one: units. */
+/* Distance between the carried ray and the given one at both ends of the mesh's box, units. */
 static double error_of(const struct query_ray *carried, const struct carom_ray *ray,
                        const struct body_state *state)
 {

@@ -117,7 +117,7 @@ static void meet(const double start[3], const double way[3], double deeper)
     go(start, way, touching + deeper);
 }
 
-/* How far to go on: grazing, from 1e-5 of the way on; or deep. */
+/* How far to move past the first touch, as a part of the way: grazing, from 1e-5 on, or deep. */
 static double depth(int pose)
 {
     return pose % 2 ? lab_random(&seed, 0.02, 0.25) : pow(10, lab_random(&seed, -5, -2.5));
@@ -133,7 +133,7 @@ static void pose_over_ground(int pose)
     meet(start, way, depth(pose));
 }
 
-/* From any side through the other body. */
+/* A pose on a line from any side through the other body. */
 static void pose_from_aside(int pose)
 {
     const double along[3] = {0, 0, 3};

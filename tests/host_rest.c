@@ -18,7 +18,7 @@
 
 /* The frames that a drop may take until it is at rest. */
 #define REST_FRAMES 900
-/* How far any vertex may get from where it came to rest, in how many frames. */
+/* Largest distance of a vertex from where it came to rest, units, over this many frames. */
 #define CREEP        2e-4
 #define CREEP_FRAMES 120
 
@@ -30,7 +30,7 @@ struct place {
     long drops;
 };
 
-/* What the drops of one body came to. */
+/* The results of the drops of one body. */
 struct found {
     long resting, latest;
     long off; /* bodies that rolled over the border of the ground and fell */
@@ -124,7 +124,7 @@ static long drop_asleep(struct lab *lab, const struct place *place, struct found
     return tally.frames;
 }
 
-/* Without: the same drop until the frame in which it would have slept, and on. */
+/* Without sleep: the same drop until the frame in which the body would have slept, and on. */
 static void drop_awake(struct lab *lab, long rest, struct found *found)
 {
     static double first[VERTICES][3], seen[2][VERTICES][3];

@@ -193,7 +193,7 @@ struct mean {
     long bad;                 /* frames that cross or are cut short */
 };
 
-/* How fast the ball's lowest point moves downhill. */
+/* The speed downhill of the ball's lowest point. */
 static double slip_of(const struct oracle_body *b, const double downhill[3], const double normal[3])
 {
     double slip = real_dot(b->velocity, downhill);
@@ -307,7 +307,7 @@ static void test_above(double mu)
 #define FLATNESS 0.97
 #define TOUCHING 64
 
-/* From the centre of mass to a vertex of the body, as it is turned. */
+/* The vector from the centre of mass to a vertex, in a turned body. */
 static void seen_from_centre(const struct lab *lab, const carom_quat_q30 *turn, size_t vertex,
                              double out[3])
 {

@@ -216,7 +216,7 @@ static bool judge_screw(struct play *play)
 
 #define POUR_FULL 60 /* frames until the bucket tips */
 
-/* How many things are in a box, inside, from (x, 0) +- (half_x, half_y), up to z. */
+/* Count the things inside a box about (x, 0), +- (half_x, half_y), up to z. */
 static int count_in(const struct play *play, double x, double half_x, double half_y, double z)
 {
     int count = 0;
@@ -252,7 +252,7 @@ static bool judge_pour(struct play *play)
 
 /* ----------------------------------------------------------------- espresso */
 
-/* How far its sphere reaches from the middle of the field. */
+/* Watch how far the machine's sphere reaches from the middle of the field. */
 static void watch_espresso(struct play *play)
 {
     double radius = lab_double(carom_body_mesh(play->world, SCENE_BODY)->radius_q22, 22);

@@ -22,7 +22,7 @@ struct sheet_tally {
     double over;         /* energy beyond the sheet's work in a frame, in m g skin */
 };
 
-/* Where the vertices are in double; returns how far any went. */
+/* Take over the vertices in double; returns the largest distance that one moved. */
 static double follow(const struct carom_mesh *mesh, struct oracle_mesh *to)
 {
     double most = 0;

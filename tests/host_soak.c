@@ -18,14 +18,14 @@
 #include "lib/real.h"
 #include "lib/soak.h"
 
-/* What make test runs: the first ones, and some in which an engine was found to fail once. */
+/* The worlds that `make test` runs: the first ones, and those in which an engine failed once. */
 #define FIRST 30
 static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406,  425,
                                  496,  502,  601,  626,  646,  740,  748,  792,  893,
                                  963,  1060, 1098, 1113, 1455, 1468, 1513, 1608, 1678,
                                  1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
 #define WORLDS (FIRST + sizeof known / sizeof *known)
-/* Of all frames those that are cut short. */
+/* Largest share of frames that are cut short. */
 #define CUT_ALLOWED 0.01
 
 static struct soak_world world;
@@ -56,7 +56,7 @@ static const char *prefix(void)
     return !world.machine ? "" : world.machine->wild ? "w" : "m";
 }
 
-/* What a machine has more. */
+/* Print the figures that only a machine has. */
 static void print_machine(const struct soak_result *r)
 {
     static const struct soak_seen none;
@@ -316,7 +316,7 @@ struct sum {
     double deepest, rise, step_seconds, still, work, apart; /* the worst */
 };
 
-/* What each test asks, and its figure is of; not each fault has one. */
+/* The test of each fault, named after its figure; some faults have none. */
 static const char *const what_of[SOAK_FAULTS] = {[SOAK_CROSSES] = "crossings_in_skins",
                                                  [SOAK_ERROR] = "errors",
                                                  [SOAK_STANDS_STILL] =

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What watches random worlds sees each fault that it is there for, and none where there is none. */
+/* The checker of random worlds sees each fault that it is there for, and none where there is none. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

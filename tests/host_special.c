@@ -51,7 +51,7 @@ static int number_of(const struct run *r, int which)
     return r->s.upper_first ? 1 - which : which;
 }
 
-/* How far apart the bodies are at a part of the way between two states. */
+/* The gap between the bodies at a part of the way between two states. */
 static double apart_between(const struct run *r, double part)
 {
     struct crossing_hull hull[2];

@@ -29,7 +29,7 @@ static double length_of(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* How far a place is seen from a pixel's middle, in pixels. */
+/* Distance in the picture between a place and a pixel's middle, pixels. */
 static double seen_off(const struct carom_camera *camera, const carom_v3_q32 *place, int x, int y)
 {
     struct carom_ray ray;
@@ -235,7 +235,7 @@ static int differ(const uint32_t (*a)[STRIDE])
     return count;
 }
 
-/* Where there is something to show. */
+/* Run to a frame that has contacts to show. */
 static void run_to_contact(int least)
 {
     const struct carom_face_ref *faces;

@@ -14,7 +14,7 @@
 #define LOOKS  4 /* states of a session that are compared */
 #define LINK   (1 << 18)
 
-/* What a hand can do in a frame, and what only looks. */
+/* One random action of a user in a frame, or a change of the view alone. */
 static void act(int *grabs)
 {
     switch (viewed_range(0, 11)) {

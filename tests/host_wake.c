@@ -23,7 +23,7 @@ enum { FLOOR, SHELF, LOW, MIDDLE, TOP, SHELF_LOW, SHELF_TOP, SINGLE, BALL, BODIE
 static uint8_t settled[SNAPSHOT];
 static size_t settled_bytes;
 
-/* What one step told: bodies as bits. */
+/* The events of one step; bodies as bits. */
 struct told {
     uint32_t woke, rested;
     bool hit, repeated; /* a HIT event; an event of waking or rest came twice */
@@ -111,7 +111,7 @@ static struct told step(struct crowd *crowd, struct crowd_tally *tally)
     return listen(crowd->world);
 }
 
-/* What a run until all of `bodies` sleep told; frames is 0 when that did not come about. */
+/* The events of a run until all of `bodies` sleep; frames is 0 when they did not. */
 struct run {
     int frames;
     uint32_t woke, rested;
@@ -457,7 +457,7 @@ static void test_push(void)
 
 /* ------------------------------------------------------------------- snapshot */
 
-/* What is saved asleep wakes elsewhere as it does here, in other working pools too. */
+/* A world saved asleep wakes elsewhere as it does here, with other working pools, too. */
 static void test_snapshot(void)
 {
     struct crowd *one = asleep(), *other = make();

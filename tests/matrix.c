@@ -36,7 +36,7 @@ static _Alignas(8) uint8_t mesh_block[MESH_BYTES];
 static _Alignas(8) uint8_t world_block[WORLD_BYTES];
 static uint8_t snapshot[SNAPSHOT_BYTES];
 
-/* What a run is asked for. */
+/* The options of a run. */
 static struct {
     int frames, at, fill, trace;
     bool each, save;
@@ -172,7 +172,7 @@ static uint64_t fold_path(const struct body_path *path, uint64_t digest)
     return digest;
 }
 
-/* What the stages have found so far and is in no state: paths, pairs and counts. */
+/* Fold the stages' findings that are in no state: paths, pairs and counts. */
 static uint64_t fold_found(const struct carom_world *w)
 {
     const struct carom_stats *stats = &w->stats;
@@ -287,7 +287,7 @@ static bool is_awake(const struct run *run)
     return false;
 }
 
-/* What a frame showed of itself, the events of its step included. */
+/* Fold a frame's results, the events of its step included. */
 static uint64_t fold_frame(struct run *run, int frame, int status, uint64_t digest)
 {
     const struct carom_event *events;

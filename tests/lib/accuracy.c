@@ -10,7 +10,7 @@
 
 static bool missed;
 
-/* What the shared parts of tests check for themselves: a program without a runner ends. */
+/* Shared files of tests call CHECK; a program without a runner ends at the first check that fails. */
 void test_check(bool ok, const char *file, int line, const char *text)
 {
     if (!ok) {

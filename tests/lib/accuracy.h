@@ -29,7 +29,7 @@ struct accuracy {
     double *errors;
 };
 
-/* What the quantiles must not exceed; 0: no bar. Failures must be 0. */
+/* Upper bounds of the quantiles; 0: no bound. Failures must be 0. */
 struct accuracy_bar {
     double p999, p9999, max;
     bool max_is_zero; /* max must be 0 */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* asked - small worlds of shapes that lie as chance has it, for the tests of questions between steps. */
+/* asked - small worlds of shapes at random places, for the tests of queries between steps. */
 #ifndef CAROM_TEST_ASKED_H
 #define CAROM_TEST_ASKED_H
 
@@ -15,10 +15,10 @@ extern const carom_quat_q30 upright;
 
 /* A world, 0 or 1, without bodies; gravity of half a unit a frame. */
 struct carom_world *asked_world(int number);
-/* A body of a mesh that passes what it overlaps, e = 1/2; its number, or an error. A SURFACE never moves. */
+/* Add a body that passes what it overlaps, e = 1/2; returns its number or an error. A SURFACE never moves. */
 int asked_add(struct carom_world *world, const struct carom_mesh *mesh, bool moving, int64_t x,
               int64_t y, int64_t z, carom_quat_q30 turn);
-/* Where the vertices of a mesh are in the world, in double precision. */
+/* The vertices of a posed mesh in world coordinates, in double precision. */
 void asked_place(const struct carom_mesh *mesh, const carom_v3_q32 *position,
                  const carom_quat_q30 *rotation, double out[][3]);
 

@@ -307,7 +307,7 @@ void crossing_place_hull(struct crossing_hull *hull, const struct carom_mesh *me
     }
 }
 
-/* How far apart along a direction, either way round; of one without length nothing is known. */
+/* The gap along a direction, in either order; a direction of no length shows none. */
 static double apart_along(const struct crossing_hull *a, const struct crossing_hull *b,
                           const double n[3], double least_length)
 {

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * crossing - which faces of two placed meshes have a point in common, by trying all in exact
- * arithmetic: what queries are held against. Shares no code with the engine.
+ * crossing - the oracle of queries: which faces of two posed meshes have a point in common, by a test of all pairs
+ * in exact arithmetic. Shares no code with the engine.
  *
- * Corners are carried into the world in double precision and rounded once, to q22. From then on all
- * is whole numbers: the answer is that of the rounded corners, and they are within one unit of q22 of
- * the true ones.
+ * Corners are carried into the world in double precision and rounded once, to q22; all that follows is whole numbers.
+ * The answer is exact for the rounded corners, which are within one unit of q22 of the true ones.
  */
 #ifndef CAROM_TEST_CROSSING_H
 #define CAROM_TEST_CROSSING_H
@@ -13,31 +12,31 @@
 #include "carom.h"
 
 /*
- * Whether two triangles have a point in common; touching counts, and so do overlaps in one plane. A
- * triangle without area has nothing in common with any.
+ * True if two triangles have a point in common. Touching counts, and so does an overlap in one plane. A triangle
+ * without area has no point in common with any.
  * Range: |p|, |q| < 2^28
  */
 bool crossing_triangles(const int32_t p[3][3], const int32_t q[3][3]);
 
-/* A face in a pose, and its box. */
+/* A posed face and its box. */
 struct crossing_face {
     int32_t p_q22[3][3];
     int32_t low_q22[3], high_q22[3];
     uint32_t number;
 };
 
-/* A mesh in a pose. The caller gives the memory, for every vertex and every face. */
+/* A posed mesh. The caller gives memory for every vertex and every face. */
 struct crossing_body {
     const struct carom_mesh *mesh;
     int32_t (*p_q22)[3];
     struct crossing_face *near; /* those that meet the box of the other body */
 };
 
-/* Carry a mesh into the world, seen from `origin`; it must be within 64 units of that. */
+/* Pose a mesh relative to `origin`; it must be within 64 units of it. */
 void crossing_place(struct crossing_body *body, const carom_v3_q32 *position,
                     const carom_quat_q30 *rotation, const carom_v3_q32 *origin);
 
-/* What came of comparisons, added up. */
+/* The sums over all comparisons. */
 struct crossing_tally {
     uint32_t poses, touching; /* touching: poses with crossing pairs */
     uint32_t crossing;        /* pairs that have a point in common */
@@ -46,8 +45,8 @@ struct crossing_tally {
 };
 
 /*
- * Hold the pairs of a query against all there are.
- *   bits  a bit for each pair of faces, all 0; left so
+ * Compare the pairs that a query found with all crossing pairs.
+ *   bits  a bit for each pair of faces, all 0 before and after
  */
 void crossing_compare(struct crossing_body *a, struct crossing_body *b,
                       const struct carom_face_pair *found, uint32_t count, uint8_t *bits,
@@ -64,8 +63,8 @@ struct crossing_hull {
 void crossing_place_hull(struct crossing_hull *hull, const struct carom_mesh *mesh,
                          const double position[3], const double rotation[4]);
 /*
- * How far two convex bodies can be told apart: a gap that some direction shows, or, below 0, the least
- * way that parts them, which is how deep they overlap.
+ * The largest gap between two convex bodies along any direction. Below 0 it is their depth: the least motion that
+ * separates them.
  */
 double crossing_apart(const struct crossing_hull *a, const struct crossing_hull *b);
 

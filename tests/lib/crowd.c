@@ -7,7 +7,7 @@
 #include "crowd.h"
 #include "real.h"
 
-/* What an island's energy may rise by in a frame: see carom's DESIGN.md. */
+/* Bounds on the rise of an island's energy in a frame: see DESIGN.md. */
 #define LIFT_ALLOWED   0.2
 #define IMPACT_ALLOWED 0x1p-24
 #define ULP_Q40        0x1p-40
@@ -354,7 +354,7 @@ static void unite_links(struct crowd *crowd)
     }
 }
 
-/* Who touched whom in this frame. */
+/* Unite the bodies that touched in this frame into islands. */
 static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
 {
     const struct carom_event *events;
@@ -418,7 +418,7 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
 
 /* ------------------------------------------------------------------------ watch */
 
-/* What the springs of an island took up in the frame; and what the last places of their ends are worth. */
+/* The energy that the springs of an island took up in the frame; `rounding` is that of the last places of their ends. */
 static double stored_in(const struct crowd *crowd, int island, double *rounding)
 {
     double rise = 0;
@@ -594,7 +594,7 @@ static bool look_at_group(const struct crowd *crowd, int group, double *moves_or
     return alone;
 }
 
-/* Who was touched owes nothing any more, and has nothing to get back. */
+/* A group that something touched has no lost energy left to get back. */
 static void watch_groups(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int i = 0; i < crowd->body_count; i++) {

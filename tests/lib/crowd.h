@@ -30,12 +30,12 @@ struct crowd_mesh {
     void *block;
 };
 
-/* What one body was seen to have after a frame. */
+/* A body as seen after a frame. */
 struct crowd_seen {
     struct carom_body_state state;
     struct oracle_body body;
     double kinetic, potential, momentum[3], angular[3]; /* angular: about the world's origin */
-    double sway;                                        /* of w x L, L about its centre */
+    double sway;                                        /* length of w x L, L about its centre */
     double low[3], high[3];                             /* its box */
 };
 
@@ -47,32 +47,33 @@ struct crowd_body {
     int island;    /* the lowest body of its island, in the frame last seen */
     bool touching; /* touched anything in that frame */
     bool grounded; /* touched something stationary */
-    bool driven;   /* or something that does work: a kinematic body, a belt, a link */
-    bool linked;   /* or there is a link at it */
-    bool drives;   /* does work on what touches it, though it is no kinematic body */
+    bool driven;   /* touched something that does work: a kinematic body, a belt, a link */
+    bool linked;   /* has a link */
+    bool drives;   /* does work on bodies that touch it, though it is no kinematic body */
 };
 
-/* What connects a body with another one, or with the world (b is -1), without touching: a joint. */
+/* A joint: connects a body with another one, or with the world (b is -1), without contact. */
 struct crowd_link {
     int a, b;
-    bool there, works; /* it does work: a motor */
+    bool there, works; /* works: a motor, which does work */
     double stored[2];  /* energy that a spring holds, before the frame and after it */
-    double noise;      /* and what of it the rounding of its ends is worth */
+    double noise;      /* part of that energy that is rounding of the spring's ends */
 };
 
 /*
- * Joints give back later what energy they cannot keep in a frame. So the bodies that links unite, whatever else they
- * touch, are watched as a group by what they gain over all frames in which nothing touches or drives them.
+ * Joints give back later the energy that they cannot keep in a frame. So the bodies that links unite are watched as a
+ * group, by the energy that they gain over all frames in which nothing touches or drives them.
  */
 struct crowd_group {
-    double gained, most; /* so far, units of energy; the largest part of what moves or is held */
+    double gained,
+        most; /* energy gained so far; the most kinetic and spring energy that the group had */
 };
 
-/* What is looked for between two bodies. */
+/* The faults that are looked for between two bodies. */
 enum crowd_pass {
     CROWD_MEET,      /* crossings */
-    CROWD_PASS_ONCE, /* nothing until they are seen apart */
-    CROWD_PASS       /* nothing */
+    CROWD_PASS_ONCE, /* none until they are seen apart */
+    CROWD_PASS       /* none */
 };
 
 struct crowd {
@@ -84,7 +85,7 @@ struct crowd {
     struct crowd_body bodies[CROWD_BODIES];
     int body_count;
     bool touching[CROWD_BODIES][CROWD_BODIES]; /* pairs that began to touch and have not ended */
-    bool beside[CROWD_BODIES];                 /* who has been beside a surface */
+    bool beside[CROWD_BODIES];                 /* bodies that have been beside a surface */
     double substeps;                           /* of the last frame */
     long look_every; /* frames from one look for crossings to the next; 0: each */
     uint8_t pass[CROWD_BODIES][CROWD_BODIES]; /* enum crowd_pass, see crowd_let_pass */
@@ -139,7 +140,7 @@ bool crowd_meet(struct crowd *crowd, int a, int b, enum crowd_how how, double ga
 /* Make the world anew from the bodies. Returns CAROM_OK, or what a body was refused with. */
 int crowd_start(struct crowd *crowd);
 
-/* What crowd_step saw of a run. Start with {0}. */
+/* The observations of crowd_step over a run. Start with {0}. */
 struct crowd_tally {
     long frames, capped, hits;
     long crossed;        /* frames with faces that cross */
@@ -147,13 +148,13 @@ struct crowd_tally {
     int crossed_pair[2]; /* its bodies, and the faces */
     uint32_t crossed_face[2];
     double crossed_depth; /* the deepest, units */
-    double crossed_skins; /* and in skins of the pair */
+    double crossed_skins; /* depth in skins of the pair */
     /*
      * Bodies seen wholly inside others, frame by frame, or with a corner under a surface beside which
      * they have never been.
      */
     long inside, inside_first;
-    int inside_pair[2]; /* the first of them, and in which */
+    int inside_pair[2]; /* the first such bodies, and the body around each */
     long out;           /* bodies that left the range */
     long asleep, slow;  /* moving bodies that sleep, that sleep or are slower than the limit, now */
     /*

@@ -7,7 +7,7 @@
 #include "crowd.h"
 #include "real.h"
 
-/* What nothing pushes may go through others of its kind. */
+/* True for a body that nothing can push; two of these may cross each other. */
 static bool is_still(const struct crowd_body *body)
 {
     return body->def.stationary || body->def.kinematic;
@@ -109,7 +109,7 @@ static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a,
     at[2] += CROSSING_TOLERANCE;
     if (crowd->beside[a]) {
         if (oracle_under(mesh_of(crowd, b), at)) {
-            crowd_let_pass(crowd, a, b, CROWD_PASS_ONCE); /* what hangs on a joint comes up again */
+            crowd_let_pass(crowd, a, b, CROWD_PASS_ONCE); /* a body on a joint may come up again */
         }
         return;
     }
@@ -244,7 +244,7 @@ void crowd_watch_crossings(struct crowd *crowd, struct crowd_tally *tally)
             struct oracle_pose pose_a, pose_b;
             struct oracle_crossings found;
 
-            /* what is out is not there for others */
+            /* a body out of range meets nothing */
             if (a->now.state.out || b->now.state.out || !(all || changed(a) || changed(b)) ||
                 (is_still(a) && is_still(b)) || passes(crowd, i, j)) {
                 continue;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How two bodies of a crowd meet: places from which they are about to touch in a known way. */
+/* Meetings of two bodies of a crowd: places from which they are about to touch in a known way. */
 #include <limits.h>
 #include <math.h>
 
@@ -7,7 +7,7 @@
 #include "real.h"
 
 #define TRIES 4000
-/* What else of a body lies behind the meeting feature, in radii: many skins. */
+/* Least distance of all other features behind the meeting one, in radii: many skins. */
 #define CLEAR 0.02
 
 /* A mesh about its centre of mass, turned. */

@@ -57,7 +57,7 @@ double duo_gap_at(const struct candidate *c, double t);
 /* The body that a candidate's vertex belongs to. */
 int duo_vertex_side(int kind);
 
-/* How far inside the face the vertex is; how far inside their edges the nearest points are. */
+/* Distance of the vertex from the border of the face, or of the nearest points from the ends of their edges. */
 double duo_inside(const struct duo_features *f, const struct candidate *c);
 
 /*

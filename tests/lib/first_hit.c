@@ -8,7 +8,7 @@
 #include "lab.h"
 #include "real.h"
 
-#define UNIT  (1.0 / 4194304) /* of the last place of q22, which places are rounded to */
+#define UNIT  (1.0 / 4194304) /* the last place of q22, to which positions are rounded */
 #define LEVEL 12              /* units: so much nearer is the surface that bodies are followed to */
 
 /* --------------------------------------------------------------------- world */
@@ -47,11 +47,11 @@ static struct carom_world *make_world(const struct first_hit_motion *motion)
 struct search {
     struct boyse_pair pair;
     struct boyse_hit best;
-    int32_t parts; /* of the window */
+    int32_t parts; /* parts that the window is cut into */
     bool found;
 };
 
-/* In which part of the window surfaces meet. */
+/* The part of the window in which surfaces meet. */
 static int64_t part_of(const struct search *s, const struct boyse_hit *hit)
 {
     int64_t part = (int64_t)hit->root_q30 * s->parts / CAROM_ONE_Q30;
@@ -59,7 +59,7 @@ static int64_t part_of(const struct search *s, const struct boyse_hit *hit)
     return part < s->parts ? part : s->parts - 1;
 }
 
-/* By the part in which surfaces meet, time, kind, then the numbers of the features. */
+/* Order of hits: the part in which surfaces meet, time, kind, then the numbers of the features. */
 static bool comes_first(const struct search *s, const struct boyse_hit *p,
                         const struct boyse_hit *q)
 {
@@ -323,7 +323,7 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
     }
 }
 
-/* How often a mesh winds around a point: the solid angle of its faces, over 4 pi. */
+/* Winding number of a mesh around a point: the solid angle of its faces, over 4 pi. */
 static double winding(const struct first_hit_mesh *mesh, const struct oracle_pose *pose,
                       const double p[3])
 {

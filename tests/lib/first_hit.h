@@ -15,8 +15,8 @@ struct first_hit_mesh {
     const char *name;
     struct carom_mesh mesh;
     struct oracle_mesh doubles;
-    double centre[3];    /* of mass, units */
-    double radius, thin; /* of the whole and of the thinnest part, units */
+    double centre[3];    /* centre of mass, units */
+    double radius, thin; /* radius of the whole mesh and of its thinnest part, units */
     uint32_t *vertices, *edges;
     uint32_t vertex_count, edge_count;
 };
@@ -43,7 +43,7 @@ void first_hit_make_meshes(void);
 void first_hit_make_mesh(struct first_hit_mesh *m, const char *name, double thin);
 void first_hit_free_mesh(struct first_hit_mesh *m);
 
-/* Where two bodies begin and how they move; body 1 is always a mover. */
+/* Start and motion of two bodies; body 1 always moves. */
 struct first_hit_motion {
     const struct first_hit_mesh *mesh[2];
     struct carom_body_def def[2];
@@ -67,7 +67,7 @@ struct first_hit_verdict {
     bool late;      /* they are nearer, although they were farther apart */
     bool crossed;   /* faces cross where the step goes to */
     bool aside; /* at the hit the features are the event gap apart along N, but not yet opposite */
-    int32_t t_q30; /* of the hit */
+    int32_t t_q30; /* time of the hit */
     struct candidate candidate;
     double gap, event_gap; /* units, at the hit */
     double meet;           /* the distance of the features at the root */

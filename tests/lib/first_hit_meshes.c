@@ -8,7 +8,7 @@
 #include "lab.h"
 
 #define PI   3.14159265358979323846
-#define BITS 12 /* of a quantum */
+#define BITS 12 /* quantum bits */
 
 struct first_hit_mesh first_hit_meshes[FIRST_HIT_SIZES][FIRST_HIT_MESHES];
 
@@ -193,7 +193,7 @@ static void make(struct first_hit_mesh *m, const char *name, double thin,
     first_hit_make_mesh(m, name, thin);
 }
 
-/* In all sizes: with other quanta, as far as those go. */
+/* The mesh in all sizes that other quanta give. */
 static void make_sizes(int number, const char *name, double thin, const struct carom_mesh_raw *raw)
 {
     static const int8_t finer[FIRST_HIT_SIZES] = {0, 3, -3, 7, -5};

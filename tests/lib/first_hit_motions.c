@@ -64,7 +64,7 @@ static carom_quat_q30 both_turns(const carom_quat_q30 *p, const carom_quat_q30 *
 
 /* ------------------------------------------------------------------- motions */
 
-/* How two bodies come at each other. */
+/* The kinds of motion by which two bodies meet. */
 enum manner {
     AIMED,    /* at a point near the other's centre, turning slowly */
     CLOSE,    /* the same from hardly a gap, and slowly */
@@ -72,7 +72,7 @@ enum manner {
     SPINNING, /* the same, at up to 30 radians a frame */
     GRAZING,  /* a face of one along the other, a few skins apart */
     ALIGNED,  /* both turned alike: faces and edges parallel, or nearly */
-    LATER,    /* what a few frames under gravity make of two that are close */
+    LATER,    /* two close bodies, after a few frames under gravity */
     FAST,     /* up to 50 units a frame */
     MANNERS
 };
@@ -83,14 +83,15 @@ struct start {
     int movers;
     double small, large; /* radii of the smaller and of the larger body, at most 1 and at least 1 */
     double away[3];      /* from b to a */
-    double place[3];     /* of a's centre as seen from b's */
-    double velocity[3];  /* of a as seen from b */
+    double place[3];     /* direction from b's centre to a's */
+    double velocity[3];  /* velocity of a relative to b */
     double common;       /* velocity of both, at most */
-    double spin;         /* of both, at most */
-    double pace;         /* of everything: large heads at full speed are near all of each other */
+    double spin;         /* largest spin of both */
+    double
+        pace; /* factor of all speeds; at full speed every face of a large head is near every other one */
 };
 
-/* How far a mesh reaches along a direction, from the point its position stands for. */
+/* Largest distance of a vertex from the centre of mass along a direction. */
 static double reach(const struct first_hit_mesh *mesh, const carom_quat_q30 *turned,
                     const double direction[3], double sign)
 {
@@ -123,7 +124,7 @@ static void choose_away(struct start *s)
     }
 }
 
-/* With a plane between them and a gap on top. */
+/* Place the bodies on two sides of a plane, with a gap. */
 static void place_apart(struct start *s, double gap)
 {
     const struct first_hit_motion *m = s->motion;

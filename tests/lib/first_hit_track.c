@@ -134,7 +134,7 @@ static double clamp(double t)
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-/* Of two segments: the least over the inner solution and the ends of each against the other. */
+/* Distance of two segments: the least of the inner solution and of the ends of each against the other. */
 static double segment_distance(const double p[3], const double q[3], const double u[3],
                                const double v[3])
 {

@@ -41,8 +41,8 @@ void first_hit_point(double out[3], const struct first_hit_mesh *mesh,
 /* Two features of a candidate at one time. */
 struct first_hit_features {
     double gap;      /* signed, of the plane or the lines, along N */
-    double distance; /* of the closed features */
-    double sine;     /* of the edges' angle; 1 for a face */
+    double distance; /* distance of the closed features */
+    double sine;     /* sine of the edges' angle; 1 for a face */
     double sharp;    /* sine of the face's least angle; 1 for edges */
 };
 

@@ -293,7 +293,7 @@ static double watch_crossings(struct fixture *f)
     return deepest;
 }
 
-/* How far a body has gone in the frame, and how far its velocity before and after says at least. */
+/* Bound on the motion of a body's points in the frame; below, on their speed. */
 static double gone(const struct fixture_body *body, double radius)
 {
     double change[3], turned = 0;
@@ -401,7 +401,7 @@ static void frame(struct fixture *f, bool talk)
     }
 }
 
-/* What every scene must do, whatever else it must. */
+/* The demands on every scene, besides its own. */
 static bool sound(struct fixture *f, int frames)
 {
     const struct fixture_tally *t = &f->tally;

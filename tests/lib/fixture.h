@@ -26,12 +26,12 @@ struct fixture;
 
 struct fixture_scene {
     const char *name, *should;
-    int frames;                       /* of the long form */
-    int brief;                        /* of the short form; 0: not in it */
+    int frames;                       /* frames of the long form */
+    int brief;                        /* frames of the short form; 0: left out there */
     void (*make)(struct fixture *f);  /* e = 0 and scene->mu are set afterwards */
     void (*watch)(struct fixture *f); /* after each frame; may be NULL */
-    bool (*judge)(struct fixture *f); /* of what is so at the end; may be NULL; adds to f->said */
-    int n;                            /* what the scene makes of it */
+    bool (*judge)(struct fixture *f); /* judges the last frame; may be NULL; adds to f->said */
+    int n;                            /* a number that the scene's functions interpret */
     double value;                     /* the same */
     double mu;
 };
@@ -44,7 +44,7 @@ struct fixture_mesh {
     struct carom_mesh mesh;
     struct oracle_mesh solid;
     struct oracle_body weight; /* mass and inertia at density 1 */
-    double centre[3];          /* of mass, in the mesh's coordinates */
+    double centre[3];          /* centre of mass in the mesh's coordinates */
     double radius, skin;
     int16_t (*vertices)[3];
     uint16_t (*faces)[3];
@@ -70,10 +70,10 @@ struct fixture_tally {
     int crossed_pair[2];
     double depth;     /* the deepest crossing, in skins of the smaller body */
     long still;       /* the longest run of frames in which a body stood still that had to move */
-    long still_first; /* where that run begins */
+    long still_first; /* frame in which that run begins */
     int still_body;
     double energy_first, rise; /* rise: above that at the start, in m g skin of all */
-    double worst_ms, total_ms; /* of steps, processor time */
+    double worst_ms, total_ms; /* processor time of the slowest step and of all */
 };
 
 struct fixture {
@@ -88,7 +88,7 @@ struct fixture {
     struct fixture_shape shape; /* to make meshes in */
     double mark[8];             /* the scene's own */
     struct fixture_tally tally;
-    int error; /* of a step; 0: none */
+    int error; /* error of a step; 0: none */
     bool late; /* given up for time */
     bool passed;
     char said[400];
@@ -123,7 +123,7 @@ void fixture_throw(struct fixture *f, int body, const double velocity[3], const 
 
 /* A point of a mesh in the world, now. */
 void fixture_point(const struct fixture *f, int body, const double local[3], double out[3]);
-/* How far a body's centre is from where it was at first; the farthest of all. */
+/* Distance of a body's centre from its first place; the largest of all bodies. */
 double fixture_drift(const struct fixture *f, int body);
 double fixture_farthest(const struct fixture *f);
 /* The angle between the way an axis of a body points now and pointed at first, radians. */

@@ -20,7 +20,7 @@ struct arch {
     int stones;
     double thick, mu;
     struct joint joints[STONES + 1];  /* from right to left */
-    double weight[STONES], x[STONES]; /* of each stone, and where */
+    double weight[STONES], x[STONES]; /* weight and place of each stone */
     double margin, friction;          /* found: of half the thickness; the largest tangent */
 };
 
@@ -175,7 +175,7 @@ static void put(struct fixture *f, const double corner[4][2], bool fixed)
                                            fixture_upright);
 }
 
-/* What an end stands on: half a unit thick, larger than the joint. */
+/* The foot under an end of the arch: half a unit thick, larger than the joint. */
 static void put_foot(struct fixture *f, const struct arch *arch, const struct joint *j, double side)
 {
     double corner[4][2];

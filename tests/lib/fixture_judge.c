@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What judges of fixtures ask. */
+/* Measurements for the judges of fixtures: points, turns, spins. */
 #include <math.h>
 
 #include "fixture.h"

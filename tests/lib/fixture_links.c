@@ -104,7 +104,7 @@ static void make_chain(struct fixture *f)
     }
 }
 
-/* How far the last one swings, as a part of where it began: to the other side. */
+/* Watch the swing of the last link to the other side, as a part of where it began. */
 static void watch_chain(struct fixture *f)
 {
     double x = f->bodies[f->body_count - 1].now.position[0];
@@ -153,7 +153,7 @@ static void watch_net(struct fixture *f)
     f->mark[0] = fmin(f->mark[0], f->bodies[f->body_count - 1].now.position[2]);
 }
 
-/* Of two rows, those that lie half a link to either side of each other. */
+/* True if two links of neighbouring rows lie half a link to either side of each other. */
 static bool is_woven(int later, int earlier)
 {
     int aside = (later % ROWS - earlier % ROWS) * 2 + later / ROWS % 2 - earlier / ROWS % 2;

@@ -31,7 +31,7 @@ static void make_screw(struct fixture *f)
     fixture_body(f, fixture_mesh(f), 0, 0, -PITCH, fixture_upright);
 }
 
-/* How far it has turned, added up frame by frame. */
+/* Add up the screw's turn frame by frame. */
 static void watch_screw(struct fixture *f)
 {
     f->mark[0] += f->bodies[1].now.spin[2];

@@ -171,7 +171,7 @@ void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def)
 
 /* -------------------------------------------------------------------------- worlds */
 
-/* By its arguments alone. */
+/* A callback whose answer depends on its arguments alone. */
 static bool contact(void *user, struct carom_touch *touch)
 {
     (void)user;

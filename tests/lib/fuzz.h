@@ -13,7 +13,7 @@
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras, hits */
 #define FUZZ_CAPS     14, 60, 300, 2000, 256, 500, 8, 8, 4
 #define FUZZ_MESHES   6
-#define FUZZ_VERTICES 1000 /* of a mesh, at most; and faces */
+#define FUZZ_VERTICES 1000 /* most vertices of a mesh, and most faces */
 #define FUZZ_PIXELS   24
 
 struct fuzz {
@@ -23,7 +23,7 @@ struct fuzz {
     struct carom_material materials[4];
     uint8_t of_face[FUZZ_VERTICES];
     uint32_t pixels[FUZZ_PIXELS * FUZZ_PIXELS];
-    int16_t vertices[4][3]; /* of the surface */
+    int16_t vertices[4][3]; /* vertices of the surface */
     int last;               /* call that was made, see fuzz_calls.c */
     void *block, *mesh_block[FUZZ_MESHES], *workspace;
 };

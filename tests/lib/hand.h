@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* hand - the ground and up to three solids, with contacts put there by hand, for tests of rest. */
+/* hand - the ground and up to three solids, with contacts that a test sets by hand, for tests of rest. */
 #ifndef CAROM_TEST_HAND_H
 #define CAROM_TEST_HAND_H
 
@@ -16,7 +16,7 @@ struct hand {
     struct body_state states[HAND_BODIES];
     struct contact contacts[HAND_CONTACTS];
     struct contact_work works[HAND_CONTACTS];
-    struct contact_roll rolls[4]; /* of hand_pairs */
+    struct contact_roll rolls[4]; /* rolls of hand_pairs */
     struct rest_warm warm[HAND_CONTACTS];
     struct pool pool;
     struct rest rest;
@@ -36,7 +36,7 @@ void hand_begin(int moving, double fall);
 /* Forget the contacts; the paths are what contacts refer to. */
 void hand_clear_contacts(void);
 
-/* Of all bodies: e and mu; what accelerates them, units / frame^2. */
+/* Set e and mu of all bodies; set gravity, units / frame^2. */
 void hand_set_surface(double e, double mu);
 void hand_set_gravity(double x, double y, double z);
 /* Units and radians a frame. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* host_scenes - a scene that plays by itself and is watched frame by frame. */
+/* host_scenes - a scene that plays untouched and is watched frame by frame. */
 #ifndef CAROM_TESTS_HOST_SCENES_H
 #define CAROM_TESTS_HOST_SCENES_H
 
@@ -16,8 +16,8 @@ struct play {
     struct oracle_mesh mesh[PLAY_BODIES];
     struct carom_body_state first[PLAY_BODIES], now[PLAY_BODIES];
     long crossings, looked;   /* pairs of faces that cross, and of bodies that were asked */
-    double mark[PLAY_BODIES]; /* what a watcher keeps; 0 at first */
-    char said[120];           /* what a judge says */
+    double mark[PLAY_BODIES]; /* memory of a watcher; 0 at first */
+    char said[120];           /* remarks of a judge */
 };
 
 struct play_scene {
@@ -30,9 +30,9 @@ struct play_scene {
 /* Those of scenes_show.c, and after the last one without a name. */
 extern const struct play_scene play_shows[];
 
-/* Where a body is along an axis. */
+/* Position of a body along an axis, units. */
 double play_at(const struct carom_body_state *state, int axis);
-/* How far a body that turns about one axis of the world is turned, within a full turn. */
+/* Angle of a body that turns about one axis of the world, within a full turn. */
 double play_turn(const struct play *play, int body, int axis);
 /* Add to a total what a turn within a full turn has gone on by; returns it. */
 double play_turned(double *total, double turn);

@@ -2,7 +2,7 @@
 /* One impact in real numbers, solved in contact space: the oracle of impact_solve. */
 #include "impact_real.h"
 
-/* Where an entry of a symmetric matrix is among xx, yy, zz, xy, yz, zx. */
+/* Index of a symmetric matrix's entry among xx, yy, zz, xy, yz, zx. */
 static const int symmetric[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
 
 /* ---------------------------------------------------------------- arithmetic */

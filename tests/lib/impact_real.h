@@ -80,7 +80,7 @@ struct real_impact real_from_engine(const struct impact *in);
 
 enum real_way { REAL_STICKS, REAL_SLIDES, REAL_WEDGES };
 
-/* What follows from an impact before anything is decided. */
+/* The quantities of an impact that do not depend on whether it sticks or slides. */
 struct real_contact {
     struct matrix k, inverse_k;
     scalar speed; /* V.N */

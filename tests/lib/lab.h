@@ -74,7 +74,9 @@ struct lab {
     struct carom_world *world;
     void *mesh_block, *world_block;
     struct oracle_mesh ground, body;
-    double mass, inertia[6]; /* of the body at density 1, worked out in double; see oracle_body */
+    double mass,
+        inertia
+            [6]; /* mass and inertia of the body at density 1, computed in double; see oracle_body */
     double centre[3];
     double skin; /* units: the gap that a resting contact keeps */
 };
@@ -94,14 +96,14 @@ void lab_surface(struct lab *lab, double e, double mu);
 struct oracle_body lab_body(const struct lab *lab);
 /* Kinetic energy and potential energy above the origin, from the body's state in double. */
 double lab_energy(const struct lab *lab);
-/* Where the meshes are, and the face pairs that cross. */
+/* Poses of the bodies, and the pairs of faces that cross. */
 struct oracle_pose lab_pose(const struct lab *lab, int body);
 struct oracle_crossings lab_crossings(const struct lab *lab);
 /* The lowest vertex of the body along the unit vector `up`. */
 double lab_lowest(const struct lab *lab, const double up[3]);
 bool lab_asleep(const struct lab *lab);
 
-/* What lab_step saw of a run. Start with {0}. */
+/* The observations of lab_step over a run. Start with {0}. */
 struct lab_tally {
     long frames, capped;
     long crossed; /* frames with faces that cross */

@@ -289,7 +289,7 @@ void meeting_shapes(struct meeting *m, unsigned which, const struct meeting_plan
     } else if (which % 3 == 2) {
         shape_tetrahedron(&m->shape[0], 12, 1900);
     }
-    if (!plan->both && which % 2 == 0) { /* what stands still may be a field */
+    if (!plan->both && which % 2 == 0) { /* a stationary body may be a field */
         shape_field(&m->shape[1], 10, 4, 700, 500, which);
     } else if (which % 4 == 1) {
         shape_l(&m->shape[1], 12, 1900);

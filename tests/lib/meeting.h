@@ -14,11 +14,11 @@
 
 #define MEETING_UNIT (1.0L / 4194304) /* a unit of the last place of q22 */
 
-/* What is asked for. */
+/* The meeting that a test wants. */
 struct meeting_plan {
-    int kind;             /* of the candidate */
+    int kind;             /* kind of the candidate */
     bool both;            /* b moves as well */
-    bool translate, turn; /* what the bodies that move do */
+    bool translate, turn; /* motion of the bodies that move */
 };
 
 struct meeting {
@@ -28,16 +28,16 @@ struct meeting {
     struct boyse_pair pair;
     struct candidate candidate;
     long double time;   /* the features meet then, perhaps not for the first time */
-    long double length; /* of the path of any point of a as seen from b, at most */
+    long double length; /* bound on the path's length of any point of a relative to b */
 };
 
 /* The features at one time; places are relative to the origin of a's path. */
 struct meeting_features {
-    long double x[2][3], r[2][3][3];          /* the bodies: centre and axes */
-    long double n[3];                         /* unit vector: the face's normal, or along e x f */
-    long double gap;                          /* signed distance along n */
-    long double sine;                         /* of the angle between the edges; 1 for a face */
-    long double p[3], corner[3][3];           /* vertex and face */
+    long double x[2][3], r[2][3][3]; /* the bodies: centre and axes */
+    long double n[3];                /* unit vector: the face's normal, or along e x f */
+    long double gap;                 /* signed distance along n */
+    long double sine;                /* sine of the angle between the edges; 1 for a face */
+    long double p[3], corner[3][3];  /* vertex and face */
     long double from[2][3], e[2][3], edge[2]; /* edges: start, direction, length */
 };
 
@@ -52,7 +52,7 @@ void meeting_at(const struct meeting *m, long double t, struct meeting_features 
 /* The gap's rate of change, units a slice. */
 long double meeting_slope(const struct meeting *m, long double t);
 
-/* How far inside the face the vertex is, or how far inside their edges the nearest points are. */
+/* Distance of the vertex from the border of the face, or of the nearest points from the ends of their edges. */
 long double meeting_inside(const struct meeting *m, const struct meeting_features *f);
 
 /*

@@ -32,7 +32,7 @@ struct oracle_matrix {
     double row[3][3];
 };
 
-/* Where a mesh is: world = rotation local + position. */
+/* Pose of a mesh: world = rotation local + position. */
 struct oracle_pose {
     struct oracle_matrix rotation;
     double position[3];
@@ -48,7 +48,7 @@ struct oracle_pose oracle_pose_make(const double position[3], const double quate
 struct oracle_crossings {
     size_t pairs;      /* face pairs of which an edge of one pierces the other */
     size_t by_a, by_b; /* pairs where an edge of a's face pierces b's, and of b's pierces a's */
-    double depth;      /* of the deepest piercing; 0 when there is none */
+    double depth;      /* depth of the deepest piercing; 0: none */
     uint32_t face_a, face_b; /* the pair of the deepest piercing */
 };
 
@@ -61,7 +61,7 @@ struct oracle_crossings oracle_crossings(const struct oracle_mesh *a,
                                          const struct oracle_mesh *b,
                                          const struct oracle_pose *pose_b, double tolerance);
 
-/* How deep the edge p q pierces the face a b c; 0 or below when it does not. */
+/* Depth by which the edge p q pierces the face a b c; 0 or below when it does not. */
 double oracle_piercing(const double p[3], const double q[3], const double a[3], const double b[3],
                        const double c[3]);
 
@@ -78,7 +78,7 @@ struct oracle_body {
     double mass;
     double
         inertia[6]; /* xx, yy, zz, xy, yz, zx, divided by the mass, about the centre, local axes */
-    double position[3];          /* of the centre of mass */
+    double position[3];          /* position of the centre of mass */
     double quaternion[4];        /* w, x, y, z */
     double velocity[3], spin[3]; /* world axes */
 };

@@ -100,7 +100,7 @@ static int lean(struct carom_world *world, int bodies, int frame)
     return result;
 }
 
-/* Where those that meet in the air meet: far above the ground, which nothing pulls them to. */
+/* Height at which bodies without gravity meet: far above the ground. */
 #define MEET_MM 500000
 
 static int take_up(struct carom_world *world, int bodies)
@@ -200,7 +200,7 @@ static int ask_ray(const struct carom_world *world, const carom_v3_q32 *at, uint
     return met < 0 ? met : CAROM_OK;
 }
 
-/* How far a body's mesh would go down and turn, and what it would meet; what it overlaps there. */
+/* Sweep a body's mesh down while it turns, and ask for the hit and for overlaps at the start. */
 static int ask_way(struct carom_world *world, int body, const struct carom_body_state *state,
                    uint64_t *digest)
 {
@@ -301,7 +301,7 @@ static int ask_picture(struct carom_world *world, const struct scene *scene, int
     return result;
 }
 
-/* From time to time the ball is thrown at the door again, from either side. */
+/* Throw the ball at the door again from time to time, from either side. */
 static int throw_ball(struct carom_world *world, int bodies, int frame)
 {
     const int64_t side = frame % 600 == 0 ? -1 : 1;

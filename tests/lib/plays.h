@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * plays - scenes that do not come to an end: bodies that are pushed, pulled and tilted so that they
- * go on moving for thousands of frames. What is done before a frame follows from its number and from
- * the state of the world, so that a play can be gone on with from a snapshot.
+ * plays - endless scenes: bodies are pushed, pulled and tilted so that they move for thousands of frames. The calls
+ * before a frame follow from its number and from the state of the world, so a play can continue from a snapshot.
  */
 #ifndef CAROM_TESTS_PLAYS_H
 #define CAROM_TESTS_PLAYS_H
@@ -11,11 +10,11 @@
 
 struct play {
     const char *name, *scene;
-    int bodies; /* that move; 0: as many as the scene has */
+    int bodies; /* moving bodies; 0: as many as the scene has */
     void (*arrange)(struct scene *);
-    /* What is done before a frame, 1 being the first. Returns CAROM_OK or an error. */
+    /* Make the calls before a frame; the first is 1. Returns CAROM_OK or an error. */
     int (*act)(struct carom_world *world, int bodies, int frame);
-    /* What is asked after a frame, folded into a digest. Returns CAROM_OK or an error. */
+    /* Fold the answers to queries after a frame into a digest. Returns CAROM_OK or an error. */
     int (*ask)(struct carom_world *world, const struct scene *scene, int frame, uint64_t *digest);
 };
 

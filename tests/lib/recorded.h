@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a source is compiled with (-include) to have its calls on a world recorded; tests/record.c has the recorder. */
+/* Macros that record each call on a world: make compiles a source with -include. tests/record.c has the recorder. */
 #ifndef RECORDED_H
 #define RECORDED_H
 

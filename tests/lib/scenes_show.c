@@ -33,7 +33,7 @@ static int awake(const struct play *play, int first, int count)
 /* mark: the highest that each ball is between the first hit and the second, for each count of balls lifted. */
 enum { NEWTON_ROUNDS = 3, NEWTON_HIT = NEWTON_FRAMES / 8, NEWTON_AGAIN = 3 * NEWTON_FRAMES / 8 };
 
-/* How high a ball is, of the height from which the first one falls. */
+/* Height of a ball over the height from which the first one falls. */
 static double rise(const struct play *play, int ball)
 {
     const double low = play_at(&play->first[NEWTON_BALL + 1], 2);

@@ -12,8 +12,8 @@
 
 /* --------------------------------------------------------------------- worlds */
 
-#define SOAK_BODIES   24 /* that move, at most */
-#define SOAK_OBSTACLE 8  /* that stand still, at most */
+#define SOAK_BODIES   24 /* most moving bodies */
+#define SOAK_OBSTACLE 8  /* most stationary bodies */
 
 enum soak_ground { SOAK_NONE, SOAK_PLANE, SOAK_FIELD, SOAK_OBSTACLES, SOAK_ROOM, SOAK_GROUNDS };
 extern const char *const soak_ground_names[SOAK_GROUNDS];
@@ -24,13 +24,13 @@ struct soak_world {
     uint64_t seed;
     struct crowd *crowd;
     struct soak_shape shapes[SOAK_BODIES + SOAK_OBSTACLE];
-    enum soak_kind kinds[CROWD_BODIES]; /* of bodies */
+    enum soak_kind kinds[CROWD_BODIES]; /* kinds of the bodies' shapes */
     enum soak_ground ground;
     enum soak_pace pace;
     int moving;       /* bodies that move: the last ones */
     double gravity;   /* its size */
-    double centre[3]; /* of where bodies are put */
-    /* how a room is turned; from its middle to its walls, which are off by so much at most */
+    double centre[3]; /* middle of the place of bodies */
+    /* rotation of a room; distance from its middle to its walls, and the most that a wall is off */
     double room[4], room_half, room_slack;
     int halvings
         [CROWD_BODIES];      /* of mass 1, when all masses are powers of two: see soak_momentum */
@@ -68,26 +68,26 @@ void soak_watch_still(const struct crowd *crowd, struct soak_still *still, long 
 /* Seconds of this process. */
 double soak_seconds(void);
 
-/* What came of a world. */
+/* The results of a world. */
 struct soak_result {
     struct crowd_tally tally;
     struct soak_still still;
-    int status; /* of the last step */
+    int status; /* result of the last step */
     int error;  /* the first that a call returned, or CAROM_OK */
     long error_frame;
     bool unfinished;           /* it took too long, and was left */
     long cut_run, cut_longest; /* frames in a row that were cut short */
     long escaped_frame;        /* the first in which a body was outside of its room, 0: none */
     int escaped;
-    int64_t momentum[3]; /* of all bodies in range, where it is watched */
+    int64_t momentum[3]; /* momentum of all bodies in range, where it is watched */
     long momentum_frame; /* the first that changed the sum of all momenta, 0: none */
-    double step_seconds; /* of the slowest step */
+    double step_seconds; /* time of the slowest step */
     long step_frame;
-    double seconds;                /* of all steps */
-    uint32_t candidates, substeps; /* of the frames that had most */
-    uint32_t faces;                /* of all bodies */
+    double seconds;                /* time of all steps */
+    uint32_t candidates, substeps; /* those of the frames that had most */
+    uint32_t faces;                /* faces of all bodies */
     uint32_t fullest;              /* percent of the pool that was most full */
-    const struct soak_seen *seen;  /* of a machine, until soak_free; else NULL */
+    const struct soak_seen *seen;  /* observations of a machine, until soak_free; else NULL */
 };
 
 enum soak_fault {
@@ -99,7 +99,7 @@ enum soak_fault {
     SOAK_MOMENTUM,
     SOAK_SLOW_STEP,
     SOAK_MUCH_WORK,
-    /* of machines */
+    /* faults of machines */
     SOAK_JOINT,  /* a joint of a group that nothing touched was off by more than it may be */
     SOAK_SENSOR, /* events and an overlap disagree */
     SOAK_OTHER,  /* a second run had another hash */
@@ -108,9 +108,9 @@ enum soak_fault {
 extern const char *const soak_fault_names[SOAK_FAULTS];
 #define SOAK_STEP_SECONDS 0.2
 #define SOAK_APART        8    /* skins, of what nothing touches */
-#define SOAK_GAINED       1e-3 /* of the energy of a group */
+#define SOAK_GAINED       1e-3 /* part of the energy of a group */
 #define SOAK_AXES         0.01 /* radians */
-#define SOAK_CANDIDATES   1024 /* of a step, for each face of the world */
+#define SOAK_CANDIDATES   1024 /* candidates of a step for each face of the world */
 bool soak_has(const struct soak_result *result, enum soak_fault fault);
 
 /* Start the world, and look at it before the first frame; false when that fails. */

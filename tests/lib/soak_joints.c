@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How far joints of random worlds are off, in double precision from the poses of their bodies alone. */
+/* Errors of joints of random worlds, in double precision, from the poses of their bodies alone. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,8 @@
 /* A joint in the world as its bodies are now. */
 struct place {
     double at[2][3], axis[2][3];
-    double turned[4]; /* how a has turned against b since the joint was added, in b's axes then */
+    double
+        turned[4]; /* rotation of a against b since the joint was added, in b's axes at that time */
 };
 
 static int body_of(const struct soak_joint *joint, int side)
@@ -17,7 +18,7 @@ static int body_of(const struct soak_joint *joint, int side)
     return side == 0 ? joint->def.a : joint->def.b;
 }
 
-/* Where a body is, and how it is turned; the world is at the origin. */
+/* Position and rotation of a body; the world is at the origin. */
 static void pose_of(const struct crowd *crowd, int body, double at[3], double q[4])
 {
     struct carom_body_state s;
@@ -144,7 +145,7 @@ double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joi
     return real(d->stiffness_q40, 40) * stretch * stretch / 2;
 }
 
-/* Of those that move. */
+/* The smaller skin of a joint's moving bodies. */
 static double smaller_skin(const struct crowd *crowd, const struct soak_joint *joint)
 {
     double skin = crowd->meshes[crowd->bodies[joint->def.a].mesh].skin;

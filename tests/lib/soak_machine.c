@@ -45,7 +45,7 @@ static void lead_some(struct soak_world *w, struct test_random *r)
     }
 }
 
-/* Where a body is to be that needs no room: anywhere about. */
+/* Put a body near another one; they may overlap. */
 static void put_anywhere(struct soak_world *w, int body, struct test_random *r)
 {
     int other = soak_pick(r, w->crowd->body_count);
@@ -209,7 +209,7 @@ static void fill(struct soak_world *w, struct soak_joint *joint, struct test_ran
     }
 }
 
-/* Nobody swings faster than by so much of its radius in a frame, unless the world is wild. */
+/* Largest motion of a body in a frame, in its radii, unless the world is wild. */
 #define CALM 0.5
 static void calm(struct soak_world *w, int body)
 {
@@ -227,7 +227,7 @@ static void calm(struct soak_world *w, int body)
     }
 }
 
-/* What a body is joined with: the world or a body before it. */
+/* The partner of a body's joint: the world or a body before it. */
 static int partner(const struct soak_machine *m, int body, bool chain, struct test_random *r)
 {
     int other;

@@ -35,7 +35,7 @@ void soak_machine_ask(struct soak_world *w)
 
 /* ----------------------------------------------------------------------- passing */
 
-/* By the rule that carom.h states. */
+/* True if two filters let bodies meet, by the rule that carom.h states. */
 static bool may_meet(const struct carom_filter *p, const struct carom_filter *q)
 {
     static const struct carom_filter usual = {1, 0xffff, 0}, zero;
@@ -75,7 +75,7 @@ static bool pass(const struct soak_world *w, int a, int b)
            drops(w->machine, a, b) || ignore(w->machine, a, b);
 }
 
-/* Who passed and may touch from now on passes until apart. */
+/* A pair that passed and may touch from now on still passes until it is apart. */
 void soak_machine_let_pass(struct soak_world *w)
 {
     for (int a = 0; a < w->crowd->body_count; a++) {
@@ -111,7 +111,7 @@ static int set_faces(struct soak_world *w, int body)
     return carom_body_set_face_materials(w->crowd->world, body, m->materials, 4, m->of_face);
 }
 
-/* What stands still moves along itself; others have faces of several materials. */
+/* Stationary bodies get belts; others get faces of several materials. */
 static int set_materials(struct soak_world *w)
 {
     struct soak_machine *m = w->machine;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What must hold in every frame of a random world. */
+/* The checks of every frame of a random world. */
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -25,7 +25,7 @@ static int64_t larger(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
-/* How far any point of a body went in the frame, at most; the largest change of a number of its pose. */
+/* Bound on the motion of any point of a body in the frame; the largest change of a number of its pose goes out. */
 static double way_of(const struct crowd *crowd, const struct crowd_body *body, int64_t *places)
 {
     const struct carom_body_state *from = &body->before.state, *to = &body->now.state;
@@ -79,7 +79,7 @@ static bool stands_still(const struct crowd *crowd, int i)
     for (int k = 0; k < 3; k++) {
         gravity[k] = real(crowd->config.gravity.c[k], 40);
     }
-    /* what hangs at a limit keeps what gravity gives in half of a frame */
+    /* a body at a joint's limit keeps the speed that gravity gives in half of a frame */
     slow = real_length(gravity) / (body->linked ? 1 : 8) + 0x1p-22;
     speed = fmin(speed_of(crowd, body, &body->before), speed_of(crowd, body, &body->now));
     way = way_of(crowd, body, &places);
@@ -238,7 +238,7 @@ static int act_and_step(struct soak_world *w, struct soak_result *r)
     return status;
 }
 
-/* What is left to see of a machine when a frame was watched. */
+/* Check a machine after the crowd was watched. */
 static void watch_machine(struct soak_world *w, struct soak_result *r)
 {
     soak_machine_watch(w, r->tally.frames);

@@ -10,18 +10,19 @@
 const char *const soak_ground_names[SOAK_GROUNDS] = {"none", "plane", "field", "obstacles", "room"};
 const char *const soak_pace_names[SOAK_PACES] = {"at rest", "slow", "any speed", "fast"};
 
-#define LARGEST_HALF 55 /* of a ground: with a body of 64 units a frame it is in range */
-#define FASTEST      63.5
+#define LARGEST_HALF                                                                               \
+    55 /* half side of a ground: in range, together with a body of 64 units a frame */
+#define FASTEST 63.5
 
-/* How a world is drawn: what its bodies have in common. */
+/* The plan of a random world: the properties that its bodies share. */
 struct plan {
     struct test_random r;
-    double size[2];  /* of bodies, from .. to */
+    double size[2];  /* least and largest size of bodies */
     double light;    /* the lightest: others have up to 1000 times as much */
     int masses;      /* 0: any; 1: by volume; 2: all the same */
     double e, mu;    /* below 0: of each body its own */
-    double lean;     /* of bodies from the axes, radians; below 0: they are turned anyhow */
-    double half;     /* of the cube that bodies are put into */
+    double lean;     /* largest lean of bodies from the axes, radians; below 0: any rotation */
+    double half;     /* half side of the cube that bodies are put into */
     double start[3]; /* its middle */
 };
 
@@ -447,7 +448,7 @@ static void set_surfaces(struct soak_world *w, struct plan *p)
     }
 }
 
-/* By Newton's rule from above. */
+/* Cube root by Newton's rule, from above. */
 static double cube_root(double v)
 {
     double root = v > 1 ? v : 1;

@@ -202,7 +202,7 @@ bool solid_vertex_cone(const struct solid *s, uint32_t v, const double n[3], dou
     return true;
 }
 
-/* How much of a unit vector n points into the faces of an edge, at most. */
+/* The largest component of a unit vector n into the faces of an edge. */
 static double into_faces(const struct solid *s, const struct carom_edge *edge, const double n[3])
 {
     double most = -1;

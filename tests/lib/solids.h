@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * solids - meshes in a pose, in double precision: distances and normal cones of their features, by
- * way of all faces. What interference detection is held against.
+ * solids - posed meshes in double precision: distances and normal cones of their features, computed from all faces.
+ * The oracle of interference detection.
  */
 #ifndef CAROM_TEST_SOLIDS_H
 #define CAROM_TEST_SOLIDS_H
@@ -10,7 +10,7 @@
 
 #define SOLID_EDGES 1800
 
-/* A box along the axes of the world, in whole numbers: boards compare those faster. */
+/* A box along the axes of the world, in whole numbers, since boards compare these faster. */
 struct solid_bounds {
     int64_t low_q22[3], high_q22[3];
 };
@@ -24,7 +24,7 @@ struct solid {
     bool own_vertex[SHAPE_VERTICES], own_edge[SOLID_EDGES]; /* which the mesh leaves to be tested */
 };
 
-/* Take over a shape that was made anew. */
+/* Note which features a new shape owns. */
 void solid_note_owned(struct solid *s);
 void solid_place(struct solid *s, const struct body_state *state);
 

@@ -191,7 +191,7 @@ static double random_yaw(uint64_t *random)
                         : (yaw < 0 ? -1 : 1) * random_scale(random, 1e-9, most);
 }
 
-/* Where along the feature of a body the meeting is to be. */
+/* Choose the place of meeting along a body's feature. */
 static void choose_top(struct special *c, int which, enum feature feature, uint64_t *random)
 {
     struct special_shape *s = &c->shape[which];
@@ -280,7 +280,7 @@ static void choose_motion(struct special *c, struct motion *m, uint64_t *random)
     way[2] = -c->speed;
     moves = lab_random(random, 0, 1);
     share = moves < 0.4 ? 1 : moves < 0.6 ? 0 : lab_random(random, 0, 1);
-    /* what moves has a radius of up to 32 units */
+    /* a moving body has a radius of up to 32 units */
     for (int i = 0; i < 2; i++) {
         if (c->shape[i].mesh.radius_q22 > 31 << 22) {
             share = i == 0 ? 1 : 0;

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * special - two convex bodies that meet in a special position: their features lie over each other to
- * within nothing, a unit of the last place or up to 1/1000 of a unit. Host only.
+ * special - two convex bodies that meet in a special position: their features lie exactly over each other, or off by a
+ * unit of the last place, or by up to 1/1000 of a unit. Host only.
  *
- * A case is told by its number alone. The lower body has a feature that looks up: a peak, a ridge or
- * the flat top of a frustum; the upper one has another that looks down. At the time of meeting the
- * two are where the case says; the bodies begin some frames before that.
+ * A number alone makes a case. The lower body has a feature that looks up: a peak, a ridge or the flat top of a frustum;
+ * the upper body has one that looks down. They meet at a known place and time; the bodies begin some frames earlier.
  */
 #ifndef CAROM_TESTS_SPECIAL_H
 #define CAROM_TESTS_SPECIAL_H
@@ -46,11 +45,11 @@ struct special {
     bool upper_first;              /* the upper one is body 0 */
     carom_v3_q40 gravity;
     double up[3], skin;
-    /* what was drawn, for a report */
+    /* the random choices, for a report */
     double size[2], slope[2][2], offset, yaw, speed, slant, spin, time, weight;
 };
 
-/* The bodies as a definition or a step has them. */
+/* Pose a body's hull, relative to the first place of body 0. */
 void special_place(struct crossing_hull *hull, const struct special *s, int which,
                    const carom_v3_q32 *position, const carom_quat_q30 *rotation);
 
