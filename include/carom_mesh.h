@@ -142,8 +142,8 @@ struct carom_mesh {
     const struct carom_leaf *leaves; /**< leaves */
     const uint16_t *leaf_faces;      /**< face numbers, leaf by leaf */
     const uint16_t *leaf_vertices;   /**< vertex numbers, leaf by leaf */
-    const uint8_t (
-        *leaf_corners)[3]; /**< corners of a leaf's faces, as indices into the leaf's vertices */
+    /** corners of a leaf's faces, as indices into the leaf's vertices */
+    const uint8_t (*leaf_corners)[3];
     /** the entries of cell c are zrefs[cell_start[c]..cell_start[c+1]) */
     const uint32_t *cell_start;
     const struct carom_zref *zrefs; /**< entries, each list sorted by z1, highest first */

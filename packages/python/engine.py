@@ -29,7 +29,7 @@ def declarations():
     text = re.sub(r"^inline [^;{]*\{.*?^\}$", "", text, flags=re.M | re.S)
     text = re.sub(r"_Static_assert\(.*?\"\);", "", text, flags=re.S)
     # cffi cannot write a pointer to an array of constants; the C compiler is told to ignore the difference
-    return re.sub(r"const (\w+) \(\*(\w+)\)\[3\]", r"\1 (*\2)[3]", text)
+    return re.sub(r"const (\w+)\s*\(\s*\*(\w+)\)\[3\]", r"\1 (*\2)[3]", text)
 
 
 ffi = FFI()
