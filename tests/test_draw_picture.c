@@ -47,7 +47,7 @@ static void formats_agree(void)
 static void greys_agree(void)
 {
     static uint8_t half[SIZE][SIZE / 2];
-    static const uint8_t low[] = {0, 2, 6, 14, 15}, gain[] = {1, 4, 7, 1, 0};
+    static const uint8_t low[] = {0, 2, 7, 14, 15}, gain[] = {1, 6, 6, 1, 0};
     struct carom_world *world = new_world();
 
     add_scene(world);

@@ -3,7 +3,7 @@
 CPU := Cortex-M4
 DISPLAY := none; frames by semihosting
 CLOCK_MHZ := 25
-SCENES := head:13 head836:15 head450:20 walker:60 door:8 conveyor:4 espresso:30 sheet:1 box:1 gears:1 screw:1 newton:1 bowl:1 dominoes:1
+SCENES := head:13 head836:15 head450:20 walker:60 door:8 conveyor:4 espresso:30
 FAMILY := arm
 ARCH := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 PORT := port/mps2/mps2.c port/bare/picture.c port/arm/cortex_m.c

@@ -11,4 +11,4 @@ PICTURES := 1
 CPU := RV32IM
 CLOCK_MHZ := 100
 DISPLAY := bochs-display
-SCENES := head:15 walker:15 door:15 conveyor:10 head450:1 sheet:1 pile:1 box:1 car:1 crusher:1 espresso:1 gears:1 screw:1 newton:1 dominoes:1 cards:1 arch:1 bowl:1 pour:1
+SCENES := head:15 walker:15 door:15 conveyor:10
