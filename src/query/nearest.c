@@ -229,12 +229,10 @@ static void try_faces(struct nearest *n, struct facet *a, struct facet *b)
 /* --------------------------------------------------------------------- leaves */
 
 /* Square of the distance between the centres of two leaves, q24. */
-static int64_t apart_q24(const struct nearest *n, const int64_t centre[3],
-                         const struct carom_leaf *b)
+static int64_t apart_q24(const int64_t centre[3], const struct carom_leaf *b)
 {
     int64_t sum = 0;
 
-    (void)n;
     for (int k = 0; k < 3; k++) {
         int64_t d = (centre[k] - b->centre.c[k]) >> 10;
 
@@ -292,7 +290,7 @@ static void begin_nearest(struct nearest *n)
     for (uint32_t i = 0; i < ma->leaf_count; i++) {
         leaf_centre(n, &ma->leaves[i], centre);
         for (uint32_t j = 0; j < mb->leaf_count; j++) {
-            int64_t apart = apart_q24(n, centre, &mb->leaves[j]);
+            int64_t apart = apart_q24(centre, &mb->leaves[j]);
 
             if (apart < least) {
                 least = apart;
@@ -320,7 +318,7 @@ static void search(struct nearest *n)
             const struct carom_leaf *b = &mb->leaves[j];
             int64_t reach = reach_q12 + ((a->radius_q22 + b->radius_q22) >> 10);
 
-            if (apart_q24(n, centre, b) > reach * reach) {
+            if (apart_q24(centre, b) > reach * reach) {
                 continue;
             }
             if (!is_placed) {

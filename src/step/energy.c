@@ -13,7 +13,7 @@ struct account {
     struct fix_wide excess;  /* gain over the energy at the start and over what contact may lift */
 };
 
-static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s)
+void step_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s)
 {
     carom_m3_q30 r;
 
@@ -70,11 +70,11 @@ static struct account audit(const struct step *s, uint32_t first)
         if (!b->def.mesh || from->out) {
             continue;
         }
-        add_kinetic2(&before, b, from);
+        step_add_kinetic2(&before, b, from);
         if (to->out) {
             continue;
         }
-        add_kinetic2(&sum.kinetic, b, to);
+        step_add_kinetic2(&sum.kinetic, b, to);
         add_lifted2(&sum.excess, b, from, to);
     }
     fix_wide_add(&sum.excess, &sum.kinetic);
@@ -94,7 +94,7 @@ static struct fix_wide beside2(const struct step *s, const struct rest_rigid *ri
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(&s->w->rest, i)) {
         struct body_state state = rest_rigid_state(&s->w->rest, rigid, i);
 
-        add_kinetic2(&sum, &s->w->bodies[i], &state);
+        step_add_kinetic2(&sum, &s->w->bodies[i], &state);
     }
     fix_wide_subtract(&beside, &sum);
     return beside;

@@ -96,8 +96,7 @@ void step_drop_warm(struct step *s)
     s->next->warm_count = kept;
 }
 
-/* True if nothing of a pair was computed: it still touches though it was not checked. */
-static bool left_alone(const struct step *s, const struct pair *p)
+bool step_left_alone(const struct step *s, const struct pair *p)
 {
     const struct body *bodies = s->w->bodies;
     const struct body_state *before = world_now(s->w)->bodies, *next = s->next->bodies;
@@ -116,7 +115,7 @@ int step_finish_events(struct step *s)
     for (uint32_t i = 0; i < before->touching_count && result == CAROM_OK; i++) {
         const struct pair *p = &before->touching[i];
 
-        if (left_alone(s, p)) {
+        if (step_left_alone(s, p)) { /* it still touches though it was not checked */
             result = step_note_touching(s, p);
         } else if (!step_is_touching(s->next, p)) {
             step_add_event(w, CAROM_EVENT_END, p->a, p->b);

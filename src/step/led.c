@@ -193,14 +193,6 @@ static bool is_free_to_go(const struct step *s, uint32_t first, const struct bod
     return true;
 }
 
-static void add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *state)
-{
-    carom_m3_q30 r;
-
-    fix_matrix(&r, &state->rotation);
-    body_add_kinetic2(sum, b, state, &r);
-}
-
 /*
  * Move every body of the island as a part of the kinematic one. The energy that this takes is work.
  */
@@ -214,9 +206,9 @@ static void go_along(struct step *s, uint32_t first, const struct body *led)
         struct fix_wide work = {0, 0}, before = {0, 0};
         carom_v3_q40 v = motion_at(led, &state->position);
 
-        add_kinetic2(&before, &w->bodies[i], state);
+        step_add_kinetic2(&before, &w->bodies[i], state);
         body_set_motion(&w->bodies[i], state, &v, &led->def.extra->route.spin);
-        add_kinetic2(&work, &w->bodies[i], state);
+        step_add_kinetic2(&work, &w->bodies[i], state);
         fix_wide_subtract(&work, &before);
         fix_wide_add(body_work2(&w->bodies[i]), &work);
     }

@@ -272,6 +272,9 @@ int step_note_touching(struct step *s, const struct pair *p);
  */
 void step_limit_energy(struct step *s);
 
+/* Add twice the kinetic energy of a body in a state, 80 fractional bits. */
+void step_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s);
+
 /*
  * The last resort for an island that a solve did not part. It stops if it touches a stationary
  * body, else it moves as one rigid body. `hard`: see step_carry_island.
@@ -325,6 +328,9 @@ bool step_in_range(const struct body *b, const struct body_state *s);
 
 /* Make the list of interfering faces, if pairs were gathered in this step. */
 int step_note_faces(struct step *s);
+
+/* True if a step computed nothing of a pair: both of its bodies rest, before it and after it. */
+bool step_left_alone(const struct step *s, const struct pair *p);
 
 /* Report begin and end of touching, waking and rest: CAROM_OK or CAROM_ERR_PAIRS_FULL. */
 int step_finish_events(struct step *s);

@@ -51,16 +51,6 @@ void step_sense_start(struct step *s)
     }
 }
 
-/* True if nothing has moved two bodies in this step, or set them before it. */
-static bool left_alone(const struct step *s, const struct pair *p)
-{
-    const struct body *a = &s->w->bodies[p->a], *b = &s->w->bodies[p->b];
-    const struct body_state *now = world_now(s->w)->bodies, *next = s->next->bodies;
-
-    return !s->w->sense_anew && !broad_active(a, &now[p->a]) && !broad_active(b, &now[p->b]) &&
-           !broad_active(a, &next[p->a]) && !broad_active(b, &next[p->b]);
-}
-
 /* Note the pairs that pass and still overlap. */
 static int note_passing(struct step *s)
 {
@@ -72,7 +62,7 @@ static int note_passing(struct step *s)
         const struct pair *p = &world_through(w, now)[i];
 
         if (broad_may_touch(&w->bodies[p->a], &w->bodies[p->b]) &&
-            (left_alone(s, p) || overlap(s, p->a, p->b))) {
+            ((!w->sense_anew && step_left_alone(s, p)) || overlap(s, p->a, p->b))) {
             result = world_note_through(w, s->next, p);
         }
     }
