@@ -40,18 +40,10 @@ static void check_values(bool ok, int64_t a, int64_t b, const char *file, int li
     }
 }
 
-#define IN_ORDER(a, order, b)                                                                      \
-    ((order) == TEST_LESS      ? (a) < (b)                                                         \
-     : (order) == TEST_AT_MOST ? (a) <= (b)                                                        \
-     : (order) == TEST_MORE    ? (a) > (b)                                                         \
-     : (order) == TEST_EQUAL   ? (a) == (b)                                                        \
-     : (order) == TEST_DIFFER  ? (a) != (b)                                                        \
-                               : (a) >= (b))
-
 void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
                       const char *text)
 {
-    check_values(IN_ORDER(a, order, b), a, b, file, line, text);
+    check_values(TEST_IN_ORDER(a, order, b), a, b, file, line, text);
 }
 
 /* Billionths, the largest number of them for what is beyond it. */
@@ -63,7 +55,7 @@ static long billionths(double v)
 void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
                            const char *text)
 {
-    bool ok = IN_ORDER(a, order, b);
+    bool ok = TEST_IN_ORDER(a, order, b);
 
     current.checks++;
     if (!ok && current.failed++ == 0) {

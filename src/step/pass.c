@@ -51,6 +51,12 @@ void step_sense_start(struct step *s)
     }
 }
 
+/* True if nothing has moved two bodies in this step, or set them before it. */
+static bool left_alone(const struct step *s, const struct pair *p)
+{
+    return !s->w->sense_anew && step_left_alone(s, p);
+}
+
 /* Note the pairs that pass and still overlap. */
 static int note_passing(struct step *s)
 {
@@ -62,7 +68,7 @@ static int note_passing(struct step *s)
         const struct pair *p = &world_through(w, now)[i];
 
         if (broad_may_touch(&w->bodies[p->a], &w->bodies[p->b]) &&
-            ((!w->sense_anew && step_left_alone(s, p)) || overlap(s, p->a, p->b))) {
+            (left_alone(s, p) || overlap(s, p->a, p->b))) {
             result = world_note_through(w, s->next, p);
         }
     }

@@ -19,6 +19,18 @@ void test_check(bool ok, const char *file, int line, const char *text)
     }
 }
 
+void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
+                      const char *text)
+{
+    test_check(TEST_IN_ORDER(a, order, b), file, line, text);
+}
+
+void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
+                           const char *text)
+{
+    test_check(TEST_IN_ORDER(a, order, b), file, line, text);
+}
+
 void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, int line,
                      const char *text)
 {

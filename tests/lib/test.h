@@ -18,6 +18,14 @@ struct test {
 
 void test_check(bool ok, const char *file, int line, const char *text);
 enum test_order { TEST_LESS, TEST_AT_MOST, TEST_MORE, TEST_AT_LEAST, TEST_EQUAL, TEST_DIFFER };
+/* True if two numbers are in an order. */
+#define TEST_IN_ORDER(a, order, b)                                                                 \
+    ((order) == TEST_LESS      ? (a) < (b)                                                         \
+     : (order) == TEST_AT_MOST ? (a) <= (b)                                                        \
+     : (order) == TEST_MORE    ? (a) > (b)                                                         \
+     : (order) == TEST_EQUAL   ? (a) == (b)                                                        \
+     : (order) == TEST_DIFFER  ? (a) != (b)                                                        \
+                               : (a) >= (b))
 void test_check_order(int64_t a, enum test_order order, int64_t b, const char *file, int line,
                       const char *text);
 void test_check_real_order(double a, enum test_order order, double b, const char *file, int line,
