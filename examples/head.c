@@ -211,7 +211,7 @@ static void say(const struct show *show, const struct carom_world *world,
 /* The colours of a scene; greys keep those of the usual palette, which tell bodies from the ground. */
 static const struct carom_paint *paint_for(const struct show *show, const struct port_fb *fb)
 {
-    return fb->format == PORT_GREY4 ? NULL : show_paint(show);
+    return !BOARD_DRAWS || fb->format == PORT_GREY4 ? NULL : show_paint(show);
 }
 
 /* Draw what changed in the upper `height` rows of a framebuffer, if there is one. Returns the ticks that it took. */

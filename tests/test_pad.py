@@ -38,9 +38,9 @@ class Picture:
               if r > g + 16 and g >= b]
         return [sum(axis) / len(at) for axis in zip(*at)] if at else None
 
-    def sky(self):
-        """Pixels that are bluish: sky, which is seen through a wire frame."""
-        return sum(b > g + 8 for row in self.scene for _, g, b in row)
+    def grass(self):
+        """Pixels that are green: a wire frame of the ground has few of them."""
+        return sum(g > r + 16 and g > b + 16 for row in self.scene for r, g, b in row)
 
     def white(self):
         """Whether there are figures."""
@@ -100,7 +100,7 @@ def cases(board):
         [plain[last].white(), pictures[last].white()] == [True, False]
 
     state, pictures = game.play("select", tap(HELD_FROM, SELECT))
-    yield "select_draws_lines", state == untouched and pictures[-1].sky() > 1.2 * plain[last].sky()
+    yield "select_draws_lines", state == untouched and 0 < 2 * pictures[-1].grass() < plain[last].grass()
 
 
 def main():

@@ -142,6 +142,14 @@ void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct 
     fix_wide_add_dot(sum, s->angular.c, spin.c);
 }
 
+void body_add_kinetic2_of(struct fix_wide *sum, const struct body *b, const struct body_state *s)
+{
+    carom_m3_q30 r;
+
+    fix_matrix(&r, &s->rotation);
+    body_add_kinetic2(sum, b, s, &r);
+}
+
 /*
  * p.v + L.w <= |p| |v| + |L| |w|. |v| is |p| / m. An L of at most 2^-n of the calm one turns by
  * less than 2^-n half radians, see calm_angular_q40, which leaves room for roundings.

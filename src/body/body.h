@@ -413,6 +413,8 @@ void body_set_motion(const struct body *b, struct body_state *s, const carom_v3_
 /* Add p.v + L.w, twice the kinetic energy, 80 fractional bits. */
 void body_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s,
                        const carom_m3_q30 *r);
+/* The same with the axes worked out from the state. */
+void body_add_kinetic2_of(struct fix_wide *sum, const struct body *b, const struct body_state *s);
 
 /* An upper bound of that, computed faster: for bodies that hardly move. */
 void body_add_kinetic2_most(struct fix_wide *sum, const struct body *b, const struct body_state *s);

@@ -18,6 +18,8 @@
 #ifndef CAROM_SRC_TUNING_H
 #define CAROM_SRC_TUNING_H
 
+#include "carom_fix.h"
+
 /* ------------------------------------------------------------------- lengths */
 
 /*

@@ -13,14 +13,6 @@ struct account {
     struct fix_wide excess;  /* gain over the energy at the start and over what contact may lift */
 };
 
-void step_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s)
-{
-    carom_m3_q30 r;
-
-    fix_matrix(&r, &s->rotation);
-    body_add_kinetic2(sum, b, s, &r);
-}
-
 /*
  * Add the gain in height, less what moving surfaces and closing skins account for: -2 m a.(way from
  * one place to another), with q40 times q32 brought to q40.
@@ -70,11 +62,11 @@ static struct account audit(const struct step *s, uint32_t first)
         if (!b->def.mesh || from->out) {
             continue;
         }
-        step_add_kinetic2(&before, b, from);
+        body_add_kinetic2_of(&before, b, from);
         if (to->out) {
             continue;
         }
-        step_add_kinetic2(&sum.kinetic, b, to);
+        body_add_kinetic2_of(&sum.kinetic, b, to);
         add_lifted2(&sum.excess, b, from, to);
     }
     fix_wide_add(&sum.excess, &sum.kinetic);
@@ -94,7 +86,7 @@ static struct fix_wide beside2(const struct step *s, const struct rest_rigid *ri
     for (uint32_t i = rigid->first; i != ISLAND_END; i = rest_island_next(&s->w->rest, i)) {
         struct body_state state = rest_rigid_state(&s->w->rest, rigid, i);
 
-        step_add_kinetic2(&sum, &s->w->bodies[i], &state);
+        body_add_kinetic2_of(&sum, &s->w->bodies[i], &state);
     }
     fix_wide_subtract(&beside, &sum);
     return beside;

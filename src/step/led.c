@@ -206,9 +206,9 @@ static void go_along(struct step *s, uint32_t first, const struct body *led)
         struct fix_wide work = {0, 0}, before = {0, 0};
         carom_v3_q40 v = motion_at(led, &state->position);
 
-        step_add_kinetic2(&before, &w->bodies[i], state);
+        body_add_kinetic2_of(&before, &w->bodies[i], state);
         body_set_motion(&w->bodies[i], state, &v, &led->def.extra->route.spin);
-        step_add_kinetic2(&work, &w->bodies[i], state);
+        body_add_kinetic2_of(&work, &w->bodies[i], state);
         fix_wide_subtract(&work, &before);
         fix_wide_add(body_work2(&w->bodies[i]), &work);
     }

@@ -272,9 +272,6 @@ int step_note_touching(struct step *s, const struct pair *p);
  */
 void step_limit_energy(struct step *s);
 
-/* Add twice the kinetic energy of a body in a state, 80 fractional bits. */
-void step_add_kinetic2(struct fix_wide *sum, const struct body *b, const struct body_state *s);
-
 /*
  * The last resort for an island that a solve did not part. It stops if it touches a stationary
  * body, else it moves as one rigid body. `hard`: see step_carry_island.
