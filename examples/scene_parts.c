@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the scenes of games share: adding bodies and joints, throwing a body, text. */
+/* Helpers of the game scenes: add bodies and joints, throw a body, write text. */
 #include "scene_games.h"
 
 #include <string.h>

@@ -226,7 +226,7 @@ int view_size(const struct carom_picture *picture)
     return CAROM_OK;
 }
 
-/* What is drawn over the bodies. */
+/* Draw lines and text over the bodies. */
 static void draw_over(const struct carom_picture *picture)
 {
     if (view.toggles & VIEW_CONTACTS) {

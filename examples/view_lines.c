@@ -132,7 +132,7 @@ static bool find_box(struct asked *q, const struct carom_body_look *a)
     return true;
 }
 
-/* Of two moving bodies the one with the lower number is searched; otherwise the stationary one. */
+/* A step asks the z-lists of the stationary body, or of the lower number if both move. */
 void view_cells(const struct carom_world *world, struct carom_paint *paint)
 {
     static struct carom_paint_line room[VIEW_LINES_MAX];

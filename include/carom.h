@@ -41,7 +41,7 @@ extern "C" {
 
 /**
  * @defgroup results Results
- * What functions return.
+ * The values that functions return.
  * @{
  */
 
@@ -128,7 +128,7 @@ struct carom_touch {
  */
 typedef bool carom_contact_function(void *user, struct carom_touch *touch);
 
-/** What a world is made with. Any field except `caps` may be zero. */
+/** The settings of a new world. Any field except `caps` may be zero. */
 struct carom_config {
     struct carom_caps caps; /**< capacities, see #CAROM_CAPS */
     carom_v3_q40 gravity;   /**< gravity at first, units / frame^2; each component within +-1 */
@@ -211,7 +211,7 @@ enum carom_one_way {
 };
 
 /**
- * What happens to a body that is added or set where it crosses another body that it may touch, or lies inside it.
+ * The answer to a body that is added or set where it crosses another body that it may touch, or lies inside it.
  *
  * An overlap of less than about a skin, 1/2048 of a radius, does not count. Two stationary bodies may overlap, and
  * nothing touches a sensor.
@@ -226,7 +226,7 @@ enum carom_overlap {
     CAROM_OVERLAP_PASS /**< the two go through each other until they are apart */
 };
 
-/** What a body is made from. Any field except `mesh` may be zero. */
+/** The definition of a new body. Any field except `mesh` may be zero. */
 struct carom_body_def {
     /** a built mesh; it outlives the body. A SURFACE must be stationary */
     const struct carom_mesh *mesh;
@@ -456,7 +456,7 @@ int carom_world_step(struct carom_world *world);
  * @{
  */
 
-/** What an event reports. a and b are its bodies. */
+/** Kinds of events. a and b are an event's bodies. */
 enum carom_event_kind {
     CAROM_EVENT_BEGIN, /**< a and b began to touch */
     CAROM_EVENT_HIT,   /**< a hit b: the hardest impact of the pair in this frame */
@@ -615,7 +615,7 @@ enum carom_stage {
 /** Returns the name of a stage: "predict", "broad", ...; "unknown" for any other number. */
 const char *carom_stage_name(int stage);
 
-/** What the last step did. */
+/** Counts and ticks of the last step. */
 struct carom_stats {
     uint32_t ticks[CAROM_STAGE_COUNT]; /**< ticks of carom_config.ticks by stage; 0 without it */
     uint32_t total_ticks;              /**< ticks of the step */

@@ -214,7 +214,7 @@ int carom_body_mass(const struct carom_world *world, int body, uint32_t *mass_q2
 /** @} */
 /**
  * @defgroup forces Forces and impulses
- * What acts on a body until it is changed, and what acts at once. See also carom_body_set_force() and
+ * Torque, damping and gravity that act until they are changed, and impulses that act at once. See also carom_body_set_force() and
  * carom_body_push().
  *
  * Damping acts first, where a frame begins: p - p d, each component rounded to nearest. Then torque adds to the
@@ -226,7 +226,7 @@ int carom_body_mass(const struct carom_world *world, int body, uint32_t *mass_q2
  * @{
  */
 
-/** What acts on a body until it is changed. It is part of the state: hashed and saved. */
+/** Torque, damping and gravity scale of a body. They act until changed, and are part of the state: hashed and saved. */
 struct carom_forces {
     carom_v3_q40 force;  /**< through the centre of mass, mass x units / frame^2 */
     carom_v3_q40 torque; /**< about the centre of mass, world axes, mass x units^2 / frame^2 */

@@ -21,7 +21,7 @@ extern "C" {
  * @{
  */
 
-/** What carom_debug_draw() hands over, in this order. Flags are a sum of these. */
+/** Kinds of geometry that carom_debug_draw() hands over, in this order. Flags are a sum of these. */
 enum carom_debug_flag {
     CAROM_DEBUG_FACES = 1, /**< triangles: the faces of the bodies */
     /** interfering faces have their own colour; without FACES, only those */

@@ -33,7 +33,7 @@ enum carom_draw_style {
 struct carom_camera {
     /** units, each component within +-16384; nothing nearer than 1/32 is drawn */
     carom_v3_q32 eye;
-    carom_v3_q32 target; /**< what the middle of the picture shows; the same range; not the eye */
+    carom_v3_q32 target; /**< the point in the middle of the picture; the same range; not the eye */
     int32_t focal_q16; /**< focal length in picture heights, 1/16 to 16; 1 << 16 sees 53 degrees */
 };
 
@@ -110,12 +110,12 @@ struct carom_paint_line {
     uint16_t colour;   /**< an entry of the palette */
 };
 
-/** What draws shadows: a program that does not name #carom_shadows does not link it. */
+/** The code that draws shadows. A program that does not name #carom_shadows does not link it. */
 struct carom_shadows;
 /** For carom_paint.shadows. */
 extern const struct carom_shadows carom_shadows;
 
-/** What shades faces smoothly: a program that does not name #carom_smooth does not link it. */
+/** The code that shades faces smoothly. A program that does not name #carom_smooth does not link it. */
 struct carom_smooth;
 /** For carom_paint.smooth. */
 extern const struct carom_smooth carom_smooth;
@@ -226,7 +226,7 @@ struct carom_rect {
     int16_t y1; /**< row after the last one */
 };
 
-/** What pixels show of a body. Carom's own. */
+/** A body as the pixels show it. Carom's own. */
 struct carom_drawn_body {
     struct carom_body_look look; /**< the body as it was drawn */
     uint32_t moves;              /**< how often its surface had moved */
@@ -238,7 +238,7 @@ struct carom_drawn_body {
 /** Most rectangles that carom_draw_changes() reports. */
 #define CAROM_DRAWN_RECTS 8
 /**
- * What pixels show of a world, so that the next picture need not be drawn from nothing.
+ * A world as the pixels show it, so that the next picture need not be drawn from nothing.
  *
  * Keep one for each buffer that is shown in turn. Zero all of it but `bodies` and `room` before the first picture, and
  * whenever something else has written to the pixels, built a mesh anew, or changed what a paint refers to (other than

@@ -30,7 +30,7 @@ extern "C" {
 /** In place of body b: the world itself. */
 #define CAROM_WORLD (-1)
 
-/** What a joint allows. */
+/** Kinds of joints, by the motion that they allow. */
 enum carom_joint_kind {
     CAROM_JOINT_BALL,   /**< the anchors stay together */
     CAROM_JOINT_HINGE,  /**< the anchors and the axes stay together: a turns about the axis */
@@ -60,7 +60,7 @@ struct carom_joint_drive {
     int64_t damping_q40; /**< torque or force per change of the coordinate in a frame; 0 to 2^20 */
 };
 
-/** What a joint is made from. */
+/** The definition of a new joint. */
 struct carom_joint_def {
     uint8_t kind; /**< #carom_joint_kind */
     bool touch;   /**< its bodies may touch each other; otherwise they ignore each other */

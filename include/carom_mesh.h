@@ -22,7 +22,7 @@ extern "C" {
  * @{
  */
 
-/** What a mesh is. */
+/** Kinds of meshes. */
 enum carom_mesh_kind {
     CAROM_SOLID = 0,  /**< closed and oriented outwards */
     CAROM_SURFACE = 1 /**< a height field: open, one z over each x, y, solid below; stationary */
@@ -41,7 +41,7 @@ struct carom_mesh_raw {
 /** @} */
 /**
  * @defgroup mesh_index The index of a mesh
- * What carom_mesh_build() makes. It is Carom's own: visible so that the caller can reserve room for it.
+ * The result of carom_mesh_build(). It is Carom's own: visible so that the caller can reserve room for it.
  * @{
  */
 
@@ -122,7 +122,7 @@ struct carom_mesh {
     struct carom_mesh_raw raw;      /**< the triangles */
     struct carom_mass mass;         /**< mass properties of a SOLID; zero for a SURFACE */
     struct carom_sym3 inverse;      /**< inverse of mass.inertia; zero if it has none */
-    struct carom_sym3 inverse_rest; /**< what `inverse` lacks of the exact inverse */
+    struct carom_sym3 inverse_rest; /**< the exact inverse less `inverse` */
     struct carom_spread spread;     /**< root of the inverse; zero if it has none */
     uint32_t edge_count;            /**< edges */
     uint32_t leaf_count;            /**< leaves */

@@ -126,7 +126,7 @@ struct carom_mesh_way {
     carom_v3_q30 turn;
 };
 
-/** What a swept mesh meets first. */
+/** The first hit of a swept mesh. */
 struct carom_mesh_hit {
     uint16_t body;           /**< body number */
     uint16_t face;           /**< face number in its mesh */

@@ -273,7 +273,7 @@ const char *carom_replay_part_name(int part);
  */
 int carom_replay_digests(const struct carom_world *world, uint64_t digests[CAROM_REPLAY_PARTS]);
 
-/** What carom_replay_frame() found. */
+/** Results of carom_replay_frame(). */
 enum carom_replay_result {
     CAROM_REPLAY_END,     /**< the recording is over, and whole */
     CAROM_REPLAY_FRAME,   /**< a frame was played, and is as it was recorded */

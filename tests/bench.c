@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the frames of a scene cost, by stage, on a board that counts instructions: a row a frame to
+ * Print the cost of the frames of a scene, by stage, on a board that counts instructions: a row a frame to
  * the console. tools/bench.py runs it, and says what the rows mean.
  *
  * Options: scene=NAME  frames=600  first=1 (the first frame that has a row)  awake=1 (no sleep)

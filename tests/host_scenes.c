@@ -133,7 +133,7 @@ static void run(const struct play_scene *scene)
 
 #define GEARS_MODULE 0.1 /* of diameter a tooth */
 /*
- * What teeth leave free along the circles that roll on each other (tools/machines.py): both wheels' teeth are narrower by
+ * The play of the teeth along the circles that roll on each other (tools/machines.py): both wheels' teeth are narrower by
  * 0.006, and where a chord of 0.085 stands for a flank that is bent with a radius of 0.21, or of 0.51 on the large wheel,
  * up to 0.0043 + 0.0018 is missing on either side.
  */

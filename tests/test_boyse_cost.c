@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a collision test costs, in instructions where the board counts them: of the candidates of
+ * The cost of a collision test, in instructions where the board counts them: of the candidates of
  * the head scene, which nearly all miss, and of features that are made to meet.
  */
 #include "lib/meeting.h"

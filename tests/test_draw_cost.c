@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What carom_draw costs over the head scene: instructions of a Cortex-M3 that counts them. Where no
+ * The cost of carom_draw over the head scene: instructions of a Cortex-M3 that counts them. Where no
  * board counts, only the pictures are looked at.
  */
 #include <string.h>

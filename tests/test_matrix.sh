@@ -68,7 +68,7 @@ spoil 137 REST 'w->states[w->now == w->states].bodies[1].momentum.c[0] += 1' &&
     says 'FAIL m68k gcc -O0: slide has ' 'first in frame 137, after stage rest'
 report $? 'a state that differs by a bit: its frame and stage'
 
-# What a stage has found is in no state yet; the state differs after advance only.
+# The findings of a stage are in no state yet; the state differs after advance only.
 spoil 41 PREDICT 'w->bodies[1].path.v.c[0] += 1 << 20' &&
     { matrix --scene slide --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'first in frame 41, after stage predict'

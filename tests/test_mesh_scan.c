@@ -233,6 +233,17 @@ static void test_cells_large(void)
     CHECK_MORE(crossed, CASES / 16);
 }
 
+/* The next run of cells lies in a row, from x0 up to x1. */
+static void expect_run(struct scan_cells *s, int32_t y, int32_t x0, int32_t x1)
+{
+    struct scan_run run;
+
+    CHECK(scan_cells_next(s, &run));
+    CHECK_EQ(run.y, y);
+    CHECK_EQ(run.x0, x0);
+    CHECK_EQ(run.x1, x1);
+}
+
 /* Drawn on squared paper: cells of 4 quanta, a triangle from (1, 1) to (11, 1) and (1, 7). */
 static void test_cells_by_hand(void)
 {
@@ -242,31 +253,16 @@ static void test_cells_by_hand(void)
     struct scan_run run;
 
     scan_cells_begin(&s, &g, corners(&p), p.n, 0);
-    CHECK(scan_cells_next(&s, &run));
-    CHECK_EQ(run.y, 0);
-    CHECK_EQ(run.x0, 0);
-    CHECK_EQ(run.x1, 3);
+    expect_run(&s, 0, 0, 3);
     /* the long side passes (6, 4): the second row reaches the second cell */
-    CHECK(scan_cells_next(&s, &run));
-    CHECK_EQ(run.y, 1);
-    CHECK_EQ(run.x0, 0);
-    CHECK_EQ(run.x1, 2);
+    expect_run(&s, 1, 0, 2);
     CHECK(!scan_cells_next(&s, &run));
 
     /* grown by 1 it touches the sides at x = 12 and y = 8, and so the cells behind them */
     scan_cells_begin(&s, &g, corners(&p), p.n, 1);
-    CHECK(scan_cells_next(&s, &run));
-    CHECK_EQ(run.y, 0);
-    CHECK_EQ(run.x0, 0);
-    CHECK_EQ(run.x1, 4);
-    CHECK(scan_cells_next(&s, &run));
-    CHECK_EQ(run.y, 1);
-    CHECK_EQ(run.x0, 0);
-    CHECK_EQ(run.x1, 3);
-    CHECK(scan_cells_next(&s, &run));
-    CHECK_EQ(run.y, 2);
-    CHECK_EQ(run.x0, 0);
-    CHECK_EQ(run.x1, 1);
+    expect_run(&s, 0, 0, 4);
+    expect_run(&s, 1, 0, 3);
+    expect_run(&s, 2, 0, 1);
     CHECK(!scan_cells_next(&s, &run));
 
     /* outside */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What gauss_solve costs, refinement included: instructions of a Cortex-M3 that counts them, over
+ * The cost of gauss_solve, refinement included: instructions of a Cortex-M3 that counts them, over
  * the systems of random impacts. Where no board counts, only the solutions are looked at.
  */
 #include "lib/gauss_rows.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a board counts: that its ticks go on, and that the instructions they stand for are exact. What it copies,
- * which on some boards is a function of theirs.
+ * A board counts: its ticks go on, and the instructions that they stand for are exact. A board copies: some have
+ * a function of their own for that.
  */
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What the calls around a step accept and refuse, at the limits that carom.h states; after an error
+ * The calls around a step accept and refuse as carom.h says, at the limits that it states; after an error
  * a world is as it was.
  */
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What a whole step costs, in instructions where the board counts them, when there is little to do:
+ * The cost of a whole step, in instructions where the board counts them, when there is little to do:
  * a body that sleeps on another, and one that flies far from it, with and without spin.
  */
 #include "port.h"

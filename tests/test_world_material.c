@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * What bodies are made of: friction, restitution and rolling friction as the materials say, by body and by face;
+ * Materials of bodies: friction, restitution and rolling friction as the materials say, by body and by face;
  * surfaces that move along themselves; masses that change.
  */
 #include <string.h>

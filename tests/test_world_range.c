@@ -38,7 +38,7 @@ static struct carom_world *make(void)
 }
 
 /*
- * What slices of half a radian leave of a frame may be a few units of its time: regions are that
+ * Slices of half a radian may leave a few units of time of a frame: regions are that
  * short, and parts of them are asked for. The box turns about an axis of its own and stays clear.
  */
 static void test_slice_ends(void)
@@ -104,7 +104,7 @@ static void test_merged_contacts(void)
 }
 
 /*
- * What would be the spin of a needle is worked out only where it fits: about its axis an angular
+ * The spin of a needle is worked out only where it fits: about its axis an angular
  * momentum that a box hardly notices is a million radians a frame.
  */
 static void test_thin_spin(void)

@@ -305,7 +305,7 @@ static void check_altered(struct carom_world *w, int size, int stride)
 }
 
 /*
- * What a refusal leaves behind is what was there: the world goes on like a twin that was never
+ * A refusal leaves the world as it was: the world goes on like a twin that was never
  * offered anything, and takes the snapshot when it is whole.
  */
 static void test_altered(void)

@@ -76,7 +76,7 @@ void __wrap_interfere_leaves(struct interfere *w)
 
 /* ------------------------------------------------------------------ a section */
 
-/* What becomes of an entry of a cell that the leaf lies over, in the order of the culls. */
+/* The fate of an entry of a cell under the leaf: the first cull that drops it, in their order. */
 static const char *fate(const struct seen *s, const struct carom_zref *entry)
 {
     if (entry->z1 < s->leaf.quanta_low[2]) {

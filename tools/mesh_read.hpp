@@ -331,7 +331,7 @@ struct LoggerEnd {
     }
 };
 
-/* What is known of a file before assimp reads it: doubts, and its vertices in its own order. */
+/* Read a file before assimp does: its doubts, and its vertices in its own order. */
 inline Soup examine(const std::string &path, double scale)
 {
     const std::string kind = extension(path);

@@ -9,7 +9,7 @@
  *   PSX_PICTURES=DIRECTORY  write the shown part of that memory as DIRECTORY/frame-0001.ppm each time the program shows another part
  *   PSX_PRESS=N:KEYS,...    hold KEYS (a sum of port.h's bits) from the N-th such picture on
  *
- * Of the plugins' interface, PSEmu Pro's, only the used parts are declared.
+ * Only the used parts of the plugins' interface, PSEmu Pro's, are declared.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>

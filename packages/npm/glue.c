@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the engine needs as a WebAssembly module beside its public functions: two callbacks, a size. */
+/* Two callbacks and a size: a WebAssembly module needs them beside the public functions. */
 #include "carom_query.h"
 
 #define IMPORT(name) __attribute__((import_module("carom"), import_name(#name)))

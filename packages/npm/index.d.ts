@@ -126,11 +126,11 @@ export interface Event {
     kind: "begin" | "hit" | "end" | "rest" | "out" | "wake" | "cut" | "sensorBegin" | "sensorEnd" | "break" | "blocked";
     a: number;
     b: number;
-    /** Of a hit: m/s. */
+    /** Approach of a hit: m/s. */
     speed: number;
-    /** Of a hit: N s. */
+    /** Impulse of a hit: N s. */
     impulse: number;
-    /** Of a hit, when the world has `hits` left. */
+    /** Place and faces of a hit, when the world has `hits` left. */
     point?: number[];
     normal?: number[];
     faceA?: number;
@@ -241,7 +241,7 @@ export class World {
     moveSurface(body: number, mesh: Mesh, vertices: MeshOptions["vertices"]): void;
     /** One frame: 0, or a sum of enum carom_status. */
     step(): number;
-    /** Of the last step. */
+    /** Counts of the last step. */
     events(): Event[];
     contacts(): Contact[];
     stats(): Stats;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the Arm boards share: newlib's nano, semihosting, QEMU's instruction count.
+# Shared by the Arm boards: newlib's nano, semihosting, QEMU's instruction count.
 CROSS := arm-none-eabi-
 NEED := arm newlib qemu-arm
 PORT += port/newlib/syscalls.c port/bare/semihost.c port/bare/start.c port/arm/trap.c port/arm/icount.c

@@ -22,7 +22,7 @@ enum { WIDTH = 320, HEIGHT = 240, HALF = 256 /* rows from one picture to the oth
 #define BLOCK_WORDS   16u
 #define VERTICAL_SYNC 1u
 
-/* Of the control register. */
+/* Commands of the control register. */
 #define RESET        0x00000000u
 #define DISPLAY_ON   0x03000000u
 #define TAKE_DMA     0x04000002u

@@ -20,7 +20,7 @@
 #define PERIPHERALS_FROM 0x200
 #define PERIPHERALS_TO   0x210
 
-/* Of the control register. */
+/* Bits of the control register. */
 #define MMU_ON      (1u << 0)
 #define DATA_ON     (1u << 2)
 #define BRANCHES_ON (1u << 11)

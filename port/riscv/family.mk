@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What the RISC-V boards share: picolibc, semihosting, the processor's own count of instructions.
+# Shared by the RISC-V boards: picolibc, semihosting, the processor's own count of instructions.
 CROSS := riscv64-unknown-elf-
 NEED := riscv picolibc qemu-riscv
 PORT += port/newlib/syscalls.c port/bare/semihost.c port/bare/start.c port/riscv/start.S port/riscv/counter.c

@@ -47,7 +47,7 @@ struct body_state {
     uint8_t woken; /* woken since the last step */
 };
 
-/* What the shared memory of a path holds. BODY_ORIGIN: only the path's origin. */
+/* Holders of a path's shared memory. BODY_ORIGIN: only the path's origin. */
 enum body_path_phase { BODY_NO_PATH, BODY_PATH, BODY_SOLVE, BODY_ORIGIN };
 
 struct body_path {
@@ -245,7 +245,7 @@ struct body_clock {
     bool rewound : 1;  /* was put back to where the frame found it */
 };
 
-/* What a body's region was set for. */
+/* The motion that a body's region was set for. */
 enum body_region_state {
     BODY_REGION_NONE,
     BODY_REGION_STANDING, /* at rest, with path, region and box those of its place */
@@ -254,8 +254,8 @@ enum body_region_state {
 };
 
 /*
- * What pairs and candidates are gathered for. Regions (step) and broad write it; valid until the
- * body is given another state.
+ * The region that pairs and candidates are gathered for. Regions (step) and broad write it; valid
+ * until the body is given another state.
  */
 struct body_search {
     struct body_region region;
@@ -265,13 +265,13 @@ struct body_search {
     bool boxed;            /* the box is around the mesh's box; else around the sphere */
 };
 
-/* What a snapshot holds for a body. It waits here until the whole snapshot is read. */
+/* Forces and filters that a snapshot brings. They wait here until the whole snapshot is read. */
 struct body_loaded {
     struct carom_forces forces;
     struct carom_filter filter;
 };
 
-/* What the shared memory of a body's solve holds: a step's, world/moving.c's, a snapshot's. */
+/* Holders of the shared memory of a body's solve: a step, world/moving.c, a snapshot. */
 enum body_work_phase { BODY_WORK, BODY_LIFT, BODY_LOADED };
 
 /*

@@ -139,7 +139,7 @@ static int64_t level_q40(const struct boyse_pair *pair, const struct candidate *
 }
 
 /*
- * What to subtract from P. A frame may end with a gap so small that P has no root on [0, 1], and
+ * The offset to subtract from P. A frame may end with a gap so small that P has no root on [0, 1], and
  * rounding would then commit an overlap: so seek the root of a surface a little nearer. A pair that
  * touches already must not get deeper.
  *

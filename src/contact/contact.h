@@ -30,7 +30,7 @@ struct contact_lever {
     int32_t turn[3][3]; /* rows: velocity of the place by du, below 2^30 */
 };
 
-/* What the shared memory holds, of a contact, of its work, and of a pair's rolling. */
+/* Holders of the shared memory of a contact, of its work, and of a pair's rolling. */
 enum contact_phase { CONTACT_IMPULSE, CONTACT_VELOCITY, CONTACT_GAIN };
 enum contact_work_phase { CONTACT_INVERSE, CONTACT_WANTED };
 enum contact_roll_phase { CONTACT_ROLLING, CONTACT_MOMENT };

@@ -36,7 +36,7 @@ static void add_rect(struct carom_drawn *drawn, struct carom_rect rect)
 
 /* -------------------------------------------------------------------- bodies */
 
-/* What goes into the picture. */
+/* The search for what changed since the last picture. */
 struct changes {
     struct draw_source source;
     struct draw_view view;                   /* of the whole picture */
@@ -45,7 +45,7 @@ struct changes {
 };
 
 /*
- * What is to show of a body, except for its place on the picture; empty if there is no such body.
+ * A body as it is to be shown, except for its place on the picture; empty if there is no such body.
  */
 static struct carom_drawn_body look(const struct draw_source *source, uint32_t number)
 {

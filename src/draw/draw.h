@@ -16,7 +16,7 @@
  *   clip.c       faces that reach out of the guard band
  *   smooth.c     shades from corner to corner
  *   shadow.c     parts of faces in shadow, listed over them
- *   outline.c    a solid's outline as the light sees it
+ *   outline.c    a solid's outline as the light sees it; prism.c: the volumes that it shades
  *   segment.c    lines of the world, as thin faces
  *   scanline.c   pixels row by row; depth.c: where faces cover each other
  *   pixels.c     runs of pixels; palette.c: their colours
@@ -468,7 +468,7 @@ static inline const struct draw_tint *draw_tint(const struct draw_face *face)
 }
 
 /*
- * What shows in a part of the picture: vertices from one end of the workspace, faces downward from
+ * The faces that show in a part of the picture: vertices from one end of the workspace, faces downward from
  * the other end. The rows use the room between them.
  */
 struct draw_list {

@@ -1,35 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Shadows. The outline of a solid, as the light sees it, is cut into triangles. Each keeps the
- * light from a prism behind it, whose sides run through the triangle's edges along the light. The
- * shadow on a face is the part of the face inside the prism, a polygon. It is drawn as a decal over
- * the face in a darker shade, so its edge is exact at every size of the picture. Everything is in
- * view coordinates, which are linear in the world's.
+ * Shadows. The shadow on a face is its part inside the prisms behind a solid's outline (prism.h), a
+ * polygon each. It is drawn as a decal over the face in a darker shade, so its edge is exact at every
+ * size of the picture.
  */
 #include "list.h"
-
-#define SIDES 4
-
-/* Bounds across the light: right and up. */
-struct extent {
-    int32_t low[2], high[2];
-};
-
-/* The volume that a triangle of the outline shades. */
-struct prism {
-    carom_v3_q30 side[SIDES]; /* inward normals, q28; the last is the triangle's own plane */
-    int32_t corner[3][3];     /* corner k lies on side k, corner 0 on the last */
-    struct extent extent;
-};
+#include "prism.h"
 
 /* A solid that casts shadows. */
 struct caster {
-    struct draw_outline outline;
-    struct prism *prisms;
-    uint32_t prism_count;
-    struct extent extent; /* of the whole outline */
-    int32_t from[3];      /* from the body to the solid, world axes, q16 */
-    int32_t radius;       /* q16 */
+    struct prism_set set;
+    int32_t from[3]; /* from the body to the solid, world axes, q16 */
+    int32_t radius;  /* q16 */
 };
 
 /* The body that shadows fall on. */
@@ -59,154 +41,6 @@ static void init(const struct draw_source *source, struct draw_view *view)
         }
     }
     view->shift_least = shift;
-}
-
-/* ------------------------------------------------------------------- prisms */
-
-/*
- * Set the inward normal, q28, of the plane through an edge and the light. Returns false for an edge
- * along the light.
- */
-static bool side_through(carom_v3_q30 *side, const int32_t sun[3], const int32_t a[3],
-                         const int32_t b[3])
-{
-    int64_t across[3], edge[3];
-    bool is;
-
-    for (int k = 0; k < 3; k++) {
-        edge[k] = (int64_t)b[k] - a[k];
-    }
-    /* the sun is at most 2^30 long, an edge less than 2^31: below 2^62 */
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        across[k] = sun[i] * edge[j] - sun[j] * edge[i];
-    }
-    is = fix_normalise(side, across);
-    for (int k = 0; k < 3; k++) {
-        side->c[k] >>= 2;
-    }
-    return is;
-}
-
-/* Set the plane of a triangle; inward is away from the light. */
-static bool plane_of(carom_v3_q30 *side, int32_t corner[3][3])
-{
-    int32_t to[3];
-
-    for (int k = 0; k < 3; k++) {
-        to[k] = (corner[0][k] >> 1) - (corner[1][k] >> 1);
-    }
-    return side_through(side, to, corner[0], corner[2]);
-}
-
-/*
- * Set the sides of a triangle's prism; the triangle runs counter-clockwise as the light sees it.
- * Returns false if it is edge-on to the light.
- */
-static bool make_prism(struct prism *prism, const int32_t sun[3])
-{
-    bool is = true;
-
-    for (int k = 0; k < 3; k++) {
-        is = is &&
-             side_through(&prism->side[k], sun, prism->corner[k], prism->corner[k < 2 ? k + 1 : 0]);
-    }
-    return is && plane_of(&prism->side[3], prism->corner);
-}
-
-static const struct extent nothing = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
-
-/* Grow an extent to hold a point. */
-static void reach(struct extent *extent, const struct draw_outline *o, const int32_t at[3])
-{
-    int32_t pq[2];
-
-    draw_outline_across(o, at, pq);
-    for (int k = 0; k < 2; k++) {
-        extent->low[k] = fix_smaller(extent->low[k], pq[k]);
-        extent->high[k] = fix_larger(extent->high[k], pq[k]);
-    }
-}
-
-static bool overlap(const struct extent *a, const struct extent *b)
-{
-    return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1] &&
-           b->low[1] <= a->high[1];
-}
-
-/* Add the prisms of a trapezoid, at most two. */
-static void add_prisms(struct caster *c, const struct draw_trapezoid *t, const int32_t sun[3])
-{
-    const struct draw_outline *o = &c->outline;
-    int32_t corner[4][3];
-
-    draw_outline_point(o, t->left, t->low, corner[0]);
-    draw_outline_point(o, t->right, t->low, corner[1]);
-    draw_outline_point(o, t->right, t->high, corner[2]);
-    draw_outline_point(o, t->left, t->high, corner[3]);
-    for (int i = 2; i < 4; i++) {
-        struct prism *prism = &c->prisms[c->prism_count];
-
-        prism->extent = nothing;
-        for (int k = 0; k < 3; k++) {
-            const int32_t *at = corner[k == 0 ? 0 : i + k - 2];
-
-            memcpy(prism->corner[k], at, sizeof corner[0]);
-            reach(&prism->extent, o, at);
-        }
-        c->prism_count += make_prism(prism, sun);
-    }
-}
-
-/*
- * Make a placed solid's outline and prisms in the scratch memory. Returns false if there is no
- * room.
- */
-static bool make_prisms(struct caster *c, const struct receiver *r, const struct draw_body *body)
-{
-    const struct draw_outline *o = &c->outline;
-    const uint8_t *end = (const uint8_t *)r->scratch + r->bytes;
-
-    if (!draw_outline_find(&c->outline, body, r->sun, r->scratch, r->bytes)) {
-        return false;
-    }
-    c->prisms = (struct prism *)(void *)(o->trapezoids + o->trapezoid_count);
-    c->prism_count = 0;
-    if ((size_t)(end - (const uint8_t *)c->prisms) / sizeof *c->prisms < 2 * o->trapezoid_count) {
-        return false;
-    }
-    for (uint32_t i = 0; i < o->trapezoid_count; i++) {
-        add_prisms(c, &o->trapezoids[i], r->sun);
-    }
-    c->extent = nothing;
-    for (uint32_t i = 0; i < 2 * o->edge_count; i++) {
-        reach(&c->extent, o, o->edges[i / 2].at[i % 2]);
-    }
-    return true;
-}
-
-/* Cut a polygon to the inside of a prism; returns the number of corners left. */
-static int cut_to_prism(const struct prism *prism, int32_t polygon[DRAW_CLIP_MAX][3], int n)
-{
-    for (int s = 0; s < SIDES && n > 0; s++) {
-        const int32_t *corner = prism->corner[s % 3];
-        int64_t inside[DRAW_CLIP_MAX];
-        bool any = false, all = true;
-
-        for (int i = 0; i < n; i++) {
-            int32_t from[3];
-
-            for (int k = 0; k < 3; k++) {
-                from[k] = polygon[i][k] - corner[k];
-            }
-            inside[i] = (carom_dot(prism->side[s].c, from) >> 28) + 1;
-            any = any || inside[i] > 0;
-            all = all && inside[i] >= 0;
-        }
-        n = !any ? 0 : all ? n : draw_cut(polygon, inside, n);
-    }
-    return n;
 }
 
 /* ------------------------------------------------------------------- decals */
@@ -333,7 +167,7 @@ static bool list_shadow(const struct receiver *r, struct lit *lit, const struct 
     int n;
 
     memcpy(polygon, lit->corner, sizeof lit->corner);
-    n = cut_to_prism(prism, polygon, 3);
+    n = prism_cut(prism, polygon, 3);
     if (n < 3) {
         return true;
     }
@@ -361,13 +195,14 @@ static bool list_shadow(const struct receiver *r, struct lit *lit, const struct 
 /* List a solid's shadows on a triangle. */
 static bool shade_triangle(const struct receiver *r, const struct caster *c, struct lit *lit)
 {
-    struct extent extent = nothing;
+    struct prism_extent extent = PRISM_NOTHING;
 
     for (int k = 0; k < 3; k++) {
-        reach(&extent, &c->outline, lit->corner[k]);
+        prism_reach(&extent, &c->set.outline, lit->corner[k]);
     }
-    for (uint32_t i = 0; i < c->prism_count; i++) {
-        if (overlap(&extent, &c->prisms[i].extent) && !list_shadow(r, lit, &c->prisms[i])) {
+    for (uint32_t i = 0; i < c->set.count; i++) {
+        if (prism_overlap(&extent, &c->set.prisms[i].extent) &&
+            !list_shadow(r, lit, &c->set.prisms[i])) {
             return false;
         }
     }
@@ -379,16 +214,16 @@ static bool shade_face(const struct receiver *r, const struct caster *c, uint32_
 {
     int32_t polygon[DRAW_CLIP_MAX][3];
     struct draw_vertex on[DRAW_CLIP_MAX];
-    struct extent extent = nothing;
+    struct prism_extent extent = PRISM_NOTHING;
     int32_t shade_q8[DRAW_CLIP_MAX] = {0};
     bool fits = true;
     int n;
 
     for (int k = 0; k < 3; k++) {
         draw_place(r->body, r->body->mesh->raw.faces[face][k], polygon[k]);
-        reach(&extent, &c->outline, polygon[k]);
+        prism_reach(&extent, &c->set.outline, polygon[k]);
     }
-    if (!overlap(&extent, &c->extent)) {
+    if (!prism_overlap(&extent, &c->set.extent)) {
         return true;
     }
     n = draw_clip_placed(r->body, polygon, 3, on);
@@ -537,7 +372,7 @@ static bool shade_by(const struct receiver *r, const struct carom_body_look *own
         return true;
     }
     draw_body_place(&body, r->view, look);
-    return !make_prisms(&c, r, &body) || shade_by_caster(r, &c);
+    return !prism_make_all(&c.set, &body, r->sun, r->scratch, r->bytes) || shade_by_caster(r, &c);
 }
 
 static bool list_shadows(const struct draw_source *source, const struct draw_view *view,

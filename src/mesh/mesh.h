@@ -42,7 +42,7 @@ struct interfere_place;
 struct pair;
 
 /*
- * What a step needs of a surface that may move. Called through the surface, so that a program
+ * Functions of a surface that may move. A step calls them through the surface, so that a program
  * without such surfaces does not link it: mesh_drift_vertex, mesh_drift_edge, mesh_drift_face,
  * mesh_list_face (below), interfere_area_under, interfere_make_lists.
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What is inline has a body here for whoever calls it: all do where size counts. */
+/* Bodies of inline functions for callers that do not inline them: all of them where size counts. */
 #define CAROM_FIX_BODIES
 #include "fix.h"
 

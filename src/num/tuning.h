@@ -171,9 +171,9 @@
  */
 #define REST_ROLL_SKINS 32
 /*
- * The arm for what begins to roll down: a body that is to right itself rolls down from rest, where
+ * The arm of a body that begins to roll down: a body that is to right itself rolls down from rest, where
  * a whole arm would hold it. The arm is whole at the speed that gravity gives in ROLL_FRAMES.
- * What rolls up has a whole one: what rocks in a hollow comes to rest by that. Chosen.
+ * A body that rolls up has the whole arm, so one that rocks in a hollow comes to rest. Chosen.
  */
 #define REST_ROLL_SKINS_DOWN 2
 #define REST_ROLL_FRAMES     2

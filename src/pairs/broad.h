@@ -23,7 +23,7 @@ struct pair {
 /* Where a pair is in a list, which is in order, or belongs. */
 uint32_t broad_place_of(const struct pair *list, uint32_t count, uint32_t a, uint32_t b);
 
-/* What a step knows of a pair while its bodies are near each other. */
+/* A step's knowledge of a pair while its bodies are near each other. */
 struct pair_work {
     /* by interfere: place of the pair's candidates in the pool, if kept */
     uint16_t first, count;

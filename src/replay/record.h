@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the functions that record share. */
+/* Declarations shared by the functions that record. */
 #ifndef CAROM_SRC_RECORD_H
 #define CAROM_SRC_RECORD_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What an impulse at a contact changes: K, shares and steps of the sweeps. */
+/* Changes by an impulse at a contact: K, shares and steps of the sweeps. */
 #include "rows.h"
 #include "parts.h"
 

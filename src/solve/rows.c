@@ -208,7 +208,7 @@ static void slide_row(const struct impact_problem *p, uint32_t friction_q16, boo
 
 /* ------------------------------------------------------------------- solve */
 
-/* What a solution is to reach. */
+/* The goal of a solution: to stick or to slide, and the change of V. */
 struct goal {
     bool sticks;
     uint32_t friction_q16; /* if it does not stick */

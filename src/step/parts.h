@@ -36,7 +36,7 @@
 
 #include "../world/world.h"
 
-/* What the whole step works on. */
+/* The state of a step, shared by all of its files. */
 struct step {
     struct carom_world *w;
     struct world_state *next;

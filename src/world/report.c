@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a world reports about its last step, and the texts of the public enums. */
+/* Reports of the last step, and the texts of the public enums. */
 #include "world.h"
 
 int carom_version(void)

@@ -397,7 +397,7 @@ static double least_inertia(const double i[6])
 }
 
 /*
- * What rounding may add to a body's energy: some units of the last place of its momenta, of its place
+ * The energy that rounding may add to a body: some units of the last place of its momenta, of its place
  * and of the velocities that we are told, once more in every few sub-steps; and its rotation, which
  * each sub-step and each slice of half a radian rounds to q30: an angular momentum L that stays while
  * the body is turned by an angle has w x L times that of energy more or less.

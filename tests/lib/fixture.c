@@ -15,7 +15,7 @@
 /* A body stands still when it goes less than this part of the way that its velocity says. */
 #define STILL_PART 0.02
 /*
- * What may be freed within a skin, of all bodies: far more than a frame's lift, far less than a
+ * The energy that all bodies may free within a skin: far more than a frame's lift, far less than a
  * fall.
  */
 #define RISE_ALLOWED 4.0

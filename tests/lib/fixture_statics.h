@@ -22,7 +22,7 @@ struct statics {
 };
 
 /*
- * What is left of the weights and their torques after the best forces, as a part of all the
+ * The weights and torques that the best forces leave unbalanced, as a part of all the
  * weights; nearly 0 when the bodies can stand.
  */
 double statics_rest(const struct statics *s, double mu);

@@ -69,7 +69,7 @@ struct real_impact {
 };
 
 /*
- * What impact_solve would be told, everything rounded to its format.
+ * The input of impact_solve, everything rounded to its format.
  *   arm_bits  fractional bits of arms, at most; they never take more than 30 in all
  */
 struct impact real_to_engine(const struct real_impact *real, int arm_bits);

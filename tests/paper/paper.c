@@ -171,7 +171,7 @@ static bool project(const struct paper_box *box, const int32_t *const corner[3],
 
 /* ----------------------------------------------------------------- scanning */
 
-/* Of equal z the later is above: b before a, so that faces which touch count as crossing. */
+/* The later of two equal z lies above: b comes before a, so that touching faces count as crossing. */
 static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
 {
     uint32_t above = z << 16 | 0xffff, here = buffer.used, first = buffer.head[pixel];
