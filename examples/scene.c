@@ -166,73 +166,79 @@ static const struct scene_recipe {
     uint8_t others;                                     /* bodies besides the first */
     /* bounds that keep a frame short on a small board; 0: as the engine chooses */
     uint8_t substep_cap, sweep_cap;
-    const struct scene_game *game; /* adds the bodies */
+    const struct scene_game *game;     /* adds the bodies */
+    const struct carom_camera *camera; /* NULL: the game's, or the usual one */
 } recipes[] = {
     {"head", "a head of 1876 faces falls on a height field of 3034", &head_start, NULL, 0, 0, 0,
-     NULL},
-    {"head-spin", "the head, thrown and turning fast", &spin_starts[0], NULL, 0, 0, 0, NULL},
+     NULL, NULL},
+    {"head-spin", "the head, thrown and turning fast", &spin_starts[0], NULL, 0, 0, 0, NULL, NULL},
     {"head-spin2", "the head, thrown down and turning about the upright", &spin_starts[1], NULL, 0,
-     0, 0, NULL},
+     0, 0, NULL, NULL},
     {"head48", "a head of 48 faces and half the size on a field of 128", &head_start, NULL, 0, 1, 5,
-     NULL},
-    {"head100", "a head of 100 faces on a field of 128", &head_start, NULL, 0, 3, 10, NULL},
-    {"head450", "a head of 450 faces on a field of 386", &head_start, NULL, 0, 0, 0, NULL},
-    {"head836", "a head of 836 faces on a field of 512", &head_start, NULL, 0, 0, 0, NULL},
-    {"apart", "the head a thousand units above the field", &far_start, NULL, 0, 0, 0, NULL},
-    {"box", "a box falls on a plane", &box_start, NULL, 0, 0, 0, NULL},
+     NULL, &near_camera},
+    {"head100", "a head of 100 faces on a field of 128", &head_start, NULL, 0, 3, 10, NULL, NULL},
+    {"head450", "a head of 450 faces on a field of 386", &head_start, NULL, 0, 0, 0, NULL, NULL},
+    {"head836", "a head of 836 faces on a field of 512", &head_start, NULL, 0, 0, 0, NULL, NULL},
+    {"apart", "the head a thousand units above the field", &far_start, NULL, 0, 0, 0, NULL, NULL},
+    {"box", "a box falls on a plane", &box_start, NULL, 0, 0, 0, NULL, NULL},
     {"pair", "a tetrahedron and a box fall one after the other", &dull_start, in_turn, 1, 3, 10,
+     NULL, NULL},
+    {"brick", "the box on the plane, for the smallest boards", &box_start, NULL, 0, 3, 10, NULL,
      NULL},
-    {"brick", "the box on the plane, for the smallest boards", &box_start, NULL, 0, 3, 10, NULL},
     {"boxes3", "three boxes fall on a field one after the other", &dull_start, one_by_one, 2, 2, 6,
-     NULL},
-    {"boxes10", "ten boxes lie on the plane", &box_start, lay, 9, 0, 0, NULL},
-    {"stack10", "ten boxes stand on each other", &box_start, stack, 9, 0, 0, NULL},
+     NULL, NULL},
+    {"boxes10", "ten boxes lie on the plane", &box_start, lay, 9, 0, 0, NULL, NULL},
+    {"stack10", "ten boxes stand on each other", &box_start, stack, 9, 0, 0, NULL, NULL},
     {"pile", "16 boxes, tetrahedra and L-shapes are poured on the field", &head_start, pile, 15, 0,
-     0, NULL},
+     0, NULL, NULL},
     {"pile32", "32 bodies of 12 to 80 faces are poured on the field", &head_start, wide_pile, 31, 0,
-     0, NULL},
-    {"flight32", "the same 32 are thrown up", &head_start, fly, 31, 0, 0, NULL},
-    {"growth-512", "the head put on a field of 512 faces", &growth_starts[0], NULL, 0, 0, 0, NULL},
-    {"growth-3034", "the head put on a field of 3034 faces", &growth_starts[1], NULL, 0, 0, 0,
+     0, NULL, NULL},
+    {"flight32", "the same 32 are thrown up", &head_start, fly, 31, 0, 0, NULL, NULL},
+    {"growth-512", "the head put on a field of 512 faces", &growth_starts[0], NULL, 0, 0, 0, NULL,
+     NULL},
+    {"growth-3034", "the head put on a field of 3034 faces", &growth_starts[1], NULL, 0, 0, 0, NULL,
      NULL},
     {"growth-12012", "the head put on a field of 12012 faces", &growth_starts[2], NULL, 0, 0, 0,
-     NULL},
+     NULL, NULL},
     {"growth-49928", "the head put on a field of 49928 faces", &growth_starts[3], NULL, 0, 0, 0,
+     NULL, NULL},
+    {"sheet", "a box rides on a sheet of 800 faces that waves", &box_start, NULL, 0, 0, 0, NULL,
      NULL},
-    {"sheet", "a box rides on a sheet of 800 faces that waves", &box_start, NULL, 0, 0, 0, NULL},
-    {"user", "a mesh of your own falls on the field", &head_start, NULL, 0, 0, 0, NULL},
+    {"user", "a mesh of your own falls on the field", &head_start, NULL, 0, 0, 0, NULL, NULL},
 #if SCENE_GAMES
-    {"door", "a ball opens a door on a hinge with limits", &still, NULL, 3, 0, 0, &scene_door},
-    {"chain", "20 links on ball joints swing", &still, NULL, 19, 0, 0, &scene_chain},
+    {"door", "a ball opens a door on a hinge with limits", &still, NULL, 3, 0, 0, &scene_door,
+     NULL},
+    {"chain", "20 links on ball joints swing", &still, NULL, 19, 0, 0, &scene_chain, NULL},
     {"crusher", "a block comes down on a box, and stops there", &still, NULL, 2, 0, 0,
-     &scene_crusher},
-    {"conveyor", "boxes ride a belt whose surface moves", &still, NULL, 4, 0, 0, &scene_conveyor},
+     &scene_crusher, NULL},
+    {"conveyor", "boxes ride a belt whose surface moves", &still, NULL, 4, 0, 0, &scene_conveyor,
+     NULL},
     {"car", "a car of hinges, springs and motors in a yard with ramps", &still, NULL,
-     CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car},
+     CAR_PICKUP + CAR_PICKUPS - 2, 0, 0, &scene_car, NULL},
     {"walker", "someone walks, jumps, pushes and goes through a door", &still, NULL,
-     WALKER_CRATE - 1, 0, 0, &scene_walker},
+     WALKER_CRATE - 1, 0, 0, &scene_walker, NULL},
     {"gears", "four toothed wheels, of which a motor turns the first", &still, NULL, GEARS - 1 + 1,
-     0, 0, &scene_gears},
+     0, 0, &scene_gears, NULL},
     {"screw", "a nut turns down a bolt by its weight, and is wound up again", &still, NULL, 2, 0, 0,
-     &scene_screw},
+     &scene_screw, NULL},
     {"newton", "Newton's cradle: what swings in on one side swings out on the other", &still, NULL,
-     NEWTON_BALLS + 5, 0, 0, &scene_newton},
+     NEWTON_BALLS + 5, 0, 0, &scene_newton, NULL},
     {"dominoes", "a ball brings down a row of dominoes", &still, NULL, DOMINOES, 0, 10,
-     &scene_dominoes},
+     &scene_dominoes, NULL},
     {"cards", "a house of cards stands, until a ball comes", &still, NULL, CARDS, 0, 0,
-     &scene_cards},
+     &scene_cards, NULL},
     {"arch", "an arch of stones stands without mortar, until a ball comes", &still, NULL,
-     ARCH_STONES + 2, 0, 0, &scene_arch},
-    {"bowl", "cups and balls fall into a bowl", &still, NULL, BOWL_PIECES, 0, 0, &scene_bowl},
+     ARCH_STONES + 2, 0, 0, &scene_arch, NULL},
+    {"bowl", "cups and balls fall into a bowl", &still, NULL, BOWL_PIECES, 0, 0, &scene_bowl, NULL},
     {"pour", "a bucket of 32 rings, stars, hooks and beakers is poured into a tray", &still, NULL,
-     POUR_THINGS + 1, 0, 12, &scene_pour},
+     POUR_THINGS + 1, 0, 12, &scene_pour, NULL},
     {"espresso", "an espresso machine of 836 faces falls on a Mandelbrot field of 512", &still,
-     NULL, 0, 0, 0, &scene_espresso},
+     NULL, 0, 0, 0, &scene_espresso, NULL},
     {"espresso-fine", "the espresso machine on a Mandelbrot field of 3200 faces", &still, NULL, 0,
-     0, 0, &scene_espresso_fine},
+     0, 0, &scene_espresso_fine, NULL},
 #ifndef SCENE_ROM /* there is no memory for three worlds */
     {"lockstep", "two machines play one game over a link that loses, delays and reorders", &still,
-     NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep},
+     NULL, LOCKSTEP_BODIES - 2, 0, 0, &scene_lockstep, NULL},
 #endif
 #endif
 };
@@ -291,9 +297,9 @@ int scene_load(struct scene *scene, const char *name, const struct carom_mesh_ra
     scene->body = *recipe->start;
     scene->other_count = recipe->others;
     scene->game = recipe->game;
-    scene->camera = recipe->game                  ? &recipe->game->camera
-                    : strcmp(name, "head48") == 0 ? &near_camera
-                                                  : &camera;
+    scene->camera = recipe->camera ? recipe->camera
+                    : recipe->game ? &recipe->game->camera
+                                   : &camera;
     result = scene_meshes(scene, name, user, mem, bytes);
     if (result >= 0) {
         scene->body.mesh = scene->mesh[0];

@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 
-from PIL import Image, ImageChops, ImageGrab
+from PIL import ImageChops, ImageGrab
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WINDOW = os.path.join(ROOT, "build", "host", "window.elf")

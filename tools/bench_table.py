@@ -5,10 +5,10 @@
 They come from the committed figures of `make bench`, tests/bench_baseline.csv. Without --write the page is compared.
 """
 import os
-import re
 import sys
 
 import bench
+import marked
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(ROOT, "docs", "measured.md")
@@ -42,8 +42,7 @@ def main(arguments):
     with open(PAGE) as file:
         before = after = file.read()
     for name, rows in ("bars", bars(figures)), ("frames", scenes(figures)):
-        block = "<!-- %s -->\n%s\n<!-- end of %s -->\n" % (name, "\n".join(rows), name)
-        after = re.sub("<!-- %s -->\n.*?<!-- end of %s -->\n" % (name, name), lambda _: block, after, flags=re.S)
+        after = marked.put(after, name, rows)
     if arguments == ["--write"]:
         with open(PAGE, "w") as file:
             file.write(after)

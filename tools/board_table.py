@@ -7,12 +7,13 @@ leave in out/. A board that was not measured keeps its figures in the table. too
 """
 import os
 
+import marked
 import results
 import run_board
 import size
 
 README = os.path.join(run_board.ROOT, "README.md")
-BEGIN, END = "<!-- boards -->\n", "<!-- end of boards -->\n"
+MARK = "boards"
 COLUMNS = ["board", "processor", "ROM, RAM", "display", "scenes, frames a second",
            "a frame of the first, mean / worst", "code", "RAM used"]
 STATIC = 5  # of the columns
@@ -61,25 +62,23 @@ def figures(board):
 
 
 def read_table():
-    """README.md before the table, the table's rows as cells by board, and README.md behind it."""
+    """The rows of README.md's table as cells, by board."""
     with open(README) as file:
-        before, _, rest = file.read().partition(BEGIN)
-    table, _, after = rest.partition(END)
+        _, table, _ = marked.split(file.read(), MARK)
     rows = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in table.splitlines()]
-    return before, {row[0]: row for row in rows[2:]}, after
+    return {row[0]: row for row in rows[2:]}
 
 
 def main():
-    before, old, after = read_table()
+    old = read_table()
     rows = []
     for board in run_board.boards():
         had = old.get(board, [""] * len(COLUMNS))[STATIC:]
         new = [had[i] if cell is None else cell for i, cell in enumerate(figures(board))]
         rows.append(static_cells(board) + new)
-    lines = ["| " + " | ".join(row) + " |\n" for row in [COLUMNS, *rows]]
-    lines.insert(1, "|---" * len(COLUMNS) + "|\n")
-    with open(README, "w") as file:
-        file.write(before + BEGIN + "".join(lines) + END + after)
+    lines = ["| " + " | ".join(row) + " |" for row in [COLUMNS, *rows]]
+    lines.insert(1, "|---" * len(COLUMNS) + "|")
+    marked.write(README, MARK, lines)
 
 
 if __name__ == "__main__":

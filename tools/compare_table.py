@@ -6,11 +6,12 @@
 import csv
 import os
 
+import marked
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FIGURES, DOCS, README = [os.path.join(ROOT, path)
                          for path in ("docs/compare.csv", "docs/compare.md", "README.md")]
 COLUMNS = ["what", "size", "phase", "contender", "value", "unit"]
-BEGIN, END = "<!-- compare -->\n", "<!-- end of compare -->\n"
 CONTENDERS = {"carom": "Carom", "ode": "ODE", "bullet": "Bullet", "fcl": "FCL", "rapier": "Rapier",
               "jolt": "Jolt"}
 BESIDE = ["ode", "rapier"]  # Carom's figure is divided by that of the first of these that has one
@@ -82,8 +83,8 @@ def table(figures, short):
 def expected(figures):
     """{path: the text that the file is to have}."""
     with open(README) as file:
-        before, _, rest = file.read().partition(BEGIN)
-    return {README: before + BEGIN + table(figures, True) + END + rest.partition(END)[2],
+        page = file.read()
+    return {README: marked.put(page, "compare", table(figures, True).splitlines()),
             DOCS: DOCS_HEAD + table(figures, False)}
 
 

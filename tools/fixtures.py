@@ -10,11 +10,11 @@ import os
 import subprocess
 import sys
 
+import marked
 import results
 
 SECONDS = 900
 OUT, DOCS = "out/fixtures.csv", "docs/fixtures.md"
-BEGIN, END = "<!-- fixtures -->\n", "<!-- end of fixtures -->\n"
 COLUMNS = ["scene", "frames", "crossed", "deepest_skins", "cut_short", "still", "drift", "should",
            "does", "worst_ms", "total_ms", "note"]
 TITLES = ["scene", "frames", "with crossings", "deepest, skins", "cut short", "longest still",
@@ -40,12 +40,9 @@ def play(program, name):
 
 
 def write_docs(rows):
-    with open(DOCS) as file:
-        before, _, rest = file.read().partition(BEGIN)
     lines = ["| %s |" % " | ".join(TITLES), "|" + "---|" * len(TITLES)]
     lines += ["| %s |" % " | ".join(row[name] for name in COLUMNS) for row in rows]
-    with open(DOCS, "w") as file:
-        file.write(before + BEGIN + "\n".join(lines) + "\n" + END + rest.partition(END)[2])
+    marked.write(DOCS, "fixtures", lines)
 
 
 def main():

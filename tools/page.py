@@ -12,6 +12,8 @@ import json
 import os
 import sys
 
+import marked
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 README = os.path.join(ROOT, "README.md")
 MODULE = os.path.join(ROOT, "build", "wasm", "page.wasm")
@@ -41,15 +43,9 @@ def write_size():
         return
     with open(MODULE, "rb") as file:
         module = file.read()
-    line = "The page is one file of %d KB; the module in it has %d KB, %d packed by gzip.\n" % (
+    line = "The page is one file of %d KB; the module in it has %d KB, %d packed by gzip." % (
         os.path.getsize(PAGE) // 1024, len(module) // 1024, len(gzip.compress(module, 9)) // 1024)
-    with open(README) as file:
-        before, begin, rest = file.read().partition("<!-- page -->\n")
-    _, end, after = rest.partition("<!-- end of page -->\n")
-    if not begin or not end:
-        sys.exit("README.md has no place for the page's size")
-    with open(README, "w") as file:
-        file.write(before + begin + line + end + after)
+    marked.write(README, "page", [line])
 
 
 def main():

@@ -6,8 +6,9 @@ LOG is the output of `make run`, all of its frames. README.md shows the table be
 lines at its top. Without --write they are compared. The line about pictures is left alone: a run without pictures has none.
 """
 import os
-import re
 import sys
+
+import marked
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 README = os.path.join(ROOT, "README.md")
@@ -23,18 +24,14 @@ def shown(log):
     return table, [line for line in table if line.startswith(("frames ", "frame budget ", LAST))]
 
 
-def placed(text, name, lines):
-    block = "<!-- %s -->\n```\n%s\n```\n<!-- end of %s -->\n" % (name, "\n".join(lines), name)
-    return re.sub("<!-- %s -->\n.*?<!-- end of %s -->\n" % (name, name), lambda _: block, text, flags=re.S)
-
-
 def main(arguments):
     write = "--write" in arguments
     with open(arguments[-1], errors="replace") as log:
         table, ending = shown(log)
     with open(README) as file:
         before = file.read()
-    after = placed(placed(before, "run", table), "ending", ending)
+    after = marked.put(before, "run", ["```", *table, "```"])
+    after = marked.put(after, "ending", ["```", *ending, "```"])
     if write:
         with open(README, "w") as file:
             file.write(after)

@@ -17,6 +17,7 @@ import threading
 import time
 
 import gate
+import marked
 
 OUT, DOCS = "out/soak.csv", "docs/soak.md"
 CHUNK = 20  # worlds a process
@@ -163,28 +164,18 @@ def faults_of(rows):
     return lines
 
 
-def write_docs(name, lines):
-    """Put lines between the two comments of a name."""
-    begin, end = "<!-- %s -->\n" % name, "<!-- end of %s -->\n" % name
-    with open(DOCS) as file:
-        text = file.read()
-    head, rest = text.split(begin)
-    with open(DOCS, "w") as file:
-        file.write(head + begin + "\n".join(lines) + "\n" + end + rest.split(end)[1])
-
-
 def document(by_kind):
     """Write the page of the two kinds of worlds that were run."""
     if "" in by_kind:
         rows, wall = by_kind[""]
-        write_docs("soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
+        marked.write(DOCS, "soak", lines_of_table([summary("", rows, wall)]) + faults_of(rows))
     machines = {kind: made for kind, made in by_kind.items() if kind}
     if machines:
         rows = [row for made, _ in machines.values() for row in made]
-        write_docs("machines",
-                   lines_of_table([summary(kind, *made) for kind, made in machines.items()]) + [""] +
-                   lines_of_table([joints(kind, made) for kind, (made, _) in machines.items()]) +
-                   faults_of(rows))
+        marked.write(DOCS, "machines",
+                     lines_of_table([summary(kind, *made) for kind, made in machines.items()]) + [""] +
+                     lines_of_table([joints(kind, made) for kind, (made, _) in machines.items()]) +
+                     faults_of(rows))
 
 
 def print_table(table):

@@ -7,12 +7,12 @@ docs/zlists-row.svg, docs/zlists-leaf.svg, docs/zlists-view.png and the tables o
 and says whether the drawings and tables in docs/ are those of this program.
 """
 import os
-import re
 import subprocess
 import sys
 
 from PIL import Image
 
+import marked
 from svg import BLUE, GREEN, GREY, INK, ORANGE, PALE, PINK, Picture
 
 OUT, DOCS = "out/zlists", "docs"
@@ -201,15 +201,6 @@ def table_counts(said):
     return lines + ["| of these: %s | %d |" % (words, counts[fate]) for fate, (_, words) in FATES.items() if counts[fate]]
 
 
-def page_with(page, name, lines):
-    """The page with these lines between the markers of a name."""
-    begin, end = "<!-- %s -->\n" % name, "<!-- end of %s -->" % name
-    if begin not in page:
-        sys.exit("%s: no %s" % (PAGE, begin.strip()))
-    return re.sub(re.escape(begin) + ".*?" + re.escape(end), lambda _: begin + "\n".join(lines) + "\n" + end, page,
-                  flags=re.S)
-
-
 def side_by_side(paths):
     images = [Image.open(path).convert("RGB").crop(CROP) for path in paths]
     joined = Image.new("RGB", (2 * images[0].width + 8, images[0].height), "white")
@@ -229,7 +220,7 @@ def main():
     said = Said(done.stdout)
     with open(PAGE) as file:
         page = file.read()
-    page = page_with(page_with(page, "cell", table_cell(said)), "counts", table_counts(said))
+    page = marked.put(marked.put(page, "cell", table_cell(said)), "counts", table_counts(said))
     made = {"zlists-row.svg": draw_row(said).string(), "zlists-leaf.svg": draw_leaf(said).string(), "z-lists.md": page}
     status = 0
     for name, text in made.items():
