@@ -1,17 +1,24 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The tables of docs/measured.md that speak of instructions: tools/bench_table.py [--write]
+"""The figures of instructions, code and blocks in docs/measured.md and README.md: tools/bench_table.py [--write]
 
-They come from the committed figures of `make bench`, tests/bench_baseline.csv. Without --write the page is compared.
+They come from what `make bench` and `make size` committed: tests/bench_baseline.csv, size_of_use.csv and blocks.csv. Without
+--write the pages are compared.
 """
 import os
 import sys
 
 import bench
 import marked
+import results
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PAGE = os.path.join(ROOT, "docs", "measured.md")
+PAGE, README = "docs/measured.md", "README.md"
+USES, BLOCKS = "tests/size_of_use.csv", "tests/blocks.csv"
+# uses that README.md names, in its words
+NAMED = {"a world and its step with meshes in ROM": "a program that takes steps, with its meshes in ROM",
+         "meshes from vertices and faces": "one with joints that builds its meshes at run time",
+         "snapshots": "everything but drawing", "drawing of what changed": "everything with drawing"}
 NAMES = {"p50": "median", "p99": "99th percentile"}
 STATISTICS = ["mean", "p50", "p99", "worst"]
 
@@ -36,19 +43,35 @@ def scenes(figures):
             yield "| `%s` | %s |" % (scene, " | ".join(f"{getattr(cost, which):,}" for which in STATISTICS))
 
 
+def sizes(path, name, limits):
+    yield "| %s | bytes | wanted |" % name
+    yield "|---|---|---|"
+    for row in results.read(path):
+        yield "| %s | %s | %s |" % (row[name], f"{int(row['bytes']):,}", f"{limits[row[name]]:,}" if row[name] in limits else "")
+
+
+def code():
+    kept = {row["use"]: int(row["bytes"]) for row in results.read(USES)}
+    yield "Code of the engine, Thumb-2 at -Os, as a program links it: %s." % "; ".join(
+        "%d KB for %s" % (round(kept[use] / 1024), words) for use, words in NAMED.items())
+
+
 def main(arguments):
     os.chdir(ROOT)
     figures = bench.read_csv(bench.BASELINE)
-    with open(PAGE) as file:
-        before = after = file.read()
-    for name, rows in ("bars", bars(figures)), ("frames", scenes(figures)):
-        after = marked.put(after, name, rows)
-    if arguments == ["--write"]:
-        with open(PAGE, "w") as file:
-            file.write(after)
-    elif after != before:
-        sys.exit("docs/measured.md shows other figures than tests/bench_baseline.csv: tools/bench_table.py --write")
-    print("pass: docs/measured.md shows the figures of tests/bench_baseline.csv")
+    made = {PAGE: {"bars": bars(figures), "frames": scenes(figures), "uses": sizes(USES, "use", {"snapshots": bench.CODE["all but drawing"]}),
+                   "blocks": sizes(BLOCKS, "block", bench.BLOCKS)}, README: {"code": code()}}
+    for path, parts in made.items():
+        with open(path) as file:
+            before = after = file.read()
+        for name, lines in parts.items():
+            after = marked.put(after, name, lines)
+        if arguments == ["--write"]:
+            with open(path, "w") as file:
+                file.write(after)
+        elif after != before:
+            sys.exit("%s shows other figures than those committed in tests/: tools/bench_table.py --write" % path)
+    print("pass: %s show the figures committed in tests/" % " and ".join(made))
 
 
 if __name__ == "__main__":
