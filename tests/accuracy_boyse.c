@@ -2,31 +2,32 @@
 /*
  * accuracy_boyse - first times of impact against the true motion.
  *
- * A hit stops where the gap is still the event gap, half the skin, for the last time before the
- * features meet; where they have not been that far apart since the root before, or the start, at
- * half of the farthest that they were, but no nearer than they start. The error is how far the true
- * separation along the normal at the time returned is from that, in units of 2^-16.
+ * Before the features meet, their gap is equal to the event gap (half the skin) for a last time: a
+ * hit stops there. If the gap did not reach the event gap since the previous root, or since the
+ * start, the hit stops at half of the largest gap in between, but not below the gap at the start.
+ * The error is the distance between the true separation along the normal at the returned time and
+ * that gap, in units of 2^-16.
  *
- * The true first meeting is found by sampling the separation over the slice and closing in on every
- * change of its sign. Failures: no hit; one so late that the surfaces are by then deeper than 2
- * units in each other; one for an earlier approach, in which they do not meet.
+ * The oracle finds the true first meeting: it samples the separation over the slice and narrows
+ * down every change of its sign. Failures: no hit; a hit so late that the surfaces already overlap
+ * by more than 2 units; a hit for an earlier approach, in which the features do not meet.
  */
 #include "lib/accuracy.h"
 #include "lib/meeting.h"
 
 #define SAMPLES  40
 #define ULP      (1.0L / 65536)
-#define SQUARELY (1.0L / 64) /* normal speed over the path's length, sine between edges: at least */
-#define CLEARLY  (4 * ULP)   /* a point that is nearer than that to a border is on either side */
-#define NOISE    (ULP / 4)   /* separations below that have any sign */
+#define SQUARELY (1.0L / 64) /* least normal speed over path length; least sine of edges */
+#define CLEARLY  (4 * ULP)   /* a point closer than that to a border counts for either side */
+#define NOISE    (ULP / 4)   /* a separation below that may have either sign */
 
 static struct meeting meeting;
 
 /* The true first meeting. */
 struct truth {
-    long double last;   /* the root before, or the start */
-    long double time;   /* of the meeting */
-    long double target; /* the separation to stop at */
+    long double last;   /* the previous root, or the start */
+    long double time;   /* time of the meeting */
+    long double target; /* separation at which to stop */
     int sign;           /* the separation is sign times the gap */
 };
 
@@ -38,7 +39,7 @@ static long double size(long double v)
     return v < 0 ? -v : v;
 }
 
-/* The gap times the sine: smooth even where edges become parallel. */
+/* The gap times the sine of the edges, which stays smooth when the edges become parallel. */
 static long double smooth_gap(long double t)
 {
     struct meeting_features f;
@@ -82,7 +83,7 @@ static enum root classify(struct truth *truth, long double t)
 
 /* ------------------------------------------------------------ roots in order */
 
-/* Times in order with the smooth gap there: samples, and where it is least in between. */
+/* Times in order, with the smooth gap at each: the samples, and the minima between them. */
 struct samples {
     int count;
     long double t[2 * SAMPLES + 2], p[2 * SAMPLES + 2];
@@ -96,7 +97,10 @@ static void push(struct samples *s, long double t, long double p, bool dip)
     s->dip[s->count++] = dip;
 }
 
-/* The time of the least |P| between two times, by thirds, or a time at which P has changed its sign. */
+/*
+ * The time of the smallest |P| between two times, by ternary search, or a time at which P has
+ * changed its sign.
+ */
 static long double nearest_approach(long double low, long double high)
 {
     bool positive = smooth_gap(low) > 0;
@@ -120,12 +124,12 @@ static long double nearest_approach(long double low, long double high)
     return (low + high) / 2;
 }
 
-/* Whether |P| may be least between the neighbours of sample k, and reach 0 there. */
+/* Whether |P| may have a minimum between the neighbours of sample k that reaches 0. */
 static bool dips(const long double p[SAMPLES + 1], int k)
 {
     int before = k > 0 ? k - 1 : 0, after = k < SAMPLES ? k + 1 : SAMPLES;
 
-    /* P changes by no more than its rate, the path's length times the distance of the edges */
+    /* P changes no faster than its rate: path length times distance of the edges */
     return (p[before] > 0) == (p[k] > 0) && (p[after] > 0) == (p[k] > 0) &&
            size(p[k]) <= size(p[before]) && size(p[k]) <= size(p[after]) &&
            size(p[k]) < 8 * meeting.length / SAMPLES;
@@ -172,7 +176,7 @@ static long double change_of_sign(long double low, long double high)
     return low;
 }
 
-/* The first meeting, or what comes before it that is too close to call. */
+/* Find the first meeting. UNCLEAR when a root before it is too close to call. */
 static enum root first_meeting(const struct samples *s, struct truth *truth)
 {
     truth->last = 0;
@@ -193,8 +197,8 @@ static enum root first_meeting(const struct samples *s, struct truth *truth)
 }
 
 /*
- * The farthest that the features are apart between two times, by thirds about the best sample; or
- * any opening above `enough`.
+ * The largest separation between two times, by ternary search around the best sample; or the first
+ * sample above `enough`.
  */
 static long double largest_opening(const struct truth *truth, long double enough)
 {
@@ -228,8 +232,9 @@ static long double largest_opening(const struct truth *truth, long double enough
 }
 
 /*
- * Where to stop. False when the case cannot be judged: the features nearly touch at the start, or
- * have been just about the event gap apart, or the surfaces hardly meet before the slice ends.
+ * Find the separation at which to stop. False when the case cannot be judged: the features nearly
+ * touch at the start, or their largest separation is close to the event gap, or the surfaces hardly
+ * overlap before the slice ends.
  */
 static bool find_target(struct truth *truth)
 {
@@ -254,8 +259,8 @@ static bool find_target(struct truth *truth)
 }
 
 /*
- * Whether edges are far enough from parallel all the way back from the root to the event: the gap
- * between nearly parallel lines says little of the surfaces.
+ * Whether the edges stay far enough from parallel between the event and the root. The gap between
+ * nearly parallel lines says little about the surfaces.
  */
 static bool stays_square(const struct truth *truth)
 {
@@ -277,7 +282,7 @@ static bool stays_square(const struct truth *truth)
 
 /* --------------------------------------------------------------------- cases */
 
-/* Whether the gap is that of the same approach from the hit on. */
+/* Whether the gap stays small from the hit to the root, so that both belong to one approach. */
 static bool approaches(const struct truth *truth, long double t)
 {
     for (int k = 1; k <= 16; k++) {
@@ -288,7 +293,7 @@ static bool approaches(const struct truth *truth, long double t)
     return true;
 }
 
-/* One case; false when it is none, and another is to be made. */
+/* Judge one case. False when the random case cannot be judged; the caller then makes another. */
 static bool judge(struct accuracy *a)
 {
     struct samples samples;
@@ -316,7 +321,7 @@ static bool judge(struct accuracy *a)
     return true;
 }
 
-/* The bar: 0.2 of 2^-16 units for all but one in a thousand, 2 for all. */
+/* The bar: 0.2 units of 2^-16 for all but one case in a thousand, 2 units for all. */
 static void row(int argc, char **argv, const char *kernel, struct meeting_plan plan,
                 const int kinds[4])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The kinetic energy of the bodies of an impact, before and after. Rows of out/accuracy.csv, its
- * rise relative to what it was, 0 where it falls:
+ * accuracy_energy - the kinetic energy of the bodies of an impact, before and after. A row of
+ * out/accuracy.csv has the relative rise of the energy, 0 where the energy falls:
  *
  *   energy       one body moves or two do, any e, mu up to 4; half of the states have no more energy
  *                than the velocity at the contact takes; impulses from 2^-15, 2^25 units of their
@@ -62,7 +62,7 @@ struct momenta {
 /* The terms of a body's energy: 1 / m, the inverse of J, the arm. */
 struct rigid {
     wide inverse_mass;
-    struct wide3 inverse[3]; /* of J, rows; J is symmetric */
+    struct wide3 inverse[3]; /* rows of the inverse of J; J is symmetric */
     struct wide3 arm;
 };
 
@@ -95,7 +95,7 @@ static struct wide3 wide_q40(const int64_t v[3])
     return (struct wide3){{wide_fixed(v[0], 40), wide_fixed(v[1], 40), wide_fixed(v[2], 40)}};
 }
 
-/* a.b / m + c.J^-1 d / m: twice the energy where a = b = p and c = d = L. */
+/* a.b / m + c.J^-1 d / m. It is twice the energy when a = b = p and c = d = L. */
 static wide work2(const struct rigid *r, struct wide3 a, struct wide3 b, struct wide3 c,
                   struct wide3 d)
 {
@@ -122,7 +122,7 @@ static struct wide3 velocity_at(const struct rigid *r, const struct momenta *m)
     return v;
 }
 
-/* p += s P, L += s r x P, each product of the moment rounded as the engine does. */
+/* p += s P, L += s r x P. Each product of the moment is rounded as the engine rounds it. */
 static void push(struct momenta *m, const struct impact_side *side, const int64_t p_q40[3],
                  int sign)
 {
@@ -146,8 +146,8 @@ static void set_q40(int64_t out[3], struct vector v)
 }
 
 /*
- * Momenta: those of the least energy that makes the velocity of the impact, an impulse of K^-1 V at
- * the contact; or any, of translation and of rotation.
+ * Random momenta. Either the momenta with the least energy that give the velocity of the impact (an
+ * impulse of K^-1 V at the contact), or any momenta of translation and rotation.
  */
 static void random_momenta(uint64_t *random, const struct real_impact *real,
                            struct momenta momenta[2])
@@ -186,7 +186,9 @@ struct hit {
     struct momenta before[2], after[2];
 };
 
-/* The velocity at the contact is that of the momenta, N such that the bodies approach. */
+/*
+ * Set the velocity at the contact from the momenta, with a normal N for which the bodies approach.
+ */
 static void set_velocity(struct hit *h, scalar restitution)
 {
     struct wide3 v = {{0, 0, 0}};
@@ -217,7 +219,7 @@ static void random_hit(uint64_t *random, int movers, struct hit *h)
     struct real_impact real;
 
     real_random_impact(random, movers, 10, &real);
-    if (real_random(random) % 4 == 0) { /* as rough as the engine takes */
+    if (real_random(random) % 4 == 0) { /* as rough as the engine accepts */
         real.friction = fixed((int64_t)(real_random(random) % (CAROM_MU_MAX_Q16 + 1)), 16);
     }
     h->in = real_to_engine(&real, real_random(random) % 2 ? 22 : 30);
@@ -257,7 +259,7 @@ static double energy_change(const struct hit *h)
     return (double)(change / before);
 }
 
-/* least: impulses below it are left out */
+/* least: smaller impulses are left out */
 static void rises(const char *kernel, size_t cases, scalar least, const struct accuracy_bar *bar)
 {
     struct accuracy a = accuracy_begin(kernel, cases);

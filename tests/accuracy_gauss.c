@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * gauss_solve alone, against elimination with complete pivoting of the same integers in long
- * double. Rows of out/accuracy.csv: solve9 and solve15, the error relative to the largest unknown.
+ * accuracy_gauss - gauss_solve alone, against elimination with complete pivoting of the same
+ * integers in long double. Rows of out/accuracy.csv: solve9 and solve15, the error relative to the
+ * largest unknown.
  *
- * Three systems in four are those of random impacts, rows as impact_solve makes them, with right
- * sides at random that leave the largest unknown at about 1; the fourth has entries of 30 bits
- * anywhere. A system so near to singular that gauss refuses it would be a failure.
+ * Three systems in four come from random impacts: the rows are those that impact_solve makes, the
+ * right sides are random and keep the largest unknown at about 1. The fourth system has random
+ * entries of 30 bits. A system that is so close to singular that gauss_solve refuses it counts as a
+ * failure.
  */
 #include "lib/accuracy.h"
 #include "lib/gauss_rows.h"
@@ -83,7 +85,7 @@ static scalar largest(const scalar *x, int n)
     return most;
 }
 
-/* Right sides at random, halved until the largest unknown is at most 1. */
+/* Random right sides, halved until the largest unknown is at most 1. */
 static void set_right_sides(uint64_t *random, int n)
 {
     scalar x[GAUSS_MAX];

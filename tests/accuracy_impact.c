@@ -29,8 +29,9 @@ static scalar relative(const struct impact_result *result, const struct real_ans
 }
 
 /*
- * Where the rounding of the inputs alone decides between sticking, sliding and wedging, the impulse
- * jumps, and either answer is right. Returns the error, or -1 when there is no impulse.
+ * Near the borders between sticking, sliding and wedging, the rounding of the inputs alone decides
+ * which of them happens. The impulse jumps there, and either answer is right. Returns the error, or
+ * -1 when there is no impulse.
  */
 static double impulse_error(const struct real_impact *real, const struct impact *in,
                             unsigned *either)
@@ -98,8 +99,8 @@ static void impulses(const struct row *row, size_t cases)
 }
 
 /*
- * P is rounded to 2^-40, which moves V by about 2^-40 over the lighter mass m*. So V.N is drawn from
- * 2^20 such units up, and m* V.N from 2^23.
+ * P is rounded to 2^-40, which changes V by about 2^-40 over the smaller mass m*. So V.N is at
+ * least 2^20 units of 2^-40, and m* V.N at least 2^23 of them.
  */
 static struct real_impact random_speed(uint64_t *random, int movers)
 {

@@ -21,7 +21,7 @@
 #include "lib/lab.h"
 #include "mesh/mass.h"
 
-#define ROWS         24 /* of a surface of revolution */
+#define ROWS         24 /* rows of a surface of revolution */
 #define VERTICES_MAX (ROWS * ROWS)
 #define FACES_MAX    (2 * ROWS * ROWS)
 
@@ -60,8 +60,8 @@ static void add_face(struct mesh *m, int a, int b, int c)
 }
 
 /*
- * A solid over an outline in x, y, from z = -1 to 1; the outline's corners can all be seen from the
- * first. A box, a needle and a plate have 4 of them.
+ * A prism over an outline in x, y, from z = -1 to 1. Every corner of the outline must be visible
+ * from its first corner. A box, a needle and a plate have outlines of 4 corners.
  */
 static void prism(struct mesh *m, const double (*outline)[2], int corners)
 {
@@ -90,7 +90,7 @@ static void box(struct mesh *m)
     prism(m, outline, 4);
 }
 
-/* Its inner corner comes first: all others are seen from there. */
+/* The inner corner comes first, because every other corner is visible from it. */
 static void l_shape(struct mesh *m)
 {
     double x = any(0.1, 1.9), y = any(0.1, 1.9);
@@ -113,7 +113,7 @@ static void tetrahedron(struct mesh *m)
     add_face(m, 2, 0, 3);
 }
 
-/* A grid of rows and columns that closes both ways; its normals look outwards. */
+/* A grid of rows and columns that closes in both directions; its normals point outwards. */
 static void torus(struct mesh *m)
 {
     int rows = 3 + any_of(ROWS - 3), columns = 3 + any_of(ROWS - 3);
@@ -135,7 +135,7 @@ static void torus(struct mesh *m)
     }
 }
 
-/* Rings between two poles, with bumps of up to `rough` of the radius. */
+/* Rings between two poles, with bumps of up to `rough` times the radius. */
 static void ball(struct mesh *m, double rough)
 {
     int rings = 3 + any_of(ROWS - 4), columns = 3 + any_of(ROWS - 3), south = rings * columns;
@@ -163,7 +163,7 @@ static void ball(struct mesh *m, double rough)
     }
 }
 
-/* Scale along the axes, turn, and bring to quanta anywhere in their range. */
+/* Scale the mesh along its axes, turn it, and move it to any place in the range of quanta. */
 static void place(struct mesh *m, const double scale[3], bool turned)
 {
     carom_quat_q30 q = lab_random_turn(&random_state);
@@ -184,7 +184,7 @@ static void place(struct mesh *m, const double scale[3], bool turned)
             reach = fmax(reach, fabs(p[k]));
         }
     }
-    /* half the extent in quanta, then a quantum that makes it 1/4 to 60 units */
+    /* half the extent in quanta, then a quantum that makes the half extent 1/4 to 60 units */
     size = exp2(any(7, 14.9));
     m->quantum_bits = (int)fmax(7, floor(log2(size)) + 2 - any_of(8));
     for (int k = 0; k < 3; k++) {
@@ -197,7 +197,7 @@ static void place(struct mesh *m, const double scale[3], bool turned)
     }
 }
 
-/* One of eight kinds. */
+/* Make a mesh of one of eight kinds. */
 static void make(struct mesh *m, size_t kind)
 {
     double scale[3] = {any(0.2, 1), any(0.2, 1), any(0.2, 1)};
@@ -245,8 +245,8 @@ struct moments {
 };
 
 /*
- * The sum over all i, j, k of f_i g_j h_k times 3!, 2! or 1! as three, two or none of i, j, k are the
- * same: 60 times the integral of f g h over a triangle, over its area.
+ * The sum over all i, j, k of f_i g_j h_k, times 3!, 2! or 1! when three, two or none of i, j, k
+ * are equal. That is 60 times the integral of f g h over a triangle, divided by its area.
  */
 static whole product3(const whole f[3], const whole g[3], const whole h[3])
 {
@@ -261,7 +261,7 @@ static whole product3(const whole f[3], const whole g[3], const whole h[3])
     return sum;
 }
 
-/* The same with two: 12 times the integral over the area. */
+/* The same for two functions: 12 times the integral, divided by the area. */
 static whole product2(const whole f[3], const whole g[3])
 {
     whole sum = 0;
@@ -289,7 +289,8 @@ static void add_column(struct moments *sum, const struct mesh *m, const uint16_t
     sum->second[0] += area2 * product3(x, x, z);
     sum->second[1] += area2 * product3(y, y, z);
     sum->second[3] += area2 * product3(x, y, z);
-    /* the integral of z up to the face is z^2 / 2, that of z^2 is z^3 / 3: halved and divided last */
+    /* the integral of z up to the face is z^2 / 2, that of z^2 is z^3 / 3; the quotients are formed
+     * last */
     sum->first[2] += area2 * product2(z, z);
     sum->second[2] += area2 * product3(z, z, z);
     sum->second[4] += area2 * product3(y, z, z);
@@ -306,7 +307,7 @@ static struct moments exact_moments(const struct mesh *m)
     return sum;
 }
 
-/* Volume, centre and inertia by mass in quanta. */
+/* Volume, centre, and inertia by mass, in quanta. */
 struct exact {
     real volume, centre[3], inertia[6];
 };
@@ -387,7 +388,8 @@ int main(int argc, char **argv)
         struct carom_mass mass;
         struct moments sum;
 
-        do { /* rounding to quanta may leave no volume, and a tetrahedron comes either way round */
+        do { /* rounding to quanta may leave no volume, and a random tetrahedron has either
+              * orientation */
             make(&m, i % 8);
             sum = exact_moments(&m);
         } while (sum.volume <= 0);

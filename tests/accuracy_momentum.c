@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accuracy_momentum - what a crowd without gravity and without ground keeps.
+ * accuracy_momentum - linear and angular momentum of a crowd without gravity and without ground.
  *
  * Runs of 32 bodies that fly at a common centre, collide there over and over, and fly apart: boxes,
  * tetrahedra, Ls, plates and balls of half a unit to two, masses of 1/8 to 8, e from 0 to 1 and mu
@@ -23,7 +23,7 @@
 #include "world/world.h"
 
 #define BODIES 32
-#define FRAMES 80 /* a run */
+#define FRAMES 80 /* frames of a run */
 #define SHAPES 6
 
 __extension__ typedef __int128 whole;
@@ -49,10 +49,10 @@ static void add_shapes(struct crowd *crowd, int shape[SHAPES])
     shape[5] = crowd_ball(crowd, 0.4);
 }
 
-/* Bodies on a wide grid, each flying roughly at the centre and turning. */
+/* Place the bodies on a wide grid; each flies roughly towards the centre and turns. */
 static void add_bodies(struct crowd *crowd, const int shape[SHAPES])
 {
-    double time = any(15, 40); /* frames to the centre */
+    double time = any(15, 40); /* frames until it reaches the centre */
 
     crowd_clear(crowd);
     for (int i = 0; i < BODIES; i++) {
@@ -106,9 +106,9 @@ static double length(const double v[3])
 }
 
 /*
- * Half the sum of |change of p| |x|; 0 when it is too small beside that of |p| |x| for the frame's
- * sub-steps. Each rounds every place anew, and what they round adds up like the root of their
- * number.
+ * Half the sum of |change of p| |x|. 0 when that sum is too small beside the sum of |p| |x| for the
+ * number of sub-steps: each sub-step rounds every place, and these errors add up like the root of
+ * their number.
  */
 static double exchanged(const struct body_state *before, const struct body_state *after,
                         double substeps)
@@ -156,7 +156,8 @@ int main(int argc, char **argv)
 
     crowd->config.gravity = (carom_v3_q40){{0, 0, 0}};
     crowd->config.sleep = false;
-    crowd->config.caps.candidates = 65535; /* all of a frame at once: it is only faster */
+    crowd->config.caps.candidates = 65535; /* gather for the whole frame at once; that only saves
+                                            * time */
     add_shapes(crowd, shape);
     for (size_t frame = 0; frame < frames; frame++) {
         struct body_state before[BODIES];
@@ -170,7 +171,7 @@ int main(int argc, char **argv)
         carom_stats(crowd->world, &stats);
         watch(before, world_now(crowd->world)->bodies, &stats, &linear, &angular);
     }
-    /* a crowd that hardly ever meets would show nothing */
+    /* a crowd that hardly ever meets would prove nothing */
     if (angular.count < frames / 3) {
         accuracy_fail(&angular);
     }

@@ -37,7 +37,7 @@ static double orthonormality(const carom_quat_q30 *q)
     return worst;
 }
 
-/* A body turning about its spin, in units of 1/1000 radian, far above the ground. */
+/* A body turning with its spin, in units of 1/1000 radian, far above the ground. */
 static struct lab *load(const struct carom_mesh_raw *mesh, const double mrad[3])
 {
     struct lab *lab = lab_load(&lab_sheet, mesh);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* A program of a bare board that asks for memory in vain: status 0 when there is no byte of heap. */
+/*
+ * bare_heap - a program of a bare board that asks for memory. The board has no byte of heap, so it
+ * must fail: status 0 then.
+ */
 #include <stddef.h>
 #include <stdlib.h>
 

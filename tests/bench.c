@@ -25,13 +25,16 @@ static const int32_t sizes[SIZES][2] = {{320, 240}, {512, 512}};
 
 static _Alignas(8) uint8_t mesh_block[BENCH_MESH_BYTES];
 static _Alignas(8) uint8_t world_block[SCENE_WORLD_BYTES];
-/* Enough to draw any scene at once; what the paper's buffer leaves, in parts. */
+/*
+ * Enough to draw any scene in one part. The paper's z-buffer leaves less, and the picture is drawn
+ * in parts.
+ */
 #ifndef BENCH_DRAW_BYTES
 #define BENCH_DRAW_BYTES                                                                           \
     CAROM_DRAW_BYTES(SCENE_HEAD_VERTICES + SCENE_LARGE_VERTICES,                                   \
                      SCENE_HEAD_FACES + SCENE_LARGE_FACES)
 #endif
-/* Shadows take room as more faces do. */
+/* Shadows need memory for their own faces. */
 #define SHADOW_BYTES 65536
 static _Alignas(8) uint8_t draw_block[SHADOW_BYTES + BENCH_DRAW_BYTES];
 static uint32_t pixels[512 * 512];
@@ -45,7 +48,7 @@ static int expect(int result, const char *what)
     return result;
 }
 
-/* The capacities that the caller wants; returns the bytes of their world. */
+/* Set the capacities that the options ask for; returns the bytes of the world. */
 static size_t world_bytes(struct carom_caps *caps)
 {
     uint32_t *const all[] = {&caps->bodies, &caps->pairs,   &caps->contacts,
@@ -92,8 +95,8 @@ static carom_quat_q30 any_rotation(struct test_random *random)
 }
 
 /*
- * Throw a body in another way: turned anyhow, up to two units beside the middle and going towards
- * it. No component of its velocity or spin exceeds the largest one that it had.
+ * Throw a body in another way: random rotation, up to two units aside, and towards the middle. No
+ * component of its velocity or spin exceeds the largest one that it had.
  */
 static void throw_body(struct carom_body_def *def, uint64_t number)
 {
@@ -126,7 +129,10 @@ static bool all_asleep(const struct carom_world *world, int bodies)
     return true;
 }
 
-/* The phase of the last step: all slept, bodies touched, boxes of two bodies met, or none did. */
+/*
+ * The phase of the last step: all bodies slept, bodies touched, boxes of two bodies met, or none
+ * did.
+ */
 static const char *phase(const struct carom_world *world, bool slept,
                          const struct carom_stats *stats)
 {

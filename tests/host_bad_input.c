@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bad input to a running world: each is refused with the error that says what is wrong, nothing is
- * written, and the world goes on exactly like one that never saw any of it.
+ * host_bad_input - bad input to a running world. Each call is refused with the error that says what
+ * is wrong, nothing is written, and the world goes on exactly like one that never saw any of the
+ * calls.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 
 enum { FRAMES_BEFORE = 60, FRAMES_AFTER = 60 };
 
-/* Names a test and gathers what went wrong in it. */
+/* The name of the current test, and its failures. */
 static struct {
     struct carom_world *world;
     uint64_t hash;
@@ -40,7 +41,7 @@ static void check(bool ok, const char *call, int line, int result)
     }
 }
 
-/* The call gives the error, and the world has the hash it had. */
+/* Check that the call gives the error and that the world keeps its hash. */
 #define REFUSED(call, error) refused((call), (error), #call, __LINE__)
 static void refused(int result, int error, const char *call, int line)
 {
@@ -157,7 +158,7 @@ static void test_bodies(struct lab *lab)
     REFUSED_WITH(rotation.c[3], INT32_MIN, CAROM_ERR_ARGUMENT);
     REFUSED_WITH(position.c[0], ((int64_t)4096 << 32) + 1, CAROM_ERR_RANGE);
     REFUSED_WITH(position.c[1], INT64_MIN, CAROM_ERR_RANGE);
-    REFUSED_WITH(stationary, false, CAROM_ERR_ARGUMENT); /* a SURFACE that moves */
+    REFUSED_WITH(stationary, false, CAROM_ERR_ARGUMENT); /* a SURFACE is not allowed to move */
     def = good;
     REFUSED(carom_body_add(w, &def), CAROM_ERR_BODIES_FULL);
     REFUSED(carom_body_remove(w, -1), CAROM_ERR_BODY);
@@ -166,7 +167,7 @@ static void test_bodies(struct lab *lab)
     end("bad_input/bodies");
 }
 
-/* Mass and speeds of a body that moves, in a world without one. */
+/* Mass and speed limits of a moving body, in a world that has none. */
 static void test_moving(const struct lab *lab)
 {
     struct lab *other = lab_load_scene("box");
@@ -207,14 +208,14 @@ static void test_states(struct lab *lab)
     NOT_SET(position.c[2], INT64_MAX, CAROM_ERR_RANGE);
     NOT_SET(velocity.c[0], (int64_t)64 << 40, CAROM_ERR_RANGE);
     NOT_SET(spin.c[1], -((int64_t)64 << 40), CAROM_ERR_RANGE);
-    /* each component in range, their length not */
+    /* each component is in range, their length is not */
     state = good;
     state.velocity.c[0] = state.velocity.c[1] = (int64_t)50 << 40;
     REFUSED(carom_body_set(w, SCENE_BODY, &state), CAROM_ERR_RANGE);
     end("bad_input/states");
 }
 
-/* Forces and pushes; body SCENE_GROUND stands still. */
+/* Forces and pushes. Body SCENE_GROUND is static. */
 static void test_forces(struct lab *lab)
 {
     const int64_t much = ((int64_t)1 << 40) + 1, extreme[2] = {INT64_MIN, INT64_MAX};
@@ -298,7 +299,7 @@ static void test_snapshots(struct lab *lab)
         REFUSED(carom_snapshot_load(w, altered, (size_t)size), CAROM_ERR_FORMAT);
     }
     REFUSED(carom_snapshot_load(w, bytes, (size_t)size + 1), CAROM_ERR_FORMAT);
-    /* and the whole one is what the world is */
+    /* the whole snapshot is a copy of the world */
     REFUSED(carom_snapshot_load(w, bytes, (size_t)size), CAROM_OK);
     end("bad_input/snapshots");
 }
@@ -308,7 +309,7 @@ static void test_snapshots(struct lab *lab)
 #define BLOCK_BYTES CAROM_MESH_BYTES(64, 64)
 static _Alignas(8) uint8_t block[BLOCK_BYTES + 8];
 
-/* carom_mesh_build and carom_mesh_check give the error and no mesh. */
+/* Check that carom_mesh_build and carom_mesh_check give the error and make no mesh. */
 #define NO_MESH(raw, error) no_mesh((raw), (error), __LINE__)
 static void no_mesh(const struct carom_mesh_raw *raw, int error, int line)
 {
@@ -406,7 +407,7 @@ static void test_mesh_memory(struct lab *lab)
     end("bad_input/mesh_memory");
 }
 
-/* The box as the converter writes it: see src/mesh/blob.c. Returns its bytes. */
+/* The box in the format that the converter writes (src/mesh/blob.c). Returns its bytes. */
 static size_t write_blob(uint8_t *out)
 {
     const uint8_t header[16] = {'C', 'R', 'M', '1', 1, CAROM_SOLID, 12, 0, 8, 0, 0, 0, 12, 0, 0, 0};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Boxes on a plane. What bounces for ever keeps its energy: a box of three different sides (a cube
- * could not show that it does not), a tetrahedron and an L; restitution is Newton's; an impulse is
- * the change of momentum.
+ * host_bounce - boxes on a plane. A body that bounces for ever keeps its energy: a box with three
+ * different sides (a cube would hide errors), a tetrahedron and an L. Restitution is Newton's, and
+ * an impulse is the change of momentum.
  *
  *   host_bounce.elf        a million frames of the box, 100,000 of the others
  *   host_bounce.elf long   a million frames of all three
@@ -29,7 +29,7 @@ static double half_height(const struct lab *lab)
     return highest;
 }
 
-/* A box over the sheet, its lowest point `height` above it. */
+/* A box above the sheet, with its lowest point `height` above the sheet. */
 static struct lab *load_box(double height, double e, double mu)
 {
     struct lab *lab = lab_load(&lab_sheet, &lab_box);
@@ -52,9 +52,9 @@ static void tumble(struct lab *lab)
 }
 
 /*
- * Energy over a long bounce: within 1e-5 of the first frame's in FRAMES frames, and no drift upwards
- * however long. A hit is off by some 5e-9 either way, which 30,000 hits add up to 1e-6; so four times
- * that is chance, while 2e-10 a hit upwards would show.
+ * Energy over a long bounce stays within 1e-5 of the first frame's in FRAMES frames, and does not
+ * drift upwards, however long the run. A hit is off by some 5e-9 either way, which adds up to 1e-6
+ * over 30,000 hits. Four times that is chance; a rise of 2e-10 a hit would show.
  */
 static void test_energy(const struct carom_mesh_raw *body, long frames, const char *name)
 {
@@ -85,9 +85,7 @@ static void test_energy(const struct carom_mesh_raw *body, long frames, const ch
     lab_free(lab);
 }
 
-/*
- * Without friction, what a frame with a hit changes the momentum by is its impulse and the weight.
- */
+/* Without friction, a frame with a hit changes the momentum by the impulse and the weight. */
 static void test_impulse(void)
 {
     struct lab *lab = load_box(0, 0.7, 0);
@@ -109,7 +107,8 @@ static void test_impulse(void)
         n = carom_events(lab->world, &events);
         carom_stats(lab->world, &stats);
         for (int i = 0; i < n; i++) {
-            /* the hardest of the frame: take frames that have one alone, and do not end in contact */
+            /* the event has the largest impulse of the frame, so take frames with one hit that do
+             * not end in contact */
             if (events[i].kind == CAROM_EVENT_HIT && stats.hits == 1 && stats.contacts == 1 &&
                 lab_double(events[i].speed_q40, 40) > -10 * gravity) {
                 double impulse = lab_double(events[i].impulse_q40, 40) / lab->mass;
@@ -129,10 +128,11 @@ static void test_impulse(void)
 }
 
 /*
- * Dropped flat from 2 units, it rises to e^2 of its fall. Both count from where the surfaces meet,
- * the event gap, half a skin. The top is worked out from place and speed in flight, so that no
- * frame need be there. The solver stops at 2^-26 of the largest closing speed and speeds are kept
- * to 2^-40, so 1e-6 is ample; a wrong threshold or rounding of the time of the hit would be 1e-4.
+ * A body dropped flat from 2 units rises to e^2 of its fall. Both heights count from where the
+ * surfaces meet, the event gap (half a skin). The top is computed from place and speed in flight,
+ * so that no frame has to fall on it. The solver stops at 2^-26 of the largest closing speed and
+ * speeds are kept to 2^-40, so 1e-6 is a wide bar; a wrong threshold or a wrongly rounded time of
+ * the hit would give 1e-4.
  */
 static void test_restitution(double e)
 {
@@ -159,7 +159,7 @@ static void test_restitution(double e)
     lab_free(lab);
 }
 
-/* e = 0: once down it never rises above the skin. The impact is an event all the same. */
+/* e = 0: once down, the body never rises above the skin. The impact is still an event. */
 static void test_dead(void)
 {
     struct lab *lab = load_box(2, 0, 0.5);
@@ -181,9 +181,9 @@ static void test_dead(void)
 }
 
 /*
- * Dropped flat with e = 1 it stays upright and loses no height. Four contacts share each impact and
- * the sweeps end at 2^-26 of the closing speed, 0.07 units a frame: that turns the box by some 1e-7
- * from one hit to the next, which adds up to a few 1e-5 over 370 hits.
+ * A box dropped flat with e = 1 stays upright and loses no height. Four contacts share each impact,
+ * and the sweeps end at 2^-26 of the closing speed, 0.07 units a frame. That turns the box by some
+ * 1e-7 from one hit to the next, which adds up to a few 1e-5 over 370 hits.
  */
 static void test_flat(void)
 {

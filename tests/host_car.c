@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The car of the scenes drives: round and round by its script, and as hands of chance press the keys. In each frame
- * its hinges and sliders, and whatever crosses, are judged in double precision from what the public interface says.
+ * host_car - the car of the scenes drives in circles by its script, and in any way by random keys.
+ * In each frame the test judges its hinges, its sliders and crossing faces in double precision,
+ * from what the public interface reports.
  *
  *   host_car.elf [long]
  */
@@ -20,19 +21,19 @@
 #define CROSSING_TOLERANCE 1e-9
 #define HALF_YARD          24.0
 #define PARTS              (1 + 2 * CAR_WHEELS)
-#define STILL              (1 + CAR_RAMPS + CAR_TOWERS) /* the ground and what stands on it */
+#define STILL              (1 + CAR_RAMPS + CAR_TOWERS) /* the ground and all that stands on it */
 
 /* The largest errors of a run. */
 struct seen {
-    double apart;     /* anchors, in skins of the smaller body; of sliders, across their axis */
-    double axes;      /* of hinges; of sliders, all axes of one against the other; radians */
-    long apart_frame; /* of the worst */
+    double apart;     /* anchors, in skins of the smaller body; for sliders, across their axis */
+    double axes;      /* for hinges; for sliders, all axes of one body against the other; radians */
+    long apart_frame; /* frame of the worst gap */
     long crossed, under, capped;
-    double round; /* radians that it went about the middle of the yard */
-    double way;   /* that it went */
-    double far;   /* the farthest from there along x or y */
-    long again;   /* times that it began again */
-    double up;    /* the least of how far the car's z axis points up */
+    double round; /* radians that the car went about the middle of the yard */
+    double way;   /* length of its way */
+    double far;   /* its largest distance from the middle along x or y */
+    long again;   /* how often it began again */
+    double up;    /* smallest z component of the car's z axis */
 };
 
 struct car {
@@ -42,7 +43,7 @@ struct car {
     struct oracle_mesh part[PARTS], still[STILL];
 };
 
-/* The body of the i-th thing that stands still. */
+/* The body of the i-th static thing. */
 static int still_body(int i)
 {
     return i == 0 ? SCENE_GROUND : CAR_RAMP + i - 1;
@@ -96,7 +97,7 @@ static double skin_of(const struct car *car, int body)
     return lab_double(carom_body_mesh(car->world, body)->radius_q22, 22) / 2048;
 }
 
-/* The angle between directions of two bodies that were the same when the scene began. */
+/* The angle between directions of two bodies that were equal when the scene began. */
 static double angle(const struct car *car, int a, int b, const double was[3])
 {
     const struct carom_body_state sa = lab_state(car->world, a), sb = lab_state(car->world, b);
@@ -155,7 +156,9 @@ static bool is_far(const struct car *car, int a, int b)
                               lab_double(carom_body_mesh(car->world, b)->radius_q22, 22);
 }
 
-/* Faces of the car that cross those of what stands still, and parts of it that are below the ground. */
+/*
+ * Count faces of the car that cross those of static bodies, and parts of the car below the ground.
+ */
 static void look_at_part(const struct car *car, int part, struct seen *seen)
 {
     const struct oracle_pose at = pose(car, CAR_CHASSIS + part);
@@ -189,7 +192,7 @@ static void place(const struct car *car, double at[2])
     }
 }
 
-/* Look at the car's place and at the angle that it went about the middle since the last frame. */
+/* Look at the car's place, and at the angle that it went about the middle since the last frame. */
 static void look_at_way(const struct car *car, double last[2], struct seen *seen)
 {
     const struct carom_body_state s = lab_state(car->world, CAR_CHASSIS);
@@ -206,7 +209,8 @@ static void look_at_way(const struct car *car, double last[2], struct seen *seen
 }
 
 /*
- * The script's keys, or others, each for half a second: to a side or not, on or back, now and then lifted.
+ * The keys of the script, or random ones, each held for half a second: left or right, forwards or
+ * back, now and then lifted.
  */
 static uint32_t keys_of(bool hands, long frame, uint32_t held, uint64_t *random)
 {
@@ -230,7 +234,8 @@ static void run(const char *name, bool hands, long frames)
     double last[2];
     uint64_t random = 20;
     uint32_t keys = 0;
-    /* at 4 m/s of the 5.6 that the motors may give, on 76 m; hands brake and go back and forth */
+    /* at 4 m/s of the 5.6 m/s that the motors can give, on a way of 76 m; random keys brake and
+     * reverse */
     double rounds = (double)frames / 60 * 4 / 76, way = (double)frames / 120;
 
     place(car, last);

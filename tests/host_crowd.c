@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two and many moving bodies: impacts against the analytic answers, Newton's cradle, stacks that
- * stand, a heap of 32 bodies poured on the field. The scenes of many bodies run once as they are
- * and once with a single sub-step a frame, which may cost time but neither crossings nor energy.
+ * host_crowd - two and many moving bodies: impacts against the analytic answers, Newton's cradle,
+ * stacks that stand, a heap of 32 bodies poured on the field. The scenes of many bodies run once
+ * as they are, and once with a single sub-step a frame. A single sub-step may cost time, but may
+ * cause neither crossings nor energy.
  *
  *   host_crowd        what make test runs
  *   host_crowd long   stacks asleep for 10,000 frames, every impact and more heaps
@@ -25,8 +26,8 @@ static const struct oracle_body *now(const struct crowd *crowd, int body)
 /* ---------------------------------------------------------------------- head-on */
 
 /*
- * Two boxes meet face on face, in line: velocities after are those of two points, nothing turns.
- * The whole is turned, so that no axis is special.
+ * Two boxes meet face on face, in line. Afterwards they have the velocities of two colliding
+ * points, and nothing turns. The whole scene is turned, so that no axis is special.
  */
 static void test_head_on(void)
 {
@@ -94,7 +95,7 @@ struct side {
     double mass, arm[3], inverse[3][3];
 };
 
-/* The inverse of R I R^T m: by columns, the cross products of a symmetric matrix's rows. */
+/* The inverse of m R I R^T. Its columns are the cross products of a symmetric matrix's rows. */
 static void invert_inertia(struct side *side, const struct oracle_body *body)
 {
     const double *i = body->inertia, nowhere[3] = {0};
@@ -122,7 +123,7 @@ static void invert_inertia(struct side *side, const struct oracle_body *body)
     side->mass = body->mass;
 }
 
-/* The change of spin by an impulse on the arm. */
+/* The change of spin that an impulse on the arm gives. */
 static void turn_by(double out[3], const struct side *side, const double impulse[3])
 {
     double moment[3];
@@ -134,10 +135,10 @@ static void turn_by(double out[3], const struct side *side, const double impulse
 }
 
 /*
- * Bodies that do not turn meet corner on face or edge on edge, without friction: the impulse is
- * (1 + e) V.N / (1/m + 1/m' + turning), and neither the time of the hit nor the gap at which it is
- * answered matters to it, because both bodies come along N. They meet at the end of a frame, so
- * that it is over before they can touch again. Body 1 is a.
+ * Bodies that do not turn meet corner on face or edge on edge, without friction. The impulse is (1
+ * + e) V.N / (1/m + 1/m' + turning). The time of the hit and the gap at that time do not matter,
+ * because both bodies move along N. They meet at the end of a frame, so the frame is over before
+ * they can touch again. Body 1 is a.
  */
 static void expect_after(const struct crowd *crowd, const double normal[3], double e,
                          const double on_b[3], double velocity[2][3], double spin[2][3])
@@ -176,7 +177,7 @@ struct off_centre {
     int worst;
 };
 
-/* The angular momentum about the centre that a spin has in a pose. */
+/* The angular momentum about the centre of a body that has this spin in this pose. */
 static void spin_momentum(double out[3], const struct oracle_body *body, const double spin[3])
 {
     struct side side;
@@ -238,7 +239,7 @@ static void collide(struct crowd *crowd, const int mesh[2], const double mass[2]
         }
         error = real_length(wrong) / speed;
         sum->velocity = fmax(sum->velocity, error);
-        /* an uneven body's spin wanders after the hit, its angular momentum does not */
+        /* an uneven body's spin changes after the hit, its angular momentum does not */
         spin_momentum(wanted, &before[i], spin[i]);
         spin_momentum(found, now(crowd, i), now(crowd, i)->spin);
         for (int k = 0; k < 3; k++) {
@@ -282,7 +283,10 @@ static void test_off_centre(int each)
 
 /* ------------------------------------------------------------------------ cradle */
 
-/* Five in a row, a hundredth apart; the first comes, the last flies off as fast. */
+/*
+ * Five bodies in a row, a hundredth of a unit apart. The first comes in, and the last flies off as
+ * fast.
+ */
 static void cradle(int mesh, struct crowd *crowd, uint8_t cap, const char *name)
 {
     const double speed = 0.08, still[3] = {0};
@@ -347,12 +351,12 @@ struct stack {
     bool sleep;
     uint8_t cap;
     long frames;
-    double drift; /* allowed, units */
+    double drift; /* allowed drift, units */
 };
 
 /*
- * Boxes of 1 x 0.9 x 0.8 units on each other, each turned a little and a skin above the one below,
- * on a sheet of many triangles.
+ * Boxes of 1 x 0.9 x 0.8 units on each other, on a sheet of many triangles. Each is turned a
+ * little, and begins one skin above the box below.
  */
 static void test_stack(const struct stack *how, const char *name)
 {
@@ -399,10 +403,10 @@ static void test_stack(const struct stack *how, const char *name)
 
 struct tower {
     bool stands;
-    double fastest; /* in the end: of a body, units or radians a frame */
+    double fastest; /* fastest body at the end, units or radians a frame */
 };
 
-/* Ten boxes fall on each other, each aside of the one below and turned a little. */
+/* Ten boxes fall on each other. Each is moved aside from the box below and turned a little. */
 static struct tower run_tower(uint64_t seed, struct crowd_tally *tally)
 {
     struct crowd *crowd = crowd_new();
@@ -434,8 +438,9 @@ static struct tower run_tower(uint64_t seed, struct crowd_tally *tally)
 }
 
 /*
- * A tower sways. It comes to rest, or it falls over, as one in four may that was built so carelessly: it does
- * not sway for ever by what the solves leave over. Gravity gives 2.7e-3 a frame.
+ * A tower sways. It comes to rest or it falls over: one in four may fall, because the towers are
+ * built carelessly. It must not sway for ever from what the solves leave over. Gravity gives 2.7e-3
+ * a frame.
  */
 static void test_towers(void)
 {
@@ -459,7 +464,7 @@ static void test_towers(void)
 
 #define HEAP 32
 
-/* Walls a hair outside of the field's rim: a body that leaves the field falls for ever. */
+/* Walls just outside of the field's rim. A body that leaves the field would fall for ever. */
 static void add_kerb(struct crowd *crowd)
 {
     const int walls[2] = {crowd_box(crowd, 0.4, 8, 2), crowd_box(crowd, 8, 0.4, 2)};
@@ -474,9 +479,9 @@ static void add_kerb(struct crowd *crowd)
 }
 
 /*
- * Boxes, tetrahedra, L's, balls and two small heads, poured in layers of nine into a hollow
- * of the field. All are asleep within 400 frames, and within 1200 with one sub-step a frame. Of other
- * heaps a ball that left the hollow may roll a while longer: twice the time.
+ * Boxes, tetrahedra, Ls, balls and two small heads are poured in layers of nine into a hollow of
+ * the field. All are asleep within 400 frames, or within 1200 with one sub-step a frame. In other
+ * heaps a ball may leave the hollow and roll a while longer: they have twice the time.
  */
 static void test_heap(uint64_t seed, uint8_t cap, const char *name)
 {

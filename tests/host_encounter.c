@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two bodies meet without gravity: hulls of 12 random points in free space, a box and a box that
- * stands. After a meeting they part or stay together, but time goes on: none stands still, and no
- * frames are cut short one after the other.
+ * host_encounter - two bodies meet without gravity: hulls of 12 random points in free space, and a
+ * box with a static box. After a meeting they part or stay together. Time goes on: no body stops
+ * in its motion, and no run of frames is cut short.
  *
  *   host_encounter                 a short form
  *   host_encounter long            20 hulls x 500 meetings and 500 of boxes, for each e
@@ -19,7 +19,7 @@
 
 #define SHAPES      20
 #define EACH        500 /* meetings of a shape */
-#define CUT_ALLOWED 3   /* frames running */
+#define CUT_ALLOWED 3   /* frames in a row */
 #define FRAMES      160
 
 static const double restitutions[] = {0, 0.01, 0.5, 1};
@@ -34,7 +34,7 @@ struct outcome {
     int error;
 };
 
-/* Hulls are meshes 0 to SHAPES - 1; two boxes follow. */
+/* Meshes 0 to SHAPES - 1 are hulls; two boxes follow. */
 static struct crowd *load(void)
 {
     struct crowd *crowd = crowd_new();
@@ -69,7 +69,7 @@ static double radius_of(const struct crowd *crowd, int body)
     return crowd->meshes[crowd->bodies[body].mesh].radius;
 }
 
-/* Body 1 comes at body 0 from beside its sphere, more or less at its middle; both may turn. */
+/* Body 1 starts beside body 0's sphere and flies roughly at its middle; both may turn. */
 static double aim(struct crowd *crowd, struct test_random *r)
 {
     const double still[3] = {0};
@@ -100,7 +100,7 @@ static double aim(struct crowd *crowd, struct test_random *r)
     return speed;
 }
 
-/* Meeting `number` of hulls or boxes; returns how many frames it takes. */
+/* Prepare meeting `number` of hulls or boxes; returns the number of its frames. */
 static long prepare(struct crowd *crowd, bool hulls, int number)
 {
     struct test_random r = {(uint64_t)(2 * number + hulls) * 0xd1342543de82ef95u};

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first hit of random motions, judged from outside (first_hit.h): 10,000 of small meshes, one of
- * them moving or both, and 50 of the head against itself.
+ * host_first_hit - the first hit of random motions, judged by the oracle of first_hit.h: 10,000
+ * motions of small meshes, with one mover or two, and 50 of the head against itself.
  *
  *   host_first_hit.elf            a fiftieth of the motions; prints TAP
  *   host_first_hit.elf all        all of them in two processes; prints the rows of out/oracle.csv
- *   host_first_hit.elf ROW N      one motion of one row (numbers from 0), told in full
+ *   host_first_hit.elf ROW N      one motion of one row (numbers from 0), in full
  *   host_first_hit.elf special FROM COUNT   special positions alone
  *
  * A row of the table stands for the motions of a pair of meshes:
@@ -15,13 +15,13 @@
  *   motions, hits   how many, and how many of them hit
  *   aside           at the hit the features are the event gap apart along N, but N does not yet lead
  *                   from one to the other: a body that comes in flat stops over or beside an edge
- *   different       the pipeline's hit is not, bit for bit, the first of all pairs of features
+ *   different       the pipeline's hit is not, bit for bit, the first hit of all feature pairs
  *   missed          faces cross before the hit, or without one
  *   early           at the hit they are farther apart along N, or never meet
  *   late            they are nearer, although they were farther apart before
  *   crossed         faces cross where the step goes to
  *
- * The last five must be 0; a motion that counts there is named on standard error.
+ * The last five must be 0. Each motion that counts there is named on standard error.
  */
 #define _DEFAULT_SOURCE /* fork, mmap */
 #include <stdio.h>
@@ -35,11 +35,11 @@
 #include "lib/lab.h"
 #include "lib/special.h"
 
-#define MOTIONS      160 /* of a pair of meshes */
+#define MOTIONS      160 /* motions of a pair of meshes */
 #define HEAD_MOTIONS 25
-#define SHARE        50 /* of which make test does one */
+#define SHARE        50 /* make test runs one motion of so many */
 #define PROCESSES    2
-/* Motions that end in special positions; a fourth of them meet in the first frame. */
+/* Motions that end in special positions; a fourth of them hit in the first frame. */
 #define SPECIAL_CASES  100000
 #define SPECIAL_STRIDE 50
 
@@ -61,7 +61,10 @@ static void add_row(struct table *t, int mesh_a, int mesh_b, int movers)
     t->rows[t->count++] = (struct row){.mesh_a = mesh_a, .mesh_b = mesh_b, .movers = movers};
 }
 
-/* Every pair of meshes with one mover and, each once, with two; then the head against itself. */
+/*
+ * Every pair of meshes with one mover and, once for each pair, with two; then the head against
+ * itself.
+ */
 static void make_rows(struct table *t)
 {
     for (int a = 0; a < FIRST_HIT_SOLIDS; a++) {
@@ -125,7 +128,7 @@ static void run(struct row *row, int number, int n)
     }
 }
 
-/* Every so many-th motion of all rows, beginning at the first-th. */
+/* Run every `every`-th motion of all rows, beginning with number `first`. */
 static void run_share(struct table *t, int first, int every)
 {
     for (int r = 0; r < t->count; r++) {
@@ -138,8 +141,9 @@ static void run_share(struct table *t, int first, int every)
 }
 
 /*
- * Special positions (special.h) that are met within the first frame, from one on and every so many-th:
- * there it shows whether candidates that only count in such a place are gathered and asked.
+ * Run every `every`-th of the special positions (special.h) that are reached within the first
+ * frame, beginning with number `first`. They show whether candidates that matter only in special
+ * positions are gathered and tested.
  */
 static void run_special(struct row *row, long first, long every, long until, bool told)
 {
@@ -197,7 +201,7 @@ static void add_up(struct row *sum, const struct row *row)
     sum->crossed += row->crossed;
 }
 
-/* All motions, shared out to processes that count in memory of all. */
+/* Run all motions, divided among processes that count in shared memory. */
 static int run_all(struct table *table)
 {
     struct table *parts = mmap(NULL, PROCESSES * sizeof *parts, PROT_READ | PROT_WRITE,
@@ -244,7 +248,7 @@ static void report_row(const struct row *sum, const char *name)
                sum->late, sum->crossed);
 }
 
-/* The rows of so many movers as one line of TAP. */
+/* Report the rows with so many movers as one line of TAP. */
 static void report(const struct table *table, const char *name, int movers)
 {
     struct row sum = {0};

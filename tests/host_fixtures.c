@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Published and special scenes, each judged by an independent checker of crossings and by what it
- * must do: hold, stand, fall, turn or slide. A row says
+ * host_fixtures - published and special scenes. Each is judged by an independent checker of
+ * crossings, and by its own rule: hold, stand, fall, turn or slide. A row says
  *
  *   frames, frames with crossings and the deepest in skins, frames cut short, the longest run of
  *   frames in which a body stood still that had to move, how far the farthest body is from where it

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random calls of the whole interface, half of their arguments hostile: numbers at the ends of their types, bodies and
- * joints that are not there, NULL. No call may do anything undefined (the debug build has sanitizers), a call that
- * fails leaves the world as it was, and the same calls come to the same hash. Snapshots are changed byte by byte, their check
- * sum mended: they are refused, or the world steps on.
+ * host_fuzz - random calls of the whole interface. Half of the arguments are hostile: numbers at
+ * the ends of their types, bodies and joints that do not exist, NULL. No call may have undefined
+ * behaviour (the debug build has sanitizers). A call that fails leaves the world as it was, and
+ * the same calls give the same hash. Snapshots are damaged byte by byte, with their check sum
+ * corrected: carom_snapshot_load refuses them, or the world steps on.
  *
  *   host_fuzz            a few
- *   host_fuzz FROM TO    those numbers, each said before it is run
+ *   host_fuzz FROM TO    those numbers, each printed before it runs
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@
 #define WORLDS    40
 #define CALLS     250
 #define MUTATIONS 60
-#define SIZE      65536 /* of a snapshot, at most */
+#define SIZE      65536 /* largest snapshot, bytes */
 
 static struct fuzz fuzz;
 static long calls, refused, steps, loaded, mutated, taken, wrong;
@@ -31,7 +32,7 @@ static void complain(uint64_t seed, int call, const char *what, int result)
            what, carom_result_text(result));
 }
 
-/* One call: an error must leave everything as it was, and be one that there is. */
+/* Make one call. An error must be one of the interface's, and must leave everything as it was. */
 static void call_once(uint64_t seed, int call)
 {
     uint64_t before = carom_world_hash(fuzz.world);
@@ -49,7 +50,7 @@ static void call_once(uint64_t seed, int call)
     }
 }
 
-/* A step may only lack room, or find a body too fast beside too large a mesh. */
+/* A step may only fail for lack of room, or because a body is too fast beside too large a mesh. */
 static bool step(uint64_t seed, int call)
 {
     int result = carom_world_step(fuzz.world);
@@ -76,7 +77,7 @@ static void mend(uint8_t *bytes, int size)
     }
 }
 
-/* Its own snapshot is taken back, and comes to the same hash. */
+/* A world takes its own snapshot back and then has the same hash. */
 static int save(uint64_t seed, int call, uint8_t *bytes)
 {
     uint64_t hash = carom_world_hash(fuzz.world);

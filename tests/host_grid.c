@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Low and high energy: two bodies meet, over a grid of speeds from one unit of the last place to
- * the limit, of mass ratios, sizes, e and mu, without gravity and above a tilted sheet with it,
- * one of them moving or both, 300 frames each. No error, no crossing, no energy from nowhere, no
- * body lost that was slow enough to stay.
+ * host_grid - two bodies meet, at low and at high energy. The grid has speeds from one unit of the
+ * last place to the limit, mass ratios, sizes, e and mu, with one mover or two; without gravity,
+ * and with gravity above a tilted sheet. Each case has 300 frames. There may be no error, no
+ * crossing and no gain of energy, and no body that is slow enough to stay may be lost.
  *
  *   host_grid         every 23rd case
  *   host_grid long    every case
@@ -24,7 +24,7 @@
 static const double speeds[] = {0x1p-40, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5,
                                 1e-4,    1e-3,  1e-2,  1e-1, 1,    10,   63.9};
 static const double mass_ratios[] = {1e-3, 1.0 / 30, 1, 30, 1e3};
-/* Halves of a body's side, about; of a and of b. */
+/* Approximate half sides of a and of b. */
 static const double scales[] = {1.0 / 16, 1, 6.25};
 static const int sizes[][2] = {{0, 0}, {0, 2}, {2, 0}, {1, 1}, {2, 2}};
 static const double restitutions[] = {0, 0.5, 1}, frictions[] = {0, 0.5, 1.5};
@@ -60,7 +60,7 @@ static struct grid_case case_of(int number)
     return c;
 }
 
-/* The meshes: of each scale a box, a tetrahedron, an L and a ball; last the sheet. */
+/* The meshes: for each scale a box, a tetrahedron, an L and a ball; last the sheet. */
 static struct crowd *load(void)
 {
     struct crowd *crowd = crowd_new();
@@ -78,7 +78,7 @@ static struct crowd *load(void)
     return crowd;
 }
 
-/* A speed shared out between the motion along a direction and a spin about any axis. */
+/* Divide a speed between motion along a direction and spin about any axis. */
 static void throw(struct crowd * crowd, int body, double speed, const double along[3],
                   uint64_t *random)
 {
@@ -97,7 +97,7 @@ static void throw(struct crowd * crowd, int body, double speed, const double alo
     crowd_move(&crowd->bodies[body].def, velocity, spin);
 }
 
-/* A sheet clear of both bodies, tilted; gravity is straight down. */
+/* A tilted sheet that touches neither body; gravity points straight down. */
 static void add_sheet(struct crowd *crowd)
 {
     struct carom_body_def *sheet = crowd_body(crowd, SHAPES * COUNT(scales));
@@ -163,7 +163,7 @@ static void prepare(struct crowd *crowd, const struct grid_case *c)
     crowd_surface(crowd, c->e, c->mu);
 }
 
-/* Whether a body may leave the range by rights: fast enough, or far enough. */
+/* Whether a body may leave the range: it is fast enough, or far enough out. */
 static bool may_leave(const struct crowd *crowd)
 {
     double energy = 0;
@@ -192,7 +192,7 @@ static bool may_leave(const struct crowd *crowd)
 struct grid_sum {
     long runs, frames, errors, crossed, capped, hits, out, lost;
     double rise, lift, momentum;
-    int worst, failed; /* cases: of the largest rise, the first that fails; -1: none */
+    int worst, failed; /* case of the largest rise, first case that fails; -1: none */
 };
 
 static void show(const struct crowd *crowd, const struct crowd_tally *t, int status)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's scene, a head of 1876 faces on a field of 3034, for 900 frames, with sleep and
- * without: no faces ever cross, energy is never gained, sub-steps stay few, it bounces, slides and
- * rests.
+ * host_head - the paper's scene, a head of 1876 faces on a field of 3034, for 900 frames, with
+ * sleep and without. No faces ever cross, energy never rises, sub-steps stay few, and the head
+ * bounces, slides and rests.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 #define FRAMES       900
 #define CREEP_FRAMES 120
 
-/* The farthest that any vertex can have moved between two states of the body. */
+/* The largest distance that a vertex can have moved between two states of the body. */
 static double moved(const struct lab *lab, const struct oracle_body *from,
                     const struct oracle_body *to)
 {
@@ -25,11 +25,11 @@ static double moved(const struct lab *lab, const struct oracle_body *from,
     for (int k = 0; k < 4; k++) {
         turn += pow(to->quaternion[k] - from->quaternion[k], 2);
     }
-    /* a turn by an angle moves the quaternion by half of it */
+    /* a turn by an angle changes the quaternion by half of that angle */
     return sqrt(way) + 2 * sqrt(turn) * lab_double(lab->scene.body.mesh->radius_q22, 22);
 }
 
-/* The engine's mass properties against those of lab.c, which the energies rest on. */
+/* The engine's mass properties against those of lab.c, from which the test computes energies. */
 static void test_mass(const struct lab *lab)
 {
     const struct carom_mass *mass = &lab->scene.body.mesh->mass;
@@ -55,9 +55,10 @@ static void report(const struct lab_tally *t, const char *run)
     lab_report(t->crossed == 0, NAME("no_crossing"), "%ld of %ld frames cross", t->crossed,
                t->frames);
     /*
-     * A component of the quaternion is rounded by 2^-31, so all four turn the body by up to 2^-29, once as it turns and once as
-     * it is made of length 1. Its largest moment of inertia is 1.9 times the smallest, so with one angular momentum
-     * a turn by an angle changes the energy by less than 0.9 times that.
+     * A component of the quaternion is rounded by 2^-31. So four components turn the body by up to
+     * 2^-29: once when it turns, and once when the quaternion gets length 1. The largest moment of
+     * inertia is 1.9 times the smallest, so with a fixed angular momentum a turn by an angle
+     * changes the energy by less than 0.9 times the angle.
      */
     lab_report(t->flight_change <= ldexp(1, -28), NAME("energy_in_flight"),
                "changes by %.1e a frame", t->flight_change);

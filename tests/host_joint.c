@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Joints in worlds that a workstation plays: a door that swings and is hit, chains, a pendulum, a motor, and random
- * worlds of random joints. Anchors, axes, energy and crossings are judged in double precision from what the public
- * interface says.
+ * host_joint - joints in worlds that are too large for small boards: a door that swings and is
+ * hit, chains, a pendulum, a motor, and random worlds of random joints. Anchors, axes, energy and
+ * crossings are judged in double precision, from what the public interface reports.
  *
  *   host_joint.elf [long | led WORLD | drags WORLD]
  */
@@ -24,8 +24,8 @@
 /* The largest errors of a run's joints. */
 struct seen {
     double apart; /* anchors, in skins of the smaller body */
-    double axes;  /* of hinges, radians */
-    long frame;   /* of the worst */
+    double axes;  /* for hinges, radians */
+    long frame;   /* frame of the worst gap */
 };
 
 static struct crowd *begin(bool ground)
@@ -61,7 +61,7 @@ static int add(struct crowd *crowd, const struct carom_joint_def *def)
     return number;
 }
 
-/* A direction of a body's, as the body is turned now: it was not turned when it began. */
+/* A direction that turns with the body; the body was not turned when the scene began. */
 static void turned(const struct crowd *crowd, int body, const double was[3], double now[3])
 {
     struct carom_body_state s;
@@ -82,7 +82,10 @@ static void turned(const struct crowd *crowd, int body, const double was[3], dou
     }
 }
 
-/* Look at all joints; `axis`: that of the hinges when they were added, of bodies that were not turned. */
+/*
+ * Look at all joints. `axis` is the axis of the hinges when they were added; their bodies were not
+ * turned then.
+ */
 static void look(const struct crowd *crowd, const double axis[3], struct seen *seen, long frame)
 {
     for (int i = 0; i < carom_joint_count(crowd->world); i++) {
@@ -130,7 +133,7 @@ static void report(struct crowd *crowd, const char *name, const struct crowd_tal
     crowd_free(crowd);
 }
 
-/* A door on a tilted hinge swings between its limits and throws about a ball and a box. */
+/* A door on a tilted hinge swings between its limits and hits a ball and a box. */
 static void test_door(long frames)
 {
     static const double axis[3] = {0.6, 0, 0.8};
@@ -166,7 +169,7 @@ static void test_door(long frames)
     report(crowd, "joint/door", &t, &seen, 4);
 }
 
-/* Twenty links on ball joints hang from one end and swing; or fall on the ground. */
+/* Twenty links on ball joints hang from one end and swing, or fall on the ground. */
 static void test_chain(long frames, bool hangs)
 {
     static const double axis[3] = {0, 0, 1};
@@ -208,7 +211,7 @@ static double energy(const struct crowd *crowd, int body, double gravity)
            gravity * crowd->bodies[body].mass * lab_double(now->state.position.c[2], 32);
 }
 
-/* A pendulum on a hinge, and one that swings in space on a ball joint. */
+/* A pendulum on a hinge, or one that swings in space on a ball joint. */
 static void test_pendulum(long frames, int kind)
 {
     struct crowd *crowd = begin(false);
@@ -243,7 +246,10 @@ static void test_pendulum(long frames, int kind)
     crowd_free(crowd);
 }
 
-/* A motor turns two free bodies against each other: its work is their energy, and their momenta stay. */
+/*
+ * A motor turns two free bodies against each other: its work is their energy, and their momenta do
+ * not change.
+ */
 static void test_motor(long frames)
 {
     struct crowd *crowd = begin(false);
@@ -269,7 +275,7 @@ static void test_motor(long frames)
         struct carom_joint_state s;
         double now = 0, speed;
 
-        if (frame % 200 == 100) { /* the other way round */
+        if (frame % 200 == 100) { /* the other direction */
             def.drive.motor_speed_q40 = -def.drive.motor_speed_q40;
             lab_expect(carom_joint_set(crowd->world, number, &def.drive), "set");
         }
@@ -300,7 +306,7 @@ static void test_motor(long frames)
     crowd_free(crowd);
 }
 
-/* Random bodies in the air, joined as chance has it, fall on the ground. */
+/* Random bodies in the air, connected by random joints, fall on the ground. */
 static void test_random(long worlds)
 {
     static const double axis[3] = {0, 0, 1};
@@ -376,7 +382,7 @@ static void test_random(long worlds)
                worlds, frames, crossed, errors, capped, all.apart, all.frame, all.axes);
 }
 
-/* The motion of a kinematic body: to and fro along a way, and about an axis. */
+/* The motion of a kinematic body: to and fro along a line, and about an axis. */
 struct wander {
     double centre[3], way[3], rate, axis[3], angle, turn_rate;
 };
@@ -394,8 +400,9 @@ static void wander(struct crowd *crowd, int body, const struct wander *w, long f
 }
 
 /*
- * Random bodies that hang on a kinematic body and on each other by random joints. It goes about at random above the
- * ground: so high that they touch nothing, or so low that they drag.
+ * Random bodies hang on a kinematic body and on each other by random joints. The kinematic body
+ * moves at random: so high above the ground that the bodies touch nothing, or so low that they
+ * drag.
  */
 static void play_led(long n, bool drags, struct seen *all, struct crowd_tally *t)
 {
@@ -457,7 +464,7 @@ static void play_led(long n, bool drags, struct seen *all, struct crowd_tally *t
 
 static void report_led(bool drags, long worlds, const struct seen *all, const struct crowd_tally *t)
 {
-    /* where a kinematic body wedges what it leads it stops a little too late */
+    /* where a kinematic body wedges a body that it leads, it stops a little too late */
     double most = drags && worlds > WORLDS ? 512 : 8,
            bent = drags && worlds > WORLDS ? 0.1 : 1.5e-3;
 
@@ -485,7 +492,7 @@ static void test_led(long worlds, bool drags)
     report_led(drags, worlds, &all, &t);
 }
 
-/* One world of led bodies again. */
+/* Run one world of led bodies again. */
 static int again(long n, bool drags)
 {
     struct seen seen = {0};

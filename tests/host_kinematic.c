@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Kinematic bodies in worlds that a workstation plays: a door that closes on a box, on a stack and on a head; a
- * platform that carries a stack; a crusher; a piston; and random worlds in which some bodies are led, smoothly and by
- * jerks. Faces that cross are counted by the independent checker, in every frame.
+ * host_kinematic - kinematic bodies in worlds that are too large for small boards: a door that
+ * closes on a box, on a stack and on a head; a platform that carries a stack; a crusher; a piston;
+ * and random worlds in which some bodies are led, smoothly and by jerks. The independent checker
+ * counts crossing faces in every frame.
  *
  *   host_kinematic.elf [long | WORLD]
  */
@@ -65,8 +66,8 @@ static void report(struct crowd *crowd, const struct crowd_tally *t, const char 
 /* ---------------------------------------------------------------------- a door */
 
 /*
- * A door of 2 x 0.1 x 2 that turns about its edge at the origin, to and fro by 0 .. 2 radians, with walls around it:
- * what it sweeps is caught between it and them.
+ * A door of 2 x 0.1 x 2 turns about its edge at the origin, to and fro by 0 .. 2 radians. Walls
+ * around it hold the bodies that it sweeps.
  */
 static void door_at(struct crowd *crowd, int body, double angle)
 {
@@ -96,7 +97,7 @@ static void run_door(struct crowd *crowd, int door, const char *name, long frame
         lab_expect(crowd_step(crowd, &t), "step");
         blocked += events_of(crowd, CAROM_EVENT_BLOCKED) > 0;
         lab_expect(carom_body_get(crowd->world, door, &now), "get");
-        /* where it got to: it may not be asked for the rest of the way at once */
+        /* continue from where it is, so that no step asks for more than one frame's turn */
         angle = 2 * atan2(now.rotation.c[3], now.rotation.c[0]);
         stopped = events_of(crowd, CAROM_EVENT_BLOCKED) > 0 ? stopped + 1 : 0;
         if (stopped > 20) {
@@ -166,7 +167,7 @@ static void test_platform(long frames)
     }
     lab_expect(crowd_start(crowd), "platform");
     for (long frame = 1; frame <= frames; frame++) {
-        /* it begins and ends each way at rest: 1.5 units to and fro, 1 up and down */
+        /* each way begins and ends at rest: 1.5 units to and fro, 1 up and down */
         double phase = 2 * pi * (double)(frame > 100 ? frame - 100 : 0) / 240;
         const double at[3] = {0.75 * (1 - cos(phase)), 0.3 * (1 - cos(phase / 2)),
                               3 + 0.5 * (1 - cos(phase * 0.75))};
@@ -193,7 +194,7 @@ static void test_platform(long frames)
 
 /* --------------------------------------------------------------------- a crusher */
 
-/* A plate comes down on a box to where the ground is, and goes up again, over and over. */
+/* A plate moves down on a box as far as the ground, and up again, over and over. */
 static void test_crusher(long frames, double tilt, const char *name)
 {
     struct crowd *crowd = begin();
@@ -225,7 +226,7 @@ static void test_crusher(long frames, double tilt, const char *name)
     report(crowd, &t, "kinematic/crusher_crosses", blocked);
 }
 
-/* A piston that pushes a row of boxes to and fro against a wall. */
+/* A piston pushes a row of boxes to and fro against a wall. */
 static void test_piston(long frames)
 {
     struct crowd *crowd = begin();
@@ -270,7 +271,8 @@ static int hits_of_led(const struct crowd *crowd)
 }
 
 /*
- * A pen of 2 x 2 units with bodies in it, and some of them led about in it: nothing gets out of the way.
+ * A pen of 2 x 2 units with bodies in it. Some of them are kinematic, and the others cannot get
+ * away.
  */
 static void make_pen(struct soak_world *w, uint64_t number, struct test_random *r)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Trouble stays where it is: a stack that stands and a ball that rolls have the same state, bit for
- * bit and frame by frame, whether or not something spins, flies, hits or is jammed far away; and the
- * frame takes no more than both take alone. Times are printed, not asserted.
+ * host_local - trouble stays local. A stack that stands and a ball that rolls have the same state,
+ * bit for bit and frame by frame, with and without a body far away that spins, flies, hits or is
+ * jammed. A frame with both takes no more than the two alone. Times are printed, not asserted.
  *
  *   host_local                  every trouble
  *   host_local NAME             one of them frame by frame
@@ -39,7 +39,7 @@ static struct carom_body_def *put(struct crowd *crowd, int mesh, double x, doubl
     return def;
 }
 
-/* A needle high up that turns about an axis across it, mostly. */
+/* A needle high up that turns mostly about an axis across it. */
 static void add_spinner(struct crowd *crowd, double spin)
 {
     const double none[3] = {0}, w[3] = {0.96 * spin, 0.28 * spin, 0};
@@ -47,7 +47,7 @@ static void add_spinner(struct crowd *crowd, double spin)
     crowd_move(put(crowd, NEEDLE, 0, 0, 300), none, w);
 }
 
-/* The same, lying on the ground soon: it hits all the time. */
+/* The same needle, soon lying on the ground: it hits all the time. */
 static void add_spinner_low(struct crowd *crowd, double spin)
 {
     const double none[3] = {0}, w[3] = {0.96 * spin, 0.28 * spin, 0};
@@ -55,7 +55,7 @@ static void add_spinner_low(struct crowd *crowd, double spin)
     crowd_move(put(crowd, NEEDLE, 0, 0, 1.5), none, w);
 }
 
-/* A needle that grazes a post: friction makes it turn faster than one may set it to. */
+/* A needle that grazes a post: friction makes it turn faster than a caller may set. */
 static void add_struck(struct crowd *crowd, double speed)
 {
     const double none[3] = {0}, v[3] = {0, speed, -0.5 * speed};
@@ -76,7 +76,7 @@ static void add_flyer(struct crowd *crowd, double speed)
     crowd_move(put(crowd, CUBE, -3500, 1000, 1000), v, none);
 }
 
-/* To and fro between walls 12 units apart, without loss. */
+/* A body flies to and fro between walls 12 units apart, without loss. */
 static void add_bouncer(struct crowd *crowd, double speed)
 {
     const double v[3] = {speed, 0.3 * speed, 0.1 * speed}, w[3] = {0.1, 0.2, 0.3};
@@ -100,7 +100,7 @@ static void add_bouncer(struct crowd *crowd, double speed)
     crowd_move(cube, v, w);
 }
 
-/* A light cube under a heavy block that comes down aslant, without friction. */
+/* A light cube under a heavy block that comes down at an angle, without friction. */
 static void add_jammed(struct crowd *crowd, double ratio)
 {
     const double down[3] = {0, 0, -0.1}, none[3] = {0};
@@ -114,7 +114,7 @@ static void add_jammed(struct crowd *crowd, double ratio)
     crowd_move(block, down, none);
 }
 
-/* A light body between two heavy ones that come at each other and a wall behind each. */
+/* A light body between two heavy ones that approach each other, and a wall behind each. */
 static void add_pressed(struct crowd *crowd, double speed)
 {
     const double none[3] = {0};
@@ -197,11 +197,11 @@ static void prepare(struct crowd *crowd, const struct trouble *trouble, enum wha
     lab_expect(crowd_start(crowd), trouble->name);
 }
 
-/* A run: the states of the watched bodies in each frame, and what the world reported. */
+/* A run: the states of the watched bodies in each frame, and the statistics of the world. */
 struct run {
-    struct carom_body_state states[FRAMES][WATCH]; /* of the first bodies */
+    struct carom_body_state states[FRAMES][WATCH]; /* states of the first bodies */
     double seconds;
-    double spin; /* the fastest */
+    double spin; /* the largest spin */
     long frames, cut;
 };
 
@@ -240,7 +240,7 @@ static bool same(const struct carom_body_state *a, const struct carom_body_state
            a->out == b->out;
 }
 
-/* The first frame in which a body that is watched is not as it is alone, 0: none. */
+/* The first frame in which a watched body differs from the run without trouble; 0: none. */
 static long first_difference(const struct run *alone, const struct run *both, int *body)
 {
     for (long frame = 0; frame < FRAMES; frame++) {

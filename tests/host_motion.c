@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Scenes with a known outcome: a ramp, a slide over many triangles, bodies thrown at a thin plate,
- * drops onto a tilted plane. The planes are tilted: axis-aligned ones hide every error of normals.
+ * host_motion - scenes with a known outcome: a ramp, a slide over many triangles, bodies thrown at
+ * a thin plate, drops onto a tilted plane. The planes are tilted, because axis-aligned planes hide
+ * errors of normals.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,8 +31,8 @@ static void set_velocity(struct carom_body_def *def, const double velocity[3])
 /* ---------------------------------------------------------------------- ramp */
 
 /*
- * A box lying on a plane of 20 degrees that falls towards +x, and turned about the vertical
- * besides. Returns the downhill direction.
+ * A box lies on a plane of 20 degrees that falls towards +x, turned about the vertical as well.
+ * Returns the downhill direction.
  */
 static struct lab *load_ramp(double mu, double downhill[3])
 {
@@ -104,8 +105,9 @@ static void test_ramp_slides(void)
 /* --------------------------------------------------------------------- slide */
 
 /*
- * A box sliding without friction at 10 units/s over a plane of 4608 triangles, 240 frames across
- * some 35 of its edges: no event, the same speed. Gravity is tilted with the plane.
+ * A box slides without friction at 10 units/s over a plane of 4608 triangles, in 240 frames across
+ * some 35 of its edges. There is no event, and the speed stays the same. Gravity is tilted with the
+ * plane.
  */
 static void slide(const carom_quat_q30 *tilt, const char *name)
 {
@@ -158,7 +160,10 @@ static void test_slide(void)
 
 /* --------------------------------------------------------------------- plate */
 
-/* Plates of 100 x 100 and 40 x 40 units, 1/32 thick: the bodies are 30 times as large as that. */
+/*
+ * Plates of 100 x 100 and 40 x 40 units, 1/32 thick. The bodies are 30 times as large as the plates
+ * are thick.
+ */
 static const int16_t wide_vertices[8][3] = BOX_CORNERS(6400, 6400, 2);
 static const int16_t narrow_vertices[8][3] = BOX_CORNERS(2560, 2560, 2);
 
@@ -171,7 +176,7 @@ static struct carom_mesh_raw thin_plate(bool moves)
     return plate;
 }
 
-/* Whether the body has a vertex below the middle of the plate, and is not beside it. */
+/* Whether the body has a vertex below the middle of the plate and is not beside the plate. */
 static bool is_through(const struct lab *lab, double half)
 {
     struct oracle_pose plate = lab_pose(lab, SCENE_GROUND);
@@ -189,8 +194,8 @@ static bool is_through(const struct lab *lab, double half)
 }
 
 /*
- * A body above a plate, spinning, that comes down on it at 50 units a frame: it gets there after
- * `fall` of the first frame. The plate lies flat, or flies and turns.
+ * A spinning body above a plate comes down at 50 units a frame and reaches the plate after `fall`
+ * of the first frame. The plate lies flat, or flies and turns.
  */
 static void throw_at(struct lab *lab, bool moves, double fall, uint64_t *random)
 {
@@ -219,7 +224,7 @@ static void throw_at(struct lab *lab, bool moves, double fall, uint64_t *random)
     lab_start(lab);
 }
 
-/* Thrown at a thin plate, a body stops at it or bounces off. */
+/* A body that is thrown at a thin plate stops at it or bounces off. */
 static void test_plate(bool moves, const char *name)
 {
     const struct carom_mesh_raw plate = thin_plate(moves);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The oracle against cases counted by hand, and its sweep against trying every pair. Prints TAP.
+ * host_oracle - the oracle against cases counted by hand, and its sweep against trying every pair.
+ * Prints TAP.
  */
 #include <math.h>
 #include <stdbool.h>
@@ -25,7 +26,7 @@ static void report(bool ok, const char *name)
     printf("%s %u - oracle/%s\n", ok ? "ok" : "not ok", tests.count, name);
 }
 
-/* Whether two numbers agree; says so when they do not. */
+/* Whether two numbers agree; prints them when they do not. */
 static bool near(double a, double b, double tolerance)
 {
     if (fabs(a - b) <= tolerance) {
@@ -47,8 +48,10 @@ static bool found(const struct oracle_crossings *c, size_t pairs, size_t by_a, s
 
 /* -------------------------------------------------------------------- meshes */
 
-/* A cube of side 1 from the origin. The diagonal of each face joins the corners where the two
- * coordinates along the face are equal. */
+/*
+ * A cube of side 1 with a corner at the origin. The diagonal of each face joins the corners at
+ * which the two coordinates along the face are equal.
+ */
 static double cube_vertices[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
                                      {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 static uint32_t cube_faces[12][3] = {{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6},
@@ -86,8 +89,9 @@ static struct oracle_crossings cubes(double x, double y, double z, double tolera
 }
 
 /*
- * Cube b at (0.6, 0.7, 0.8): the surfaces meet in a hexagon, each of whose sides lies in one square
- * of a and one of b. A side is cut once more wherever it crosses a diagonal of either square:
+ * Cube b at (0.6, 0.7, 0.8): the surfaces meet in a hexagon. Each side of the hexagon lies in one
+ * square of a and one of b. A side is cut once more wherever it crosses a diagonal of either
+ * square:
  *
  *   a's face  b's face  side                     crosses a's diagonal  b's diagonal      pairs
  *   x = 1     y = 0.7   z = 0.8 .. 1             z = 0.7: no           z = 1.2: no       1
@@ -112,7 +116,7 @@ static void test_cubes_that_cross(void)
 static void test_moved_together(void)
 {
     const double turn[4] = {0.9, -0.5, 0.3, 0.7}, place[3] = {1000, -2000, 30};
-    const double apart[3] = {-0.6, -0.7, -0.8}; /* b's corner, as the centre that a turns about */
+    const double apart[3] = {-0.6, -0.7, -0.8}; /* b's corner, taken as the centre of rotation */
     struct oracle_pose a = oracle_pose_make(place, turn, no_centre);
     struct oracle_pose b = oracle_pose_make(place, turn, apart);
     struct oracle_crossings still = cubes(0.6, 0.7, 0.8, TOLERANCE);
@@ -129,7 +133,7 @@ static void test_turn(void)
     const double position[3] = {5, 6, 7}, quarter[4] = {2, 0, 0, 2}, centre[3] = {1, 0, 0};
     struct oracle_pose pose = oracle_pose_make(position, quarter, centre);
 
-    /* the origin, one before the centre along x, comes one before it along y */
+    /* the origin is one before the centre along x, and comes to one before it along y */
     report(near(pose.rotation.row[1][0], 1, 1e-15) && near(pose.rotation.row[0][1], -1, 1e-15) &&
                near(pose.rotation.row[2][2], 1, 1e-15) && near(pose.position[0], 5, 1e-14) &&
                near(pose.position[1], 5, 1e-14) && near(pose.position[2], 7, 1e-14),
@@ -159,17 +163,21 @@ static void test_tolerance(void)
     report(found(&coarse, 0, 0, 0), "below_the_tolerance");
 }
 
-/* Off the diagonal, each of the three long faces has two edges through one face of the plate. */
+/*
+ * Off the plate's diagonal, each of the three long faces has two edges through one face of the
+ * plate.
+ */
 static void test_needle(void)
 {
     struct oracle_pose ground = at(0, 0, 0), pose = at(1, -1, 0.3);
     struct oracle_crossings c = oracle_crossings(&needle, &pose, &plate, &ground, TOLERANCE);
 
     report(found(&c, 3, 3, 0) && c.face_b == 0, "needle_through_plate");
-    report(near(c.depth, 0.7, 1e-12), "needle_depth"); /* its tip is 1.3 above, its end 0.7 below */
+    report(near(c.depth, 0.7, 1e-12), "needle_depth"); /* the tip is 1.3 above the plate, the other
+                                                        * end 0.7 below */
 
-    /* The diagonal cuts the needle's section, leaving one corner, of x > y, on face 0: so two of
-     * the long faces cross both faces of the plate, and the diagonal pierces those two. */
+    /* The diagonal cuts the needle's section and leaves one corner, with x > y, on face 0. So two
+     * of the long faces cross both faces of the plate, and the diagonal pierces these two. */
     pose = at(1, 1, 0);
     c = oracle_crossings(&needle, &pose, &plate, &ground, TOLERANCE);
     report(found(&c, 5, 5, 4), "needle_through_diagonal");
@@ -243,7 +251,7 @@ static bool pierces(const struct triangle *edges, const struct triangle *face)
     return false;
 }
 
-/* Crossing face pairs, by trying every pair. */
+/* Crossing face pairs, found by trying every pair. */
 static size_t try_every_pair(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
                              const struct oracle_mesh *b, const struct oracle_pose *pose_b)
 {
@@ -294,7 +302,9 @@ static void test_sweep_on_cubes(void)
 
 /* ------------------------------------------------------------ near and inside */
 
-/* Cubes turned together: their distance is that of boxes along the axes, known by its three parts. */
+/*
+ * Cubes that are turned alike: their distance is that of aligned boxes, known by its three parts.
+ */
 static void test_near(void)
 {
     uint32_t state = 7;
@@ -356,7 +366,7 @@ static struct oracle_mesh doubles_of(const struct carom_mesh_raw *raw)
                             raw->quantum_bits);
 }
 
-/* The paper's head on its field: the same pairs as trying all, and fast enough for long runs. */
+/* The paper's head on its field: the same pairs as by trying all, and fast enough for long runs. */
 static void test_head_on_field(void)
 {
     struct oracle_mesh head = doubles_of(&head_mesh), field = doubles_of(&field_mesh);

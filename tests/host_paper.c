@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's own way of interference detection, which the Makefile links here in place of Carom's:
- * it finds the faces that cross where pixels can see them, and a scene runs with it.
+ * host_paper - a scene runs with the paper's own interference detection, which the Makefile links
+ * here in place of Carom's. It finds crossing faces where pixels can see them.
  */
 #include <math.h>
 #include <string.h>
@@ -29,7 +29,7 @@ static void note(struct paper_visitor *self, uint16_t face_a, uint16_t face_b)
     found->count++;
 }
 
-/* The rotation of a pose, as the engine has it. */
+/* The rotation of a pose in the engine's format. */
 static carom_m3_q30 axes(const struct oracle_pose *pose)
 {
     carom_m3_q30 m;
@@ -55,8 +55,8 @@ static void corners(double out[3][3], const struct oracle_mesh *mesh,
 }
 
 /*
- * How deep faces cross. 0 when one of them is steeper than 1 in 5: from above it may be too narrow for
- * the centre of any pixel.
+ * How deep faces cross. 0 when one of them is steeper than 1 in 5: seen from above, such a face may
+ * be too narrow to cover the centre of a pixel.
  */
 static double depth(double p[3][3], double q[3][3])
 {
@@ -149,7 +149,8 @@ static void test_scene(void)
         candidates += stats.candidates;
         faces += (unsigned long)lab_expect(carom_interfering_faces(lab->world, &refs), "faces");
     }
-    /* it may miss contacts, so faces may cross; but the head does not fall through the field */
+    /* the method may miss contacts, so faces may cross; but the head does not fall through the
+     * field */
     lab_report(tally.hits > 0 && candidates > 0 && faces > 2 && lab_body(lab).position[2] > 0,
                "paper/head",
                "%ld hits, %lu candidates, %lu interfering faces, %ld of %d frames cross",

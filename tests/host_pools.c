@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The head scene with short pools. Working pools that are short cost time: the hash is the same.
- * Output pools that are short are a named error, and the world is then as it was: a snapshot of it,
- * taken into a world with room, goes on as if nothing had happened.
+ * host_pools - the head scene with short pools. Short working pools cost time only: the hash is the
+ * same. Short output pools give a named error, and the world is as before the step: a snapshot of
+ * it, loaded into a world with room, goes on as if nothing had happened.
  */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "lib/lab.h"
 
-/* Enough for every bounce, the slide and sleep. */
+/* Enough frames for every bounce, the slide and sleep. */
 #define FRAMES 480
 
-/* The good run, frame by frame. */
+/* The hashes of the run with long pools, frame by frame. */
 static uint64_t wanted[FRAMES + 1];
 static struct carom_usage good[CAROM_POOL_COUNT];
 
-/* The same field once more below the first: two pairs are near each other, one touches. */
+/* The same field once more, below the first. Two pairs are near each other, one touches. */
 static int add_second_field(const struct lab *lab)
 {
     struct carom_body_def second = lab->scene.ground;
@@ -93,7 +93,10 @@ static void test_working(uint32_t candidates, uint32_t entries)
 
 /* -------------------------------------------------------------- output pools */
 
-/* The rest of the good run from where a world stopped; returns how many frames agree with it. */
+/*
+ * Play the rest of the good run from the frame at which a world stopped; returns how many frames
+ * agree with it.
+ */
 static int go_on(const struct lab *from, int frame)
 {
     struct lab *lab = load_two_fields(&large);
@@ -112,7 +115,7 @@ static int go_on(const struct lab *from, int frame)
     return frame;
 }
 
-/* After an error the world reports no events, contacts or faces of the last step. */
+/* After an error the world reports no events, contacts or faces. */
 static bool nothing_found(const struct lab *lab)
 {
     const struct carom_event *events;
@@ -124,8 +127,8 @@ static bool nothing_found(const struct lab *lab)
 }
 
 /*
- * One pool with fewer places than the good run needed: the good run's hashes, then the named error,
- * twice, from an unchanged world.
+ * One pool has fewer places than the good run needed. The world gives the good run's hashes, then
+ * the named error, twice, and is unchanged.
  */
 static void test_output(const struct carom_caps *caps, enum carom_pool pool, uint32_t size,
                         int error)
@@ -166,14 +169,14 @@ static void test_outputs(void)
         test_output(&caps, CAROM_POOL_contacts, size, CAROM_ERR_CONTACTS_FULL);
     }
     caps = large;
-    /* a world that is short of faces asks for those of a frame, which are fewer */
+    /* a world that is short of faces asks for those of one frame, which are fewer */
     for (uint32_t size = faces / 4; size > 0; size /= 4) {
         caps.faces = size;
         test_output(&caps, CAROM_POOL_faces, size, CAROM_ERR_FACES_FULL);
     }
 }
 
-/* Room for exactly the peaks is enough. */
+/* A pool that is exactly as large as its peak is enough. */
 static void test_exact(void)
 {
     struct carom_caps caps = CAROM_CAPS(good[CAROM_POOL_bodies].peak, good[CAROM_POOL_pairs].peak,
@@ -210,7 +213,7 @@ static void test_bodies(void)
 
 /* ------------------------------------------------------------- little memory */
 
-/* The frames in which a heap falls together and sleeps; a hash after them. */
+/* The frames in which a heap falls together and sleeps; the hash is taken after them. */
 #define FRAMES_PLAYED 500
 
 static uint64_t play(const char *name, const struct carom_caps *caps)
@@ -233,9 +236,9 @@ static uint64_t play(const char *name, const struct carom_caps *caps)
 }
 
 /*
- * A scene does in little memory as it does in plenty: poured heaps in little more than they use up
- * (tests/blocks.csv has the bytes), and a thrown head with room for one candidate, whose gathers by
- * parts of a window are never kept.
+ * A scene gives the same in little memory as in much: poured heaps in little more than they need
+ * (tests/blocks.csv has the bytes), and a thrown head with room for one candidate. The head's world
+ * gathers for parts of a window, and never keeps what it gathered.
  */
 static void test_little(const char *name, struct carom_caps caps)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * 1,000,000 rays against the field of 3034 faces, the head and other meshes, any way turned: for each the
- * first face in 128-bit arithmetic over the ray as it is carried into the mesh's axes, by trying every face. The faces are
- * found by another way than the engine's: the sign of the volume that the ray spans with each edge, and
- * the order by cross-multiplied fractions. And in double precision, how far the carried ray is from the given one.
+ * host_rays - 1,000,000 rays against the field of 3034 faces, the head and other meshes, turned at
+ * random. For each ray, as the engine rounds it to the mesh's axes, the test finds the first face
+ * in 128-bit arithmetic by trying every face. Its method is not the engine's: it takes the sign of
+ * the volume that the ray spans with each edge, and compares distances as cross-multiplied
+ * fractions. In double precision it measures how far the rounded ray is from the given one.
  *
  *   host_rays.elf [rays]
  */
@@ -26,7 +27,7 @@ static double worst;
 
 /* ------------------------------------------------------------------ exact */
 
-/* A point of the carried ray at z = 0, and the direction: 2^-30 quanta, by the mesh's axes. */
+/* A point of the rounded ray at z = 0, and the direction, in 2^-30 quanta by the mesh's axes. */
 static void line(const struct query_ray *ray, int64_t at[3], int64_t way[3])
 {
     at[ray->axis[2]] = 0;
@@ -38,8 +39,9 @@ static void line(const struct query_ray *ray, int64_t at[3], int64_t way[3])
 }
 
 /*
- * The sign of way . ((a - at) x (b - at)), and when that is 0 of what it is for a ray moved along one of its
- * two other axes, then the other one. Moving `at` by e changes it by -way . (e x (b - a)).
+ * The sign of way . ((a - at) x (b - at)). When that is 0, the sign for a ray moved along one of
+ * its two other axes, then along the other one. Moving `at` by e changes the volume by -way . (e x
+ * (b - a)).
  */
 static int volume(const struct query_ray *ray, const int64_t at[3], const int64_t way[3],
                   const int16_t *a, const int16_t *b)
@@ -84,7 +86,7 @@ static wide floor_of(wide n, wide d)
     return q - ((n % d != 0) && ((n < 0) != (d < 0)));
 }
 
-/* The first face by trying all; ways are rounded as query.h says. */
+/* The first face, by trying all; distances are rounded as query.h says. */
 static long first_of_all(const struct query_ray *ray, int64_t *best_way)
 {
     const struct carom_mesh_raw *raw = &ray->mesh->raw;
@@ -116,7 +118,7 @@ static long first_of_all(const struct query_ray *ray, int64_t *best_way)
             above += (wide)n[k] * (p[0][k] * (int64_t)CAROM_ONE_Q30 - at[k]);
             below += (wide)n[k] * way[k];
         }
-        /* against the way of the ray is a face that is seen from outside */
+        /* a face that is seen from outside points against the ray */
         if (!ray->back && (below > 0) == ray->up) {
             continue;
         }
@@ -132,7 +134,7 @@ static long first_of_all(const struct query_ray *ray, int64_t *best_way)
 
 /* ----------------------------------------------------------------- doubles */
 
-/* Distance between the carried ray and the given one at both ends of the mesh's box, units. */
+/* The distance between the rounded ray and the given one at both ends of the mesh's box, units. */
 static double error_of(const struct query_ray *carried, const struct carom_ray *ray,
                        const struct body_state *state)
 {
@@ -157,7 +159,7 @@ static double error_of(const struct query_ray *carried, const struct carom_ray *
         double at = ldexp(mesh->box[end][axis], -mesh->raw.quantum_bits);
         double t = (at - from[axis]) / way[axis];
 
-        /* beyond the ray's ends nothing is asked */
+        /* nothing is asked beyond the ray's ends */
         t = t < 0 ? 0 : t > 1 ? 1 : t;
         at = from[axis] + t * way[axis];
         for (int i = 0; i < 2; i++) {
@@ -267,7 +269,7 @@ int main(int argc, char **argv)
 
             memset(&def, 0, sizeof def);
             def.mesh = mesh[n / 100 % 10 > 4 ? 0 : n / 100 % 5];
-            def.overlap = CAROM_OVERLAP_PASS; /* bodies lie as chance has it */
+            def.overlap = CAROM_OVERLAP_PASS; /* bodies may overlap */
             def.stationary = true;
             if (n / 100 % 3) {
                 def.rotation = shape_random_turn(&r);
@@ -280,7 +282,8 @@ int main(int argc, char **argv)
                 return 2;
             }
         }
-        /* towards places within 3/4 of the radius along each axis; the farthest rays begin 12,000 units away */
+        /* towards places within 3/4 of the radius along each axis; the farthest rays begin 12,000
+         * units away */
         try_ray(world, &r,
                 ((int64_t)world->bodies[0].def.radius_q22 << 10) * 3 / 4 < (INT64_C(24) << 32)
                     ? ((int64_t)world->bodies[0].def.radius_q22 << 10) * 3 / 4

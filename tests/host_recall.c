@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Recall of carom_query_faces: every pair of faces that crosses, by trying all in exact arithmetic,
- * is among the query's; and how many more are. Poses are at random; in every second one the bodies
- * only graze each other.
+ * host_recall - recall of carom_query_faces. The test finds every crossing pair of faces by trying
+ * all in exact arithmetic, checks that each is among the query's pairs, and counts how many more
+ * the query reports. Poses are random; in every second one the bodies only graze each other.
  */
 #include <math.h>
 #include <stdio.h>
@@ -14,9 +14,9 @@
 
 #define POSES 1000
 #define PAIRS 65536
-#define STEPS 64 /* on the way to the first pose that touches */
+#define STEPS 64 /* steps on the way to the first pose that touches */
 
-/* Boxes, 2^-12 units a quantum. */
+/* Boxes, in quanta of 2^-12 units. */
 static int16_t box_vertices[8][3];
 
 static struct carom_mesh_raw make_box(int x, int y, int z)
@@ -68,7 +68,7 @@ static struct carom_mesh_raw make_torus(void)
 /* --------------------------------------------------------------------- poses */
 
 static struct lab *lab;
-static struct carom_body_state state; /* of the body that is placed */
+static struct carom_body_state state; /* state of the body that is placed */
 static struct carom_face_pair pairs[PAIRS];
 static uint64_t seed;
 
@@ -80,7 +80,7 @@ static int query(void)
                       "query");
 }
 
-/* A place on a way from a start in a direction. */
+/* The place on a line from a start in a direction. */
 static void go(const double start[3], const double way[3], double t)
 {
     for (int k = 0; k < 3; k++) {
@@ -89,8 +89,9 @@ static void go(const double start[3], const double way[3], double t)
 }
 
 /*
- * Go along the way until the bodies touch, narrow that down to 2^-24 of the way, and on by `deeper`.
- * Where to look is taken from the query itself; what crosses there is not.
+ * Move along the line until the bodies touch, narrow that place down to 2^-24 of the line, and move
+ * on by `deeper`. The query itself tells where to look; the crossings there come from exact
+ * arithmetic.
  */
 static void meet(const double start[3], const double way[3], double deeper)
 {
@@ -117,13 +118,13 @@ static void meet(const double start[3], const double way[3], double deeper)
     go(start, way, touching + deeper);
 }
 
-/* How far to move past the first touch, as a part of the way: grazing, from 1e-5 on, or deep. */
+/* How far to move past the first touch, as a part of the line: grazing, from 1e-5 on, or deep. */
 static double depth(int pose)
 {
     return pose % 2 ? lab_random(&seed, 0.02, 0.25) : pow(10, lab_random(&seed, -5, -2.5));
 }
 
-/* Down on the ground, anywhere. */
+/* A pose down on the ground, anywhere. */
 static void pose_over_ground(int pose)
 {
     double start[3] = {lab_random(&seed, -2.5, 2.5), lab_random(&seed, -2.5, 2.5), 3};
@@ -149,7 +150,7 @@ static void pose_from_aside(int pose)
     meet(start, way, depth(pose));
 }
 
-/* Two rings that go through each other, until they touch. */
+/* Two rings that go through each other, moved until they touch. */
 static void pose_linked(int pose)
 {
     const double start[3] = {TORUS_RADIUS, 0, 0};
@@ -177,7 +178,7 @@ static void free_body(struct crossing_body *body)
     free(body->near);
 }
 
-/* The query the other way round finds the same pairs in the same order. */
+/* The query with the bodies exchanged finds the same pairs in the same order. */
 static bool same_swapped(int count)
 {
     static struct carom_face_pair swapped[PAIRS];
@@ -198,7 +199,7 @@ static void run(const char *name, struct lab *loaded, void (*pose)(int number))
     char title[64];
 
     lab = loaded;
-    lab->scene.body.mass_q20 = 1 << 20; /* a needle has too little of its own */
+    lab->scene.body.mass_q20 = 1 << 20; /* a needle's own mass is too small */
     lab->scene.body.position.c[2] = (int64_t)20 << 32;
     lab_start(lab);
     state = lab_state(lab->world, SCENE_BODY);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Recordings of random worlds, half of whose calls are hostile (tests/lib/fuzz.h): played they come to the same states, begun
- * with the world or in the middle of its life. Then the files are changed: each byte, each length, and bytes of chance with the sum at the end
- * mended. A changed file is refused or played on a valid world; the debug build has sanitizers.
+ * host_replay - recordings of random worlds; half of their calls are hostile (tests/lib/fuzz.h). A
+ * recording gives the same states when it is played, whether it began with the world or later.
+ * Then the files are damaged: each byte, each length, and random bytes with the check sum at the
+ * end corrected. A damaged file is refused or played on a valid world; the debug build has
+ * sanitizers.
  *
  *   host_replay         a few
- *   host_replay long    every byte, every length, 100,000 files of chance
+ *   host_replay long    every byte, every length, 100,000 random files
  */
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +41,10 @@ static void write_file(void *user, const void *bytes, size_t count)
     file_bytes += count;
 }
 
-/* A world of random calls, recorded from that call on; 0 is from its beginning, beyond all is not at all. Its last state. */
+/*
+ * A world of random calls, recorded from call `from` on. 0: from its beginning; beyond the last
+ * call: not at all. Returns the hash of its last state.
+ */
 static uint64_t record(uint64_t seed, int from, int calls)
 {
     uint64_t hash;
@@ -65,7 +70,9 @@ static uint64_t record(uint64_t seed, int from, int calls)
     return hash;
 }
 
-/* Play to the end; a world that an error or a difference leaves can be stepped and asked. */
+/*
+ * Play to the end. A world that stops at an error or a difference can still be stepped and asked.
+ */
 static int play(const uint8_t *bytes, size_t count)
 {
     int result = carom_replay_begin(&player, bytes, count, room, sizeof room);
@@ -175,7 +182,7 @@ static void test_chance(long count)
             case 2:
                 changed[at] = fuzz_pick(&fuzz, 2) ? 0xff : 0x80;
                 break;
-            default: /* a piece from elsewhere */
+            default: /* a piece from another place */
                 if (at + length <= file_bytes && from + length <= file_bytes) {
                     memmove(changed + at, file + from, length);
                 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rest: a box, a tetrahedron, an L and the head, dropped from random poses onto a plane and onto the
- * field. All come to rest; once there, a body that may not sleep hardly moves, and one that sleeps
- * does not move at all. The ramp is in host_motion.c.
+ * host_rest - a box, a tetrahedron, an L and the head are dropped from random poses onto a plane
+ * and onto the field. All come to rest. Then a body that may not sleep hardly moves, and one that
+ * sleeps does not move at all. The ramp is in host_motion.c.
  *
  *   host_rest        20 drops of each onto the plane and 5 onto the field
  *   host_rest long   200 drops of each onto either
@@ -16,17 +16,17 @@
 #define FPS     60.0
 #define GRAVITY (9.81 / FPS / FPS)
 
-/* The frames that a drop may take until it is at rest. */
+/* Frames until a drop must be at rest. */
 #define REST_FRAMES 900
-/* Largest distance of a vertex from where it came to rest, units, over this many frames. */
+/* Largest distance of a vertex from its place at rest, units, over this many frames. */
 #define CREEP        2e-4
 #define CREEP_FRAMES 120
 
 struct place {
     const char *name;
     const struct carom_mesh_raw *ground;
-    carom_quat_q30 tilt; /* of the ground and of gravity, so that no axis is special */
-    double height;       /* of the body's centre at the start; units */
+    carom_quat_q30 tilt; /* turns ground and gravity, so that no axis is special */
+    double height;       /* height of the body's centre at the start; units */
     long drops;
 };
 
@@ -36,10 +36,10 @@ struct found {
     long off; /* bodies that rolled over the border of the ground and fell */
     long crossed, capped;
     long restless; /* frames in which the world changed though its body slept */
-    long high;     /* bodies whose lowest vertex rests elsewhere than in the skin of a plane */
-    double creep;  /* the farthest of any vertex from where it came to rest; units */
-    double jitter; /* the farthest in a frame */
-    double rise;   /* of the energy in a frame, in m g skin */
+    long high;     /* bodies whose lowest vertex is not within the skin of a plane */
+    double creep;  /* largest distance of a vertex from its place at rest; units */
+    double jitter; /* largest distance in a frame */
+    double rise;   /* largest rise of the energy in a frame, in m g skin */
 };
 
 /* ----------------------------------------------------------------- movement */
@@ -60,7 +60,7 @@ static void place_vertices(double out[VERTICES][3], const struct lab *lab)
     }
 }
 
-/* The farthest that any vertex is from where it was. */
+/* The largest distance of a vertex from its former place. */
 static double farthest(double from[VERTICES][3], double to[VERTICES][3], size_t count)
 {
     double most = 0;
@@ -75,7 +75,7 @@ static double farthest(double from[VERTICES][3], double to[VERTICES][3], size_t 
 
 /* -------------------------------------------------------------------- drops */
 
-/* Any pose over the middle of the ground, and any motion of half a unit and 3 radians a second. */
+/* Any pose above the middle of the ground, and any motion of half a unit and 3 radians a second. */
 static void start_anywhere(struct lab *lab, const struct place *place, uint64_t *random)
 {
     struct carom_body_def *body = &lab->scene.body;
@@ -91,8 +91,8 @@ static void start_anywhere(struct lab *lab, const struct place *place, uint64_t 
 }
 
 /*
- * With sleep: until it sleeps, and on; nothing may change then. Returns the frame, 0: never. What
- * falls off the ground is counted apart.
+ * With sleep: play until the body sleeps, and then on; nothing may change after that. Returns the
+ * frame, 0: never. A body that falls off the ground is counted apart.
  */
 static long drop_asleep(struct lab *lab, const struct place *place, struct found *found)
 {
@@ -124,7 +124,7 @@ static long drop_asleep(struct lab *lab, const struct place *place, struct found
     return tally.frames;
 }
 
-/* Without sleep: the same drop until the frame in which the body would have slept, and on. */
+/* Without sleep: the same drop until the frame in which the body would have slept, and then on. */
 static void drop_awake(struct lab *lab, long rest, struct found *found)
 {
     static double first[VERTICES][3], seen[2][VERTICES][3];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Sliding and rolling: a box that slides stops where friction's work has taken its energy; a body
- * of 5120 faces that is nearly a ball rolls down a ramp without slip up to a slope of 3.5 mu and
- * slides on steeper ones; one of 20480 faces, 3 % flatter, comes to rest on a face. The box on a ramp, and the one that slides over many triangles, are in
- * host_motion.c.
+ * host_roll - sliding and rolling. A box that slides stops where friction has used up its energy. A
+ * body of 5120 faces that is nearly a ball rolls down a ramp without slip up to a slope of 3.5 mu,
+ * and slides on steeper ones. A ball of 20480 faces, 3 % flatter along one axis, comes to rest on a
+ * face. The box on a ramp, and the one that slides over many triangles, are in host_motion.c.
  */
 #include <math.h>
 #include <stdio.h>
@@ -29,7 +29,7 @@ static void set_q40(carom_v3_q40 *out, const double v[3])
     }
 }
 
-/* The ground, gravity and the body turned alike, so that no axis is special. */
+/* Tilt the ground, gravity and the body alike, so that no axis is special. */
 static void tilt_all(struct lab *lab, const carom_quat_q30 *tilt)
 {
     const double down[3] = {0, 0, -GRAVITY};
@@ -43,8 +43,8 @@ static void tilt_all(struct lab *lab, const carom_quat_q30 *tilt)
 /* ---------------------------------------------------------------------- stop */
 
 /*
- * A box set sliding stops after v^2 / (2 mu g), more than 200 frames later. Speeds are per frame
- * and a frame brakes before it moves, so half a frame's way at v is missing, 0.2 %.
+ * A sliding box stops after v^2 / (2 mu g), more than 200 frames later. Speeds are per frame and a
+ * frame brakes before it moves, so the way of half a frame at v is missing, 0.2 %.
  */
 static void stop(double mu, double speed, bool sleeps, const char *name)
 {
@@ -85,11 +85,11 @@ static void stop(double mu, double speed, bool sleeps, const char *name)
 /* ---------------------------------------------------------------------- ball */
 
 #define CUTS          4
-#define FINER_CUTS    5 /* of the body that is to right itself */
+#define FINER_CUTS    5 /* cuts of the ball that comes to rest on a face */
 #define BALL_FACES    (20 << (2 * CUTS))
 #define FINER_FACES   (20 << (2 * FINER_CUTS))
 #define BALL_VERTICES (BALL_FACES / 2 + 2)
-#define QUANTA        16384 /* of its radius */
+#define QUANTA        16384 /* radius in quanta */
 
 static int16_t ball_vertices[FINER_FACES / 2 + 2][3];
 static uint16_t ball_faces[FINER_FACES][3];
@@ -97,7 +97,7 @@ static struct carom_mesh_raw ball = {
     (const int16_t (*)[3])ball_vertices, (const uint16_t (*)[3])ball_faces, 0, 0, 12, CAROM_SOLID};
 #define RADIUS 4.0
 
-/* The vertex of the ball in a direction, made if it is not there yet. */
+/* The vertex of the ball in a direction; makes it when there is none. */
 static uint16_t vertex_along(const double direction[3])
 {
     double length = sqrt(real_dot(direction, direction));
@@ -145,8 +145,8 @@ static void cut(void)
 }
 
 /*
- * An icosahedron, cut. Its corners are (0, +-1, +-golden ratio) and the turns of that; its faces are
- * the triples of corners at the least distance, 2, from each other.
+ * An icosahedron, cut. Its corners are (0, +-1, +-golden ratio) and their cyclic permutations. Its
+ * faces are the triples of corners with the least distance, 2, between each other.
  */
 static void make_ball(void)
 {
@@ -187,9 +187,9 @@ static void make_ball(void)
 
 /* The mean of some runs; accelerations in g cos(slope). */
 struct mean {
-    double acceleration;      /* of the ball, downhill */
-    double slip_acceleration; /* of its lowest point */
-    double slip;              /* of that point at the end, as a part of the ball's speed */
+    double acceleration;      /* acceleration of the ball, downhill */
+    double slip_acceleration; /* acceleration of its lowest point */
+    double slip;              /* speed of that point at the end, as a part of the ball's speed */
     long bad;                 /* frames that cross or are cut short */
 };
 
@@ -206,7 +206,7 @@ static double slip_of(const struct oracle_body *b, const double downhill[3], con
     return slip;
 }
 
-/* Lay the ball on the ramp, its lowest vertex a skin above. */
+/* Lay the ball on the ramp, with its lowest vertex a skin above the ramp. */
 static void lay(struct lab *lab, const carom_quat_q30 *tilt, const double normal[3])
 {
     double start[3] = {-30, 0.3, RADIUS}, place[3];
@@ -258,9 +258,10 @@ static struct mean roll(double slope, double mu)
 }
 
 /*
- * Rolling friction is a moment of r / 64 times the pressure at speed (src/solve/roll.c). A solid ball's moment
- * of inertia is 2/5 m r^2: on a slope it rolls at 5/7 (tan - 1/64) g cos as long as friction can
- * turn it. Else it slides at (tan - mu) g cos, its lowest point at (tan - 7/2 mu + 5/2 / 64) g cos.
+ * Rolling friction is a moment of r / 64 times the pressure at speed (src/solve/roll.c). A solid
+ * ball has a moment of inertia of 2/5 m r^2. On a slope it rolls at 5/7 (tan - 1/64) g cos as long
+ * as friction can turn it. On a steeper slope it slides at (tan - mu) g cos, and its lowest point
+ * at (tan - 7/2 mu + 5/2 / 64) g cos.
  */
 static void test_below(double mu)
 {
@@ -270,7 +271,7 @@ static void test_below(double mu)
         char name[64];
 
         snprintf(name, sizeof name, "roll/rolls_mu_%.2f_at_%d_percent", mu, part * 10);
-        /* the small slip is that of passing over the edges: twice as large with 1280 faces */
+        /* the small slip comes from passing over the edges: it is twice as large with 1280 faces */
         lab_report(fabs(found.acceleration / wanted - 1) <= 0.01 && fabs(found.slip) <= 0.05 &&
                        found.bad == 0,
                    name, "%.4f g cos, analytic %.4f, slip %.3f of the speed", found.acceleration,
@@ -278,7 +279,10 @@ static void test_below(double mu)
     }
 }
 
-/* Above; where the lowest point would not slip is by the line through what is found. */
+/*
+ * Steeper slopes. A line through the results gives the slope at which the lowest point would not
+ * slip.
+ */
 static void test_above(double mu)
 {
     double least = 0, most = 0, threshold;
@@ -320,8 +324,9 @@ static void seen_from_centre(const struct lab *lab, const carom_quat_q30 *turn, 
 }
 
 /*
- * How far the foot of the centre of mass is out of the hull of the vertices that are within 0.7 skin
- * of the lowest: what rolling friction alone holds. The farthest of them in each of 720 directions.
+ * How far the foot of the centre of mass is outside of the hull of the vertices within 0.7 skin of
+ * the lowest one: only rolling friction can hold this. The hull is taken as its farthest vertex in
+ * each of 720 directions.
  */
 static double overhang(const struct lab *lab)
 {
@@ -352,9 +357,9 @@ static double overhang(const struct lab *lab)
 }
 
 /*
- * A ball of 20480 faces, 3 % flatter along one axis, laid down leaning: its foot is out of the middle
- * by up to 0.03 of its radius, faces are half as wide. Wherever it comes to rest it stands on a face:
- * rolling friction holds 1/1024 of its radius, and 1/64 what rolls up.
+ * A ball of 20480 faces, 3 % flatter along one axis, is laid down leaning. Its foot is out of the
+ * middle by up to 0.03 of its radius; faces are half as wide. Wherever it comes to rest, it stands
+ * on a face: rolling friction holds up to 1/1024 of its radius at rest, and 1/64 while it rolls.
  */
 static void test_stands(void)
 {

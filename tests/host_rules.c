@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random worlds of filters, sensors and bodies that pass, against double precision.
+ * host_rules - random worlds of filters, sensors and bodies that pass, against double precision.
  *
  *   sensors  what overlaps a sensor at the end of a frame, by all pairs of faces; what went through within a frame,
  *            where paths are known: bodies that meet nobody and do not turn
@@ -14,7 +14,7 @@
 #include "lib/crowd.h"
 #include "lib/real.h"
 
-#define NEAR 3e-5 /* the query may take so little for none, units */
+#define NEAR 3e-5 /* an overlap that small may be missing in the query's answer, units */
 
 static const struct oracle_mesh *mesh_of(const struct crowd *crowd, int body)
 {
@@ -74,7 +74,10 @@ static int count_events(const struct crowd *crowd, int kind, int sensor, int vis
     return found;
 }
 
-/* Whether a body that goes straight, and does not turn, overlaps a sensor on its way; as `overlap`. */
+/*
+ * Whether a body that flies straight and does not turn overlaps a sensor on its way; the answers
+ * are those of `overlap`.
+ */
 static int overlaps_on_way(const struct crowd *crowd, int sensor, int body,
                            const struct oracle_pose before[2], const struct oracle_pose after[2])
 {
@@ -95,7 +98,7 @@ static int overlaps_on_way(const struct crowd *crowd, int sensor, int body,
     return most;
 }
 
-/* Straight flight: bodies pass each other by a filter, sensors stand or fly. */
+/* Straight flight: a filter lets bodies pass each other; sensors are static or fly. */
 static void watch_sensors(uint64_t seed, bool turn, struct tally *tally)
 {
     enum { SENSORS = 3, BODIES = 9, FRAMES = 12 };
@@ -151,7 +154,7 @@ static void watch_sensors(uint64_t seed, bool turn, struct tally *tally)
                     tally->flown++;
                     tally->through += begins > 0;
                     tally->missed += met == 1 && begins == 0;
-                    /* between two samples it may have dipped in a little: near is enough */
+                    /* between two samples the body may have touched a little: nearness is enough */
                     tally->invented += met == 0 && begins > 0;
                 }
             }
@@ -181,7 +184,7 @@ static void test_sensors(long worlds)
 
 /* -------------------------------------------------------------------- unseen */
 
-/* A heap that falls onto a floor; the last bodies are sensors, or there are none. */
+/* A heap falls onto a floor; the last bodies are sensors, or there are none. */
 static void pour(struct crowd *crowd, uint64_t seed, bool sensors)
 {
     uint64_t random = seed;
@@ -253,7 +256,10 @@ static void test_unseen(long worlds)
 
 /* -------------------------------------------------------------------- pushed */
 
-/* Pairs that cross; the deepest, in skins. Bodies within a skin or so may stay as they are. */
+/*
+ * The number of crossing pairs, and the depth of the deepest in skins. Overlaps of about a skin may
+ * stay.
+ */
 static long crossing_pairs(const struct crowd *crowd, double *deepest)
 {
     long pairs = 0;
@@ -275,7 +281,10 @@ static long crossing_pairs(const struct crowd *crowd, double *deepest)
     return pairs;
 }
 
-/* Bodies fill a small room, wherever they are put; they are pushed apart, and then go on as usual. */
+/*
+ * Bodies are put at random into a small room. The step pushes them apart, and then they go on as
+ * usual.
+ */
 static void test_pushed(long worlds)
 {
     long crossed = 0, later = 0, moved = 0, refused = 0;
@@ -318,7 +327,10 @@ static void test_pushed(long worlds)
 
 /* --------------------------------------------------------------------- freed */
 
-/* Pairs of bodies in each other, freed: they leave each other as if alone, and touch no more inside. */
+/*
+ * Pairs of bodies that overlap and are freed: each leaves the other as if it were alone, and has no
+ * contact inside.
+ */
 static void test_freed(long worlds)
 {
     const struct carom_filter off = {2, 1, 0}, on = {0};

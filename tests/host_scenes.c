@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The scenes of scene_games.h that show one thing each, played by themselves and judged in double precision from what
- * the public interface says: faces never cross, and what the scene is about happens. How much of it follows from
- * the numbers of the scene.
+ * host_scenes - the scenes of scene_games.h that show one thing each. Each scene plays by itself
+ * and is judged in double precision, from what the public interface reports: faces never cross,
+ * and the thing that the scene shows happens. The expected amounts follow from the numbers of the
+ * scene.
  *
  *   host_scenes.elf [scene]
  */
@@ -63,7 +64,7 @@ double play_turned(double *total, double turn)
     return *total;
 }
 
-/* Whether two bodies can touch at all: their spheres meet. A surface has none. */
+/* Whether two bodies can touch at all: their spheres overlap. A surface has no sphere. */
 static bool are_near(const struct play *play, int a, int b)
 {
     const struct carom_mesh *of_a = carom_body_mesh(play->world, a);
@@ -79,7 +80,7 @@ static bool are_near(const struct play *play, int a, int b)
     return real_length(apart) < lab_double(of_a->radius_q22 + (int64_t)of_b->radius_q22, 22);
 }
 
-/* The pairs of faces that cross, of all bodies of which one moves. */
+/* The crossing pairs of faces of all bodies, one of which moves. */
 static void look_for_crossings(struct play *play)
 {
     struct oracle_pose pose[PLAY_BODIES];
@@ -131,18 +132,19 @@ static void run(const struct play_scene *scene)
 
 /* -------------------------------------------------------------------- gears */
 
-#define GEARS_MODULE 0.1 /* of diameter a tooth */
+#define GEARS_MODULE 0.1 /* diameter per tooth */
 /*
- * The play of the teeth along the circles that roll on each other (tools/machines.py): both wheels' teeth are narrower by
- * 0.006, and where a chord of 0.085 stands for a flank that is bent with a radius of 0.21, or of 0.51 on the large wheel,
- * up to 0.0043 + 0.0018 is missing on either side.
+ * The play of the teeth along the rolling circles (tools/machines.py). The teeth of both wheels are
+ * narrower by 0.006. A chord of 0.085 replaces a flank bent with a radius of 0.21, or 0.51 on the
+ * large wheel, so up to 0.0043 + 0.0018 is missing on either side.
  */
 #define GEARS_LEAST 0.012
 #define GEARS_MOST  (GEARS_LEAST + 2 * (0.0043 + 0.0018) / 0.906)
 
 /*
- * The way along the rolling circles that each wheel has turned, against the next one: what their teeth leave free.
- * mark: the turn of each wheel, and the least and the most of these differences.
+ * The arc along the rolling circles that each wheel has turned, compared with the next wheel's: the
+ * difference is the play of the teeth. mark: the turn of each wheel, and the least and the largest
+ * of these differences.
  */
 static void watch_gears(struct play *play)
 {
@@ -164,7 +166,10 @@ static void watch_gears(struct play *play)
     }
 }
 
-/* The motor's turns in six seconds, but for what it takes to start; the play is used and nothing beyond it. */
+/*
+ * The motor makes its turns in six seconds, less the time to start. The wheels use the play, and
+ * nothing beyond it.
+ */
 static bool judge_gears(struct play *play)
 {
     const double turns = play->mark[GEARS * 3] / (2 * REAL_PI),
@@ -185,7 +190,10 @@ static bool judge_gears(struct play *play)
 
 /* -------------------------------------------------------------------- screw */
 
-/* mark: the turn, the most that way and turn differ by, the lowest that the nut came, the highest after that. */
+/*
+ * mark: the turn, the largest difference between way and turn, the lowest place of the nut, the
+ * highest place after that.
+ */
 static void watch_screw(struct play *play)
 {
     double way = play_at(&play->now[SCREW_NUT], 2) - play_at(&play->first[SCREW_NUT], 2);
@@ -199,8 +207,8 @@ static void watch_screw(struct play *play)
 }
 
 /*
- * A pitch a turn, within the play to either side and as much for what the nut leans; down to the head, which is 1.75
- * below, and up again by most of that.
+ * The nut moves a pitch a turn, within the play to either side and as much again for its leaning.
+ * It goes down to the head, which is 1.75 below, and up again by most of that.
  */
 static bool judge_screw(struct play *play)
 {
@@ -229,7 +237,7 @@ static int count_in(const struct play *play, double x, double half_x, double hal
     return count;
 }
 
-/* mark: how many are in the bucket before it tips. */
+/* mark: the number of things in the bucket before it tips. */
 static void watch_pour(struct play *play)
 {
     if (play->frame == POUR_FULL) {
@@ -237,7 +245,10 @@ static void watch_pour(struct play *play)
     }
 }
 
-/* All are in the bucket, then all in the tray, where they come to rest, none higher than five lie on each other. */
+/*
+ * All things are in the bucket, then all are in the tray and at rest, none of them higher than a
+ * stack of five.
+ */
 static bool judge_pour(struct play *play)
 {
     int in = count_in(play, 1.23, 1.2, 0.95, 0.08 + 5 * 0.2), asleep = 0;
@@ -264,7 +275,10 @@ static void watch_espresso(struct play *play)
     }
 }
 
-/* All impacts take place within the field, whose half side is 4, and it comes to rest on the floor, not on the rim, 1.1 higher. */
+/*
+ * All impacts take place within the field, whose half side is 4. The machine comes to rest on the
+ * floor, not on the rim, which is 1.1 higher.
+ */
 static bool judge_espresso(struct play *play)
 {
     const struct carom_body_state *machine = &play->now[SCENE_BODY];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The scene sheet, a box on a bowl that waves run over, in double precision: no faces ever cross,
- * neither after the sheet moved nor after the step; the box stays on it; energy grows by no more than
- * the sheet's work; it sleeps when the sheet stops. Then a heap of bodies on a sheet.
+ * host_sheet - the scene `sheet`, a box on a bowl over which waves run, in double precision. No
+ * faces ever cross, neither after the sheet moved nor after the step. The box stays on the sheet,
+ * its energy grows by no more than the sheet's work, and it sleeps when the sheet stops. Then a
+ * heap of bodies on a sheet.
  */
 #include <math.h>
 #include <stdio.h>
@@ -17,12 +18,12 @@
 struct sheet_tally {
     struct lab_tally lab;
     long crossed_before; /* frames in which faces cross before the step */
-    double far;          /* of the box from the middle */
-    double lift;         /* the most that the box was lifted by */
-    double over;         /* energy beyond the sheet's work in a frame, in m g skin */
+    double far;          /* largest distance of the box from the middle */
+    double lift;         /* largest lift of the box */
+    double over;         /* energy above the sheet's work in a frame, in m g skin */
 };
 
-/* Take over the vertices in double; returns the largest distance that one moved. */
+/* Read the vertices in double; returns the largest distance that one moved. */
 static double follow(const struct carom_mesh *mesh, struct oracle_mesh *to)
 {
     double most = 0;
@@ -42,9 +43,9 @@ static double follow(const struct carom_mesh *mesh, struct oracle_mesh *to)
 }
 
 /*
- * One frame, the waves where they are at `time`. The sheet's work is at most the length of all
- * impulses by the speed of its fastest vertex; contacts pull each other little, so the length of
- * their sum will do, which is the change of momentum.
+ * One frame, with the waves where they are at `time`. The sheet's work is at most the length of all
+ * impulses times the speed of its fastest vertex. Contacts hardly pull against each other, so the
+ * length of the sum of the impulses, the change of momentum, is taken instead.
  */
 static void step(struct lab *lab, int time, struct sheet_tally *t)
 {
@@ -80,7 +81,7 @@ static struct lab *load(bool sleep)
     return lab;
 }
 
-/* `speed` times as fast as in the scene: 2 throws the box up. */
+/* Waves run `speed` times as fast as in the scene: 2 throws the box up. */
 static void test_box(int speed, bool stays)
 {
     struct lab *lab = load(true);

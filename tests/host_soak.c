@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Random worlds by number, watched by an independent checker: see soak.h. `make soak` runs many.
+ * host_soak - random worlds by number, watched by an independent checker (soak.h). `make soak`
+ * runs many.
  *
  *   host_soak                    50 worlds but for the open cases, a test a property
  *   host_soak rows FIRST COUNT   a row of CSV a world
  *   host_soak SEED [FROM TO]     one world frame by frame, looked at in each; from .. to with its bodies
  *
- * A number is that of a world of bodies alone, with an m before it of a machine, with a w of a wild one: see
- * soak_machine.h.
+ * A plain number names a world of bodies alone, mNUMBER a machine, wNUMBER a wild machine
+ * (soak_machine.h).
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,14 +19,16 @@
 #include "lib/real.h"
 #include "lib/soak.h"
 
-/* The worlds that `make test` runs: the first ones, and those in which an engine failed once. */
+/*
+ * The worlds that `make test` runs: the first ones, and the ones in which an earlier engine failed.
+ */
 #define FIRST 30
 static const uint64_t known[] = {53,   103,  173,  178,  215,  267,  340,  406,  425,
                                  496,  502,  601,  626,  646,  740,  748,  792,  893,
                                  963,  1060, 1098, 1113, 1455, 1468, 1513, 1608, 1678,
                                  1719, 1754, 1791, 1973, 1977, 2123, 2257, 2391, 2502};
 #define WORLDS (FIRST + sizeof known / sizeof *known)
-/* Largest share of frames that are cut short. */
+/* Largest share of frames that may be cut short. */
 #define CUT_ALLOWED 0.01
 
 static struct soak_world world;
@@ -95,7 +98,7 @@ static void print_row(const struct soak_result *r)
     fflush(stdout);
 }
 
-/* A world by what it is called: "12", "m12", "w12". */
+/* A world's name: "12", "m12", "w12". */
 struct name {
     uint64_t seed;
     bool machine, wild;
@@ -312,11 +315,11 @@ static void show(struct name name, long from, long to)
 struct sum {
     long worlds, machines, frames, cut;
     long faults[SOAK_FAULTS];
-    uint64_t first[SOAK_FAULTS];                            /* the seed */
-    double deepest, rise, step_seconds, still, work, apart; /* the worst */
+    uint64_t first[SOAK_FAULTS]; /* seed of the first world with the fault */
+    double deepest, rise, step_seconds, still, work, apart; /* worst values */
 };
 
-/* The test of each fault, named after its figure; some faults have none. */
+/* The test of each fault, named after its figure; some faults have no test. */
 static const char *const what_of[SOAK_FAULTS] = {[SOAK_CROSSES] = "crossings_in_skins",
                                                  [SOAK_ERROR] = "errors",
                                                  [SOAK_STANDS_STILL] =
@@ -363,7 +366,7 @@ static void report(const struct sum *sum, enum soak_fault fault, bool ok, const 
                sum->frames, sum->faults[fault], worst, seed);
 }
 
-/* Some worlds of a kind; their tests are called by it. */
+/* Run some worlds of a kind; the names of their tests begin with the kind. */
 static void test(const char *kind, bool machine)
 {
     struct sum sum = {0};
@@ -389,7 +392,7 @@ static void test(const char *kind, bool machine)
     worst[SOAK_JOINT] = sum.apart;
     for (enum soak_fault fault = 0; fault < SOAK_FAULTS; fault++) {
         if (machine && (fault == SOAK_ENERGY || fault == SOAK_JOINT)) {
-            /* known to fail, see docs/soak.md: joints with limits */
+            /* known to fail (docs/soak.md): joints with limits */
             printf("# %s/%s: %ld of %ld worlds fail, worst %.3g\n", kind, what_of[fault],
                    sum.faults[fault], sum.worlds, worst[fault]);
         } else if (what_of[fault] && (machine || fault < SOAK_JOINT)) {

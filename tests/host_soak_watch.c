@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The checker of random worlds sees each fault that it is there for, and none where there is none. */
+/*
+ * host_soak_watch - the checker of random worlds sees each of its faults, and reports none where
+ * there is none.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +13,7 @@
 static struct soak_world world;
 static struct soak_result result;
 
-/* Two boxes of 1 x 0.6 x 0.3 without gravity that move and turn; the second is far off. */
+/* Two boxes of 1 x 0.6 x 0.3 without gravity move and turn; the second is far away. */
 static struct crowd *begin(void)
 {
     const double v[3] = {0.01, 0.02, -0.03}, w[3] = {0.1, 0.05, 0.2};
@@ -57,7 +60,7 @@ static void steps(int count)
     }
 }
 
-/* Change the first number of a body's velocity. */
+/* Change the first component of a body's velocity. */
 static void nudge(int body, int64_t by_q40)
 {
     struct carom_body_state state = lab_state(world.crowd->world, body);
@@ -74,7 +77,7 @@ static void test_nothing(void)
     finish(has_only(SOAK_FAULTS) && result.tally.frames == 30, "soak_watch/nothing");
 }
 
-/* The second box goes into the end of the first by three skins. */
+/* The second box enters the end of the first by so many skins. */
 static void test_crossing(double skins, const char *name)
 {
     struct crowd *crowd = begin();
@@ -100,7 +103,9 @@ static void test_inside(void)
     finish(has_only(SOAK_CROSSES) && result.tally.inside == 1, "soak_watch/inside");
 }
 
-/* Under a sheet; and under it after it was beside it, by rights. */
+/*
+ * A body below a sheet is a fault; a body that went beside the sheet before it went below is none.
+ */
 static void test_under(bool beside, const char *name)
 {
     struct crowd *crowd = begin();
@@ -125,7 +130,7 @@ static void test_room(void)
 
     world.ground = SOAK_ROOM;
     world.room[0] = 1;
-    world.room_half = 10.05; /* the second box goes 0.01 a frame, from 10 */
+    world.room_half = 10.05; /* the second box moves 0.01 a frame, from 10 */
     soak_start(&world, &result);
     steps(8);
     finish(crowd->body_count == 2 && has_only(SOAK_CROSSES) && result.escaped == 1 &&
@@ -133,7 +138,7 @@ static void test_room(void)
            "soak_watch/room");
 }
 
-/* A body that is put back after each frame. */
+/* A body is put back to the same place after each frame. */
 static void test_still(void)
 {
     struct crowd *crowd = begin();
@@ -147,7 +152,7 @@ static void test_still(void)
         lab_expect(carom_world_step(crowd->world), "step");
         lab_expect(carom_body_set(crowd->world, 0, &state), "set");
         crowd_look(crowd);
-        /* what crowd_look does not know: the other body moved */
+        /* a change that crowd_look does not know about: the other body moved */
         crowd->bodies[1].before.state.position.c[0] -= (int64_t)1 << 24;
         soak_watch_still(crowd, &result.still, frame);
     }
@@ -171,7 +176,7 @@ static void test_energy(void)
     world.exact = false;
     soak_start(&world, &result);
     steps(2);
-    nudge(0, crowd->bodies[0].def.velocity.c[0] >> 16); /* 2^-15 of what is kinetic along x */
+    nudge(0, crowd->bodies[0].def.velocity.c[0] >> 16); /* 2^-15 of the kinetic energy along x */
     steps(1);
     finish(has_only(SOAK_ENERGY), "soak_watch/energy");
 }

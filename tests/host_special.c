@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Special positions: pairs of convex bodies whose features meet over each other to within nothing to
- * 1/1000 of a unit (special.h), watched for some frames around the meeting. No faces may cross. An
- * overlap is looked for in double precision after every frame, and within frames up to the first hit,
- * of which the motion is known; of the others the straight way must not lead deep through.
+ * host_special - pairs of convex bodies in special positions (special.h): their features meet over
+ * each other to within 0 .. 1/1000 unit. The test watches some frames around the meeting. No faces
+ * may cross. It looks for overlaps in double precision after every frame, and within each frame up
+ * to the first hit, because that motion is known. After a hit it only asks that the straight way
+ * between two frames does not lead deep through the other body.
  *
- *   host_special               every so many-th case
+ *   host_special               every STRIDE-th case
  *   host_special long          100,000 cases
- *   host_special FROM COUNT    so many cases from one on; one is told frame by frame
+ *   host_special FROM COUNT    COUNT cases beginning with FROM; a single one frame by frame
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,10 +22,13 @@
 #define CASES  100000
 #define STRIDE 5 /* shares no factor with the number of classes */
 #define FRAMES 8
-/* Well above the rounding of doubles, far below a unit of the last place of a place. */
+/* Well above the rounding of doubles, and far below a unit of the last place of a position. */
 #define TOLERANCE 1e-10
 
-/* On the straight way between two frames, of the smaller one's size; for bodies that do not spin fast. */
+/*
+ * Largest overlap on the straight way between two frames, as a part of the smaller body's size; for
+ * bodies that do not spin fast.
+ */
 #define THROUGH 0.1
 #define SPIN    0.3
 
@@ -41,7 +45,7 @@ struct run {
     struct special s;
     struct carom_world *world;
     struct carom_body_state before[2], now[2]; /* lower, upper */
-    bool hit;                                  /* there was one, or a contact */
+    bool hit;                                  /* a hit or a contact in the frame */
     double deepest;                            /* overlap, units */
     bool through, frozen, capped;
 };
@@ -74,7 +78,7 @@ static double apart_between(const struct run *r, double part)
     return crossing_apart(&hull[0], &hull[1]);
 }
 
-/* Whether a body that moves has not come anywhere. */
+/* Whether a body that moves has stayed where it was. */
 static bool stands(const struct run *r)
 {
     bool moves = false, same = true;
@@ -102,7 +106,7 @@ static bool spins(const struct run *r)
     return most > SPIN;
 }
 
-/* Samples of a frame, for nothing to go through a thin part between two. */
+/* Samples of a frame, so dense that no body passes a thin part between two of them. */
 static int samples_of(const struct run *r)
 {
     double way = 0, thin = fmin(r->s.size[0], r->s.size[1]) * 0.02;
@@ -133,7 +137,7 @@ static void look(struct run *r, int status)
     for (int i = 1; i <= samples; i++) {
         double deep = -apart_between(r, (double)i / samples);
 
-        /* what hits does not go straight, but the straight way is no way through */
+        /* after a hit the way is not straight, but the straight way must not lead through */
         if (!r->hit || i == samples) {
             r->deepest = fmax(r->deepest, deep);
         } else if (!spins(r)) {

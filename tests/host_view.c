@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The viewer of examples/view.h, from outside: distances and places of the camera, in double; a hand that does not swing;
- * pause and slow motion; toggles, each of which must show, and go without a trace.
+ * host_view - the viewer of examples/view.h, tested from outside: distances and places of the
+ * camera, in double; a hand that does not make a body swing; pause and slow motion; toggles. Each
+ * toggle must change the picture, and switching it off must restore the picture.
  */
 #include <math.h>
 #include <stdio.h>
@@ -105,7 +106,7 @@ static void place_of(int body, double place[3])
     }
 }
 
-/* A pixel that shows a moving body, near the middle of what is seen of it. */
+/* A pixel that shows a moving body, near the middle of its visible part. */
 static bool find_body(int *x, int *y)
 {
     long sum_x = 0, sum_y = 0, count = 0;
@@ -150,7 +151,10 @@ static double place_off(const carom_v3_q32 *local, int x, int y)
     return seen_off(view_camera(), &point, x, y);
 }
 
-/* Grabbed, a place of a box goes to the pointer and not beyond; let go on the way the box flies on. */
+/*
+ * A grabbed place of a box goes to the pointer and not beyond. A box that is let go on the way
+ * flies on.
+ */
 static void test_hand(void)
 {
     double rest[3], held[3], later[3], off, nearest = 1e9, swing = 0, far = 0;
@@ -248,7 +252,10 @@ static void run_to_contact(int least)
     }
 }
 
-/* Each toggle shows in this scene and goes without a trace; nothing is drawn outside. */
+/*
+ * Each toggle changes the picture of this scene, and leaves no trace when it is off; no pixel
+ * outside of the picture is written.
+ */
 static void test_toggles(const char *scene, int least_faces, uint32_t toggles)
 {
     static uint32_t plain[HEIGHT + 2 * SPARE_Y][STRIDE];
@@ -277,7 +284,7 @@ static void test_toggles(const char *scene, int least_faces, uint32_t toggles)
         least = count < least ? count : least;
         memcpy(once, viewed_pixels, sizeof once);
         lab_expect(view_draw(), "draw");
-        /* the time of the picture itself is in the bars */
+        /* the bars show the time of the picture itself */
         twice += bit == VIEW_BARS ? 0 : differ((const uint32_t(*)[STRIDE])once);
         view_toggles(0);
         lab_expect(view_draw(), "draw");

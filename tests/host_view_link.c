@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Links of the viewer: those of random sessions are followed to the same states, whatever is looked at meanwhile; what is
- * no link is refused and changes nothing.
+ * host_view_link - links of the viewer. A link of a random session leads to the same states, no
+ * matter what the viewer shows meanwhile. Text that is no link is refused and changes nothing.
  */
 #include <stdio.h>
 #include <string.h>
@@ -75,14 +75,14 @@ static void play(struct session *s, const char *scene)
                 act(&s->grabs);
             }
         }
-        view_frame(); /* what was done is a part of the link once it is done */
+        view_frame(); /* an action is a part of the link after its frame */
         s->frame[i] = view_step_count();
         s->hash[i] = view_hash();
     }
     lab_expect(view_link(s->link, LINK), "link");
 }
 
-/* Follow the link in a view of another size, which does other things meanwhile. */
+/* Follow the link in a view of another size whose camera and toggles change meanwhile. */
 static bool follows(const struct session *s)
 {
     static char again[LINK];
@@ -129,12 +129,13 @@ static void test_links(void)
         count++;
     }
     lab_report(failed == 0, "view/links_replay", "%d of %d scenes differ", failed, count);
-    /* a crusher's block and packets that are put where they are take no notice of hands, nor need they be hit */
+    /* a hand has no effect on a crusher's block and on packets that the scene places, and may
+     * miss */
     lab_report(grabs >= 20 && touched >= count / 2, "view/hands_matter",
                "%d grabs, %d scenes go otherwise", grabs, touched);
 }
 
-/* Links that are cut, changed, or made up, are refused and change nothing, or are links. */
+/* Links that are cut, changed or invented are refused and change nothing, or are valid. */
 static void test_hostile(void)
 {
     /* clang-format off */
@@ -196,7 +197,7 @@ static void test_user(void)
     uint64_t first;
 
     lab_expect(view_open("user", &raw), "user");
-    memset(vertices, 0, sizeof vertices); /* it has a copy */
+    memset(vertices, 0, sizeof vertices); /* the viewer has its own copy */
     viewed_run(60);
     first = view_hash();
     lab_expect(view_restart(), "restart");

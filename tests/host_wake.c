@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Waking and falling asleep again. A floor with two stacks, one of them on a shelf, and two single
- * bodies, all asleep; then something happens to one of them. What it touches wakes as a whole and in
- * the same step, what is elsewhere does not, and in the end everything sleeps.
+ * host_wake - waking and falling asleep again. A floor carries two stacks, one of them on a shelf,
+ * and two single bodies, all asleep. Then something happens to one body. The bodies that it touches
+ * wake, as a whole island and in the same step; bodies elsewhere do not, and in the end everything
+ * sleeps.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,7 @@ static size_t settled_bytes;
 /* The events of one step; bodies as bits. */
 struct told {
     uint32_t woke, rested;
-    bool hit, repeated; /* a HIT event; an event of waking or rest came twice */
+    bool hit, repeated; /* a HIT event; an event of waking or rest for one body came twice */
 };
 
 /* --------------------------------------------------------------------- scene */
@@ -36,7 +37,10 @@ static void put(struct crowd *crowd, int mesh, double x, double z)
     crowd_place(crowd_body(crowd, mesh), x, 0, z);
 }
 
-/* Boxes of 1 x 0.8 x 0.4 a thousandth above each other; SINGLE and BALL slide without friction. */
+/*
+ * Boxes of 1 x 0.8 x 0.4, each a thousandth of a unit above the other; SINGLE and BALL slide
+ * without friction.
+ */
 static struct crowd *make(void)
 {
     struct crowd *crowd = crowd_new();
@@ -58,7 +62,7 @@ static struct crowd *make(void)
     return crowd;
 }
 
-/* The same, asleep, by way of a snapshot. */
+/* The same crowd, asleep; it is loaded from a snapshot. */
 static struct crowd *asleep(void)
 {
     struct crowd *crowd = make();
@@ -104,14 +108,14 @@ static struct told listen(const struct carom_world *world)
     return told;
 }
 
-/* One frame; a crowd that lost a body cannot be watched. */
+/* One frame. A crowd that lost a body cannot be watched. */
 static struct told step(struct crowd *crowd, struct crowd_tally *tally)
 {
     lab_expect(tally ? crowd_step(crowd, tally) : carom_world_step(crowd->world), "step");
     return listen(crowd->world);
 }
 
-/* The events of a run until all of `bodies` sleep; frames is 0 when they did not. */
+/* The events of a run until all of `bodies` sleep. frames is 0 when they never did. */
 struct run {
     int frames;
     uint32_t woke, rested;
@@ -140,7 +144,7 @@ static struct run run_to_sleep(struct crowd *crowd, uint32_t bodies, struct crow
     return run;
 }
 
-/* Whether a run ended as it should: all asleep, after 20 frames, told once each, nothing crossed. */
+/* Whether a run ended well: all asleep, after 20 frames, each reported once, nothing crossed. */
 static bool ended(const struct run *run, uint32_t rested, const struct crowd_tally *tally)
 {
     return run->frames >= 20 && run->rested == rested && !run->repeated && run->constant &&
@@ -187,10 +191,10 @@ static void launch(struct crowd *crowd, double x, double z, double vx, double vz
 }
 
 /*
- * A ball flies, level, into the middle of a sleeping box. In the step of the hit the box wakes and
- * has its share: momentum along x stays, and the speeds part as e says,
- * v_box = (1 + e) v m_ball / (m_ball + m_box). The facet of the ball at the end of its x axis and
- * the box's side are square to the way, so nothing turns by more than the fall of the ball makes.
+ * A ball flies level into the middle of a sleeping box. In the step of the hit the box wakes and
+ * gets its share: momentum along x stays, and the speeds part as e says, v_box = (1 + e) v m_ball /
+ * (m_ball + m_box). The facet of the ball at the end of its x axis and the box's side are
+ * perpendicular to the motion, so only the fall of the ball makes anything turn.
  */
 static void test_hit(void)
 {
@@ -221,7 +225,7 @@ static void test_hit(void)
                "momentum within %.1e, speed of the box %.4f of the formula", change, ratio);
     crowd_free(crowd);
 
-    /* from above onto a stack: it wakes as a whole */
+    /* from above onto a stack: the whole stack wakes */
     crowd = asleep();
     tally = (struct crowd_tally){0};
     launch(crowd, 0.1, 3, 0, -0.1);
@@ -236,7 +240,7 @@ static void test_hit(void)
     crowd_free(crowd);
 }
 
-/* Five boxes in a row, a gap between each: each wakes when the one before reaches it. */
+/* Five boxes in a row with gaps: each wakes when the one before reaches it. */
 static void test_row(void)
 {
     struct crowd *crowd = crowd_new();
@@ -270,7 +274,7 @@ static void test_row(void)
             }
         }
     }
-    /* half a unit of gap at a tenth a frame, handed on by each */
+    /* half a unit of gap at a tenth a frame, for each box in turn */
     for (int i = 0; i < 5; i++) {
         ordered = ordered && woke_at[i] >= 1 + 5 * i - 1 && woke_at[i] <= 1 + 5 * i + 1;
     }
@@ -287,7 +291,7 @@ static double height(const struct crowd *crowd, int body)
     return lab_double(lab_state(crowd->world, body).position.c[2], 32);
 }
 
-/* A shelf goes down by one unit, or is taken away, and what lies on it follows. */
+/* A shelf moves down by one unit, or is removed, and the bodies on it follow. */
 static void test_support(void)
 {
     for (int removed = 0; removed < 2; removed++) {
@@ -319,7 +323,7 @@ static void test_support(void)
     }
 }
 
-/* The box in the middle of a stack is taken away, or set on another place. */
+/* The box in the middle of a stack is removed, or moved to another place. */
 static void test_member(void)
 {
     for (int removed = 0; removed < 2; removed++) {
@@ -351,7 +355,9 @@ static void test_member(void)
     }
 }
 
-/* A body that is added wakes what it is put against, and nothing when it is put elsewhere. */
+/*
+ * A body that is added wakes the bodies that it is put against, and none when it is put elsewhere.
+ */
 static void test_added(void)
 {
     struct crowd *crowd = asleep();
@@ -382,15 +388,15 @@ static void test_force(void)
     struct run run;
     bool ok;
 
-    /* half of its weight is taken off the top box: the stack wakes, and sleeps again */
+    /* a force takes half of the weight off the top box: the stack wakes, and sleeps again */
     lab_expect(carom_body_set_force(crowd->world, TOP, &force), "force");
     ok = sleepers(crowd->world, BODIES) == (ALL & ~STACK);
     run = run_to_sleep(crowd, ALL, &tally);
     ok = ok && run.woke == STACK && ended(&run, STACK, &tally);
-    /* the same force once more is no change */
+    /* setting the same force again is no change */
     lab_expect(carom_body_set_force(crowd->world, TOP, &force), "force");
     ok = ok && sleepers(crowd->world, BODIES) == ALL && step(crowd, &tally).woke == 0;
-    /* twice its weight lifts it off: up by g n^2 / 2 in n frames */
+    /* twice its weight lifts the box: up by g n^2 / 2 in n frames */
     force.c[2] = lab_fixed(weight * 2, 40);
     lab_expect(carom_body_set_force(crowd->world, TOP, &force), "force");
     crowd_look(crowd);
@@ -401,7 +407,7 @@ static void test_force(void)
             step(crowd, &tally);
         }
         way = (height(crowd, TOP) - from) / (G * 30 * 30 / 2);
-        /* held by the contact's margin for a frame at most */
+        /* the margin of the contact holds it for a frame at most */
         lab_report(ok && way > 0.9 && way < 1.1 && tally.crossed == 0, "wake/force",
                    "asleep again after %d frames, way up %.4f of g n^2 / 2", run.frames, way);
     }
@@ -457,7 +463,7 @@ static void test_push(void)
 
 /* ------------------------------------------------------------------- snapshot */
 
-/* A world saved asleep wakes elsewhere as it does here, with other working pools, too. */
+/* A world saved asleep wakes in another block as it does here, also with other working pools. */
 static void test_snapshot(void)
 {
     struct crowd *one = asleep(), *other = make();
@@ -467,7 +473,7 @@ static void test_snapshot(void)
     other->config.caps.entries = other->config.caps.candidates = 50;
     lab_expect(crowd_start(other), "start");
     for (int frame = 0; frame < 20; frame++) {
-        step(other, NULL); /* a past of its own */
+        step(other, NULL); /* a different history */
     }
     lab_expect(carom_snapshot_load(other->world, settled, settled_bytes), "load");
     launch(one, 0.1, 3, 0, -0.1);

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The runner: every suite of tests/suites.h that is in the image, in order; argument 1 is a part of a name to select. */
+/*
+ * main - the runner: runs every suite of tests/suites.h that the image holds, in order. Argument 1
+ * is a part of a test name; only matching tests run.
+ */
 #include <string.h>
 
 #include "port.h"
 #include "lib/test.h"
 
-/* Weak: a board's image may have some of them only, the others are NULL. */
+/* Weak: a board's image may hold some suites only; the others are NULL. */
 #define SUITE(name) extern const struct test tests_##name[] __attribute__((weak));
 #include "suites.h"
 #undef SUITE
@@ -46,7 +49,7 @@ void test_check_order(int64_t a, enum test_order order, int64_t b, const char *f
     check_values(TEST_IN_ORDER(a, order, b), a, b, file, line, text);
 }
 
-/* Billionths, the largest number of them for what is beyond it. */
+/* A number in billionths, clamped to what a long holds. */
 static long billionths(double v)
 {
     return v * 1e9 > INT32_MAX ? INT32_MAX : v * 1e9 < -INT32_MAX ? -INT32_MAX : (long)(v * 1e9);

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The plays of plays.h, for tools/matrix.py: built in many ways, it must always print the same
- * hashes. Nothing is used but the engine and the console, so it runs without a C library as well.
+ * matrix - the plays of plays.h, for tools/matrix.py. Every build of this program must print the
+ * same hashes. It uses only the engine and the console, so it runs without a C library, too.
  *
- * Options: scene=NAME (else all)  frames=2000  at=500  fill=0 (what memory holds before, a byte)
+ * Options: scene=NAME (else all)  frames=2000  at=500  fill=0 (the byte that memory holds at first)
  *          each=1   a line a frame: its state hash
- *          trace=N  a line for each stage that ends in frame N: what the world holds then
+ *          trace=N  a line for each stage that ends in frame N: a digest of the world
  *          save=1   a line with the snapshot after frame `at`, where there is memory for one
- *          load=F   go on from a snapshot, a file, as if it had been taken after frame `at`
+ *          load=F   go on from a snapshot file, as if it had been saved after frame `at`
  *
- * A scene's line is "scene NAME FRAMES AWAKE HASH FUTURE": frames, and those that end with a body
- * awake; a hash over the state hash of every frame, its status, its events and what was asked of the
- * world; the same over as many frames after `at` as before. "absent NAME ..." is a scene that the
- * memory at hand does not hold.
+ * A scene's line is "scene NAME FRAMES AWAKE HASH FUTURE": the frames, and how many of them end
+ * with a body awake; HASH covers the state hash, status, events and answers of every frame; FUTURE
+ * covers the same of the frames after `at`, as many as before it. "absent NAME ..." is a scene
+ * that does not fit into the memory.
  */
 #include "lib/plays.h"
 #include "port.h"
 #include "world/world.h"
 
 #ifdef SCENE_ROM
-/* a board with little memory: snapshots are handed on by others */
+/* a board with little memory: it saves no snapshots */
 #define MESH_BYTES     8
 #define WORLD_BYTES    SCENE_WORLD_BYTES
 #define SNAPSHOT_BYTES 8
@@ -29,7 +29,10 @@
 #define SNAPSHOT_BYTES 8192
 #endif
 
-/* The sheet moves in one frame of these; that is dear, and so it stops and starts. */
+/*
+ * The sheet moves in one frame out of so many, because moving is expensive; so the sheet stops and
+ * starts.
+ */
 enum { SHEET_EVERY = 4 };
 
 static _Alignas(8) uint8_t mesh_block[MESH_BYTES];
@@ -43,7 +46,7 @@ static struct {
     const char *scene, *load;
 } wanted;
 
-/* A play under way. */
+/* A running play. */
 struct run {
     const struct play *play;
     struct scene scene;
@@ -101,7 +104,7 @@ static int number(const char *name, int otherwise)
     return digits ? v : otherwise;
 }
 
-/* Go on with a result that is not an error; say what is wrong and leave with any other. */
+/* Accept a result that is not an error; print an error and exit. */
 static int expect(const struct run *run, int frame, int result, const char *what)
 {
     if (result < 0) {
@@ -122,18 +125,18 @@ static int expect(const struct run *run, int frame, int result, const char *what
 /* ------------------------------------------------------------------------ trace */
 
 /*
- * The engine asks for the time when a step begins, at the end of every stage and once more. Here
- * time is the number of times it asked, so each stage that ends adds one to its own; which one it
- * was is seen at the next time.
+ * The engine reads the clock when a step begins, at the end of every stage and once more. Here the
+ * clock counts its readings, so each stage that ends adds one to its own time. The next reading
+ * shows which stage it was.
  */
 static struct {
-    struct carom_world *world; /* NULL: not now */
+    struct carom_world *world; /* NULL: not tracing */
     uint32_t time, booked[CAROM_STAGE_COUNT];
     bool open;
     uint64_t state, found;
 } trace;
 
-/* Say what the last stage left. */
+/* Print what the last stage left. */
 static void trace_close(void)
 {
     const uint32_t *booked = trace.world->stats.ticks;
@@ -155,13 +158,13 @@ static void trace_close(void)
     trace.open = false;
 }
 
-/* The same for two numbers of 32 bits, of which a machine has the first in the upper half or the lower. */
+/* The same number, if a machine stored the halves in either order. */
 static uint64_t halves(int64_t v)
 {
     return (uint64_t)(uint32_t)v + ((uint64_t)v >> 32);
 }
 
-/* After a solve, and until a path is set, its numbers are where v and g were. */
+/* After a solve, and until a path is set, the path's numbers lie where v and g were. */
 static uint64_t fold_path(const struct body_path *path, uint64_t digest)
 {
     for (int k = 0; k < 3; k++) {
@@ -172,7 +175,7 @@ static uint64_t fold_path(const struct body_path *path, uint64_t digest)
     return digest;
 }
 
-/* Fold the stages' findings that are in no state: paths, pairs and counts. */
+/* Fold the findings of stages that no state holds: paths, pairs and counts. */
 static uint64_t fold_found(const struct carom_world *w)
 {
     const struct carom_stats *stats = &w->stats;
@@ -215,7 +218,9 @@ static uint32_t tick(void)
 
 /* ------------------------------------------------------------------------- a play */
 
-/* Build the meshes, make the world; an error is of the memory that there is, or of the scene. */
+/*
+ * Build the meshes and make the world. An error means too little memory, or a fault of the scene.
+ */
 static int load(struct run *run, const struct play *play)
 {
     struct carom_config config = scene_config();
@@ -242,7 +247,7 @@ static int load(struct run *run, const struct play *play)
     return scene_make(scene, &config, world_block, sizeof world_block, &run->world);
 }
 
-/* Take the snapshot of frame `at` in. */
+/* Load the snapshot that was saved after frame `at`. */
 static void go_on(struct run *run)
 {
     long bytes = port_read_file(wanted.load, snapshot, sizeof snapshot);

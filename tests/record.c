@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Record a scene as it plays by itself: record.elf scene=car frames=10000 to=FILE, stages=1 with digests of stages,
- * from=FRAME begins with the world as it is before that frame,
- * caps=2,1,16,64,0,64 in a world of these capacities, which a small board has room to play. The scenes are compiled as
- * they are, with tests/lib/recorded.h before them.
+ * record - record a scene that plays by itself: record.elf scene=car frames=10000 to=FILE. stages=1
+ * adds digests of stages; from=FRAME begins with the world before that frame; caps=2,1,16,64,0,64
+ * uses a world of these capacities, so that a small board has room to play it. The scenes are
+ * compiled unchanged, with tests/lib/recorded.h before them.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static void begin(FILE *file, const char *name)
            "begin");
 }
 
-/* Capacities, in the order of CAROM_POOLS; those that are not named are 0. */
+/* Capacities, in the order of CAROM_POOLS; missing ones are 0. */
 static void read_caps(struct carom_caps *caps, const char *text)
 {
     memset(caps, 0, sizeof *caps);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Play a recording: replay.elf file=FILE, or the one that is built in. Ends with status 0 if all is the same, 1 for a difference and 2 for a file
- * that cannot be played.
+ * replay - play a recording: replay.elf file=FILE, or the file that is built in. Ends with status
+ * 0 if all is the same, 1 for a difference and 2 for a file that cannot be played.
  *
  *   each=1   a line a frame: its state and what its calls were
- *   trace=F  what frame F's stages found, and where its bodies are after it
+ *   trace=F  the results of frame F's stages, and the places of its bodies after it
  */
 
 #include "carom_replay.h"
 #include "port.h"
 
-#ifdef REPLAY_BUILT_IN /* of a board that is short of memory: the file lies in the image, all RAM that is left is room */
+#ifdef REPLAY_BUILT_IN /* for a board that is short of memory: the file lies in the image, and all
+                        * RAM that is left is room for the world */
 extern const uint8_t replay_file[], replay_file_end[];
-extern uint8_t room_start[], room_end[]; /* of linker/sections.ld */
+extern uint8_t room_start[], room_end[]; /* defined in linker/sections.ld */
 #else
 #define FILE_BYTES (2u << 20)
 #define ROOM       (6u << 20)
@@ -61,7 +62,7 @@ static void put_three(const char *what, const int64_t v[3])
     }
 }
 
-/* Stages and bodies, a line each: two machines' are compared. */
+/* Print stages and bodies, a line each, so that two machines' lines can be compared. */
 static void trace(void)
 {
     uint64_t digests[CAROM_REPLAY_PARTS];
@@ -127,7 +128,7 @@ static void put_difference(void)
     put("\n");
 }
 
-/* Status of the program after what the player said last. */
+/* The program's exit status for the player's last result. */
 static int verdict(int result)
 {
     if (result == CAROM_REPLAY_DIFFERS) {
@@ -153,7 +154,7 @@ static int verdict(int result)
     return result == CAROM_REPLAY_CUT ? 2 : 0;
 }
 
-/* Have the whole file in memory. */
+/* Read the whole file into memory. */
 static bool read_file(void)
 {
 #ifndef REPLAY_BUILT_IN

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The suites, in the order in which they run. A suite is named after the folder of src/ that it tests, then after the
- * thing; scene_* tests examples/, port the board. main.c includes this.
+ * The suites, in the order in which they run. A suite is named after the folder of src/ that it
+ * tests, then the thing that it tests. scene_* tests examples/, port tests the board. main.c
+ * includes this file.
  */
 SUITE(num_fix)
 SUITE(num_arena)

@@ -39,7 +39,7 @@ static void random_vector(struct test_random *r, double size, int64_t v[3], int 
     }
 }
 
-/* Any place, turn and motion. */
+/* Any place, rotation and motion. */
 static void random_state(struct test_random *r, double speed, double spin)
 {
     carom_v3_q40 v, w;
@@ -96,7 +96,7 @@ static void test_matrix(void)
                 int64_t dot = carom_round(carom_dot(m.c[i], m.c[k]), 30);
 
                 CHECK_NEAR(dot, i == k ? CAROM_ONE_Q30 : 0, 12);
-                /* |q|^2 is 1 within 4 units, and that doubles */
+                /* the check leaves |q|^2 within 4 units of 1, which doubles in the matrix */
                 CHECK_NEAR(m.c[i][k], real_round(exact[i][k] * CAROM_ONE_Q30), 6);
             }
         }
@@ -132,7 +132,10 @@ static void turn_by_cayley(double out[3], const double u[3], const double v[3])
     }
 }
 
-/* A body of equal inertia turns about its spin; the angle at t is 2 atan(t |u|). */
+/*
+ * A body with the same inertia about every axis turns about its spin; the angle at t is 2 atan(t
+ * |u|).
+ */
 static void test_turn(void)
 {
     struct test_random r = {3};
@@ -176,7 +179,7 @@ static void test_turn(void)
 /* Axes of a torque-free body after `frames`, by small steps of the midpoint rule in double. */
 static void integrate(double axes[3][3], double inverse[3][3], const double l[3], int frames)
 {
-    const int steps = 8; /* a frame */
+    const int steps = 8; /* steps a frame */
 
     for (int n = 0; n < frames * steps; n++) {
         double start[3][3], w[3];
@@ -203,7 +206,7 @@ static void integrate(double axes[3][3], double inverse[3][3], const double l[3]
     }
 }
 
-/* A body of three different moments of inertia nutates as the equations of motion say. */
+/* A body with three different moments of inertia nutates as the equations of motion say. */
 static void test_nutation(void)
 {
     enum { FRAMES = 40 };
@@ -230,13 +233,13 @@ static void test_nutation(void)
     fix_matrix(&m, &state.rotation);
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
-            /* turned by 2 radians in all; the error of a frame's step is a few 0.06^3 / 12 */
+            /* turned by 2 radians in all; the error of a frame's step is a few times 0.06^3 / 12 */
             CHECK_LESS(real_abs(real(m.c[i][k], 30) - axes[i][k]), 2e-3);
         }
     }
 }
 
-/* Kinetic energy of a long torque-free tumble; the angular momentum is the state itself. */
+/* Kinetic energy of a long torque-free tumble. The angular momentum is the state itself. */
 static void test_tumble(void)
 {
     /* close to the middle axis, where it tumbles, at 0.1 radians a frame */
@@ -271,9 +274,9 @@ static void test_tumble(void)
 }
 
 /*
- * A needle of 700:1 whose moments of inertia across its axis differ by 2 parts in a million: as much
- * as the one about the axis. With 30 bits for the inverse, 12 across the axis, that difference is
- * noise, and it winds itself up.
+ * A needle of 700:1. Its moments of inertia across its axis differ by 2 parts in a million, as much
+ * as the moment about the axis. If the inverse had 30 bits, 12 of them across the axis, this
+ * difference would be noise, and the noise would grow.
  */
 static void test_needle(void)
 {
@@ -283,7 +286,7 @@ static void test_needle(void)
 
     shape_box(&shape, 12, 7005, 10, 14);
     shape_body(&shape, true, &body, &state);
-    body_set_mass(&body, fix_scale(1, 0)); /* the mesh's own is too small to be one */
+    body_set_mass(&body, fix_scale(1, 0)); /* the mesh's own mass is below the least */
     body_set_motion(&body, &state, &v, &w);
     for (int n = 0; n < TUMBLE / 20; n++) {
         struct fix_wide e = {0, 0};
@@ -304,16 +307,16 @@ static void test_needle(void)
     }
     CHECK_LESS(most, 2e-6);
     /*
-     * Across the axis the spin keeps its 0.36 radians a frame, W. Euler's equations about it are those
-     * of a pendulum: w^2 rises by W^2 (14^2 - 10^2) / (14^2 + 10^2) at most, so |w, W|^2 stays below
-     * 0.2^2 + 1.33 W^2.
+     * Across the axis the spin keeps its 0.36 radians a frame, W. Euler's equations about it are
+     * the equations of a pendulum: w^2 rises by W^2 (14^2 - 10^2) / (14^2 + 10^2) at most, so |w,
+     * W|^2 stays below 0.2^2 + 1.33 W^2.
      */
     CHECK_LESS(fastest, 0.5);
 }
 
 /* ---------------------------------------------------------------- parabola */
 
-/* Mass 1 and numbers with room below: nothing is ever rounded, x = x0 + n v + n^2 g / 2. */
+/* Mass 1, and numbers with spare low bits: nothing is ever rounded, x = x0 + n v + n^2 g / 2. */
 static void test_free_fall(void)
 {
     const carom_v3_q40 g = {{3 << 10, -5 * 1024, 7 * -12345678 * (int64_t)1024}};
@@ -371,7 +374,7 @@ static void test_parabola(void)
                        real_round(real_abs(dv) * 2048) + 3);
         }
         CHECK_EQ(memcmp(&next.angular, &state.angular, sizeof next.angular), 0);
-        /* at 0 it is where it was */
+        /* at 0 the body is where it was */
         next = state;
         body_advance(&body, &next, 0, tau_q30, &g);
         CHECK_EQ(memcmp(&next.position, &state.position, sizeof next.position), 0);
@@ -406,7 +409,7 @@ static void test_still(void)
 
 /* ------------------------------------------------------------------ bounds */
 
-/* Relative to the origin of the path. */
+/* A vertex relative to the origin of the path. */
 static void vertex_at(double out[3], uint32_t v, int32_t t_q30)
 {
     carom_v3_q22 local = mesh_vertex(&shape.mesh, v);
@@ -462,7 +465,7 @@ static void test_path_length(void)
                     real(t_q30, 30),
                 real(turn_q30, 30));
         }
-        CHECK_AT_LEAST(real(way_q22, 22), most); /* and is no wild guess */
+        CHECK_AT_LEAST(real(way_q22, 22), most); /* and the bound is not much too large */
     }
 }
 
@@ -486,14 +489,14 @@ static void test_slice(void)
         CHECK_AT_LEAST(slice_q30, 1);
         CHECK_AT_MOST(slice_q30, tau_q30);
         CHECK_AT_MOST(turn, 0.5 * (1 + 1e-9));
-        /* the longest: all of it, or within a millionth of the limit */
+        /* the longest slice: the whole frame, or within a millionth of the limit */
         CHECK(slice_q30 == tau_q30 || turn >= 0.5 * (1 - 1e-6));
     }
 }
 
 /* ------------------------------------------------------------------ momenta */
 
-/* A box of any mass, thin or not, with a velocity and a spin of at most so much an axis. */
+/* A box of any mass, thin or not. Each component of its velocity and of its spin has a limit. */
 static void throw_box(struct test_random *r, bool thin, double most_v, double most_w,
                       carom_v3_q40 *v, carom_v3_q40 *w)
 {
@@ -589,11 +592,11 @@ static void test_inertia(void)
     }
 }
 
-/* Calm bodies turn by less than half a radian, are slower than the limit, and not rare. */
+/* Calm bodies turn by less than half a radian, are slower than the limit, and are not rare. */
 static void test_calm(void)
 {
     struct test_random r = {23};
-    const int cases = 10 * CASES; /* few of thin boxes are calm */
+    const int cases = 10 * CASES; /* few of the thin boxes are calm */
     int calm = 0, thin = 0;
 
     for (int n = 0; n < cases; n++) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's four kernels as special cases, with times worked out by hand, and how a slice starts.
+ * The paper's four kernels as special cases, with times worked out by hand, and the start of a
+ * slice.
  */
 #include "lib/duo.h"
 #include "lib/real.h"
@@ -31,7 +32,9 @@ static void above(double x, double y, double z, bool ridge)
     }
 }
 
-/* The candidate of a kind whose features meet first, and when they meet and the search stops. */
+/*
+ * The candidate of a kind whose features meet first, and the time at which the search stops for it.
+ */
 static bool first_of_all(int kind, struct boyse_hit *best)
 {
     uint32_t ni = kind == CANDIDATE_EDGE_EDGE ? duo.shape[0].mesh.edge_count
@@ -62,7 +65,10 @@ static bool first_of_all(int kind, struct boyse_hit *best)
     return any;
 }
 
-/* The time of impact is right to the search's slack: four units of length, and rounding, at that speed. */
+/*
+ * The time of impact is right within the search's slack at that speed: four units of length, and
+ * rounding.
+ */
 static void check_time(const struct boyse_hit *hit, double t, double speed)
 {
     CHECK_AT_MOST(real_abs(real(hit->t_q30, 30) - t), 7 * DUO_UNIT / speed + 1e-8);
@@ -104,16 +110,16 @@ static void test_translating_vertex(void)
     above(0.25, 0.3, 0.2, false);
     duo_set_paths(still, still, &gravity);
     CHECK(first_of_all(CANDIDATE_VERTEX_FACE, &hit));
-    /* g t^2 / 2 is the way */
+    /* g t^2 / 2 is the distance */
     event = 2 * real_sqrt(0.2 - 600. / 4096 - event);
     check_time(&hit, event, event / 2);
     duo_set_paths((double[3]){0.5, 0.5, 0.25}, still, NULL);
-    CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit)); /* rises */
+    CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit)); /* the box rises */
     duo_set_paths((double[3]){0, 0, -0.05}, still, NULL);
     CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit)); /* too slow to arrive */
 }
 
-/* The other role: the box comes down with its lower face on the upper corners of another box. */
+/* The other role: the lower face of the box comes down on the upper corners of another box. */
 static void test_translating_face(void)
 {
     struct boyse_hit hit;
@@ -124,7 +130,7 @@ static void test_translating_face(void)
     duo_set_paths((double[3]){0.01, -0.02, -1}, still, NULL);
     CHECK(first_of_all(CANDIDATE_FACE_VERTEX, &hit));
     check_time(&hit, 1.25 - 600. / 4096 - 0.25 - real(duo.pair.skin_q22 / 2, 22), 1);
-    CHECK_EQ(hit.touch.normal.c[2], CAROM_ONE_Q30); /* from b into a */
+    CHECK_EQ(hit.touch.normal.c[2], CAROM_ONE_Q30); /* the normal leads from b into a */
     CHECK(!first_of_all(CANDIDATE_VERTEX_FACE, &hit));
 }
 
@@ -144,9 +150,9 @@ static void test_translating_edge(void)
 }
 
 /*
- * A point (x, z) on a circle about the centre of the box reaches the height -h at the angle of
- * which (z - h) tau^2 + 2 x tau - (z + h) = 0, tau = tan(angle / 2); the box turns by Cayley(t u),
- * so that tau = t |u|.
+ * A point (x, z) on a circle about the centre of the box reaches the height -h at the angle for
+ * which (z - h) tau^2 + 2 x tau - (z + h) = 0, tau = tan(angle / 2). The box turns by Cayley(t u),
+ * so tau = t |u|.
  */
 static double circle_time(double x, double z, double h, double u)
 {
@@ -194,12 +200,12 @@ static void test_turning_face(void)
     duo.state[1].rotation.c[0] = (int32_t)real_round(cosine * CAROM_ONE_Q30);
     duo.state[1].rotation.c[1] = (int32_t)real_round(sine * CAROM_ONE_Q30);
     duo.state[1].rotation.c[2] = -duo.state[1].rotation.c[1];
-    /* the tip is sqrt 3 / 4 over the centre */
+    /* the tip is sqrt 3 / 4 above the centre */
     duo.state[1].position.c[0] = real_round(x * real_power2(32));
     duo.state[1].position.c[2] = real_round((z - real_sqrt(3) / 4) * real_power2(32));
     duo_set_paths(still, (double[3]){0, 0.48, 0}, NULL);
     CHECK(first_of_all(CANDIDATE_FACE_VERTEX, &hit));
-    /* seen from the box the tip turns back, up to the face at -600/4096 */
+    /* seen from the box, the tip turns back, up to the face at -600/4096 */
     t = circle_time(-x, z, 600. / 4096 + real(duo.pair.skin_q22 / 2, 22),
                     real_length(duo.motion[0].u));
     CHECK_MORE(t, 0);
@@ -218,12 +224,12 @@ static void test_turning_edge(void)
     above(0, 0, 0, false);
     shape_box(&duo.shape[1], 12, 8192, 2048, 2048);
     shape_body(&duo.shape[1], false, &duo.body[1], &duo.state[1]);
-    /* an eighth of a turn about x: an edge looks along y, at sqrt 2 / 4 from the centre */
+    /* an eighth of a turn about x: an edge points along y, at sqrt 2 / 4 from the centre */
     duo.state[1].rotation = (carom_quat_q30){{992008094, 410903207, 0, 0}};
     duo.state[1].position.c[1] = -real_round((wall + real_sqrt(0.125)) * real_power2(32));
     duo_set_paths(still, (double[3]){0, 0, -0.48}, NULL);
     CHECK(first_of_all(CANDIDATE_EDGE_EDGE, &hit));
-    /* y' = y cos - x sin, as above with y for z */
+    /* y' = y cos - x sin; the formula above, with y in place of z */
     t = circle_time(x, y, wall - real(duo.pair.skin_q22 / 2, 22), real_length(duo.motion[0].u));
     CHECK_MORE(t, 0);
     CHECK_LESS(t, 1);
@@ -233,8 +239,8 @@ static void test_turning_edge(void)
 }
 
 /*
- * Two ridges so flat that the normal and its opposite are both within the tolerance of the cones:
- * the side that the faces look to is the one that counts, whichever way the edges run.
+ * Two ridges are so flat that the tolerance of the normal cones admits both the normal and its
+ * opposite. The side that the faces look to decides, whichever way the edges run.
  */
 static void test_flat_ridges(void)
 {
@@ -262,7 +268,7 @@ static void test_flat_ridges(void)
         duo_set_paths((double[3]){0, 0, -0.125}, still, NULL);
         c.i = edge_between(&duo.shape[0], 0, 3);
         c.j = edge_between(&duo.shape[1], 1, 4);
-        duo.state[0].position.c[1] = -((int64_t)2 << 32); /* over the middle of that edge */
+        duo.state[0].position.c[1] = -((int64_t)2 << 32); /* above the middle of that edge */
         duo_set_paths((double[3]){0, 0, -0.125}, still, NULL);
         CHECK(shape_owns_edge(&duo.shape[0], c.i));
         CHECK(shape_owns_edge(&duo.shape[1], c.j));
@@ -276,7 +282,7 @@ static void test_flat_ridges(void)
 
 /* ----------------------------------------------------------------- the start */
 
-/* A corner over the plane at `gap` units of q22 and moving at `speed`, a unit a frame at most. */
+/* A corner above the plane, at `gap` units of q22, moves at `speed`, at most a unit a frame. */
 static bool start_at(int32_t gap, double speed, struct boyse_hit *hit)
 {
     above(0.25, 0.3, 600. / 4096, false);
@@ -293,10 +299,11 @@ static void test_at_start(void)
     start_at(0, 0, &hit);
     skin = duo.pair.skin_q22;
     CHECK_EQ(skin, duo.body[0].def.radius_q22 >> 11);
-    /* clear of the event gap: it goes on to that */
+    /* clear of the event gap: the hit comes at the event gap */
     CHECK(start_at(skin, -0.125, &hit));
     check_time(&hit, real(skin - skin / 2, 22) / 0.125, 0.125);
-    /* closer than that: at once, or it would come nearer at every hit */
+    /* closer than the event gap: the hit comes at once, or the corner would come closer with every
+     * hit */
     CHECK(start_at(skin / 4, -0.125, &hit));
     CHECK_AT_MOST(real(hit.t_q30, 30) * 0.125, 4 * DUO_UNIT);
     /* touching or overlapping: at once while it approaches, never while it leaves */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost of a collision test, in instructions where the board counts them: of the candidates of
- * the head scene, which nearly all miss, and of features that are made to meet.
+ * The cost of a collision test, in instructions where the board counts them: for the candidates of
+ * the head scene, nearly all of which miss, and for features that are made to meet.
  */
 #include "lib/meeting.h"
 #include "port.h"
@@ -15,8 +15,9 @@
 #define MEETINGS 48
 
 /*
- * Instructions on average. Of a hit 1800 and 2800 are wanted. 2831 and 4390 were measured: a fifth is the early test, a fifth
- * the coefficients, a third the exact test at the root, the rest curve, root and event.
+ * Instructions on average. The aim for a hit is 1800 and 2800. Measured were 2831 and 4390: a fifth
+ * is the early test, a fifth the coefficients, a third the exact test at the root, the rest curve,
+ * root and event.
  */
 static const uint32_t bar_miss[2] = {250, 390}, bar_hit[2] = {2850, 4400};
 
@@ -44,7 +45,7 @@ static void tally_end(const struct tally *t, const char *name, uint32_t bar)
     CHECK_BAR(mean, bar);
 }
 
-/* One test with its cost, the call itself included. */
+/* Measure one test, the call itself included. */
 static bool timed_first(const struct boyse_pair *pair, const struct candidate *c,
                         struct boyse_hit *hit, uint32_t *cost)
 {
@@ -91,8 +92,8 @@ static void time_all(struct candidate_visitor *self, const struct candidate *c, 
 }
 
 /*
- * Test what interfere hands over when it must allow for any way as long as that of the coming frame,
- * a third more and 20 skins: the nearest of all, of which hardly any meet.
+ * Test the candidates that interfere gathers for any way as long as that of the coming frame, a
+ * third more, and 20 skins. These are the nearest candidates, and hardly any of them meet.
  */
 static void time_frame(struct fall *fall, struct carom_world *world, const carom_v3_q40 *gravity)
 {
@@ -117,7 +118,7 @@ static void time_frame(struct fall *fall, struct carom_world *world, const carom
     CHECK_EQ(interfere_visit(&world->interfere, fall->bodies, pairs, 1, &fall->base), CAROM_OK);
 }
 
-/* The head that falls on the field, bounces and slides. */
+/* The head falls on the field, bounces and slides. */
 static void test_misses(void)
 {
     static struct fall fall;
@@ -140,7 +141,7 @@ static void test_misses(void)
             time_frame(&fall, world, stats.contacts > 0 ? NULL : &config.gravity);
         }
     }
-    CHECK_MORE(fall.hits, 0); /* it does come down */
+    CHECK_MORE(fall.hits, 0); /* the head does come down */
     tally_end(&fall.misses[0], "vertex and face that miss", bar_miss[0]);
     tally_end(&fall.misses[1], "edges that miss", bar_miss[1]);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * First hits against the true motion in double precision: the distance of two features is sampled
- * over the slice and every change of its sign is closed in on.
+ * First hits against the true motion in double precision. The test samples the distance of two
+ * features over the slice and narrows down every change of its sign.
  */
 #include "boyse/event.h"
 #include "lib/duo.h"
@@ -9,7 +9,7 @@
 #include "lib/test.h"
 
 #ifdef TEST_LONG
-#define CASES   4000 /* of each kind */
+#define CASES   4000 /* cases of each kind */
 #define SAMPLES 256
 #else
 #define CASES   8
@@ -21,11 +21,11 @@
 /* The first root at which the features meet while approaching, by sampling. */
 struct answer {
     bool found;
-    bool doubtful; /* too close to call at some root on the way */
-    double t;      /* of the root */
-    int refused;   /* roots before it that are no hits */
-    double open;   /* the largest gap since the last of those */
-    double slope;  /* of the gap at the root, downwards */
+    bool doubtful; /* some root on the way is too close to call */
+    double t;      /* time of the root */
+    int refused;   /* earlier roots that are no hits */
+    double open;   /* the largest gap since the last of those roots */
+    double slope;  /* speed at which the gap closes at the root */
     int sign;
 };
 
@@ -58,7 +58,8 @@ static void try_root(struct answer *a, const struct candidate *c, double t, bool
     }
     place = duo_inside(&f, c);
     cones = duo_in_cones(&f, c, sign);
-    /* the root that is tested may be one of a surface three units nearer: when, and how turned? */
+    /* the tested root may belong to a surface three units nearer: its time and rotation differ by
+     * so much */
     loose = 2e-5 + 6 * DUO_UNIT / (f.sine * f.sine * slope + 1e-9);
     if (place > loose && cones > loose && f.sine * slope > 1e-3 && f.sine > 0.03) {
         a->found = true;
@@ -101,7 +102,7 @@ static void random_vector(struct test_random *r, double size, double out[3])
 
 #define PAIRINGS 8
 
-/* Two shapes; in the last two pairings both move. */
+/* Choose two shapes; in the last two pairings both move. */
 static void make(int which)
 {
     if (which % 2) {
@@ -119,10 +120,10 @@ static void make(int which)
     default:
         shape_field(&duo.shape[1], 10, 4, 700, 500, 3);
     }
-    duo_begin(which % 6 / 2 == 0 && which >= 6); /* a field stands still */
+    duo_begin(which % 6 / 2 == 0 && which >= 6); /* a field is stationary */
 }
 
-/* Any turn of both bodies, any motion, far out in the world. */
+/* Any rotation of both bodies, any motion, far out in the world. */
 static void random_motion(struct test_random *r)
 {
     carom_v3_q40 gravity;
@@ -149,7 +150,7 @@ static void random_motion(struct test_random *r)
     duo_set_paths(v, w, &gravity);
 }
 
-/* One of the convex edges: no others are candidates. */
+/* One of the convex edges; other edges are no candidates. */
 static uint32_t random_edge(struct test_random *r, const struct shape *s)
 {
     uint32_t edge;
@@ -174,8 +175,8 @@ static void random_features(struct test_random *r, struct candidate *c)
 }
 
 /*
- * Two features, or what lies a little past them, that meet at some time; in most cases such that
- * can touch.
+ * Two features, or points a little beyond them, that meet at some time. In most cases they are able
+ * to touch.
  */
 static void random_case(struct test_random *r, struct candidate *c, int kind)
 {
@@ -212,10 +213,7 @@ static void random_case(struct test_random *r, struct candidate *c, int kind)
     duo_read_motion();
 }
 
-/*
- * The normal, from b into a, at the root. The root that is found is one of a surface
- * up to three units nearer.
- */
+/* The normal at the root, from b into a. The root belongs to a surface up to three units nearer. */
 static void check_touch(const struct boyse_touch *touch, const struct candidate *c,
                         const struct answer *a)
 {
@@ -231,7 +229,7 @@ static void check_touch(const struct boyse_touch *touch, const struct candidate 
     }
 }
 
-/* A returned hit against the true motion. Returns whether there was one that could be judged. */
+/* Compare a returned hit with the true motion. Returns whether the case could be judged. */
 static bool check_case(const struct candidate *c)
 {
     double event = real(duo.pair.skin_q22 / 2, 22), gap, t;
@@ -246,7 +244,8 @@ static bool check_case(const struct candidate *c)
     }
     if (!a.found) {
         if (is_hit) {
-            /* only where they do not meet, but for the few units that the search looks ahead by */
+            /* there is none if the features do not meet, except for the few units that the search
+             * looks ahead */
             double least = 1e9;
 
             for (int k = 0; k <= 4096; k++) {
@@ -269,19 +268,19 @@ static bool check_case(const struct candidate *c)
     gap = a.sign * f.gap;
     CHECK_AT_LEAST(hit.t_q30, 0);
     CHECK_AT_MOST(t, a.t);
-    CHECK_AT_LEAST(gap, 0); /* never past the surface */
+    CHECK_AT_LEAST(gap, 0); /* never beyond the surface */
     CHECK(hit.touch.valid);
     CHECK_EQ(hit.touch.sign, a.sign);
     if (a.open > 1.1 * event) {
         /*
-         * the event gap within four units and the rounding of places, in w.d for edges; |w| is that
-         * of the root, and changes by half a radian a slice at most
+         * the event gap within four units and the rounding of places, in w.d for edges; |w| is
+         * taken at the root, and changes by half a radian a slice at most
          */
         CHECK_AT_MOST(real_abs(gap - event), 7 * DUO_UNIT / f.sine + (a.t - t) * event / 2 + 1e-8);
     } else {
         CHECK_AT_MOST(gap, event + 3 * DUO_UNIT / f.sine);
     }
-    /* and stays below it until they meet */
+    /* and the gap stays below it until they meet */
     for (int k = 1; k < 8; k++) {
         CHECK_LESS(a.sign * duo_gap_at(c, t + (a.t - t) * k / 8), gap + DUO_UNIT);
     }
@@ -323,7 +322,7 @@ static void test_edge_edge(void)
 
 /* --------------------------------------------------------------- polynomial */
 
-/* P(t) = p(t) (1 + s_a^2 t^2) (1 + s_b^2 t^2), p being the distance, or w.d for edges, in double. */
+/* P(t) = p(t) (1 + s_a^2 t^2) (1 + s_b^2 t^2), in double. p is the distance, or w.d for edges. */
 static void test_polynomial(void)
 {
     struct test_random r = {9};
@@ -363,7 +362,10 @@ static void test_polynomial(void)
 
 /* ---------------------------------------------------------------- divisions */
 
-/* Rounded down, by less than one part in 2^14 and one, of which steps are made that pass no root. */
+/*
+ * A quotient is rounded down, by less than one part in 2^14 plus one. Steps made of such quotients
+ * pass no root.
+ */
 static void test_quotient(void)
 {
     struct test_random r = {3};
@@ -385,7 +387,7 @@ static void test_quotient(void)
     CHECK_EQ(curve_quotient_q30(5, 0), UINT32_MAX);
 }
 
-/* Horner's rule in 32 bits is within the noise of P, of coefficients at their largest. */
+/* Horner's rule in 32 bits stays within the noise of P, with the largest coefficients. */
 static void test_curve_at(void)
 {
     struct test_random r = {4};

@@ -23,7 +23,7 @@ static uint32_t candidate_count;
 static struct pool pool;
 static struct contact_list list = {.contacts = contacts, .pool = &pool};
 
-/* Both bodies at rest in the middle, a to be moved; place() when they are where they should be. */
+/* Both bodies at rest in the middle; the test moves a, then calls place(). */
 static void begin(void)
 {
     pool = (struct pool){CONTACTS, 0, 0, 0};
@@ -40,7 +40,7 @@ static void place(void)
     boyse_pair_init(&pair, &bodies[0], &bodies[1]);
 }
 
-/* The contacts of all candidates, in an order that starts anywhere; false when they do not fit. */
+/* Find the contacts of all candidates, starting with any of them; false when they do not fit. */
 static bool find(int32_t margin_q22, uint32_t start)
 {
     int32_t clear_q22 = INT32_MAX;
@@ -64,7 +64,9 @@ static bool in_order(void)
     return true;
 }
 
-/* A box of 1 x 0.6 x 0.3 over a plane of 2 x 2 squares of 4 units, its corners off the edges. */
+/*
+ * A box of 1 x 0.6 x 0.3 above a plane of 2 x 2 squares of 4 units, with its corners off the edges.
+ */
 static void box_over_plane(int32_t gap_q22)
 {
     shape_box(&shape_a, 12, 4096, 2400, 1200);
@@ -98,7 +100,7 @@ static void check_four_corners(int32_t gap_q22)
         CHECK_EQ(c->skin_q22, bodies[0].def.skin_q22);
         CHECK_SAME(c->side[0].body, &bodies[0]);
         CHECK_SAME(c->side[1].body, NULL);
-        CHECK_LESS(v, 4); /* the lower ones, and each once */
+        CHECK_LESS(v, 4); /* the lower corners, each once */
         CHECK(!(seen >> v & 1));
         seen |= (uint8_t)(1 << v);
         for (int k = 0; k < 2; k++) {
@@ -106,7 +108,7 @@ static void check_four_corners(int32_t gap_q22)
             CHECK_EQ(contact_point(c).c[k],
                      states[0].position.c[k] + shape_a.vertices[v][k] * ((int64_t)1 << 20));
         }
-        /* half way between the surfaces */
+        /* halfway between the surfaces */
         CHECK_NEAR(contact_point(c).c[2], carom_shl(gap_q22, 10) / 2, 1024);
         CHECK_NEAR(contact_arm(c).c[2], -600 * 1024 - gap_q22 / 2, 1);
     }
@@ -126,7 +128,7 @@ static void test_flat(void)
     }
 }
 
-/* The same, both turned and far out: normals and gaps within the rounding of places. */
+/* The same, turned and far out: normals and gaps are right within the rounding of places. */
 static void test_tilted(void)
 {
     struct test_random r = {1};
@@ -167,7 +169,7 @@ static void test_tilted(void)
     }
 }
 
-/* An edge on a face: its two ends. */
+/* An edge on a face touches at its two ends. */
 static void test_edge_on_face(void)
 {
     int64_t height_q32 = real_round((1200 + 600) / real_sqrt(2) * (1 << 20));
@@ -195,7 +197,7 @@ static void test_edge_on_face(void)
     }
 }
 
-/* Two edges that cross: one place, along their cross product. */
+/* Two edges that cross have one contact, along their cross product. */
 static void test_crossing_edges(void)
 {
     for (int flip = 0; flip < 2; flip++) {
@@ -233,7 +235,7 @@ static void test_margin(void)
     CHECK_EQ(pool.used, 4);
     CHECK(find(699, 0));
     CHECK_EQ(pool.used, 0);
-    /* what is deeper than two skins and a half is not a contact of these features */
+    /* features deeper than two skins and a half have no contact */
     box_over_plane(-(skin * 5 / 2));
     CHECK(find(700, 0));
     CHECK_EQ(pool.used, 4);
@@ -248,7 +250,7 @@ static void test_margin(void)
     CHECK_EQ(pool.used, 0);
 }
 
-/* Whether the check found the same, and left nothing to the solver that was there before. */
+/* Whether the contacts are the same, and whether no solver data is left in them. */
 static bool same_contact(const struct contact *p, const struct contact *q)
 {
     bool same = memcmp(p, q, offsetof(struct contact, side)) == 0 && p->idle == q->idle &&
@@ -264,7 +266,7 @@ static bool same_contact(const struct contact *p, const struct contact *q)
     return same;
 }
 
-/* Those that were found first. */
+/* Whether the contacts are the first ones found. */
 static bool same_contacts(uint32_t count)
 {
     bool same = true;
@@ -275,14 +277,14 @@ static bool same_contacts(uint32_t count)
     return same;
 }
 
-/* The list does not depend on the order in which candidates come, nor on how often. */
+/* The list depends neither on the order of the candidates nor on how often one comes. */
 static void test_order(void)
 {
     int32_t clear_q22 = INT32_MAX;
     uint32_t count;
 
     shape_box(&shape_a, 12, 4096, 2400, 1200);
-    shape_field(&shape_b, 12, 4, 2048, 0, 1); /* corners on edges of it */
+    shape_field(&shape_b, 12, 4, 2048, 0, 1); /* corners on edges of the field */
     begin();
     states[0].position.c[2] = carom_shl((600 << 10) + 300, 10);
     place();
@@ -304,7 +306,7 @@ static void test_order(void)
     CHECK(same_contacts(count));
 }
 
-/* Contacts in doubt that are found again are there once; those that are not are dropped. */
+/* Doubtful contacts that are found again are in the list once; the others are dropped. */
 static void test_doubt(void)
 {
     int32_t clear_q22 = INT32_MAX;
@@ -335,7 +337,7 @@ static void test_doubt(void)
     CHECK(same_contact(&first[1], &contacts[0]));
 }
 
-/* A box over another, a little turned from it, its lower side nearly on the upper one. */
+/* A box above another, turned a little against it, with its lower side nearly on the upper side. */
 static void box_over_box(struct test_random *r)
 {
     shape_box(&shape_a, 12, 4096, 2400, 1200);
@@ -353,7 +355,7 @@ static void box_over_box(struct test_random *r)
     place();
 }
 
-/* Set a's path: it goes and turns so far, together. */
+/* Set a's path: distance and rotation, together. */
 static void set_path(struct test_random *r, int32_t way_q22)
 {
     struct body_path *path = &bodies[0].path;
@@ -376,7 +378,10 @@ static bool hits(uint32_t number)
     return boyse_first(&pair, &candidates[number], &hit, &roots);
 }
 
-/* Bodies that go by no more than the static check left between two features do not make them meet. */
+/*
+ * A motion of no more than the clearance that the static check found between two features does not
+ * make them meet.
+ */
 static void test_clear(void)
 {
     struct test_random r = {5};
@@ -404,7 +409,7 @@ static void test_clear(void)
     CHECK_MORE(hit, 0);
 }
 
-/* A corner on a vertex of the ground meets six faces there: one contact, of the smallest gap. */
+/* A corner on a vertex of the ground meets six faces there: one contact, with the smallest gap. */
 static void test_merge(void)
 {
     int32_t least = INT32_MAX;
@@ -417,7 +422,7 @@ static void test_merge(void)
     CHECK(find(700, 0));
     CHECK_AT_LEAST(pool.used, 8);
     for (uint32_t i = 0; i < pool.used; i++) {
-        contacts[i].gap_q22 += (int32_t)(i * 7 % 5); /* as rounding may leave them */
+        contacts[i].gap_q22 += (int32_t)(i * 7 % 5); /* differences that rounding may leave */
         least = contacts[i].gap_q22 < least ? contacts[i].gap_q22 : least;
     }
     contact_merge(&list);
@@ -433,7 +438,9 @@ static void test_merge(void)
     CHECK_EQ(pool.used, 4);
 }
 
-/* Distance of a place from the segment between two others; the segment's length goes out, too. */
+/*
+ * The distance of a place from the segment between two others; also returns the segment's length.
+ */
 static double off_line(const struct contact *c, const struct contact *one,
                        const struct contact *other, double *length)
 {
@@ -469,7 +476,9 @@ static bool hardly_stands_out(const struct contact *c, uint32_t n, double parts)
     return false;
 }
 
-/* Two boxes lie on each other: only corners of their common part that hardly stand out are dropped. */
+/*
+ * Two boxes lie on each other. Only corners of their common part that hardly stand out are dropped.
+ */
 static void test_thin(void)
 {
     struct test_random r = {11};
@@ -495,8 +504,8 @@ static void test_thin(void)
             } else {
                 dropped++;
                 CHECK_EQ(first[i].key.kind, CANDIDATE_EDGE_EDGE);
-                CHECK(hardly_stands_out(&first[i], left,
-                                        2)); /* one that it stood between may be gone, too */
+                /* a neighbour that it stood between may be gone, too */
+                CHECK(hardly_stands_out(&first[i], left, 2));
             }
         }
         CHECK_EQ(at, left);
@@ -540,10 +549,10 @@ static void test_thin_keeps(void)
     square(side / 40); /* it is nearer than both */
     contacts[4].gap_q22 -= 100;
     CHECK_EQ(contact_thin(contacts, 5), 5);
-    square(side / 40); /* of a vertex */
+    square(side / 40); /* its feature is a vertex */
     contacts[4].key.kind = contacts[3].key.kind;
     CHECK_EQ(contact_thin(contacts, 5), 5);
-    square(side / 40); /* of another face */
+    square(side / 40); /* it is on another face */
     contacts[4].normal.c[0] += 1 << 21;
     CHECK_EQ(contact_thin(contacts, 5), 5);
     square(side / 40); /* the surface moves */
@@ -566,7 +575,7 @@ static void test_full(void)
     CHECK_EQ(pool.used, 3);
     CHECK_AT_LEAST(pool.refused, 1);
     CHECK(in_order());
-    /* what is no contact needs no place */
+    /* a pair that is no contact needs no place */
     pool.size = 0;
     CHECK(find(299, 0));
 }
@@ -588,7 +597,7 @@ static uint32_t edge_at(const struct shape *s, int first, int at_first, int seco
 }
 
 /*
- * The hit that led here is among the contacts, once. A lower edge of the box crosses the middle of
+ * The hit of the event is among the contacts, once. A lower edge of the box crosses the middle of
  * the plane, where two edges of the plane end: two hits at one place.
  */
 static void test_force(void)
@@ -607,11 +616,11 @@ static void test_force(void)
     CHECK(find(700, 0));
     contact_merge(&list);
     CHECK_EQ(pool.used, 4);
-    /* a corner that was found already, by its key; the same on another face */
+    /* a corner that was found already, by its key; the same corner on another face */
     hit.candidate = contacts[2].key;
     CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 4);
-    /* which is nearly as steep: the contact is with that face then, and as near as it was */
+    /* that face is nearly as steep: the contact now belongs to it, with the same gap */
     hit.candidate.j ^= 1;
     hit.touch.normal.c[0] = CAROM_ONE_Q30 / 100;
     CHECK(contact_force(&list, &pair, &hit));
@@ -641,11 +650,11 @@ static void test_force(void)
     CHECK_NEAR(contact_point(c).c[0], 0, 2);
     CHECK_NEAR(contact_point(c).c[1], 0, 2);
     CHECK_NEAR(contact_point(c).c[2], 150 * 1024, 2);
-    /* the same place and normal by other features */
+    /* the same place and normal, by other features */
     hit.candidate.j = edge_at(&shape_b, 1, 0, 2, 0, hit.candidate.j + 1);
     CHECK(contact_force(&list, &pair, &hit));
     CHECK_EQ(pool.used, 5);
-    /* the same place with another normal, for which there must be room */
+    /* the same place with another normal needs room */
     hit.touch.normal = (carom_v3_q30){{0, CAROM_ONE_Q30, 0}};
     pool.size = 5;
     CHECK(!contact_force(&list, &pair, &hit));
@@ -658,7 +667,7 @@ static void test_force(void)
 
 /* ------------------------------------------------------------- indeterminate */
 
-/* The least rise along n of the edges that leave a vertex; n in world axes. */
+/* The smallest rise along n of the edges that leave a vertex; n is in world axes. */
 static double least_rise(const struct shape *s, const struct body *b, uint32_t v, const double n[3])
 {
     double least = 1;
@@ -686,7 +695,7 @@ static double least_rise(const struct shape *s, const struct body *b, uint32_t v
     return least;
 }
 
-/* Every normal found is one along which neither body leans into the other; all at the tip. */
+/* Along each normal, neither body leans into the other; all contacts are at the tip. */
 static void check_normals(uint32_t vertex_a, int32_t reach)
 {
     CHECK_AT_LEAST(pool.used, 1);
@@ -703,7 +712,7 @@ static void check_normals(uint32_t vertex_a, int32_t reach)
     }
 }
 
-/* A corner down, as the diagonal of a cube, in the origin: vertex 0. */
+/* Vertex 0 of a cube points down, along the diagonal, in the origin. */
 static void corner_down(void)
 {
     double cosine = real_sqrt((1 + real_sqrt(1. / 3)) / 2);
@@ -720,7 +729,7 @@ static void corner_down(void)
 
 static void test_vertex_on_vertex(void)
 {
-    /* on the tip of a pyramid, of the middle of a field: every height is 0 but that one */
+    /* on the tip of a pyramid, in the middle of a field whose other heights are all 0 */
     shape_field(&shape_b, 12, 2, 2048, 0, 0);
     shape_b.vertices[4][2] = 1024;
     CHECK_EQ(carom_mesh_build(&shape_b.mesh, &shape_b.raw, shape_b.block, sizeof shape_b.block),
@@ -760,7 +769,7 @@ static void test_vertex_on_edge(void)
     check_normals(0, 300);
     contact_merge(&list);
     check_normals(0, 300);
-    CHECK_EQ(pool.used, 2); /* left and right of the ridge, and square to it */
+    CHECK_EQ(pool.used, 2); /* left and right of the ridge, and perpendicular to it */
     for (uint32_t i = 0; i < pool.used; i++) {
         CHECK_NEAR(contacts[i].normal.c[1], 0, 4);
     }

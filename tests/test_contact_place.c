@@ -96,7 +96,8 @@ static void check(int kind)
             normal.c[k] = (int32_t)real_round(f.n[k] * CAROM_ONE_Q30);
         }
         contact_place(&duo.pair, &c, &normal, arm);
-        /* 2^-28 of the size of things; lines that cross far away lie there as much less surely */
+        /* 2^-28 of the size of things; the place where nearly parallel lines cross far away is less
+         * certain */
         limit = (4 + real_abs(place[0] - f.pose[0].x[0]) + real_abs(place[1] - f.pose[0].x[1]) +
                  real_abs(place[2] - f.pose[0].x[2])) *
                 real_power2(-28) / f.sine;

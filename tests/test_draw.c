@@ -10,7 +10,7 @@ static void background(void)
 {
     struct carom_world *world = new_world();
 
-    /* two rows a shade, from the top */
+    /* each shade has two rows, from the top */
     draw_8(world, &above, CAROM_DRAW_FLAT);
     for (int y = 0; y < SIZE; y++) {
         for (int x = 0; x < SIZE; x++) {
@@ -51,7 +51,7 @@ static void shared_edge(void)
     CHECK_EQ(ramp_at(47 + 4, 47 - 8), DRAW_STATIONARY);
 }
 
-/* A cube above or below a square, added first or second: the far one never shows through. */
+/* A cube above or below a square, added first or second: the far body never shows through. */
 static void nearer_hides(void)
 {
     for (int k = 0; k < 4; k++) {
@@ -73,7 +73,7 @@ static void nearer_hides(void)
     }
 }
 
-/* Two cubes in one place: of equal depths the body that comes last shows. */
+/* Two cubes in one place: where depths are equal, the last body shows. */
 static void equal_depths(void)
 {
     for (int k = 0; k < 2; k++) {
@@ -89,8 +89,8 @@ static void equal_depths(void)
 }
 
 /*
- * A level square cut by one that is tilted about the y axis: they cross between the two columns in
- * the middle. Seen from two heights, as faces of some hundred and of some ten pixels.
+ * A level square and one that is tilted about the y axis cross between the two columns in the
+ * middle. Seen from two heights, the faces have some hundred and some ten pixels.
  */
 static void crossing_faces(void)
 {
@@ -98,7 +98,7 @@ static void crossing_faces(void)
     static const carom_quat_q30 tilted = {{1030792151, 0, 300647711, 0}};
     static const struct {
         int64_t height;
-        int half; /* pixels of the level square, but for the outermost */
+        int half; /* pixels of the level square without the outermost */
     } views[] = {{4, 15}, {16, 3}};
 
     for (int k = 0; k < 2; k++) {
@@ -114,7 +114,7 @@ static void crossing_faces(void)
         draw_8(world, &camera, CAROM_DRAW_FLAT);
         for (int y = 32 - views[k].half; y < 32 + views[k].half; y++) {
             for (int x = 32 - views[k].half; x < 32 + views[k].half; x++) {
-                if (x < 32) { /* turned about +y, the side of -x comes up */
+                if (x < 32) { /* the square is turned about +y, so the side of -x comes up */
                     CHECK_DIFFER(pixels[y][x], level);
                     CHECK_EQ(ramp_at(x, y), DRAW_STATIONARY);
                 } else {
@@ -154,7 +154,7 @@ static void nothing_to_see(void)
     }
 }
 
-/* A plain that reaches behind the eye, one unit below it: it fills the rows below the horizon. */
+/* A plain one unit below the eye reaches behind the eye: it fills the rows below the horizon. */
 static void near_plane(void)
 {
     static const struct carom_camera level = {
@@ -165,7 +165,8 @@ static void near_plane(void)
     draw_8(world, &level, CAROM_DRAW_FLAT);
     for (int y = 0; y < SIZE; y++) {
         /*
-         * its far edge, 32 units away, is 2 rows below the horizon; it is as wide as the view there
+         * its far edge, 32 units away, is 2 rows below the horizon; the plain is as wide as the
+         * view there
          */
         for (int x = 1; x < SIZE - 1; x++) {
             CHECK_EQ(ramp_at(x, y), y >= 34 ? DRAW_STATIONARY : DRAW_BACKGROUND);
@@ -173,9 +174,7 @@ static void near_plane(void)
     }
 }
 
-/*
- * A square that comes towards the eye on the left: from the middle on it is nearer than 1/32 unit.
- */
+/* A square comes towards the eye on the left: from the middle on it is nearer than 1/32 unit. */
 static void near_plane_cuts(void)
 {
     static const carom_quat_q30 tilted = {{992008094, 0, 410903207, 0}}; /* by 45 degrees about y */
@@ -192,7 +191,7 @@ static void near_plane_cuts(void)
     }
 }
 
-/* The longest focal length in a tall picture: 2048 pixels, so at 512 units a unit is 4 pixels. */
+/* The longest focal length in a tall picture: 2048 pixels, so a unit at 512 units is 4 pixels. */
 static void telephoto(void)
 {
     enum { WIDTH = 16, HEIGHT = 128 };
@@ -223,7 +222,7 @@ static void telephoto(void)
 
 static void far_away(void)
 {
-    /* 16384 units away and 8192 aside a cube of one unit is 1/256 of a pixel; nothing overflows */
+    /* 16384 units away and 8192 aside, a cube of one unit is 1/256 of a pixel; nothing overflows */
     struct carom_camera camera = {.eye = {{Q32(-16384, 1), Q32(16384, 1), Q32(16384, 1)}},
                                   .target = {{Q32(4000, 1), Q32(-4000, 1), Q32(-4000, 1)}},
                                   .focal_q16 = 1 << 20};
@@ -232,7 +231,7 @@ static void far_away(void)
     add(world, &cube, at(Q32(4000, 1), Q32(-4000, 1), Q32(-4000, 1)), upright, true);
     draw_8(world, &camera, CAROM_DRAW_FLAT);
     CHECK_AT_MOST(count_ramp(DRAW_MOVING), 1);
-    /* in wire style it is the pixel that holds the middle, at most with its neighbours */
+    /* in wire style the cube is the pixel of its middle, at most with the neighbours */
     draw_8(world, &camera, CAROM_DRAW_WIRE);
     CHECK_AT_LEAST(count_ramp(DRAW_MOVING), 1);
     CHECK_AT_MOST(count_ramp(DRAW_MOVING), 4);
@@ -267,7 +266,7 @@ static void wire_back_edges(void)
     add(world, &cube, at(Q32(1, 64), Q32(-1, 64), 0), upright, true);
     draw_8(world, &camera, CAROM_DRAW_WIRE);
     CHECK_EQ(count_ramp(DRAW_MOVING), 4 * 32 + 31);
-    /* the bottom's corners, 3 units away, lie within and do not show */
+    /* the bottom's corners, 3 units away, are within the top and do not show */
     CHECK_EQ(ramp_at(22, 22), DRAW_BACKGROUND);
     CHECK_EQ(ramp_at(42, 21), DRAW_BACKGROUND);
 }
@@ -283,9 +282,9 @@ static void wire_clip(void)
     draw_8(world, &level, CAROM_DRAW_WIRE);
     for (int y = 0; y < SIZE; y++) {
         for (int x = 0; x < SIZE; x++) {
-            /* the far edge, just on row 34; the sides leave the picture near it; the diagonal runs
-             * from the eye's foot, straight below and out of sight, to the far corner on the right
-             */
+            /* the far edge is just on row 34, and the sides leave the picture near it; the diagonal
+             * runs from the eye's foot, straight below and out of sight, to the far corner on the
+             * right */
             bool far_edge = y == 34 || y == 33;
             bool may = far_edge || (y > 33 && (x <= 1 || x >= SIZE - 2));
 

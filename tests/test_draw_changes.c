@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* carom_draw_changes: the same pixels as carom_draw, and no more of them written than it says. */
+/*
+ * carom_draw_changes: it makes the same pixels as carom_draw, and writes no pixels outside of the
+ * area that it reports.
+ */
 #include <string.h>
 
 #include "lib/draw_scene.h"
@@ -13,7 +16,7 @@ enum { FRAMES = 24 };
 #endif
 enum { WIDTH = 109, HEIGHT = 80, BODIES = 33 };
 
-static const uint8_t bits[] = {8, 16, 32, 4, 16}; /* of a pixel, by format */
+static const uint8_t bits[] = {8, 16, 32, 4, 16}; /* bits of a pixel, by format */
 
 static _Alignas(8) uint8_t scene_world[CAROM_WORLD_BYTES(SCENE_PILE_CAPS)];
 static _Alignas(8) uint8_t scene_workspace[CAROM_DRAW_BYTES(
@@ -50,7 +53,7 @@ static const struct carom_paint smooth = {.smooth = &carom_smooth};
 static const struct carom_paint both = {
     .shadows = &carom_shadows, .smooth = &carom_smooth, .horizon = true};
 
-/* Frames of a scene in two buffers in turn; each is to be a full picture. */
+/* Frames of a scene in two alternating buffers; each buffer must hold a full picture. */
 static void compare_scene(const char *name, uint8_t format, enum carom_draw_style style,
                           size_t bytes, const struct carom_paint *paint)
 {
@@ -117,7 +120,9 @@ static void scenes(void)
 
 static struct carom_world *world_now_drawn;
 
-/* Draw what changed, against a full picture; returns how many pixels it may have been. */
+/*
+ * Draw the changes and compare with a full picture; returns the largest number of changed pixels.
+ */
 static int32_t draw_again(const struct carom_camera *camera, struct carom_picture *picture,
                           enum carom_draw_style style)
 {
@@ -142,7 +147,7 @@ static int32_t draw_again(const struct carom_camera *camera, struct carom_pictur
     return area;
 }
 
-/* A plain, a cube on the left that stands still, one on the right that moves. */
+/* A plain, a stationary cube on the left, a moving one on the right. */
 static struct carom_picture new_picture(void)
 {
     world_now_drawn = new_world();
@@ -164,7 +169,7 @@ static void move(int body, int64_t x, int64_t z)
     CHECK_EQ(carom_body_set(world_now_drawn, body, &state), CAROM_OK);
 }
 
-/* A picture of so many pixels, then one in which nothing is to be drawn. */
+/* Draw an area between low and high, then a picture without changes. */
 #define EXPECT_AREA(low, high)                                                                     \
     do {                                                                                           \
         int32_t area = draw_again(&camera, &picture, style);                                       \
@@ -184,7 +189,7 @@ static void noticed(void)
         struct carom_body_def def = {.mesh = &cube, .position = at(0, 0, 0), .rotation = upright};
 
         EXPECT_AREA(ALL, ALL);
-        /* one that moves, a little, then out of the picture */
+        /* a moving body: a little, then out of the picture */
         move(2, Q32(1, 16), 0);
         EXPECT_AREA(20 * 20, 2 * ONE);
         move(2, Q32(100, 1), 0);
@@ -193,7 +198,7 @@ static void noticed(void)
         EXPECT_AREA(0, 0);
         move(2, Q32(-101, 1), 0);
         EXPECT_AREA(20 * 20, ONE);
-        /* one that stands still: how far it reached is not known at first */
+        /* a stationary body: its earlier extent is not known at first */
         move(1, Q32(1, 16), 0);
         EXPECT_AREA(20 * 20, ALL);
         move(1, Q32(1, 16), 0);
@@ -203,7 +208,7 @@ static void noticed(void)
         EXPECT_AREA(ALL, 2 * ALL);
         move(1, 0, Q32(-4, 1));
         EXPECT_AREA(ALL, 2 * ALL);
-        /* one goes, one comes, another takes the place of that one */
+        /* one body goes, one comes, another takes the place of that one */
         def.overlap = CAROM_OVERLAP_PASS;
         CHECK_EQ(carom_body_remove(world_now_drawn, 1), CAROM_OK);
         EXPECT_AREA(20 * 20, ONE);
@@ -215,7 +220,7 @@ static void noticed(void)
         EXPECT_AREA(20 * 20, 2 * ONE);
         CHECK_EQ(carom_body_remove(world_now_drawn, 2), CAROM_OK);
         EXPECT_AREA(20 * 20, ONE);
-        /* all else that makes a picture */
+        /* everything else that a picture depends on */
         camera.eye.c[0]++;
         EXPECT_AREA(ALL, ALL);
         camera.target.c[1]++;
@@ -236,7 +241,7 @@ static void noticed(void)
     }
 }
 
-/* A surface that takes another shape, and interfering faces that come and go. */
+/* A surface takes another shape; interfering faces come and go. */
 static void shapes_and_faces(void)
 {
     static _Alignas(8) uint8_t memory[CAROM_SURFACE_BYTES(4, 2)];
@@ -256,7 +261,8 @@ static void shapes_and_faces(void)
     CHECK_AT_LEAST(carom_world_step(world_now_drawn), 0);
     CHECK_MORE(carom_interfering_faces(world_now_drawn, &refs), 0);
     CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
-    /* nothing moves, but faces interfere: they are drawn again, and when they do no more */
+    /* nothing moves, but faces interfere: they are drawn again, and once more when they no longer
+     * do */
     CHECK_MORE(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
     CHECK_EQ(carom_body_get(world_now_drawn, 1, &state), CAROM_OK);
     state.position.c[2] = Q32(2, 1);
@@ -271,7 +277,7 @@ static void shapes_and_faces(void)
     CHECK_EQ(draw_again(&above, &picture, CAROM_DRAW_FLAT), 0);
 }
 
-/* No pixel outside of what is said to have changed is written. */
+/* No pixel outside of the reported changes is written. */
 static void only_that(void)
 {
     for (uint8_t format = 0; format < sizeof bits; format++) {
@@ -323,7 +329,7 @@ static void errors(void)
     EXPECT_ERROR(CAROM_ERR_ARGUMENT, &drawn[0]);
     camera = above;
     CHECK_MORE(draw_again(&camera, &picture, style), 0);
-    /* a picture that could not be drawn is drawn from nothing after that */
+    /* after a picture that could not be drawn, the next one is drawn whole */
     move(2, Q32(1, 16), 0);
     picture.workspace_bytes = 100;
     EXPECT_ERROR(CAROM_ERR_MEMORY, &drawn[0]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost of carom_draw over the head scene: instructions of a Cortex-M3 that counts them. Where no
- * board counts, only the pictures are looked at.
+ * The cost of carom_draw over the head scene, in instructions of a Cortex-M3 that counts them.
+ * Other boards check the pictures only.
  */
 #include <string.h>
 
@@ -12,9 +12,9 @@
 #include "lib/test.h"
 
 /*
- * Instructions, of 320 x 240 and of 512 x 512 pixels in all frames that are looked at, of a picture of
- * nothing but the background, and of a body that is out of sight. With loops unrolled, as the board has
- * them, pictures are 1 % dearer.
+ * Instructions: pictures of 320 x 240 and of 512 x 512 pixels in all frames that are drawn, a
+ * picture of the background alone, and a body that is out of sight. With unrolled loops, which the
+ * board has, pictures cost 1 % more.
  */
 enum { WIDTH = 320, HEIGHT = 240, SIDE = 512, FRAMES = 120, EACH = 15 };
 enum { WORST_SMALL = 2460000, WORST_LARGE = 3310000, EMPTY_SMALL = 88100, EACH_BODY = 150 };
@@ -59,7 +59,9 @@ static void report(const char *what, uint32_t spent)
     }
 }
 
-/* A fall from before it begins to rest: the head before the sky, before the field and on it. */
+/*
+ * A fall until the head begins to rest: the head before the sky, before the field and on the field.
+ */
 static void head(void)
 {
     struct carom_world *world = new_scene("head");
@@ -81,7 +83,7 @@ static void head(void)
     CHECK_BAR(large, WORST_LARGE);
 }
 
-/* Seventeen bodies and none of them in sight cost little more than none. */
+/* Seventeen bodies out of sight cost little more than none. */
 static void out_of_sight(void)
 {
     struct carom_world *world = new_scene("pile");
@@ -105,7 +107,7 @@ static void out_of_sight(void)
     CHECK_BAR(spent, empty + ((uint32_t)scene.other_count + 2) * EACH_BODY);
 }
 
-/* Pictures are the same in parts, down to the least workspace, which takes many. */
+/* Pictures drawn in parts are the same, down to the smallest workspace, which needs many parts. */
 static void parts(void)
 {
     static const size_t sizes[] = {CAROM_DRAW_BYTES_LEAST(SCENE_FIELD_VERTICES, SCENE_FIELD_FACES),
@@ -126,7 +128,9 @@ static void parts(void)
     }
 }
 
-/* The field from so near above that it fills the picture: neighbours leave no pixel between them. */
+/*
+ * The field from so near that it fills the picture: neighbouring faces leave no pixel between them.
+ */
 static void no_gaps(void)
 {
     struct carom_world *world = new_scene("head");

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* carom_debug_draw: its triangles and lines against the mesh, by hand, and against sums over the whole mesh. */
+/*
+ * carom_debug_draw: its triangles and lines against the mesh, by hand, and against sums over the
+ * whole mesh.
+ */
 #include "carom_debug.h"
 #include "lib/draw_scene.h"
 
@@ -8,13 +11,13 @@ enum { ROOM = 64 };
 static struct record {
     int triangles, lines, points, of_colour[256];
     carom_v3_q32 from[ROOM], to[ROOM], point[ROOM];
-    int64_t volume_q18;  /* six times, of all triangles */
-    int64_t normals_q30; /* what is wrong with them, at most */
+    int64_t volume_q18;  /* six times the volume of all triangles */
+    int64_t normals_q30; /* largest error of their normals */
 } record;
 
 static carom_v3_q32 centre;
 
-/* Away from the centre, in q6 and rounded: cubes lie within 2^7 of it. */
+/* The vector away from the centre, in q6 and rounded; cubes lie within 2^7 of the centre. */
 static void away(const carom_v3_q32 *from, int32_t out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -157,7 +160,7 @@ static void axes(void)
             CHECK_NEAR(record.to[axis].c[k] - centre.c[k], Q32(2 * to_25[axis][k], 25), 64);
         }
     }
-    /* by themselves as long as the cube's radius, half of the square root of 3 */
+    /* each as long as the cube's radius, half of the square root of 3 */
     debug = all_of();
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_AXES, &debug), CAROM_OK);
     CHECK_NEAR(length2_q20(0), 3 << 18, 64);
@@ -218,14 +221,15 @@ static void touching(void)
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_CONTACTS, &debug), CAROM_OK);
     CHECK_EQ(record.points, 2);
 
-    /* triangles of the square are as far from the middle as the cube's sides: half a unit below */
+    /* like the cube's sides, triangles of the square are half a unit from the middle, below it */
     hot = carom_interfering_faces(world, &refs);
     for (int i = 0; i < hot; i++) {
         cube_hot += refs[i].body == 1;
     }
     CHECK_MORE(hot, 0);
     CHECK_MORE(cube_hot, 0);
-    CHECK_EQ(carom_body_remove(world, 0), CAROM_OK); /* does not look away from the middle */
+    CHECK_EQ(carom_body_remove(world, 0),
+             CAROM_OK); /* its normal does not point away from the middle */
     debug = all_of();
     debug.paint = &paint;
     CHECK_EQ(carom_debug_draw(world, CAROM_DEBUG_INTERFERING, &debug), CAROM_OK);
@@ -244,7 +248,7 @@ static void touching(void)
     CHECK_EQ(record.of_colour[5 * DRAW_SHADES + 24], 12 - cube_hot);
 }
 
-/* Lines that are kept are those of a picture. */
+/* Lines that a caller keeps are the lines of a picture. */
 static void kept(void)
 {
     static struct carom_paint_line room[10];
@@ -287,7 +291,7 @@ static void errors(void)
     CHECK_EQ(carom_debug_draw(world, 1, &debug), CAROM_ERR_ARGUMENT);
     CHECK_EQ(record.triangles, 0);
     debug = (struct carom_debug){.size_q32 = Q32(256, 1)};
-    CHECK_EQ(carom_debug_draw(world, 255, &debug), CAROM_OK); /* to nobody */
+    CHECK_EQ(carom_debug_draw(world, 255, &debug), CAROM_OK); /* there is no body 255 */
 }
 
 const struct test tests_draw_debug[] = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Lines of the world: over a picture, and in it, where bodies hide them. */
+/* Lines of the world: over a picture, and in a picture, where bodies hide them. */
 #include "lib/draw_scene.h"
 
 #ifdef TEST_LONG
@@ -31,7 +31,7 @@ static bool is_red(int x, int y)
 
 /* ----------------------------------------------------------- over a picture */
 
-/* The pixels are those of a line of pixels: one a step, no further than half a pixel from it. */
+/* The pixels of a line: one a step, at most half a pixel from the line. */
 static void expect_line(const int64_t from[2], const int64_t to[2])
 {
     int64_t size[2] = {to[0] - from[0], to[1] - from[1]};
@@ -57,7 +57,7 @@ static void expect_line(const int64_t from[2], const int64_t to[2])
             least = off < least ? off : least;
             if (in && is_red((int)place[0], (int)place[1])) {
                 found++;
-                CHECK_AT_MOST(off * 32, n * 17); /* half a pixel and what steps are rounded by */
+                CHECK_AT_MOST(off * 32, n * 17); /* half a pixel, plus the rounding of steps */
             } else if (in) {
                 CHECK_AT_LEAST(off * 32, n * 15);
             }
@@ -66,7 +66,7 @@ static void expect_line(const int64_t from[2], const int64_t to[2])
     CHECK_EQ(red, found);
 }
 
-/* Any ends, inside and outside at every border. */
+/* Any ends, inside the picture and outside at every border. */
 static void over_at_random(void)
 {
     struct carom_world *world = new_world();
@@ -105,7 +105,10 @@ static void over_at_random(void)
     }
 }
 
-/* Twice a coordinate in 1/64 unit, and the ray of a point of the picture, in half pixels from its middle. */
+/*
+ * Twice a coordinate in 1/64 unit, and the ray of a point of the picture, in half pixels from its
+ * middle.
+ */
 static int64_t off_plane(const int64_t normal[3], int x2, int y2)
 {
     /* x right, y up, z down by the focal length of 64 pixels */
@@ -113,8 +116,9 @@ static int64_t off_plane(const int64_t normal[3], int x2, int y2)
 }
 
 /*
- * Ends anywhere, behind the eye, too: pixels lie on the plane through the eye and the line, and there are some where
- * its middle shows. `style` is of carom_draw with the line in its paint; -1: of carom_draw_line.
+ * Ends anywhere, also behind the eye. Pixels lie on the plane through the eye and the line, and
+ * there are some where the line's middle is visible. `style`: a style of carom_draw with the line
+ * in its paint; -1: carom_draw_line.
  */
 static void expect_anywhere(int style, int count)
 {
@@ -165,7 +169,7 @@ static void expect_anywhere(int style, int count)
                 reds += is_red(x, y);
             }
         }
-        /* well inside of the picture, and before the near plane: z runs from the eye down */
+        /* well inside of the picture, and beyond the near plane: z runs from the eye down */
         if (middle[2] < -16 && 5 * carom_abs(middle[0]) < -2 * middle[2] &&
             5 * carom_abs(middle[1]) < -2 * middle[2]) {
             CHECK_MORE(reds, 0);
@@ -186,11 +190,13 @@ static void in_anywhere(void)
     expect_anywhere(CAROM_DRAW_WIRE, LINES / 4);
 }
 
-/* Nothing beside a picture's rows is written, in any format, and pixels have its colour. */
+/*
+ * In any format nothing beside a picture's rows is written, and the pixels have the line's colour.
+ */
 static void over_formats(void)
 {
     static const uint8_t bytes_each[] = {1, 2, 4, 0, 2};
-    static const uint32_t red[] = {RED, 0xf986, 0xff3030, 6, 0x18df}; /* of ff 30 30 */
+    static const uint32_t red[] = {RED, 0xf986, 0xff3030, 6, 0x18df}; /* ff3030 in each format */
     struct test_random random = {17};
 
     for (int i = 0; i < LINES; i++) {
@@ -227,8 +233,8 @@ static void over_formats(void)
 /* ------------------------------------------------------------- in a picture */
 
 /*
- * A line at z = 0 over nothing: in each column, or row, the pixel whose middle is within half a pixel, up to half a
- * pixel beyond its ends.
+ * A line at z = 0 above nothing. In each column, or row, it has the pixel whose middle is within
+ * half a pixel, up to half a pixel beyond its ends.
  */
 static void in_at_random(void)
 {
@@ -257,7 +263,7 @@ static void in_at_random(void)
             for (int x = 0; x < SIZE; x++) {
                 int64_t middle[2] = {16 * x + 8, 16 * y + 8};
                 int64_t along = (middle[major] - a[major]) * (size[major] < 0 ? -1 : 1);
-                /* n times the sixteenths that it is off */
+                /* n times its distance from the line in sixteenths */
                 int64_t off = carom_abs((a[!major] - middle[!major]) * n + along * size[!major]);
 
                 if (is_red(x, y)) {
@@ -291,7 +297,7 @@ static int count_red(void)
     return n;
 }
 
-/* Over, on, under and through a square of 32 x 32 pixels. */
+/* Lines over, on, under and through a square of 32 x 32 pixels. */
 static void hidden(void)
 {
     struct carom_world *world = new_world();
@@ -327,7 +333,7 @@ static void hidden(void)
         /* its end is 64 / 2 / 3.5 pixels from the middle: 41.1 */
         CHECK(x < 31 || x > 42 ? !red : x == 31 || x > 40 || red);
     }
-    /* in lines nothing hides */
+    /* in the line styles nothing hides it */
     {
         struct carom_picture picture = picture_8();
 
@@ -338,7 +344,7 @@ static void hidden(void)
     }
 }
 
-/* Rows are the picture's in memory; what was asked for last counts. */
+/* The rows of the picture that the sender received; the last one sent counts. */
 static uint8_t sent[SIZE][SIZE];
 
 static void *row_of(void *context, int32_t x0, int32_t x1, int32_t y)

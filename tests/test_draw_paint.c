@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* carom_paint: which pixels of a picture it changes, and which stay. */
+/* carom_paint: the pixels of a picture that it changes, and those that stay. */
 #include "lib/draw_scene.h"
 
 enum { RAMPS = 12, ENTRIES = RAMPS * DRAW_SHADES };
@@ -47,7 +47,7 @@ static void nothing_is_usual(void)
     }
 }
 
-/* Each pixel keeps its shade; those of ramp `from` have ramp `to`. */
+/* Each pixel keeps its shade; pixels of ramp `from` get ramp `to`. */
 static void expect_ramps(const uint8_t to[DRAW_RAMPS])
 {
     for (int y = 0; y < SIZE; y++) {
@@ -75,7 +75,7 @@ static void bodies(void)
         paint.body_count = 2;
         draw_painted(world, &paint, styles[k]);
         expect_ramps(only_second);
-        paint.body_count = 1; /* the others look as usual */
+        paint.body_count = 1; /* the other bodies look as usual */
         draw_painted(world, &paint, styles[k]);
         expect_ramps(beyond);
     }
@@ -96,7 +96,7 @@ static void faces(void)
     five = count_ramp(5);
     CHECK_EQ(six + five, 18 * 18);
     CHECK_AT_LEAST(six, 9 * 17);
-    CHECK_AT_MOST(six, 9 * 19); /* the diagonal's pixels go to one of them */
+    CHECK_AT_MOST(six, 9 * 19); /* the diagonal's pixels belong to one of them */
     /* face 2 is 4, 5, 7: the lower right half, and face 3 the upper left one */
     CHECK_EQ(ramp_at(38, 39), 6);
     CHECK_EQ(ramp_at(25, 24), 5);
@@ -128,7 +128,8 @@ static void interfering(void)
 /* -------------------------------------------------------------------- light */
 
 /*
- * A square that looks up, in the light from (x, y, z) of length n: the shade is 32 (a + (1 - a) (1 + z / n) / 2).
+ * A square that looks up, in the light from (x, y, z) of length n. The shade is 32 (a + (1 - a) (1
+ * + z / n) / 2).
  */
 static void light(void)
 {
@@ -152,7 +153,7 @@ static void light(void)
                 draw_painted(world, &paint, CAROM_DRAW_FLAT);
                 CHECK_EQ(ramp_at(40, 40), DRAW_STATIONARY);
                 shade = pixels[40][40] % DRAW_SHADES;
-                /* rounded down, and a hair short of 32 */
+                /* rounded down, and always below 32 */
                 CHECK_AT_MOST(shade * n, times_n);
                 CHECK_AT_LEAST((shade + 1) * n, times_n);
             }
@@ -160,7 +161,7 @@ static void light(void)
     }
 }
 
-/* The usual light by its direction: no shade differs by more than what rounding may make. */
+/* The usual light, given by its direction: no shade differs by more than rounding. */
 static void usual_light(void)
 {
     struct carom_paint paint = {.light = {{-6, -2, 3}}};
@@ -172,7 +173,8 @@ static void usual_light(void)
     for (int i = 0; i < SIZE * SIZE; i++) {
         CHECK_NEAR(pixels[i / SIZE][i % SIZE], reference[i / SIZE][i % SIZE], 1);
     }
-    /* ambient light alone leaves the direction and makes all lighter, but the background */
+    /* ambient light alone replaces the direction and makes everything lighter, except the
+     * background */
     paint = (struct carom_paint){.ambient_q30 = CAROM_ONE_Q30 / 2};
     draw_painted(world, &paint, CAROM_DRAW_FLAT);
     for (int y = 0; y < SIZE; y++) {
@@ -188,7 +190,10 @@ static void usual_light(void)
 
 /* ------------------------------------------------------------------ palettes */
 
-/* A palette in which each entry is its number: a picture of 4 bytes a pixel then has the entries. */
+/*
+ * A palette in which each entry is its own number. A picture of 4 bytes a pixel then holds the
+ * entries.
+ */
 static void number_palette(void)
 {
     for (uint32_t i = 0; i < ENTRIES; i++) {
@@ -203,7 +208,7 @@ static uint32_t grey_of(uint32_t rgb)
     return (2 * light * 15 + 255 * 256) / (2 * 255 * 256);
 }
 
-/* Every format against the entries that a picture of numbers has. */
+/* Every format, compared with the entries of a picture of numbers. */
 static void formats(void)
 {
     static const struct carom_body_paint body_paints[] = {{NULL, 9}, {NULL, 11}};
@@ -266,7 +271,7 @@ static void ramps(void)
 
     CHECK_EQ(carom_draw_ramp(NULL, 0), CAROM_ERR_NULL);
     CHECK_EQ(carom_draw_ramp(ramp, 0x4080ff), CAROM_OK);
-    CHECK_EQ(ramp[0], 0x10203f);  /* a quarter of each */
+    CHECK_EQ(ramp[0], 0x10203f);  /* a quarter of each component */
     CHECK_EQ(ramp[16], 0x4080ff); /* the colour itself */
     CHECK_EQ(ramp[31], 0x9fbfff); /* 0x40 + (255 - 0x40) / 2 = 0x9f */
     for (int i = 1; i < DRAW_SHADES; i++) {
@@ -280,7 +285,7 @@ static void ramps(void)
 
 /* ------------------------------------------------------------------ changes */
 
-/* Other paint is a change, of the body alone where it is the body's ramp. */
+/* Other paint is a change: of one body alone, if the paint changes that body's ramp. */
 static void changes(void)
 {
     static struct carom_drawn_body drawn_bodies[6];
@@ -305,7 +310,8 @@ static void changes(void)
             area += (drawn.changed[i].x1 - drawn.changed[i].x0) *
                     (drawn.changed[i].y1 - drawn.changed[i].y0);
         }
-        /* all of it at 0, 4, 8 and 10; the cube at 2 and 6: less than 40 x 40; nothing at others */
+        /* everything changes in steps 0, 4, 8 and 10; the cube in 2 and 6: less than 40 x 40;
+         * nothing in others */
         CHECK(step == 2 || step == 6                              ? area > 200 && area < 1600
               : step == 0 || step == 4 || step == 8 || step == 10 ? area == SIZE * SIZE
                                                                   : area == 0);
@@ -354,7 +360,10 @@ static void errors(void)
 #undef EXPECT
 }
 
-/* Sky above the horizon, ground below it, for cameras anywhere: as the ray through the middle of each row looks. */
+/*
+ * Sky above the horizon and ground below it, for any camera; the ray through the middle of each row
+ * decides.
+ */
 static void horizon(void)
 {
     const struct carom_paint paint = {.horizon = true};
@@ -382,7 +391,8 @@ static void horizon(void)
                      CAROM_OK);
             CHECK_EQ(ramp_at(0, y), CAROM_RAMP_BACKGROUND);
             CHECK(pixels[y][0] >= before && pixels[y][SIZE - 1] == pixels[y][0]);
-            /* a ray is thousands of units long: one so nearly level may be either */
+            /* the ray is thousands of units long: if it is nearly level, it may end on either
+             * side */
             if (carom_abs(ray.way.c[2]) > (int64_t)1 << 27) {
                 CHECK_EQ(pixels[y][0] >= 16, ray.way.c[2] < 0);
             }

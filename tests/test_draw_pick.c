@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A pixel's ray: in the middle and at the corners by hand; and that what is picked is what was drawn, by the
- * colours of random pictures.
+ * The ray of a pixel: in the middle and at the corners by hand. A picked body is the one that was
+ * drawn there, by the colours of random pictures.
  */
 #include "lib/draw_scene.h"
 
@@ -63,7 +63,7 @@ static void test_errors(void)
     camera.eye.c[1] = Q32(16385, 1);
     CHECK_EQ(carom_draw_pick(world, &camera, &picture, 0, 0, NULL, &hit), CAROM_ERR_RANGE);
     camera = above;
-    for (int k = 0; k < 3; k++) { /* the farthest camera has a ray that is in range */
+    for (int k = 0; k < 3; k++) { /* the ray of the farthest camera is in range */
         camera.eye.c[k] = Q32(16384, 1);
         camera.target.c[k] = Q32(16384, 1) - 1;
     }
@@ -84,7 +84,10 @@ static int ramp_of(const struct carom_world *world, const struct carom_camera *c
     return hit.body == 0 ? DRAW_STATIONARY : DRAW_MOVING;
 }
 
-/* Two cubes that may cross, from anywhere: pixels whose corners show the same are drawn so and picked so. */
+/*
+ * Two cubes that may cross, seen from anywhere. Where the four corners of a pixel show the same
+ * body, the pixel is drawn so and picked so.
+ */
 static void test_drawn(void)
 {
     struct test_random r = {31};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The picture that carom_draw is given: its format, its memory, its errors. */
+/* The picture that a caller gives to carom_draw: its format, its memory, its errors. */
 #include "lib/draw_scene.h"
 
 static uint8_t reference[SIZE][SIZE];
@@ -43,7 +43,10 @@ static void formats_agree(void)
     }
 }
 
-/* Half bytes are the greys of the palette's entries at any width; the half after the last stays. */
+/*
+ * Half bytes are the greys of the palette's entries at any width; the half after the last pixel
+ * stays as it was.
+ */
 static void greys_agree(void)
 {
     static uint8_t half[SIZE][SIZE / 2];
@@ -66,7 +69,7 @@ static void greys_agree(void)
                 int grey = x & 1 ? half[y][x / 2] & 15 : half[y][x / 2] >> 4;
                 int shade = pixels[y][x] % DRAW_SHADES, ramp = pixels[y][x] / DRAW_SHADES;
 
-                /* to nearest: twice the difference is at most one grey */
+                /* rounded to nearest: twice the difference is at most one grey */
                 if (x >= width) {
                     CHECK_EQ(grey, 14);
                 } else {
@@ -100,7 +103,7 @@ static void quotients(void)
     }
 }
 
-/* The least workspace gives the same picture, and nothing beyond a workspace is touched. */
+/* The smallest workspace gives the same picture, and nothing beyond a workspace is touched. */
 static void workspace_size(void)
 {
     static const size_t sizes[] = {CAROM_DRAW_BYTES_LEAST(8, 12), CAROM_DRAW_BYTES(8, 12) + 3};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere; and their shadows on
- * each other and on the ground, with the light from anywhere.
+ * Drawing against a ray caster in double precision: two cubes that may cross, seen from anywhere,
+ * and their shadows on each other and on the ground, with light from anywhere.
  */
 #include "lib/draw_scene.h"
 
@@ -29,7 +29,7 @@ static double root(double v)
     return r;
 }
 
-/* Quaternions of whole numbers and whole length: w, x, y, z, length. */
+/* Quaternions whose components and length are whole numbers: w, x, y, z, length. */
 static const int8_t turns[][5] = {{1, 0, 0, 0, 1}, {1, 2, 2, 4, 5},   {1, 1, 1, 1, 2},
                                   {2, 4, 5, 6, 9}, {9, -1, 3, 3, 10}, {4, 2, -2, 1, 5},
                                   {6, -5, 2, 4, 9}};
@@ -48,7 +48,10 @@ static void turn_matrix(double r[3][3], const int8_t q[5])
     }
 }
 
-/* The part of a ray inside a cube of +-1/2, by its three slabs: none when it enters after it leaves. */
+/*
+ * The part of a ray inside a cube of +-1/2, by its three slabs; none when the ray enters after it
+ * leaves.
+ */
 static void slabs(double part[2], const struct ray *ray, const struct solid *s)
 {
     part[0] = -1e30;
@@ -69,8 +72,8 @@ static void slabs(double part[2], const struct ray *ray, const struct solid *s)
 }
 
 /*
- * How far ahead a ray enters a cube; a large number when it does not. In front of the near plane, 1/32 unit
- * ahead, the faces are cut, and the far ones look away.
+ * The distance at which a ray enters a cube; a large number when it does not. Closer than the near
+ * plane, 1/32 unit ahead, the faces are cut, and the far faces look away.
  */
 static double meet(const struct ray *ray, const struct solid *s)
 {
@@ -109,7 +112,10 @@ static bool faces_light(const double point[3], const double light[3], const stru
     return towards > 0;
 }
 
-/* A world of a ray caster; without `ground` there are only the cubes, and without `light` no shadows. */
+/*
+ * A world for the ray caster. Without `ground` it has only the cubes, and without `light` it has no
+ * shadows.
+ */
 struct view {
     double eye[3], axes[3][3], light[3];
     struct solid solids[2];
@@ -117,8 +123,8 @@ struct view {
 };
 
 /*
- * Whether another cube keeps the light from a point of a body, 0, 1 or 2 for the ground: 1; 2 for a point inside of that cube,
- * which only an eye in there sees.
+ * Whether another cube keeps the light from a point of body 0, 1 or 2 (the ground): 1. For a point
+ * inside of that cube, visible only to an eye in there: 2.
  */
 static int is_dark(const struct view *v, const double point[3], int body)
 {
@@ -139,7 +145,10 @@ static int is_dark(const struct view *v, const double point[3], int body)
                      : dark * faces_light(point, v->light, &v->solids[body]);
 }
 
-/* The ramp that a point of the picture shows, solids[1] moves; and 8 more in shadow, 16 where that is not known. */
+/*
+ * The ramp that a point of the picture shows; solids[1] moves. 8 more in shadow, 16 more where that
+ * is unknown.
+ */
 static int see(const struct view *v, double x, double y)
 {
     struct ray ray;
@@ -188,15 +197,15 @@ static void camera_axes(double axes[3][3], const double eye[3], const double tar
     }
 }
 
-/* The world without shadows, to tell which pixels are darker for them. */
+/* The world without shadows: the pixels that differ from it are darker because of a shadow. */
 static uint8_t bright[SIZE][SIZE];
 
-/* Pixels compared, those of them in shadow, and those that are wrong. */
+/* Pixels compared, those in shadow, and those that are wrong. */
 struct counts {
     int all, dark, wrong;
 };
 
-/* Compare so many random pixels, but for those where a ray `beside`, in pixels, sees something else. */
+/* Compare so many random pixels, except where a ray `beside` it, in pixels, sees something else. */
 static void compare_rays(struct counts *counts, struct test_random *random, const struct view *v,
                          int pixel_count, double beside)
 {
@@ -218,7 +227,10 @@ static void compare_rays(struct counts *counts, struct test_random *random, cons
     }
 }
 
-/* Two cubes that may cross, and a camera; sometimes the near plane cuts a cube, or the eye is inside one. */
+/*
+ * Two cubes that may cross, and a camera. Sometimes the near plane cuts a cube, or the eye is
+ * inside one.
+ */
 static struct carom_camera place(struct carom_world *world, struct view *v,
                                  struct test_random *random, bool close)
 {
@@ -293,7 +305,8 @@ static void shadows(void)
         CHECK_EQ(carom_draw(world, &camera, &picture, CAROM_DRAW_FLAT), CAROM_OK);
         compare_rays(&counts, &random, &v, 240, 1);
     }
-    /* corners are rounded to a 16th of a pixel, which now and then shows where light or eye graze a face */
+    /* corners are rounded to a 16th of a pixel, which now and then shows where light or eye graze a
+     * face */
     CHECK_MORE(counts.dark, ORACLE_SCENES);
     CHECK_AT_MOST(counts.wrong, counts.all / 10000);
 }

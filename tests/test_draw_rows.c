@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures that are handed over row by row: the same pixels as in memory that holds them all. */
+/* Pictures that are handed over row by row have the same pixels as a picture in memory. */
 #include <string.h>
 
 #include "lib/draw_scene.h"
@@ -13,24 +13,27 @@ enum { FRAMES = 12 };
 #endif
 enum { WIDTH = 109, HEIGHT = 80, BODIES = 33, MARK = 0x5a };
 
-static const uint8_t bytes_each[] = {1, 2, 4, 0, 2}; /* of a pixel, by format */
+static const uint8_t bytes_each[] = {1, 2, 4, 0, 2}; /* bytes of a pixel, by format */
 
 static _Alignas(8) uint8_t scene_world[CAROM_WORLD_BYTES(SCENE_CAPS)];
 static _Alignas(8) uint8_t scene_workspace[CAROM_DRAW_BYTES(
     SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES, SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
 static uint32_t full[WIDTH * HEIGHT];
 
-/* A display that keeps what it is sent. It has two rows, as one whose sender is busy with the last. */
+/*
+ * A display that keeps what it receives. It has two rows, because its sender may be busy with the
+ * last one.
+ */
 static struct panel {
     uint8_t pixels[WIDTH * HEIGHT * 4];
     uint32_t rows[2][WIDTH];
     uint8_t format;
     int now; /* the row that is drawn; -1 before the first */
     int32_t x0, x1, y;
-    uint32_t area; /* pixels that it was asked to take */
+    uint32_t area; /* pixels announced by the drawing */
 } panel;
 
-/* Take over the row that is complete; what lies beside of its pixels must be as it was. */
+/* Take over the complete row. The memory beside its pixels must be as it was. */
 static void take_row(void)
 {
     const uint8_t *row = (const uint8_t *)panel.rows[panel.now];
@@ -92,7 +95,7 @@ static struct carom_picture by_rows(uint8_t format, size_t bytes)
     return picture;
 }
 
-/* The panel shows the picture. */
+/* Check that the panel shows the picture. */
 static void compare(const struct carom_picture *picture)
 {
     take_row();
@@ -133,7 +136,7 @@ static void compare_scene(const char *name, uint8_t format, size_t bytes,
         }
         less += panel.area < WIDTH * HEIGHT / 2;
     }
-    /* the panel keeps its picture: of most, few pixels are sent */
+    /* the panel keeps its picture: few pixels are sent in most frames */
     CHECK(bytes < sizeof scene_workspace || less >= FRAMES / 2);
 }
 
@@ -167,7 +170,7 @@ static void asked_for(void)
     CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_ERR_NULL);
 }
 
-/* Another display, or memory in the place of one, shows nothing yet. */
+/* Another display, or memory in place of a display, shows nothing yet. */
 static void another_display(void)
 {
     static struct carom_drawn_body bodies[BODIES];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Shades from corner to corner, against the same in double precision: lumps of chance seen from anywhere. The oracle
- * finds the faces that share a shade by joining all that meet in an edge, and the face of a pixel by looking at all.
+ * Shades from corner to corner against the same in double precision, for random lumps seen from
+ * anywhere. The oracle finds the faces that share a shade by joining all faces that meet in an
+ * edge, and finds the face of a pixel by looking at all.
  */
 #include "lib/draw_scene.h"
 
@@ -54,7 +55,7 @@ static void unit(double v[3])
     }
 }
 
-/* A ball of rings whose vertices are pulled out and in. */
+/* A ball of rings with vertices moved outwards and inwards. */
 static void make_lump(struct test_random *random)
 {
     static const int16_t ring[RINGS][2] = {{588, 809}, {951, 309}, {951, -309}, {588, -809}};
@@ -124,7 +125,7 @@ static bool meet(int a, int b, int vertex)
     return shared == 2 && has_vertex(a, vertex) && has_vertex(b, vertex);
 }
 
-/* The mean over all faces that can be reached about a vertex from one without a crease. */
+/* The mean over all faces around a vertex that are connected with one face without a crease. */
 static double corner_shade(const struct oracle *o, int face, int vertex, double crease)
 {
     bool in[FACES] = {false};
@@ -138,12 +139,12 @@ static double corner_shade(const struct oracle *o, int face, int vertex, double 
                 in[b] = in[b] || (meet(a, b, vertex) && dot(o->normal[a], o->normal[b]) >= crease);
             }
         }
-        pass = pass < 12 ? pass : FACES; /* at a vertex there are at most as many */
+        pass = pass < 12 ? pass : FACES; /* at most that many faces meet at a vertex */
     }
     for (int f = 0; f < FACES; f++) {
         bool counts = in[f];
 
-        /* two in one plane count as one */
+        /* two faces in one plane count as one */
         for (int g = 0; g < f; g++) {
             counts = counts &&
                      !(in[g] && meet(f, g, vertex) && dot(o->normal[f], o->normal[g]) > 0.99984770);
@@ -171,13 +172,13 @@ static void find_shades(struct oracle *o, const double light[3], double crease)
         for (int k = 0; k < 3; k++) {
             double shade = corner_shade(o, f, faces[f][k], crease);
 
-            /* what is drawn ends in the middle of the darkest and the lightest */
+            /* drawn shades end in the middle of the darkest and of the lightest one */
             o->corner[f][k] = shade < 0.5 ? 0.5 : shade > 31.5 ? 31.5 : shade;
         }
     }
 }
 
-/* Places on a picture of WIDE x WIDE; the body's axes are the world's. */
+/* Project the vertices to a picture of WIDE x WIDE; the body's axes are the world's. */
 static void project(struct oracle *o, const double centre[3], const double eye[3],
                     const double target[3])
 {
@@ -204,7 +205,7 @@ static void project(struct oracle *o, const double centre[3], const double eye[3
     }
 }
 
-/* The shade that a place on the picture shows; -1 near an edge and beside the lump. */
+/* The shade that a place of the picture shows; -1 near an edge and beside the lump. */
 static double see(const struct oracle *o, double x, double y)
 {
     double nearest = 0, shade = -1;
@@ -219,7 +220,7 @@ static double see(const struct oracle *o, double x, double y)
 
         least = least < third ? least : third;
         if (area >= 0 || least < -0.2 || w < nearest) {
-            continue; /* y runs down: what looks at the eye turns the other way */
+            continue; /* y runs down, so a face that looks at the eye has the opposite sign */
         }
         if (least >= 0) {
             nearest = w;
@@ -247,7 +248,7 @@ static double slack(const struct oracle *o, double x, double y)
 
 /* -------------------------------------------------------------------- tests */
 
-/* A palette in which an entry's number can be read off its colour, between two entries too. */
+/* A palette in which a colour tells its entry's number, also between two entries. */
 static void number_palette(uint32_t palette[256])
 {
     for (uint32_t i = 0; i < 256; i++) {
@@ -316,7 +317,7 @@ static void oracle(void)
             double apart = (wide[p] & 0xffff) / 8.0 - (want < 0 ? 0 : want > 31 ? 31 : want);
             double beside = bytes[p] % DRAW_SHADES - want;
 
-            /* a face of one shade shows one of the palette */
+            /* a face with one shade shows a single shade of the palette */
             more = more >= 0 && more < 0.01 ? 0.3 : more;
             if (more >= 0) {
                 seen++;
@@ -332,7 +333,10 @@ static void oracle(void)
     CHECK_NEAR(wrong[1], 0, seen / 1000);
 }
 
-/* On both sides of an edge that is no crease shades are the same; across one they are those of the faces. */
+/*
+ * Along an edge that is no crease, both sides have the same shades; at a crease they have the
+ * shades of their faces.
+ */
 static void edges(void)
 {
     static uint32_t palette[256];
@@ -352,7 +356,7 @@ static void edges(void)
                                         .workspace = lump_space,
                                         .workspace_bytes = sizeof lump_space,
                                         .paint = &paint};
-        /* so near that all of the picture is a few faces */
+        /* so near that a few faces fill the picture */
         struct carom_camera camera = {
             .eye = {{0, Q32(-1, 64), Q32(5, 4)}}, .target = {{0, 0, 0}}, .focal_q16 = 4 << 16};
 
@@ -368,7 +372,10 @@ static void edges(void)
     CHECK_EQ(steps, 0);
 }
 
-/* Boxes keep their faces: in every format a picture is as without, but for the background. */
+/*
+ * Boxes keep their faces: in every format the picture is the same as without smooth shades, except
+ * for the background.
+ */
 static void boxes(void)
 {
     static uint32_t plain_pixels[SIZE * SIZE], smooth_pixels[SIZE * SIZE];
@@ -395,7 +402,10 @@ static void boxes(void)
     }
 }
 
-/* Too little room is refused by name; the room that the engine asks for is enough. */
+/*
+ * Too little workspace is refused with its own error; the workspace that the engine asks for is
+ * enough.
+ */
 static void room(void)
 {
     struct test_random random = {79};

@@ -56,12 +56,12 @@ static void by_hand(void)
         "           "};
     /* clang-format on */
 
-    /* H, T, C, p, l: 5 cells less the gap after the last */
+    /* H, T, C, p, l: 5 cells minus the gap after the last */
     expect_letters("HTCpl", letters, 29);
     expect_letters("![", signs, 11);
 }
 
-/* Each character has a form of its own; all others are a box; a space has none. */
+/* Each character has a form of its own; unknown ones are a box; a space is empty. */
 static void font(void)
 {
     for (int i = 0; i < 96; i++) {
@@ -154,7 +154,7 @@ static struct carom_text any_place(struct test_random *random, char text[24])
 static void at_random(void)
 {
     static const uint32_t ink[] = {WHITE, 0xffff, 0xffffff, 15, 0x7fff};
-    static const uint32_t paper[] = {BLUE, 0x441f, 0x4080ff, 7, 0x7e08}; /* 40 80 ff */
+    static const uint32_t paper[] = {BLUE, 0x441f, 0x4080ff, 7, 0x7e08}; /* 4080ff in each format */
     static const uint32_t was[] = {0x99, 0x9999, 0x99999999, 9, 0x9999};
     struct test_random random = {41};
 
@@ -237,7 +237,7 @@ static void by_rows(void)
     CHECK_MORE(drawn, 10);
 }
 
-/* A text that was noted is gone in the next picture of what changed. */
+/* A text that was noted is gone from the next picture of changes. */
 static void goes_away(void)
 {
     static struct carom_drawn_body drawn_bodies[6];
@@ -257,7 +257,8 @@ static void goes_away(void)
     CHECK_EQ(drawn.changed_count, 1);
     area =
         (drawn.changed[0].x1 - drawn.changed[0].x0) * (drawn.changed[0].y1 - drawn.changed[0].y0);
-    CHECK_EQ(area, 12 * 14); /* of a cell of 12 x 18; the line under it is below the picture */
+    CHECK_EQ(area, 12 * 14); /* pixels of a cell of 12 x 18; the line under it is below the
+                              * picture */
     CHECK_EQ(carom_draw_changes(world, &above, &picture, CAROM_DRAW_FLAT, &drawn), CAROM_OK);
     CHECK_EQ(drawn.changed_count, 0);
 }

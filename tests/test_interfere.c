@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Candidates against trying everything: in double precision, every vertex and face, and every two
- * edges, of two meshes.
+ * Candidates against trying everything in double precision: every vertex with every face, and every
+ * two edges, of two meshes.
  */
 #include "interfere/interfere.h"
 #include "lib/real.h"
@@ -9,7 +9,7 @@
 #include "lib/test.h"
 
 #ifdef TEST_LONG
-#define POSES 2000 /* of each two shapes */
+#define POSES 2000 /* poses for each two shapes */
 #define FIELD 12
 #else
 #define POSES 9
@@ -25,7 +25,7 @@
 
 static struct shape shape_a, shape_b;
 static struct solid a = {.shape = &shape_a}, b = {.shape = &shape_b};
-static struct solid turned = {.shape = &shape_a}; /* a, turned as far as it may */
+static struct solid turned = {.shape = &shape_a}; /* a, turned by the largest allowed turn */
 static struct body bodies[2];
 static struct body_state states[2];
 static const struct pair pairs[1] = {{0, 1}};
@@ -142,7 +142,7 @@ static void place(int i)
     solid_place(i == 0 ? &a : &b, &states[i]);
 }
 
-/* A point inside a face or on an edge, and a direction in which the surface looks there. */
+/* A random point inside a face or on an edge, and a direction in which the surface looks there. */
 static void random_place(struct test_random *r, const struct solid *s, double out[3], double n[3])
 {
     const struct carom_mesh *mesh = &s->shape->mesh;
@@ -164,7 +164,7 @@ static void random_place(struct test_random *r, const struct solid *s, double ou
     }
 }
 
-/* The lowest vertex along n, or a point of the flattest edge from there. */
+/* The lowest vertex along n, or a point of the flattest edge that leaves it. */
 static void lowest_place(struct test_random *r, const struct solid *s, const double n[3],
                          double out[3])
 {
@@ -191,7 +191,7 @@ static void lowest_place(struct test_random *r, const struct solid *s, const dou
 }
 
 /*
- * The bodies turned anyhow, anywhere in the world, with a point of one near a point of the other.
+ * Turn the bodies at random, anywhere in the world, with a point of one near a point of the other.
  */
 static void random_scene(struct test_random *r, bool turn_b)
 {
@@ -230,8 +230,8 @@ static int64_t reach_q22;
 static double turn;
 
 /*
- * Every vertex of one body near a face of the other is a candidate. Near: at the start. Facing it:
- * after the turn that on_a stands for. Returns how many there are.
+ * Every vertex of one body near a face of the other must be a candidate if it faces the other after
+ * the turn of on_a. Near means near at the start. Returns how many there are.
  */
 static uint32_t try_vertices(const struct solid *on_a, int kind, double tolerance)
 {
@@ -269,7 +269,10 @@ static uint32_t try_edges(const struct solid *on_a, double tolerance)
     return count;
 }
 
-/* Interfering faces: sorted, each once, and those of every candidate among them. */
+/*
+ * Interfering faces are sorted, each is listed once, and the faces of every candidate are among
+ * them.
+ */
 static void check_faces(void)
 {
     for (uint32_t i = 0; i < face_pool.used; i++) {
@@ -317,7 +320,7 @@ static void make(int which)
     solid_note_owned(&b);
 }
 
-/* a turned about some axis, as far as both bodies may turn against each other. */
+/* Turn a about some axis by the largest angle that both bodies may turn against each other. */
 static void turn_a(struct test_random *r)
 {
     struct body_state state = states[0];
@@ -343,7 +346,7 @@ static void turn_a(struct test_random *r)
     solid_place(&turned, &state);
 }
 
-/* Nothing that can touch is missing, whatever the shapes, poses, reach and turn. */
+/* No pair that can touch is missing, for any shapes, poses, reach and turn. */
 static void check_recall(uint64_t seed)
 {
     double cone = real(INTERFERE_CONE_Q30, 30) - ANGLE_NOISE;
@@ -369,14 +372,14 @@ static void check_recall(uint64_t seed)
         }
     }
     CHECK_AT_LEAST(vertices, POSES / 4);
-    CHECK_AT_LEAST(20 * edges + 20, POSES); /* the oracle is not idle */
+    CHECK_AT_LEAST(20 * edges + 20, POSES); /* the oracle finds some */
     /* and not everything is a candidate */
     CHECK_LESS(handed, 10 * (vertices + edges) + 40 * POSES);
 }
 
 /* ------------------------------------------------------------------- motion */
 
-/* The bodies at a time of their paths, off them by a part of what their regions allow. */
+/* The bodies at a time of their paths, moved off them by a part of what their regions allow. */
 static void place_at(struct test_random *r, int32_t t_q30)
 {
     struct solid *solids[2] = {&a, &b};
@@ -393,7 +396,10 @@ static void place_at(struct test_random *r, int32_t t_q30)
     }
 }
 
-/* Both bodies on paths on which a point of one is near a point of the other at the time returned. */
+/*
+ * Both bodies get paths on which a point of one comes near a point of the other at the returned
+ * time.
+ */
 static int32_t random_motion(struct test_random *r)
 {
     double on_a[3], on_b[3], n[3];
@@ -436,7 +442,7 @@ static int32_t random_motion(struct test_random *r)
     return t_q30;
 }
 
-/* A sheet of many small leaves as body a, which moves as a box of its size does. */
+/* Body a is a sheet of many small leaves that moves like a box of its size. */
 static void make_sheet(void)
 {
     static struct shape box;
@@ -467,8 +473,9 @@ static int gather_part(const int32_t times_q30[2], struct collector *to)
 }
 
 /*
- * Whatever is within the margin and faces the other body at some time of the motion, or of one that
- * the regions allow, was a candidate from the start; or, by paths, at some time of a part of the motion.
+ * If a feature is within the margin and faces the other body at some time of the motion, it was a
+ * candidate from the start. The motion may be any that the regions allow; with by_paths, it is a
+ * part of the paths.
  */
 static void check_motion(uint64_t seed, bool small_b)
 {
@@ -505,12 +512,12 @@ static void check_motion(uint64_t seed, bool small_b)
         }
     }
     CHECK_AT_LEAST(8 * vertices, POSES);
-    CHECK_AT_LEAST(8 * edges + 8, POSES); /* the oracle is not idle */
+    CHECK_AT_LEAST(8 * edges + 8, POSES); /* the oracle finds some */
     CHECK_LESS(handed, 10 * (vertices + edges) + 60 * POSES);
     CHECK(small_b ? swapped >= POSES / 8 : swapped < POSES);
 }
 
-/* Fields and solids that move themselves. */
+/* Fields, and solids that move. */
 static void test_motion(void)
 {
     shape_l(&shape_b, 11, 1500);
@@ -518,10 +525,10 @@ static void test_motion(void)
     shape_ball(&shape_b, 11, 2048);
     check_motion(2, false);
     shape_ball(&shape_b, 12, 700);
-    check_motion(3, true); /* b asks where it spins */
+    check_motion(3, true); /* b is the body that is searched, and it spins */
 }
 
-/* The same of parts of the paths at hand. */
+/* The same for parts of the paths at hand. */
 static void test_paths(void)
 {
     by_paths = true;
@@ -548,14 +555,14 @@ static void test_fine_field(void)
     check_recall(3);
 }
 
-/* A solid as the body that is asked. */
+/* The searched body is a solid. */
 static void test_solid(void)
 {
     shape_l(&shape_b, 11, 1500);
     check_recall(4);
 }
 
-/* Small working pools hand over the same candidates, in chunks; the same faces interfere. */
+/* Small working pools give the same candidates, in chunks; the same faces interfere. */
 static void test_chunks(void)
 {
     static const uint32_t sizes[][2] = {{ENTRIES, 1}, {1, CANDIDATES}, {1, 1}, {3, 7}};
@@ -587,7 +594,7 @@ static void test_chunks(void)
     }
 }
 
-/* The pool of faces holds what there are, or is too short by name; never by the way of working. */
+/* The pool of faces holds all of them or gives its error; working pools do not matter. */
 static void test_faces_full(void)
 {
     struct test_random r = {6};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Building meshes: what is refused, in which order, and the index of good ones. */
+/* Building meshes: which are refused, the order of errors, and the index of good meshes. */
 #include <string.h>
 
 #include "lib/mesh_shapes.h"
@@ -30,7 +30,7 @@ static void exact_normal(int64_t out[3], uint32_t face)
 
 /* ---------------------------------------------------------------------- errors */
 
-/* build() must refuse with `error`, as must the check, and leave the mesh alone. */
+/* build() and the check must refuse with `error` and leave the mesh alone. */
 static void check_refused(int error, int line)
 {
     struct carom_mesh before;
@@ -103,14 +103,14 @@ static void test_bad_edges(void)
     raw.face_count = 11;
     CHECK_REFUSED(CAROM_ERR_MESH_OPEN);
 
-    /* one face turned over: three sides run twice in one direction */
+    /* one face turned over: three sides are used twice in one direction */
     make_box(100, 100, 100);
     memcpy(face, faces[4], sizeof face);
     faces[4][0] = face[1];
     faces[4][1] = face[0];
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
 
-    /* two tetrahedra on one edge: four faces meet there */
+    /* two tetrahedra share an edge: four faces meet there */
     begin(CAROM_SOLID);
     add_vertex(0, 0, 0);
     add_vertex(0, 0, 100);
@@ -126,7 +126,7 @@ static void test_bad_edges(void)
     }
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
 
-    /* a second face of one direction on an edge of a surface; a third face of either */
+    /* a second face that uses an edge of a surface in the same direction; a third face in either */
     make_field(2, 100, 10, 1);
     add_face(faces[0][0], faces[0][1], add_vertex(50, -50, 60));
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
@@ -173,7 +173,7 @@ static void test_bad_surface(void)
 {
     uint32_t n;
 
-    /* a vertical face, a face that hangs over */
+    /* a vertical face, then an overhanging face */
     make_field(4, 100, 50, 1);
     vertices[12][0] = vertices[13][0];
     CHECK_REFUSED(CAROM_ERR_MESH_SURFACE);
@@ -181,7 +181,7 @@ static void test_bad_surface(void)
     vertices[12][0] = (int16_t)(vertices[13][0] + 1);
     CHECK_REFUSED(CAROM_ERR_MESH_SURFACE);
 
-    /* a second sheet: over all, over a part of one face, beside */
+    /* a second sheet: over everything, over a part of one face, beside */
     for (int x = 0; x <= 400; x += 100) {
         make_field(4, 100, 50, 1);
         n = raw.vertex_count;
@@ -197,8 +197,9 @@ static void test_bad_surface(void)
     }
 
     /*
-     * Nine points and twelve faces, every pair of points in exactly one: 36 edges, more than a
-     * plane graph of nine points can have. On a parabola any three points are in order.
+     * Nine points and twelve faces; every pair of points is in exactly one face. That makes 36
+     * edges, more than a planar graph with nine points can have. On a parabola any three points are
+     * in order.
      */
     begin(CAROM_SURFACE);
     for (int i = 0; i < 9; i++) {
@@ -218,7 +219,8 @@ static void test_bad_surface(void)
 }
 
 /*
- * Faces side by side are not over each other, though only a side of one of them keeps them apart.
+ * Faces side by side are not above each other, even when only a side of one of them separates the
+ * two.
  */
 static void test_good_surface(void)
 {
@@ -256,7 +258,7 @@ static void test_error_order(void)
     raw.vertex_count = 65536;
     CHECK_REFUSED(CAROM_ERR_MESH_SIZE);
 
-    /* a surface with a wrong edge that looks down */
+    /* a surface with a wrong edge and a face that looks down */
     make_field(2, 100, 10, 1);
     for (uint32_t f = 0; f < raw.face_count; f++) {
         memcpy(faces[f], (uint16_t[]){faces[f][1], faces[f][0], faces[f][2]}, sizeof faces[f]);
@@ -265,7 +267,9 @@ static void test_error_order(void)
     CHECK_REFUSED(CAROM_ERR_MESH_EDGE);
 }
 
-/* A box of these sides in quanta of 2^-7 units, about the origin: an odd one leans upwards. */
+/*
+ * A box with these sides in quanta of 2^-7 units, centred at the origin; an odd side leans upwards.
+ */
 static void make_large(int32_t x, int32_t y, int32_t z)
 {
     int32_t side[3] = {x, y, z};
@@ -279,7 +283,10 @@ static void make_large(int32_t x, int32_t y, int32_t z)
     }
 }
 
-/* No side may be over 256 units and no diagonal over 384: 256, 256 and 128 units have that. */
+/*
+ * No side may be above 256 units and no diagonal above 384: 256, 256 and 128 units have that
+ * diagonal.
+ */
 static void test_range(void)
 {
     make_large(32768, 32768, 16383);
@@ -343,7 +350,10 @@ static void check_edges(void)
     }
 }
 
-/* Ownership against exact signs: is face 1's opposite corner below face 0's plane? */
+/*
+ * Ownership against exact signs: an edge's owner depends on whether face 1's opposite corner is
+ * below face 0's plane.
+ */
 static void check_owned(void)
 {
     static bool sharp[V_MAX];
@@ -381,7 +391,7 @@ static void check_owned(void)
             below = dot64(n, d);
             area = (double)dot64(n, n);
             convex = below < 0;
-            /* the test meshes have no edge that is nearly flat, so that the sign decides */
+            /* the test meshes have no edge that is nearly flat, so the sign decides */
             CHECK(below == 0 || (double)below * (double)below > 1e-8 * area * (double)dot64(d, d));
         }
         CHECK_EQ(owners[i], convex);
@@ -417,7 +427,7 @@ static void test_box(void)
     check_edges();
     check_owned();
     CHECK_EQ(mesh.edge_count, 18);
-    CHECK_EQ(count_owned(3, 5), 12); /* not the six diagonals */
+    CHECK_EQ(count_owned(3, 5), 12); /* without the six diagonals */
     CHECK_EQ(count_owned(0, 2), 8);
     for (uint32_t f = 0; f < 12; f++) {
         const int32_t *n = mesh.faces[f].normal.c;
@@ -434,7 +444,7 @@ static void test_box(void)
     CHECK_NEAR(mesh.radius_q22, 7662915, 2);
 }
 
-/* An L: one concave edge, and flat ones where the sides are cut. */
+/* An L has one concave edge, and flat edges where its sides are cut. */
 static void test_concave(void)
 {
     const int corner[6][2] = {{0, 0}, {200, 0}, {200, 50}, {100, 50}, {100, 100}, {0, 100}};
@@ -450,8 +460,9 @@ static void test_concave(void)
 }
 
 /*
- * Thin blades: the faces at an edge are nearly back to back, and still the edge is sharp. In the
- * second one two faces turn by half a turn less 5e-10, whose sine says that the edge is flat.
+ * Thin blades: the faces at an edge are nearly back to back, and the edge is still sharp. In the
+ * second blade two faces turn by half a turn less 5e-10, an angle whose sine looks like a flat
+ * edge.
  */
 static void test_blade(void)
 {
@@ -475,7 +486,7 @@ static void test_blade(void)
     }
 }
 
-/* The sphere around the centre of mass: no vertex outside, one on it. */
+/* The sphere around the centre of mass has no vertex outside and one on it. */
 static void check_radius(void)
 {
     double most2 = 0, radius = mesh.radius_q22;

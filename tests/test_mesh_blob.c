@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reading meshes from blobs, whole and altered. */
+/* Reading meshes from blobs: whole and altered ones. */
 #include <string.h>
 
 #include "lib/mesh_shapes.h"
@@ -75,7 +75,10 @@ static void test_read(void)
     CHECK_EQ(memcmp(&read, &before, sizeof read), 0);
 }
 
-/* Every truncation, every altered byte, and headers that lie under a right seal. */
+/*
+ * Every truncation and every altered byte is refused, and so are wrong headers with a correct check
+ * sum.
+ */
 static void test_read_altered(void)
 {
     static _Alignas(8) uint8_t mem[CAROM_BLOB_BYTES(8, 12)];

@@ -5,7 +5,7 @@
 #include "lib/mesh_shapes.h"
 
 #ifdef TEST_LONG
-#define POINT_STEP 1 /* of the places on a face that are looked up in the z-lists */
+#define POINT_STEP 1 /* steps between the places of a face that are looked up in the z-lists */
 #else
 #define POINT_STEP 11
 #endif
@@ -99,7 +99,7 @@ static void test_leaves(void)
 
 /* --------------------------------------------------------------------- z-lists */
 
-/* A face's point, by weights that sum to 8, must be in an entry of the cell that it is over. */
+/* A point of a face, given by weights that sum to 8, must be in an entry of the cell below it. */
 static void check_point(uint32_t f, int a, int b, const struct scan_grid *g)
 {
     int32_t p[3], cell[2];
@@ -110,7 +110,7 @@ static void check_point(uint32_t f, int a, int b, const struct scan_grid *g)
     }
     cell[0] = (p[0] - 8 * g->x0) >> (g->shift + 3);
     cell[1] = (p[1] - 8 * g->y0) >> (g->shift + 3);
-    /* a point on the far side of the last cell belongs to it */
+    /* a point on the far side of the last cell belongs to that cell */
     cell[0] -= cell[0] == g->nx && p[0] == 8 * (g->x0 + (g->nx << g->shift));
     cell[1] -= cell[1] == g->ny && p[1] == 8 * (g->y0 + (g->ny << g->shift));
     CHECK_AT_LEAST(cell[0], 0);
@@ -174,7 +174,7 @@ static void test_zlists(void)
     CHECK_EQ(build(), CAROM_OK);
     check_zlists();
 #ifdef TEST_LONG
-    /* a regular field on a power of two, as wide as 32 cells */
+    /* a regular field on a power of two, 32 cells wide */
     make_field(32, 64, 100, 7);
     CHECK_EQ(build(), CAROM_OK);
     CHECK_EQ(mesh.grid_nx, 32);
@@ -198,7 +198,7 @@ static void test_zlists(void)
 
 /* ---------------------------------------------------------------------- memory */
 
-/* Nothing past the block is touched, and what the block held before does not show. */
+/* Nothing beyond the block is touched, and the earlier content of the block has no effect. */
 static void test_memory(void)
 {
     static const uint8_t guard[8] = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -222,8 +222,8 @@ static void test_memory(void)
 }
 
 /*
- * Faces without a vertex in common have as many edges as there can be. A prism of 16 sides has 32 vertices: no
- * leaf of it has too many.
+ * Faces without a common vertex have the most edges. A prism with 16 sides has 32 vertices: no leaf
+ * of it has too many.
  */
 static void test_small(void)
 {

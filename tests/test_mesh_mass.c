@@ -96,7 +96,7 @@ static double entry(const struct carom_sym3 *s, int n)
 
 /* ------------------------------------------------------------------------ mass */
 
-/* A box: (b^2 + c^2) / 12, wherever it is and whatever the quantum. */
+/* A box has (b^2 + c^2) / 12, at any place and with any quantum. */
 static void test_box(void)
 {
     struct test_random r = {1};
@@ -138,7 +138,9 @@ static void test_box(void)
     }
 }
 
-/* A tetrahedron's covariance is 1/20 of the sum of d d^T, d from the centre to each corner. */
+/*
+ * A tetrahedron's covariance is 1/20 of the sum of d d^T; d leads from the centre to each corner.
+ */
 static void test_tetrahedron(void)
 {
     struct test_random r = {2};
@@ -200,7 +202,7 @@ static void check_two_boxes(const int16_t a0[3], const int16_t a1[3], const int1
         mass[1] *= side_b;
         centre[0][k] = (a0[k] + a1[k]) * quantum / 2;
         centre[1][k] = (b0[k] + b1[k]) * quantum / 2;
-        own[0][k] = side_a * side_a / 12; /* variance along the axis */
+        own[0][k] = side_a * side_a / 12; /* its own variance along the axis */
         own[1][k] = side_b * side_b / 12;
     }
     total = mass[0] + mass[1];
@@ -239,7 +241,9 @@ static void test_two_boxes(void)
     check_two_boxes(far0, far1, beside0, beside1, 7);
 }
 
-/* Moved by whole quanta a mesh keeps its volume, inertia and centre, to the bit. */
+/*
+ * A mesh moved by whole quanta keeps its volume, its inertia and its shifted centre, bit for bit.
+ */
 static void test_moved(void)
 {
     struct shape s = {.raw = {0}};
@@ -302,7 +306,7 @@ static void test_refused(void)
     turn_inside_out(&pair, 0, 24);
     CHECK_EQ(mass_of_mesh(&pair.raw, &m), CAROM_ERR_MESH_INSIDE_OUT);
 
-    /* twice the largest volume there is */
+    /* twice the largest volume */
     add_box(&twice, whole0, whole1, 8);
     add_box(&twice, whole0, whole1, 8);
     CHECK_EQ(mass_of_mesh(&twice.raw, &m), CAROM_ERR_RANGE);
@@ -326,7 +330,7 @@ static double inverse_error(const struct carom_sym3 *in, const struct carom_sym3
             for (int k = 0; k < 3; k++) {
                 sum += entry(in, place[i][k]) * entry(out, place[k][j]);
             }
-            /* what the first leaves is small: added last, it loses no digits */
+            /* the second word is small: added last, it loses no digits */
             for (int k = 0; k < 3; k++) {
                 sum += entry(in, place[i][k]) * entry(rest, place[k][j]);
             }
@@ -336,7 +340,7 @@ static double inverse_error(const struct carom_sym3 *in, const struct carom_sym3
     return worst;
 }
 
-/* The inertia of a box, its sides given, turned by a reflection: H = 1 - 2 u u^T / |u|^2. */
+/* The inertia of a box with given sides, turned by a reflection: H = 1 - 2 u u^T / |u|^2. */
 static void turned_inertia(struct test_random *r, const double side[3], struct carom_sym3 *a)
 {
     double u[3], square = 0, m[6], largest = 0;
@@ -385,7 +389,7 @@ static void some_inertia(struct test_random *r, int n, struct carom_sym3 *a)
 }
 
 /*
- * Digits that both words leave, 2^-59 of the largest entry, count as often as the moments of inertia
+ * The digits below both words, 2^-59 of the largest entry, count as often as the moments of inertia
  * differ, up to 2^18 times.
  */
 static void test_invert(void)
@@ -416,8 +420,8 @@ static double in_inertia(const struct carom_sym3 *a, const struct carom_spread *
 }
 
 /*
- * H H^T = J^-1 says that H^T J H = 1: by the matrix itself, from cubes to needles of 500:1, whose moments leave
- * 2^-27 of a column 2^9 times.
+ * H H^T = J^-1 means that H^T J H = 1. The test checks that for matrices from cubes to needles of
+ * 500:1; a needle's moments enlarge the 2^-27 of a column 2^9 times.
  */
 static void test_spread(void)
 {
@@ -441,7 +445,7 @@ static void test_invert_exact(void)
 {
     /* 2, 4, 8 on the diagonal; 1/2, 1/4, 1/8 */
     struct carom_sym3 a = {{2, 4, 8, 0, 0, 0}, 0}, b, rest;
-    /* 1/3 has digits without end: the second word has them */
+    /* 1/3 has infinitely many digits: the second word continues them */
     struct carom_sym3 three = {{3, 3, 3, 0, 0, 0}, 0};
     struct carom_sym3 flat = {{1 << 29, 1 << 29, 1 << 29, 1 << 29, 1 << 29, 1 << 29}, 30};
     struct carom_sym3 line = {{1 << 29, 1 << 29, 31, 0, 0, 0}, 30}, zero = {{0}, 0};
@@ -461,7 +465,7 @@ static void test_invert_exact(void)
     CHECK_NEAR(3 * (((int64_t)b.m[1] << 29) + rest.m[1]), (int64_t)1 << rest.e, 3);
     CHECK_EQ(mass_invert(&flat, &b, &rest), -1);
     CHECK_EQ(mass_invert(&zero, &b, &rest), -1);
-    /* 2^-24 of the largest moment is the least */
+    /* the smallest moment allowed is 2^-24 of the largest */
     CHECK_EQ(mass_invert(&line, &b, &rest), -1);
     line.m[2] = 64;
     CHECK_EQ(mass_invert(&line, &b, &rest), 0);

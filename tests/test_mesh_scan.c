@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scan conversion of polygons into cells, against all cells. */
+/* Scan conversion of polygons into cells, compared with all cells. */
 #include <string.h>
 
 #include "mesh/scan.h"
@@ -87,8 +87,8 @@ static void reverse(struct polygon *p)
 /* --------------------------------------------------------------------- cells */
 
 /*
- * Whether a closed rectangle and a closed convex polygon have a point in common: no axis, of those
- * of the rectangle and those square to the polygon's sides, keeps their shadows apart.
+ * Whether a closed rectangle and a closed convex polygon have a common point. They have none if an
+ * axis of the rectangle, or one perpendicular to a side of the polygon, separates them.
  */
 static bool touches(const struct polygon *p, const int64_t low[2], const int64_t high[2])
 {
@@ -119,7 +119,10 @@ static bool touches(const struct polygon *p, const int64_t low[2], const int64_t
 
 static uint8_t cell[64][64];
 
-/* Walk, and compare every cell of the grid with `touches`. Returns cells that are wrong. */
+/*
+ * Walk the cells, and compare every cell of the grid with `touches`. Returns the number of wrong
+ * cells.
+ */
 static int wrong_cells(const struct polygon *p, const struct scan_grid *g, int32_t grow)
 {
     struct scan_cells s;
@@ -155,7 +158,7 @@ static void random_kind(struct test_random *r, struct polygon *p, int n, int32_t
         p->xy[2][0] = p->xy[1][0] + (int32_t)test_random_range(r, -1, 1);
         p->xy[2][1] = p->xy[1][1] + (int32_t)test_random_range(r, -1, 1);
         break;
-    case 2: /* on edge: in line, the third corner between the others or on one */
+    case 2: /* on edge: collinear, with the third corner between the others or on one of them */
         for (int k = 0; k < 2; k++) {
             p->xy[1][k] = p->xy[0][k] + (p->xy[1][k] - p->xy[0][k]) / 4 * 4;
             p->xy[2][k] = p->xy[0][k] + (p->xy[1][k] - p->xy[0][k]) / 4 * (n / 5 % 5);
@@ -199,7 +202,10 @@ static void test_cells(void)
     CHECK_MORE(touched, 2 * CASES);
 }
 
-/* The largest grid under polygons of its own size, and under the largest ones, cut by its sides. */
+/*
+ * The largest grid under polygons of its own size, and under the largest polygons, cut by its
+ * sides.
+ */
 static void test_cells_large(void)
 {
     struct test_random r = {5};
@@ -218,7 +224,7 @@ static void test_cells_large(void)
         CHECK_EQ(wrong_cells(&p, &g, 0), 0);
         CHECK_EQ(wrong_cells(&p, &g, (int32_t)test_random_range(&r, 0, most)), 0);
 
-        /* moved so that the middle of its first side is in the grid, and grown by a little */
+        /* moved until the middle of its first side is in the grid, and grown by a little */
         random_points(&r, &p, 3, most / 3);
         for (int k = 0; k < 2; k++) {
             int32_t middle = (p.xy[0][k] + p.xy[1][k]) / 2;
@@ -254,11 +260,12 @@ static void test_cells_by_hand(void)
 
     scan_cells_begin(&s, &g, corners(&p), p.n, 0);
     expect_run(&s, 0, 0, 3);
-    /* the long side passes (6, 4): the second row reaches the second cell */
+    /* the long side passes (6, 4), so the second row reaches the second cell */
     expect_run(&s, 1, 0, 2);
     CHECK(!scan_cells_next(&s, &run));
 
-    /* grown by 1 it touches the sides at x = 12 and y = 8, and so the cells behind them */
+    /* grown by 1 the triangle touches the sides at x = 12 and y = 8, and so the cells behind
+     * them */
     scan_cells_begin(&s, &g, corners(&p), p.n, 1);
     expect_run(&s, 0, 0, 4);
     expect_run(&s, 1, 0, 3);

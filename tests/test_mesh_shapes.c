@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Shapes made at run time: closed, convex, outward, of the volume that geometry gives them. */
+/*
+ * Shapes made at run time are closed and convex, face outwards, and have the volume that geometry
+ * gives.
+ */
 #include <string.h>
 
 #include "carom_shapes.h"
@@ -18,7 +21,10 @@ static struct carom_mesh mesh;
 
 /* -------------------------------------------------------------- what is asked of all */
 
-/* Six times the volume between a face's plane and a place, in cubic quanta: negative for one inside. */
+/*
+ * Six times the volume between a face's plane and a place, in cubic quanta: negative for a place
+ * inside.
+ */
 static int64_t outside6(const uint16_t face[3], const int16_t place[3])
 {
     int64_t e[3][3];
@@ -59,8 +65,9 @@ static bool is_convex(void)
 }
 
 /*
- * The counts of the macros, Euler's formula over the edges that the build of the mesh finds (it refuses what is
- * open, crowded, degenerate or inside out), and convexity against every vertex.
+ * The shape has the counts of the macros and fulfils Euler's formula, by the edges that building
+ * the mesh finds (the build refuses open, crowded, degenerate and inverted meshes). It is convex
+ * against every vertex.
  */
 static void check_shape(int result, uint32_t v_count, uint32_t f_count)
 {
@@ -76,7 +83,10 @@ static void check_shape(int result, uint32_t v_count, uint32_t f_count)
 
 /* ------------------------------------------------------------------- closed forms */
 
-/* The sine and cosine of 2 pi / n, n = 3 2^k, 4 2^k: halves of those of a triangle and a square. */
+/*
+ * The sine and cosine of 2 pi / n, n = 3 2^k or 4 2^k, by halving the angles of a triangle and a
+ * square.
+ */
 static void first_step(uint32_t n, double *sine, double *cosine)
 {
     uint32_t m = n % 3 == 0 ? 3 : 4;
@@ -91,7 +101,7 @@ static void first_step(uint32_t n, double *sine, double *cosine)
     }
 }
 
-/* A slice between two regular polygons of radius r and s, `high` apart: a part of a pyramid. */
+/* A slice of height `high` between two regular polygons of radius r and s: a part of a pyramid. */
 static double slice6(uint32_t n, double r, double s, double high)
 {
     double sine, cosine;
@@ -100,7 +110,7 @@ static double slice6(uint32_t n, double r, double s, double high)
     return n * sine * high * (r * r + r * s + s * s);
 }
 
-/* Six times the volume of the polyhedron in a sphere, or in a capsule, before it is rounded. */
+/* Six times the volume of the unrounded polyhedron in a sphere or in a capsule. */
 static double round6(uint32_t n, double radius, double half_length)
 {
     double sine, cosine, c = 1, s = 0, sum = slice6(n, radius, radius, 2 * half_length);
@@ -117,8 +127,8 @@ static double round6(uint32_t n, double radius, double half_length)
 }
 
 /*
- * Roundings move a vertex by at most 0.87 quanta, and so the surface: the volume changes by that times the area,
- * for which the area of the box about it stands.
+ * Rounding moves a vertex, and so the surface, by at most 0.87 quanta. The volume changes by at
+ * most that times the area; the area of the bounding box is taken instead.
  */
 static void check_volume(double expected6, double radius, double half_height)
 {
@@ -152,12 +162,12 @@ static void sphere(void)
         check_shape(carom_shape_sphere(&raw, &room, 3000, n), CAROM_SPHERE_VERTICES(n),
                     CAROM_SPHERE_FACES(n));
         check_volume(round6(n, 3000, 0), 3000, 3000);
-        /* Chords around z lose 2 pi^2 / 3 n^2 of it, those along it pi^2 / n^2. */
+        /* chords around z lose 2 pi^2 / 3 n^2 of the volume, chords along it pi^2 / n^2 */
         CHECK(n < 12 || real_abs((double)volume6() / ball6 - 1 + 16.45 / (n * n)) < 0.01);
     }
 }
 
-/* Every vertex of a sphere is as far from the origin as it is to be, and each has its mirror image. */
+/* Every vertex of a sphere has the same distance from the origin, and each has its mirror image. */
 static void sphere_is_round(void)
 {
     check_shape(carom_shape_sphere(&raw, &room, 2048, 20), CAROM_SPHERE_VERTICES(20),
@@ -201,7 +211,10 @@ static void cylinder_and_cone(void)
     }
 }
 
-/* Sides that no closed form here is for, and radii of chance: what is made is convex, else it says RANGE. */
+/*
+ * Random numbers of sides and random radii, without a closed form: each shape is convex, or the
+ * call returns RANGE.
+ */
 static void any_size(void)
 {
     struct test_random random = {77};
@@ -223,7 +236,10 @@ static void any_size(void)
     CHECK_AT_LEAST(made, 20);
 }
 
-/* The most sides at the largest radius: only the first vertices, by their circle. */
+/*
+ * The largest number of sides at the largest radius; only the first vertices, which lie on a
+ * circle.
+ */
 static void largest_circle(void)
 {
     CHECK_EQ(carom_shape_cone(&raw, &room, 32767, 1, 127), CAROM_OK);
@@ -266,7 +282,7 @@ static void refusals(void)
     CHECK_EQ(carom_shape_cone(&raw, &room, 1000, 1000, 129), CAROM_ERR_ARGUMENT);
     CHECK_EQ(carom_shape_cone(&raw, &room, 1000, 40000, 8), CAROM_ERR_ARGUMENT);
     CHECK_EQ(memcmp(&raw, &before, sizeof raw), 0);
-    CHECK_EQ(carom_shape_sphere(&raw, &room, 1, 4), CAROM_OK); /* the octahedron of one quantum */
+    CHECK_EQ(carom_shape_sphere(&raw, &room, 1, 4), CAROM_OK); /* an octahedron of one quantum */
     CHECK_EQ(volume6(), 8);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Surfaces whose vertices move: what is worked out anew is what building the mesh again would have
- * given, vertices that are no surface are refused, and drift is that of an affine motion, exactly.
+ * Surfaces whose vertices move. An update gives the mesh that a new build would give, vertices that
+ * are no surface are refused, and the drift of an affine motion is exact.
  */
 #include <string.h>
 
@@ -45,7 +45,10 @@ static bool inside_leaf(const struct carom_mesh *m, const struct carom_leaf *lea
            height <= leaf->high_q22 + 1;
 }
 
-/* Leaves may be cut otherwise, but each holds its faces and tests the vertices that these own. */
+/*
+ * Leaves may be divided in another way, but each holds its faces and tests the vertices that its
+ * faces own.
+ */
 static void check_leaves(void)
 {
     for (uint32_t i = 0; i < mesh.leaf_count; i++) {
@@ -86,7 +89,7 @@ static void check_same_as_built(void)
     check_leaves();
 }
 
-/* Let the vertices move to `moved`. */
+/* Move the vertices to `moved`. */
 static int move(int64_t *rise_q22)
 {
     int result = mesh_surface_try(mesh.surface, moved_to(), true, rise_q22);
@@ -97,7 +100,7 @@ static int move(int64_t *rise_q22)
     return result;
 }
 
-/* Up and down only, then aside as well, then with the lists of its own, then back. */
+/* Move up and down only, then also sideways, then with its own lists, then back. */
 static void test_refresh(void)
 {
     static const struct mesh_moving keeps_lists = {NULL, NULL, NULL, NULL, NULL, NULL};
@@ -132,7 +135,10 @@ static void test_refresh(void)
     }
 }
 
-/* The rise of a surface at a fixed place: a slope that moves sideways rises by slope times distance. */
+/*
+ * The rise of a surface at a fixed place: a slope that moves sideways rises by slope times
+ * distance.
+ */
 static void test_rise(void)
 {
     int64_t rise_q22;
@@ -188,7 +194,7 @@ static void test_refused(void)
     CHECK_EQ(carom_mesh_build(&other, &flat.raw, block[1], BYTES), CAROM_OK);
     CHECK_SAME(other.surface, NULL);
 
-    moved[middle][0] = (int16_t)(moved[middle][0] + 1500); /* past the next vertex */
+    moved[middle][0] = (int16_t)(moved[middle][0] + 1500); /* beyond the next vertex */
     check_refused(CAROM_ERR_MESH_SURFACE);
     for (int v = 0; v < COUNT; v++) {
         moved[v][0] = (int16_t)-moved[v][0];
@@ -203,12 +209,12 @@ static void test_refused(void)
     moved[middle][2] = 16 * 1024;
     CHECK_EQ(move(&rise_q22), CAROM_OK);
     CHECK_EQ(mesh_drift_most(&mesh), 16 << 22);
-    moved[middle][2] = 0; /* from the last step it is no way at all */
+    moved[middle][2] = 0; /* that is no distance from the last step */
     CHECK_EQ(move(&rise_q22), CAROM_OK);
     CHECK_EQ(mesh_drift_most(&mesh), 0);
 }
 
-/* Two squares side by side: one goes over the other, all faces still look up. */
+/* Two squares side by side: one moves over the other, while all faces still look up. */
 static void test_overlap(void)
 {
     static const int16_t apart[8][3] = {{0, 0, 0},       {900, 0, 0},    {900, 1000, 0},
@@ -224,14 +230,14 @@ static void test_overlap(void)
     for (int way = 99; way <= 103; way++) {
         for (int v = 0; v < 4; v++) {
             to[v][0] = (int16_t)(apart[v][0] + way);
-            to[v][2] = 50; /* that it lies higher is no excuse */
+            to[v][2] = 50; /* lying higher does not excuse the overlap */
         }
         CHECK_EQ(mesh_surface_try(mesh.surface, (const int16_t(*)[3])to, true, &rise_q22),
                  way <= 100 ? CAROM_OK : CAROM_ERR_MESH_SURFACE);
     }
 }
 
-/* Every vertex goes by (x/8, y/4, x/16 + y/32): so does every point between them. */
+/* Every vertex moves by (x/8, y/4, x/16 + y/32), so every point between them does, too. */
 static void test_drift(void)
 {
     struct test_random r = {99};
@@ -270,7 +276,7 @@ static void test_drift(void)
             int64_t e[2] = {(int64_t)on_edge.c[0] * (1 << 18) / 9,
                             (int64_t)on_edge.c[1] * (1 << 18) / 5};
 
-            /* weights are right to some units of 2^-30, ways are up to 1 unit */
+            /* weights are right to some units of 2^-30, and distances are at most 1 unit */
             CHECK_NEAR(by_face.c[k], k < 2 ? f[k] : f[0] / 2 + f[1] / 8, 1 << 13);
             CHECK_NEAR(by_edge.c[k], k < 2 ? e[k] : e[0] / 2 + e[1] / 8, 1 << 20);
             CHECK_EQ(by_vertex.c[k],

@@ -32,7 +32,7 @@ static void test_order(void)
         int16_t z1 = (int16_t)test_random_range(&r, -5, 5);
 
         cell_of[i] = (uint8_t)test_random_range(&r, 0, 3);
-        /* faces in an order of their own: 77 and 200 have no common divisor */
+        /* faces in a scattered order: 77 and 200 have no common divisor */
         CHECK(zlist_enter(&z, cell_of[i], (int16_t)(z1 - i), z1, (uint16_t)(i * 77 % POOL)));
     }
     for (uint32_t c = 0; c < ZLIST_CELLS_MAX; c++) {
@@ -89,7 +89,7 @@ static void test_full(void)
 /* ----------------------------------------------------------------- intervals */
 
 /*
- * Points of the face, by whole weights that sum to GRAIN, grown: the z of each that lies over the
+ * Take points of the grown face, by whole weights that sum to GRAIN. The z of each point over the
  * cell must be in the interval. Returns how many are not.
  */
 static int missed_points(const struct zface *f, const struct scan_grid *g, int32_t col, int32_t row,
@@ -116,7 +116,10 @@ static int missed_points(const struct zface *f, const struct scan_grid *g, int32
     return missed;
 }
 
-/* Every cell of random faces of every kind: nothing missed, nothing beyond the face's own z. */
+/*
+ * Every cell of random faces of every kind: no point is missing, and no interval goes beyond the
+ * face's own z.
+ */
 static void test_interval_holds(void)
 {
     struct test_random r = {2};
@@ -157,7 +160,7 @@ static void test_interval_holds(void)
 }
 
 /*
- * The plane z = (x - 2y) / 4 over large triangles of both orientations: what it spans over a cell.
+ * The plane z = (x - 2y) / 4 over large triangles of both orientations: the interval over a cell.
  */
 static void test_interval_by_hand(void)
 {
@@ -173,7 +176,7 @@ static void test_interval_by_hand(void)
     zface_interval(&down, &g, 3, 1, &z0, &z1);
     CHECK_EQ(z0, -8);
     CHECK_EQ(z1, 16);
-    /* grown by 3: x 93 .. 131, y 29 .. 67 give -10.25 and 18.25, and 3 more both ways */
+    /* grown by 3: x 93 .. 131, y 29 .. 67 give -10.25 and 18.25, and 3 more in both directions */
     up.grow = 3;
     zface_interval(&up, &g, 3, 1, &z0, &z1);
     CHECK_EQ(z0, -14);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Arenas and pools: alignment, exact fit, errors that stick. */
+/* Arenas and pools: alignment, exact fit, errors that stay. */
 #include "num/arena.h"
 #include "lib/test.h"
 
@@ -10,7 +10,7 @@ static void fill(uint8_t with)
     memset(block, with, sizeof block);
 }
 
-/* Carves lie end to end, aligned to 8 and zeroed, and touch nothing else. */
+/* Carved blocks lie end to end, aligned to 8 and zeroed, and touch nothing else. */
 static void test_carve(void)
 {
     struct arena a;
@@ -46,10 +46,10 @@ static void test_exact_fit(void)
     CHECK_SAME(arena_carve(&a, 16), block);
     CHECK_SAME(arena_carve(&a, 8), NULL);
     CHECK_EQ(block[16], 0xa5);
-    CHECK_EQ(a.used, 24); /* what would have been needed */
+    CHECK_EQ(a.used, 24); /* the bytes that would have been needed */
 }
 
-/* Once something did not fit nothing fits any more, and the sum goes on. */
+/* After one block did not fit, no other one does, and the sum of bytes goes on. */
 static void test_sticky(void)
 {
     struct arena a;
@@ -88,7 +88,7 @@ static void test_pool(void)
     }
     CHECK_EQ(p.used, 0);
     CHECK_EQ(pool_take(&p), 0);
-    CHECK_EQ(p.peak, 3); /* does not fall */
+    CHECK_EQ(p.peak, 3); /* the peak does not fall */
 
     p = (struct pool){0, 0, 0, 0};
     CHECK_EQ(pool_take(&p), -1);

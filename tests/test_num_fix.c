@@ -11,10 +11,10 @@
 #endif
 
 #ifdef __SIZEOF_INT128__
-__extension__ typedef __int128 int128; /* an oracle where the compiler has it */
+__extension__ typedef __int128 int128; /* used as an oracle where the compiler has it */
 #endif
 
-/* Any size is as likely as any other. */
+/* A random number; every bit length is equally likely. */
 static int64_t random_size(struct test_random *r, int bits)
 {
     int64_t v = (int64_t)(test_random_next(r) >> (64 - test_random_range(r, 1, bits)));
@@ -57,7 +57,7 @@ static void check_wide_equal(struct fix_wide a, struct fix_wide b)
     CHECK_EQ(a.lo, b.lo);
 }
 
-/* a b modulo 2^64 by digits of 16 bits, with 32-bit products only. */
+/* a b modulo 2^64 from digits of 16 bits, with 32-bit products only. */
 static uint64_t product_by_digits(uint64_t a, uint64_t b)
 {
     uint32_t sums[5] = {0, 0, 0, 0, 0};
@@ -78,7 +78,7 @@ static uint64_t product_by_digits(uint64_t a, uint64_t b)
     return product;
 }
 
-/* Edge cases in all pairs; after these, numbers of all sizes. */
+/* Edge cases in all pairs, then numbers of all sizes. */
 static const int64_t edges[] = {
     0,          1,           -1,          2,         -2,        0x7fff,        0x8000,
     0xffff,     0x10000,     -0x8000,     -0x10000,  0x10001,   INT32_MAX,     INT32_MIN,
@@ -91,7 +91,10 @@ static uint64_t number_of_pair(struct test_random *r, int i, int edge)
     return (uint64_t)(i < EDGES * EDGES ? edges[edge] : random_size(r, 64));
 }
 
-/* The product that everything here is made of; on a small processor a function of the board's. */
+/*
+ * The product of which everything here is made; on a small processor the board has a function for
+ * it.
+ */
 static void test_product(void)
 {
     struct test_random r = {64};
@@ -137,7 +140,7 @@ static void check_small_quotient(uint32_t n, uint32_t d)
     }
 }
 
-/* On a small processor functions of the board's too. */
+/* On a small processor the board has functions for this, too. */
 static void test_quotient(void)
 {
     struct test_random r = {65};
@@ -148,7 +151,7 @@ static void test_quotient(void)
 
         if (d != 0) {
             check_quotient(n, d);
-            check_quotient(n | 1, d | (uint64_t)1 << 63); /* by the most */
+            check_quotient(n | 1, d | (uint64_t)1 << 63); /* shifted by at most that */
         }
         if ((uint32_t)d != 0) {
             check_quotient(n, (uint32_t)d);
@@ -245,7 +248,7 @@ static void test_sqrt(void)
         CHECK_EQ(fix_sqrt(k * k), k);
         CHECK_EQ(fix_sqrt(k * k - 1), k - 1);
         CHECK_EQ(fix_sqrt(k * k + 1), k);
-        CHECK_EQ(fix_sqrt(k * k + 2 * k), k); /* the last one before (k + 1)^2 */
+        CHECK_EQ(fix_sqrt(k * k + 2 * k), k); /* the last number below (k + 1)^2 */
         CHECK_AT_MOST(root * root, v);
         CHECK_AT_MOST(v - root * root, 2 * root);
     }
@@ -360,7 +363,8 @@ static double wide_real(struct fix_wide a)
 {
     int sign = fix_wide_sign(&a);
 
-    if (sign < 0) { /* the sum of a huge negative and a huge positive part would lose the rest */
+    if (sign < 0) { /* a huge negative and a huge positive part would cancel, and the rest would be
+                     * lost */
         a = wide_opposite(a);
     }
     return sign * (real(a.hi, -64) + (double)a.lo);
@@ -462,7 +466,7 @@ static void test_mul_scaled(void)
         } else if (s.e > 124) {
             CHECK_EQ(result, 0);
         } else {
-            /* v m - result 2^e, half of 2^e at most; beyond 62 it is rounded twice */
+            /* v m - result 2^e is at most half of 2^e; beyond 62 the result is rounded twice */
             error = fix_wide_mul(carom_shl(result, more), (int64_t)1 << (s.e - more));
             error = wide_sum(p, wide_opposite(error));
             CHECK_AT_MOST(real_abs(wide_real(error)),
@@ -493,7 +497,10 @@ static void random_vector(struct test_random *r, int bits, int64_t v[3])
     }
 }
 
-/* Never short; long by at most one part in 2^26, and exactly the next whole number when small. */
+/*
+ * A length is never too short. It is too long by at most one part in 2^26; a small one is the next
+ * whole number exactly.
+ */
 static void test_length(void)
 {
     struct test_random r = {9};
@@ -553,7 +560,7 @@ static void test_normalise(void)
     }
 }
 
-/* A rotation by rounding a matrix that was worked out in double. */
+/* A rotation, by rounding a matrix that was computed in double. */
 static void random_rotation(struct test_random *r, carom_m3_q30 *m, double exact[3][3])
 {
     double q[4];

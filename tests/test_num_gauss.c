@@ -23,7 +23,7 @@ static int64_t whole_q40(int64_t x)
     return x * ((int64_t)1 << 40);
 }
 
-/* The right-hand side that belongs to a solution in whole numbers: b = A x, exact. */
+/* The right-hand side for a solution in whole numbers: b = A x, exact. */
 static void set_right_side(int n, const int32_t *x)
 {
     for (int i = 0; i < n; i++) {
@@ -40,7 +40,7 @@ static void check_whole(int n, const int32_t *x)
 {
     CHECK_EQ(solve(n), 0);
     for (int j = 0; j < n; j++) {
-        CHECK_NEAR(w.x_q40[j], whole_q40(x[j]), 64); /* of 2^40 */
+        CHECK_NEAR(w.x_q40[j], whole_q40(x[j]), 64); /* units of 2^-40 */
     }
 }
 
@@ -70,7 +70,7 @@ static void hand_cases(void)
     CHECK_EQ(w.x_q40[0], 0);
 }
 
-/* No row has its diagonal: every step must look for its pivot. */
+/* The diagonals are permuted away: every step must search for its pivot. */
 static void permuted_rows(void)
 {
     static const int sizes[3] = {3, 9, 15};
@@ -90,7 +90,7 @@ static void permuted_rows(void)
     }
 }
 
-/* Rows of very different size, up to the full range. */
+/* Rows of very different sizes, up to the full range. */
 static void row_scale(void)
 {
     struct test_random r = {3};
@@ -138,7 +138,7 @@ static void whole_solutions(void)
             for (int i = 0; i < n; i++) {
                 x[i] = (int32_t)test_random_range(&r, -50, 50);
                 for (int j = 0; j < n; j++) {
-                    /* sparse like the impact equations, and diagonally heavy: not singular */
+                    /* sparse like the impact equations, with large diagonals: not singular */
                     bool zero = test_random_range(&r, 0, 1) == 0;
 
                     system_in[i][j] = zero ? 0 : (int32_t)test_random_range(&r, -1000, 1000);
@@ -177,7 +177,7 @@ static int64_t quotient_q40(int64_t n, int64_t d)
     return negative ? -(int64_t)q : (int64_t)q;
 }
 
-/* n = 3 against Cramer's rule in exact integers, nearly singular systems included. */
+/* n = 3 against Cramer's rule in exact integers, including nearly singular systems. */
 static void cramer(void)
 {
     struct test_random r = {2};
@@ -284,7 +284,10 @@ static void oracle(int n, double *x)
     }
 }
 
-/* Full 30-bit entries; rows of random scale. A condition of 10^5 would still leave double 1e-11. */
+/*
+ * Full 30-bit entries, and rows of random scale. A condition of 10^5 would still leave double
+ * 1e-11.
+ */
 static void against_double(void)
 {
     static const int sizes[3] = {3, 9, 15};
@@ -370,7 +373,7 @@ static void range(void)
     CHECK_EQ(solve(1), -1); /* -2^21 */
 }
 
-/* Another right-hand side of the same rows, added to the first. */
+/* Solve for another right-hand side of the same rows, added to the first. */
 static void add(void)
 {
     static const int32_t x[3] = {3, -4, 1};
@@ -393,7 +396,7 @@ static void add(void)
     }
     CHECK_EQ(gauss_add(&w, 3, b_q10), 0);
     for (int j = 0; j < 3; j++) {
-        /* One pass, without refinement: good to the 24 bits of a first solution. */
+        /* one pass without refinement: right to the 24 bits of a first solution */
         CHECK_NEAR(w.x_q40[j], whole_q40(x[j] + more[j]), 1 << 16);
     }
     memset(b_q10, 0, sizeof b_q10);

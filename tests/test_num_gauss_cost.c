@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost of gauss_solve, refinement included: instructions of a Cortex-M3 that counts them, over
- * the systems of random impacts. Where no board counts, only the solutions are looked at.
+ * The cost of gauss_solve with refinement, in instructions of a Cortex-M3 that counts them, over
+ * the systems of random impacts. Other boards check the solutions only.
  */
 #include "lib/gauss_rows.h"
 #include "lib/impact_real.h"
@@ -13,7 +13,7 @@ enum { CASES = 400, WORST_9 = 23000, WORST_15 = 56000 };
 static struct gauss w;
 static int32_t rows[GAUSS_MAX][GAUSS_MAX + 1];
 
-/* The system of a random impact. The right sides are at random, in the rows that have one. */
+/* The system of a random impact. The rows that have a right side get random ones. */
 static void draw(uint64_t *random, int n)
 {
     struct real_impact real;

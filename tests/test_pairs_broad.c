@@ -20,7 +20,10 @@ static struct body_state states[BODIES];
 static struct pair pairs[PAIRS];
 static struct pool pool;
 
-/* Body 0 a ground of 16 x 16 units, the others boxes of 1 x 0.5 x 0.25; all in the middle. */
+/*
+ * Body 0 is a ground of 16 x 16 units, the others are boxes of 1 x 0.5 x 0.25; all are in the
+ * middle.
+ */
 static void begin(void)
 {
     pool = (struct pool){PAIRS, 0, 0, 0};
@@ -55,7 +58,7 @@ static bool found(uint16_t a, uint16_t b)
     return false;
 }
 
-/* Every pair once, the active body first, two active ones as (higher, lower). */
+/* Every pair once: the active body first, two active ones as (higher, lower). */
 static void test_order(void)
 {
     static const struct pair all[] = {{1, 0}, {2, 0}, {2, 1}, {3, 0}, {3, 1}, {3, 2}};
@@ -78,7 +81,7 @@ static void test_left_out(void)
     CHECK_EQ(find(BODIES), CAROM_OK);
     CHECK(!found(2, 0));
     CHECK(found(2, 1));
-    CHECK(found(3, 2)); /* what is awake may run into what sleeps */
+    CHECK(found(3, 2)); /* an awake body may run into a sleeping one */
     CHECK_EQ(pool.used, 5);
     states[1].asleep = states[3].asleep = 1;
     CHECK_EQ(find(BODIES), CAROM_OK);
@@ -109,7 +112,7 @@ static void test_left_out(void)
     CHECK(found(3, 2));
 }
 
-/* Boxes side by side: a pair as soon as the gap is within the sum of both reaches. */
+/* Boxes side by side are a pair as soon as the gap is within the sum of both reaches. */
 static void test_reach(void)
 {
     for (int axis = 0; axis < 3; axis++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A board counts: its ticks go on, and the instructions that they stand for are exact. A board copies: some have
- * a function of their own for that.
+ * A board counts: its ticks go on, and the instructions of a loop are exact. A board copies: some
+ * boards have their own function for that.
  */
 #include <string.h>
 
@@ -44,7 +44,7 @@ static void ticks(void)
 {
     uint32_t start = port_ticks(), last = 0, now;
 
-    /* a counter that stands still would hang the test, so there is an end */
+    /* a stopped counter would hang the test, so the loop has an end */
     for (uint32_t i = 0; last < 1000 && i < 1000000; i++) {
         now = port_ticks() - start;
         CHECK_AT_LEAST(now, last);
@@ -53,7 +53,10 @@ static void ticks(void)
     CHECK_AT_LEAST(last, 1000);
 }
 
-/* Every size and both ends at every place within a word: what is copied, and nothing beside it. */
+/*
+ * Every size, and both ends at every place within a word: the bytes are copied, and nothing beside
+ * them.
+ */
 static void copies(void)
 {
     enum { MOST = 21, ROOM = MOST + 8 };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Queries at a pose, and the candidates of a step that moves nothing, where poses are special: faces
- * that touch, lie in one plane or stand on edge over the grid, bodies on the sides of cells, slivers,
- * one body inside the other. Held against all pairs: of faces in exact arithmetic, of features in
- * double precision.
+ * Queries at a pose, and the candidates of a step in which nothing moves, at special poses: faces
+ * that touch, lie in one plane or stand on edge over the grid, bodies on the sides of cells,
+ * slivers, one body inside the other. The oracle tries all pairs: faces in exact arithmetic,
+ * features in double precision.
  */
 #include "lib/crossing.h"
 #include "interfere/interfere.h"
@@ -41,11 +41,11 @@ static struct crossing_body exact_a = {&shape_a.mesh, corner_a, near_a};
 static struct crossing_body exact_b = {&shape_b.mesh, corner_b, near_b};
 static uint8_t bits[CROSSING_BITS(SHAPE_FACES, SHAPE_FACES)];
 static struct crossing_tally tally;
-static uint32_t features; /* that had to be candidates */
+static uint32_t features; /* features that had to be candidates */
 
 /* -------------------------------------------------------------------- checks */
 
-/* Both shapes are new: bodies of them, side by side in the middle of the world, not turned. */
+/* Make new bodies of both shapes, side by side in the middle of the world, not turned. */
 static void make_bodies(void)
 {
     shape_body(&shape_a, false, &bodies[0], &states[0]);
@@ -61,7 +61,7 @@ static struct interfere_placed placed(int i)
     return (struct interfere_placed){&bodies[i], &states[i]};
 }
 
-/* The query, both ways: every pair that has a point in common, each once, and the same pairs. */
+/* Query in both orders: every pair with a common point, each once, and the same pairs in both. */
 static int query(void)
 {
     int count = interfere_query(&work, placed(1), placed(0), found, ROOM);
@@ -126,7 +126,7 @@ static void visit_none(struct candidate_visitor *self, const struct candidate *c
     CHECK_LESS(n, CANDIDATES); /* all of them fit */
 }
 
-/* The candidates where nothing moves: all features that are near and face each other. */
+/* The candidates when nothing moves are all features that are near and face each other. */
 static uint32_t step(void)
 {
     const struct pair pair = {0, 1};
@@ -179,7 +179,9 @@ static carom_quat_q30 quarters(int axis, int n)
 
 /* ------------------------------------------------------------------- by hand */
 
-/* A needle upright through one of a plane's two triangles: its eight side faces and that one. */
+/*
+ * An upright needle through one of a plane's two triangles: its eight side faces and that triangle.
+ */
 static void test_needle(void)
 {
     begin();
@@ -204,7 +206,7 @@ static void test_needle(void)
     CHECK_EQ(query(), 0);
 }
 
-/* `out` that is short is an error by name; one that is just long enough is none. */
+/* An `out` that is too short gives an error; one that is just long enough gives none. */
 static void test_room(void)
 {
     begin();
@@ -230,7 +232,7 @@ static void test_room(void)
 }
 
 /*
- * The largest meshes there may be, and the same in 2^-12 units, where all is well within the formats:
+ * The largest meshes, and the same in 2^-12 units, where all numbers are well within the formats:
  * the same pairs in the same order.
  */
 static void test_large(void)
@@ -272,7 +274,7 @@ static void test_large(void)
 
 /* ----------------------------------------------------------------- containment */
 
-/* Whether a point is in the L of shape_l with this side, in 2^-12 units; or on its surface: -1. */
+/* Whether a point is in the L of shape_l with this side, in 2^-12 units; -1 on its surface. */
 static int in_l(const int64_t p[3], int64_t side)
 {
     bool inside = p[2] > 0 && p[2] < side && p[0] > 0 && p[1] > 0 && p[0] < 2 * side &&
@@ -284,8 +286,8 @@ static int in_l(const int64_t p[3], int64_t side)
 }
 
 /*
- * A small box about the points of a lattice, which also lies in the planes of the L's sides, over
- * its edges and over its vertices: inside or not by the shape's own coordinates.
+ * A small box around the points of a lattice; some of these lie in the planes of the L's sides,
+ * over its edges and over its vertices. The shape's own coordinates tell whether the box is inside.
  */
 static void test_inside_l(void)
 {
@@ -304,7 +306,7 @@ static void test_inside_l(void)
         int expected;
 
         for (int k = 0; k < 3; k++) {
-            /* the first vertex in the lattice; b's frame begins at its centre */
+            /* the first vertex is in the lattice; b's frame begins at b's centre */
             p[k] = at[k] - first[k];
             centre[k] = shape_b.mesh.mass.centre.c[k];
             states[0].position.c[k] = p[k] * (1 << 20) - centre[k] * (1 << 10);
@@ -321,7 +323,7 @@ static void test_inside_l(void)
     CHECK_MORE(outside, 100);
 }
 
-/* Both bodies turned together, any way: what is inside stays there, and no faces cross. */
+/* Both bodies are turned together, in any way: the inner body stays inside, and no faces cross. */
 static void test_inside_turned(void)
 {
     struct test_random r = {9};
@@ -331,7 +333,7 @@ static void test_inside_turned(void)
     shape_l(&shape_b, 12, 2048);
     make_bodies();
     for (int n = 0; n < POSES; n++) {
-        /* from the corner of the L: in either arm, where they meet, in the notch, beside it */
+        /* from the corner of the L: in either arm, where they meet, in the notch, beside the L */
         static const int16_t at[5][4] = {{3000, 1000, 1000, 1},
                                          {1000, 3200, 1100, 1},
                                          {900, 900, 900, 1},
@@ -362,7 +364,7 @@ static void test_inside_turned(void)
     CHECK_EQ(tally.crossing, 0);
 }
 
-/* Under a surface is inside it, however deep; over it, or beside it, is not. */
+/* A body below a surface is inside it, at any depth; above it, or beside it, is outside. */
 static void test_inside_surface(void)
 {
     begin();
@@ -391,8 +393,8 @@ static void test_inside_surface(void)
 /* ------------------------------------------------------- touching, in one plane */
 
 /*
- * Two boxes side by side on all six sides, shifted along the side that they share: their faces touch
- * in one plane, or at edges and corners alone.
+ * Two boxes side by side on all six sides, shifted along the common side: their faces touch in one
+ * plane, or only at edges and corners.
  */
 static void test_touching(void)
 {
@@ -426,7 +428,7 @@ static void test_touching(void)
     CHECK_MORE(features, 6 * 9);
 }
 
-/* Boxes in a plane of triangles: the lower sides are in its plane, and so are all of its faces. */
+/* Boxes on a plane of triangles: their lower sides are in the plane of all its faces. */
 static void test_coplanar(void)
 {
     begin();
@@ -443,8 +445,8 @@ static void test_coplanar(void)
 }
 
 /*
- * Two plates turned against each other in the plane that they share, but for some millionths of a
- * radian and of a unit: which corners are over a plane is nothing but rounding.
+ * Two plates turned against each other in a common plane, up to some millionths of a radian and of
+ * a unit: only rounding decides which corners are above a plane.
  */
 static void test_nearly_coplanar(void)
 {
@@ -477,8 +479,8 @@ static void test_nearly_coplanar(void)
 /* --------------------------------------------------------- on edge, on the grid */
 
 /*
- * A box of upright and level faces in an L of such faces, by quarter turns of both: faces that are
- * lines or points on the grid.
+ * A box with upright and level faces in an L with such faces, by quarter turns of both: some faces
+ * are lines or points on the grid.
  */
 static void test_edge_on(void)
 {
@@ -500,8 +502,8 @@ static void test_edge_on(void)
 }
 
 /*
- * Boxes whose sides lie on the sides of b's cells, to the quantum and one more or less: over a field
- * and in a ball.
+ * Boxes with sides on the sides of b's cells, to the quantum and one more or less: over a field and
+ * in a ball.
  */
 static void check_cells(int64_t z)
 {
@@ -545,7 +547,7 @@ static void test_cells(void)
 
 /* -------------------------------------------------------------------- slivers */
 
-/* Boxes of which one side or two are a few quanta, any way in each other. Returns how many touch. */
+/* Boxes with one side or two of a few quanta, overlapping in any way. Returns how many touch. */
 static uint32_t check_slivers(uint64_t seed)
 {
     struct test_random r = {seed};

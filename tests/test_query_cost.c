@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Instructions of carom_query_faces on a Cortex-M3 that counts them: the head of 1876 faces over the
- * field of 3034. apart: two units above the first contact; near: the boxes overlap and no faces
- * cross; contact: the head grazes the field; deep: it has sunk in by half a unit, a quarter of its
- * height. Where no board counts, only the number of pairs is checked.
+ * Instructions of carom_query_faces on a Cortex-M3 that counts them: the head of 1876 faces over
+ * the field of 3034. apart: two units above the first contact; near: the boxes overlap and no faces
+ * cross; contact: the head grazes the field; deep: it is half a unit, a quarter of its height,
+ * below the first contact. Other boards check the number of pairs only.
  */
 #include "port.h"
 #include "scene.h"
@@ -20,7 +20,7 @@ static struct carom_face_pair pairs[ROOM];
 
 static const struct phase {
     const char *name;
-    int32_t sink; /* below the place where the head begins to touch, 2^-12 units */
+    int32_t sink; /* distance below the place where the head begins to touch, 2^-12 units */
     uint32_t bar; /* instructions on average */
 } phases[] = {
     {"apart", -8192, 1000}, {"near", -200, 100000}, {"contact", 8, 165000}, {"deep", 2048, 750000}};

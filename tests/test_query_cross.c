@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Whether bodies have a point in common: triangles against separating axes in whole numbers; poses that hardly
- * touch, and hardly do not, against separating axes in double precision.
+ * Whether bodies have a common point. Triangles: against separating axes in whole numbers. Poses
+ * that just touch, and that just do not: against separating axes in double precision.
  */
 #include "lib/asked.h"
 #include "query/cross.h"
@@ -28,7 +28,7 @@ static struct whole cross_of(const struct whole *a, const struct whole *b)
                            a->c[0] * b->c[1] - a->c[1] * b->c[0]}};
 }
 
-/* Whether two triangles are apart along an axis, not even touching. */
+/* Whether two triangles are separated along an axis, without touching. */
 static bool apart_along(const struct whole *n, const struct interfere_vec p[3],
                         const struct interfere_vec q[3])
 {
@@ -54,7 +54,10 @@ static void edges_of(const struct interfere_vec t[3], struct whole e[3], struct 
     *n = cross_of(&e[0], &e[1]);
 }
 
-/* Two flat convex bodies are apart along a normal, across two edges, or across an edge in the plane of its face. */
+/*
+ * Two flat convex bodies are separated along a normal, across two edges, or across an edge in the
+ * plane of its face.
+ */
 static bool meet_by_axes(const struct interfere_vec p[3], const struct interfere_vec q[3])
 {
     struct whole e[3], f[3], n, m;
@@ -107,7 +110,7 @@ static void test_triangles(void)
         expected = meet_by_axes(p, q);
         meet += expected;
         differ += cross_triangles(p, q) != expected;
-        /* the same moved and made large */
+        /* the same, moved and enlarged */
         for (int i = 0; i < 9; i++) {
             p[i / 3].c[i % 3] = p[i / 3].c[i % 3] * (int32_t)(500000000 / 20000 - 10) + 7 * i % 3;
             q[i / 3].c[i % 3] = q[i / 3].c[i % 3] * (int32_t)(500000000 / 20000 - 10) + 7 * i % 3;
@@ -183,7 +186,7 @@ static double gap_of(const double *const p[3], const double *const q[3])
     return gap;
 }
 
-/* The least gap of any face of a and any of b. */
+/* The smallest gap between any face of a and any face of b. */
 static double least_gap(const struct carom_query_mesh *a, const struct carom_mesh *mb,
                         const struct body_state *b)
 {
@@ -206,7 +209,7 @@ static double least_gap(const struct carom_query_mesh *a, const struct carom_mes
     return least;
 }
 
-/* Bring a mesh that is apart of a body to where it hardly is, along a straight way to the body. */
+/* Move a mesh that is apart from a body straight to the body, until it is just apart. */
 static void bring_near(struct carom_world *w, struct carom_query_mesh *a, struct test_random *r)
 {
     const carom_v3_q32 from = a->position;
@@ -229,8 +232,8 @@ static void bring_near(struct carom_world *w, struct carom_query_mesh *a, struct
 }
 
 /*
- * The double precision of the oracle leaves 1e-9 units open; places and axes are rounded by less than 2^-24 of a
- * unit for bodies of this size.
+ * The oracle's double precision leaves 1e-9 units open; for bodies of this size places and axes are
+ * rounded by less than 2^-24 units.
  */
 static void test_near(void)
 {
@@ -267,7 +270,7 @@ static void test_near(void)
     CHECK_MORE(close[1], POSES / 16);
 }
 
-/* One in another, under a surface, beside it: no faces meet. */
+/* One body inside another, below a surface, beside it: no faces meet. */
 static void test_inside(void)
 {
     struct carom_world *world = asked_world(0);

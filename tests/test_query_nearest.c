@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Closest points: by hand, and against every pair of edges and of corners and faces in double precision. */
+/*
+ * Closest points: by hand, and in double precision against every pair of edges and every corner
+ * with every face.
+ */
 #include "lib/asked.h"
 
 #ifdef TEST_LONG
@@ -65,7 +68,7 @@ static double clamp01(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
-/* The square of the distance of two segments: the best of the inner point and the four ends. */
+/* The squared distance of two segments: the smallest of the inner point and the four ends. */
 static double segments2(const double *p0, const double *p1, const double *q0, const double *q1)
 {
     double d[3], e[3], r[3], best = 1e30;
@@ -98,7 +101,7 @@ static double segments2(const double *p0, const double *p1, const double *q0, co
     return best;
 }
 
-/* The square of the height of a point over a triangle, when it is over it. */
+/* The squared height of a point over a triangle, if it is over the triangle. */
 static double height2(const double *p, const double *a, const double *b, const double *c)
 {
     const double *corner[3] = {a, b, c};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Rays: what they meet by hand, through edges and vertices as well; the march over cells against every face;
- * that asking changes nothing that a step does.
+ * Rays: their hits by hand, also through edges and vertices; the march over cells against every
+ * face; asking changes nothing in a step.
  */
 #include <string.h>
 
@@ -66,7 +66,7 @@ static void test_by_hand(void)
     CHECK_EQ(hit.body, 0);
     CHECK_EQ(hit.t_q30, CAROM_ONE_Q30 / 2);
     CHECK_EQ(hit.normal.c[2], CAROM_ONE_Q30);
-    /* from below a surface is not there, from inside a body is not */
+    /* a surface is not hit from below, nor a body from inside */
     ray = ray_of(0, 3 * UNIT / 4, -8 * UNIT, 0, 0, 20 * UNIT);
     CHECK_EQ(carom_cast_ray(world, &ray, NULL, &hit), 0);
     ray = ray_of(0, 0, 0, -3 * UNIT, 0, 0);
@@ -143,8 +143,9 @@ static void count_sides(const struct carom_ray *ray, int count, int *front, int 
 }
 
 /*
- * Upright and slanting rays through every vertex and the middle of every edge of closed meshes: as many faces
- * from the front as from the back, in turn; and of a plane one face for all.
+ * Upright and slanting rays through every vertex and the middle of every edge. In a closed mesh
+ * they hit as many faces from the front as from the back, alternating; in a plane they hit one
+ * face.
  */
 static void test_watertight(void)
 {
@@ -197,8 +198,8 @@ static void test_watertight(void)
 }
 
 /*
- * Upright rays 2^-32 units beside the diagonal of a square, 2^-20 of its quanta: on the right is face 0, on the
- * left face 1.
+ * Upright rays 2^-32 units beside the diagonal of a square, which is 2^-20 of its quanta: face 0 is
+ * on the right, face 1 on the left.
  */
 static void test_beside_edge(void)
 {
@@ -239,7 +240,7 @@ static void note(struct query_struck *self, struct query_ray *ray, const struct 
     a->strike[a->count++] = *s;
 }
 
-/* The march over cells finds the hits that a test of every face finds. */
+/* The march over cells finds the same hits as a test of every face. */
 static uint32_t compare_march(struct query_ray *ray)
 {
     struct all_hits found = {{note}, 0, {{0, 0}}};
@@ -263,7 +264,7 @@ static uint32_t compare_march(struct query_ray *ray)
     return count;
 }
 
-/* A ray from around a body towards a place in it or near to it: upright ones and flat ones, too. */
+/* A ray from around a body towards a place in it or near it; some are upright, some level. */
 static struct carom_ray random_ray(struct test_random *r, int64_t size)
 {
     struct carom_ray ray;
@@ -282,7 +283,7 @@ static struct carom_ray random_ray(struct test_random *r, int64_t size)
             ray.way.c[k] >>= 24;
             ray.from.c[k] = to;
         }
-        if (special == 3) { /* a lattice, on which vertices lie */
+        if (special == 3) { /* a lattice on which vertices lie */
             ray.from.c[k] = carom_shl(ray.from.c[k] >> 28, 28);
             ray.way.c[k] = carom_shl(ray.way.c[k] >> 28, 28);
         }

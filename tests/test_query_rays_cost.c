@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Instructions of carom_cast_ray on a Cortex-M3 that counts them, over the field of 3034 faces with the head in
- * the air. down: from above, within 45 degrees of upright; across: from one side of the field to
- * the other, from 3 units above to the ground or over it; near: a unit long, just over the ground. Where no board
- * counts, only hits are.
+ * Instructions of carom_cast_ray on a Cortex-M3 that counts them, over the field of 3034 faces with
+ * the head in the air. down: from above, within 45 degrees of upright; across: from one side of the
+ * field to the other, from 3 units above to the ground or over it; near: a unit long, just above
+ * the ground. Other boards check the hits only.
  */
 #include "carom_query.h"
 #include "port.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Recall of queries at random poses: every pair of faces that crosses, by trying all in exact
- * arithmetic, is found. Half of the poses are grazing. host_recall.c is the long form.
+ * Recall of queries at random poses: they find every crossing pair of faces, which the test finds
+ * by trying all in exact arithmetic. Half of the poses are grazing. host_recall.c is the long form.
  */
 #include "lib/crossing.h"
 #include "lib/real.h"
@@ -9,7 +9,7 @@
 #include "lib/shapes.h"
 
 #ifdef TEST_LONG
-#define POSES       600 /* of each two shapes */
+#define POSES       600 /* poses for each two shapes */
 #define SCENE_POSES 12
 #else
 #define POSES       16
@@ -40,7 +40,7 @@ static void place_exactly(void)
     crossing_place(&exact_b, &states[1].position, &states[1].rotation, &states[1].position);
 }
 
-/* The middle of a face of b, and its normal, of any length. */
+/* The middle of a face of b, and a normal there of any length. */
 static void face_of_b(uint32_t face, double middle[3], double n[3])
 {
     const uint16_t *c = exact_b.mesh->raw.faces[face];
@@ -57,8 +57,9 @@ static void face_of_b(uint32_t face, double middle[3], double n[3])
 }
 
 /*
- * Both turned anyhow, b too if it is solid. Grazing: a's last vertex against the normal of a face of
- * b is in the middle of that face, a little deeper; else up to a good part of a's size.
+ * Both bodies are turned at random, b only if it is solid. Grazing: a's last vertex along the
+ * normal of a face of b is in the middle of that face, a little deeper; otherwise by up to a good
+ * part of a's size.
  */
 static void random_pose(struct test_random *r, bool turn_b, bool grazing)
 {
@@ -109,7 +110,7 @@ static void check_recall(uint64_t seed, int poses, bool turn_b)
         CHECK_EQ(tally.missed, 0);
         CHECK_EQ(tally.repeated, 0);
     }
-    /* the oracle is not idle, and hardly anything else is found */
+    /* the oracle finds some, and hardly anything else is found */
     CHECK_MORE(2 * tally.touching, tally.poses);
     CHECK_MORE(tally.crossing, tally.poses);
     CHECK_AT_MOST(tally.found - tally.crossing, 2 + tally.crossing / 50);

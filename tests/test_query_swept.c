@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Meshes that are in no world: what they overlap, and what they meet on a way. A way is held against poses on it:
- * up to the hit nothing is crossed, and a little later something is.
+ * Meshes that are in no world: the bodies that they overlap, and the hits on their way. A way is
+ * compared with poses on it: before the hit nothing crosses, and a little later something does.
  */
 #include <string.h>
 
@@ -40,7 +40,7 @@ static void test_overlap(void)
     CHECK_EQ(asked_add(world, &shape[2].mesh, false, 0, 0, 0, upright), 0);
     CHECK_EQ(asked_add(world, &shape[0].mesh, true, 0, 0, 2 * UNIT, upright), 1);
     CHECK_EQ(asked_add(world, &shape[1].mesh, true, UNIT, 0, 2 * UNIT, upright), 2);
-    /* between both boxes: touches neither, then the one, then both; inside the one; around the other */
+    /* between both boxes: touches neither, then one, then both; inside one; around the other */
     mesh = put(&shape[1].mesh, 3 * UNIT / 4 - UNIT / 512, 0, 2 * UNIT);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 0);
     mesh.position.c[0] = UNIT / 2;
@@ -54,7 +54,7 @@ static void test_overlap(void)
     CHECK_EQ(bodies[1], 2);
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 1), CAROM_ERR_BODIES_FULL);
     CHECK_EQ(bodies[0], 1);
-    mesh = put(&shape[0].mesh, UNIT, UNIT / 16, -7 * UNIT); /* under the plane */
+    mesh = put(&shape[0].mesh, UNIT, UNIT / 16, -7 * UNIT); /* below the plane */
     CHECK_EQ(carom_overlap_mesh(world, &mesh, NULL, bodies, 4), 1);
     CHECK_EQ(bodies[0], 0);
     CHECK_EQ(carom_overlap_mesh(NULL, &mesh, NULL, bodies, 4), CAROM_ERR_NULL);
@@ -100,14 +100,14 @@ static void test_by_hand(void)
     CHECK_MORE(shape[0].mesh.faces[hit.face].normal.c[0], CAROM_ONE_Q30 - 1000);
     CHECK_NEAR(hit.position.c[0], 3 * UNIT / 4, UNIT >> 10);
     CHECK_NEAR(hit.point.c[0], UNIT / 2, UNIT >> 10);
-    mesh.position = hit.position; /* there it may leave and slide, not go on */
+    mesh.position = hit.position; /* from there it may leave and slide, but not go on */
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 1);
     CHECK_LESS(hit.t_q30, CAROM_ONE_Q30 >> 12);
     way.way = (carom_v3_q32){{UNIT, 0, 0}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
     way.way = (carom_v3_q32){{0, 2 * UNIT, 0}};
     CHECK_EQ(carom_cast_mesh(world, &mesh, &way, NULL, &hit), 0);
-    /* a turn about z alone: the long side comes round to the box */
+    /* a turn about z alone brings the long side round to the box */
     mesh.rotation = (carom_quat_q30){{759250125, 0, 0, 759250125}};
     mesh.position = (carom_v3_q32){{UNIT / 2 + UNIT / 7, UNIT / 50, UNIT}};
     way = (struct carom_mesh_way){{{0, 0, 0}}, {{0, 0, CAROM_ONE_Q30 / 4}}};
@@ -184,7 +184,7 @@ static void test_random_ways(void)
     shape_l(&shape[0], 12, 1500);
     shape_ball(&shape[1], 12, 2400);
     shape_box(&shape[2], 12, 3000, 1800, 700);
-    shape_field(&shape[3], 11, 8, 4000, 2500, 6); /* so wide that none comes in from its side */
+    shape_field(&shape[3], 11, 8, 4000, 2500, 6); /* so wide that no mesh enters from its side */
     for (int n = 0; n < WAYS; n++) {
         struct carom_world *world = asked_world(0);
         struct carom_query_mesh mesh, at;
@@ -230,7 +230,7 @@ static void test_random_ways(void)
 
 static struct candidate every[EVERY];
 
-/* The path of a mesh on a part of its way, as SPEC.md 5.13 has it. */
+/* The path of a mesh on a part of its way (SPEC.md section 5.13). */
 static void set_part(struct body *a, const struct body_state *start,
                      const struct carom_mesh_way *way, int32_t from_q30, int32_t to_q30)
 {
@@ -246,7 +246,10 @@ static void set_part(struct body *a, const struct body_state *start,
     }
 }
 
-/* The first hit of any feature of the mesh with any of a body on a part of the way; true when it is before `best`. */
+/*
+ * The first hit of any feature of the mesh with any feature of a body on a part of the way; true
+ * when it is before `best`.
+ */
 static bool first_of_body(struct body *a, struct body *b, const struct shape *of[2],
                           struct boyse_hit *best, bool found)
 {
@@ -268,7 +271,7 @@ static bool first_of_body(struct body *a, struct body *b, const struct shape *of
     return better;
 }
 
-/* The body that is met first, or -1; `hit` is that of the part from `from`. */
+/* The body that is hit first, or -1; `hit` belongs to the part that begins at `from`. */
 static int first_of_all(struct carom_world *world, const struct shape *own,
                         const struct shape *const others[], const struct carom_query_mesh *mesh,
                         const struct carom_mesh_way *way, struct carom_mesh_hit *out)
@@ -302,8 +305,8 @@ static int first_of_all(struct carom_world *world, const struct shape *own,
 }
 
 /*
- * The hit is the very one that comes of trying all features on all parts: neither what is looked at first nor what is
- * left out behind the hit changes a bit of it.
+ * The hit is the one that trying all features on all parts gives, bit for bit: neither the order of
+ * the search nor what it skips behind the hit changes it.
  */
 static void test_every_feature(void)
 {
@@ -350,7 +353,10 @@ static void test_every_feature(void)
     CHECK_MORE(met, EVERY_WAYS / 6);
 }
 
-/* Two worlds run the same steps; one of them is asked everything between its steps. Both stay equal. */
+/*
+ * Two worlds run the same steps; one of them is asked everything between its steps. Both stay
+ * equal.
+ */
 static void test_no_change(void)
 {
     struct test_random r = {12};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Recordings: each call that changes a world is recorded and played, with what a contact callback answered; a
- * changed, cut or foreign file is named as such, wherever it was changed.
+ * Recordings: each call that changes a world is recorded and played, with the answers of a contact
+ * callback. A changed, cut or foreign file is named as such, wherever it was changed.
  */
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #define CAPS       8, 16, 64, 256, 64, 256, 2, 6, 4
 #define FILE_BYTES 8192
 #define ROOM       60000
-#define FRAMES     70 /* more than 64: a state is written whole */
+#define FRAMES     70 /* more than 64: a state is written in full */
 #define FPS        60
 
 static const int16_t corners[][3] = {{99, 99, 99}, {99, -99, -99}, {-99, 99, -99}, {-99, -99, 99}};
@@ -76,7 +76,7 @@ static struct carom_world *make_world(void)
     return world;
 }
 
-/* Settings, once. */
+/* Settings, made once. */
 static void set_all(struct carom_world *w)
 {
     static const carom_v3_q40 small = {{1 << 28, 1 << 27, 1 << 29}};
@@ -150,7 +150,7 @@ static void act(struct carom_world *w, int frame, struct test_random *random)
     }
 }
 
-/* Record a world to which all is done; returns its last state. */
+/* Record a world that gets every kind of call; returns the hash of its last state. */
 static uint64_t record_all(bool stages, uint64_t seed)
 {
     struct test_random random = {seed};
@@ -168,7 +168,7 @@ static uint64_t record_all(bool stages, uint64_t seed)
     return carom_world_hash(world);
 }
 
-/* Play the recording; returns the result it ends with. */
+/* Play the recording; returns its last result. */
 static int play(size_t bytes)
 {
     int result = carom_replay_begin(&player, file, bytes, room, sizeof room);
@@ -195,7 +195,7 @@ static void test_same(void)
     }
 }
 
-/* A file that ends early is played as far as it goes, or refused. */
+/* A file that ends early is played up to its end, or refused. */
 static void test_cut(void)
 {
     record_all(true, 1);
@@ -222,7 +222,7 @@ static void test_altered(void)
     CHECK_EQ(play(file_bytes), CAROM_REPLAY_END);
 }
 
-/* A digest that is another one is told with its frame and its stage. */
+/* A digest that differs is reported with its frame and its stage. */
 static void test_named(void)
 {
     const uint8_t check_bytes = 2 * CAROM_REPLAY_PARTS;
@@ -247,7 +247,10 @@ static void test_named(void)
     }
 }
 
-/* Begun in the middle of a world's life: what it was asked before is there, and ids name the bodies that they named. */
+/*
+ * A recording that begins in the middle of a world's life: earlier calls are included, and ids name
+ * the same bodies.
+ */
 static void test_middle(void)
 {
     static _Alignas(8) uint8_t mem[4096];
@@ -275,7 +278,7 @@ static void test_middle(void)
                 CHECK_EQ(carom_record_world(&record, NULL, mem, sizeof mem), CAROM_ERR_NULL);
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_OK);
                 CHECK_EQ(carom_record_world(&record, world, mem, sizeof mem), CAROM_ERR_ARGUMENT);
-                id = carom_body_id(world, 1); /* of the second body of that number */
+                id = carom_body_id(world, 1); /* id of the second body with that number */
                 CHECK_MORE(id, 4096 + 1);
                 CHECK_EQ(carom_record_body_set_torque(&record, world, id, &weak), CAROM_OK);
             }
@@ -289,7 +292,7 @@ static void test_middle(void)
     }
 }
 
-/* Another world's calls, and those after the end, go through and are not written. */
+/* Calls of another world, and calls after the end, go through and are not written. */
 static void test_others(void)
 {
     struct carom_world *world;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Short scenes of one and two moving boxes, on any board, each with an answer that is known: boxes
- * that meet head-on, one that slides to a stop, a stack that falls, rests and sleeps, and what wakes
- * those who sleep. All expected values are worked out in whole numbers.
+ * Short scenes of one and two moving boxes, on any board, each with a known answer: boxes that meet
+ * head-on; a box that slides to a stop; a stack that falls, rests and sleeps, and is woken. All
+ * expected values are computed in whole numbers.
  */
 #include <string.h>
 
@@ -22,7 +22,7 @@
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, ground;
 
-/* A world with or without a floor of 8 x 8 units, which is body 0 then. */
+/* A world with or without a floor of 8 x 8 units; the floor is body 0. */
 static void begin(bool floor, int32_t e_q30, uint32_t mu_q16)
 {
     struct carom_config config = {.caps = CAROM_CAPS(CAPS), .sleep = true};
@@ -62,7 +62,7 @@ static int add_box(int64_t x_q32, int64_t z_q32, int64_t speed_q40, int mass, in
     return body;
 }
 
-/* An event of the last step about a body, NULL: none. */
+/* An event of the last step about a body; NULL: none. */
 static const struct carom_event *find(int kind, int body)
 {
     const struct carom_event *events = NULL;
@@ -76,7 +76,7 @@ static const struct carom_event *find(int kind, int body)
     return NULL;
 }
 
-/* Step until all boxes sleep. Returns the frames, at most 200. */
+/* Step until all boxes sleep. Returns the number of frames, at most 200. */
 static int settle(int boxes)
 {
     for (int frame = 1; frame <= 200; frame++) {
@@ -97,9 +97,9 @@ static int settle(int boxes)
 /* ------------------------------------------------------------------- impacts */
 
 /*
- * Boxes of masses 1 and 4 meet head-on, flat on flat, without gravity. Momentum stays to the last
- * bits; velocities are those of two points, v = c -+ e m / M (v1 - v2), and nothing turns. Impacts
- * are solved to 2^-26 of the closing speed, by several contacts.
+ * Boxes of masses 1 and 4 meet head-on, flat on flat, without gravity. Momentum is kept to the last
+ * bits. Velocities are those of two points, v = c -+ e m / M (v1 - v2), and nothing turns. Several
+ * contacts solve the impact to 2^-26 of the closing speed.
  */
 static void meet(int quarters)
 {
@@ -144,7 +144,7 @@ static void test_meet(void)
 
 /* --------------------------------------------------------------------- slide */
 
-/* A sliding box loses mu g a frame, and stands when that is used up; then it sleeps. */
+/* A sliding box loses mu g a frame until it stops; then it sleeps. */
 static void test_slide(void)
 {
     const int64_t first = SPEED(1500), brake = WEIGHT / 4;
@@ -162,7 +162,7 @@ static void test_slide(void)
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     s = state_of(1);
     CHECK_NEAR(s.velocity.c[0], 0, brake / 100);
-    /* the way is the sum of the velocities: last first - brake (1 + ... + last) */
+    /* the distance is the sum of the velocities: last first - brake (1 + ... + last) */
     CHECK_NEAR(s.position.c[0] + CAROM_RATIO(1, 1, 32),
                (last * first - brake * (last * (last + 1) / 2)) >> 8, (last * first) >> 8 >> 8);
     CHECK_LESS(settle(1), 60);
@@ -170,7 +170,7 @@ static void test_slide(void)
 
 /* ---------------------------------------------------------------- rest, wake */
 
-/* Boxes that lie on the floor, one on the other, each with about a skin below it. */
+/* Boxes lie on the floor, one on the other, each with about a skin below it. */
 static void check_stack(int boxes)
 {
     for (int i = 1; i <= boxes; i++) {
@@ -185,8 +185,8 @@ static void check_stack(int boxes)
 }
 
 /*
- * A box falls, rests and sleeps; another that falls on it wakes it in the frame of the hit, and both
- * sleep again in the same frame: they are one island.
+ * A box falls, rests and sleeps. Another box falls on it and wakes it in the frame of the hit. Both
+ * sleep again in the same frame, because they are one island.
  */
 static void test_stack(void)
 {
@@ -211,7 +211,7 @@ static void test_stack(void)
     check_stack(2);
 }
 
-/* A push wakes a sleeping box, which slides off at impulse / mass, and one beside it sleeps on. */
+/* A push wakes a sleeping box, which slides off at impulse / mass; a box beside it sleeps on. */
 static void test_push(void)
 {
     const carom_v3_q40 impulse = {{SPEED(2000), 0, 0}};
@@ -254,7 +254,7 @@ static void test_lift(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK_EQ((find(CAROM_EVENT_WAKE, 1) != NULL), (frame == 1));
     }
-    /* while it still touches, it moves as it does after the frame's gravity, not half of it */
+    /* in contact it moves with its velocity after the frame's gravity, not after half of it */
     CHECK_NEAR(state_of(1).position.c[2] - s.position.c[2], (WEIGHT >> 9) * n * n,
                (WEIGHT >> 8) * n / 2);
     CHECK_NEAR(state_of(1).velocity.c[2], WEIGHT * n, WEIGHT >> 10);

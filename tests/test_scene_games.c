@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The scenes of scene_games.h as they are to go: each plays without an error, and what it is about happens. What is
- * expected follows from the numbers of the scene.
+ * The scenes of scene_games.h: each plays without an error, and the thing that it shows happens.
+ * The expected values follow from the numbers of the scene.
  */
 #include <string.h>
 
@@ -14,7 +14,7 @@
 
 #define SECOND 60
 
-/* A frame of the car takes a board millions of instructions. */
+/* A frame of the car costs a board millions of instructions. */
 #ifdef TEST_LONG
 #define CAR_FRAMES (5 * SECOND)
 #else
@@ -63,7 +63,10 @@ static bool happened(int kind, int body)
     return found;
 }
 
-/* The anchors of all joints but sliders are together, within some skins of body a along each axis. */
+/*
+ * The anchors of all joints except sliders are together, within some skins of body a along each
+ * axis.
+ */
 static void check_anchors(int64_t skins)
 {
     for (int i = 0; i < carom_joint_count(world); i++) {
@@ -76,7 +79,7 @@ static void check_anchors(int64_t skins)
     }
 }
 
-/* The ball opens the door, which stops at its limit, upright. */
+/* The ball opens the door; the door stops at its limit and stays upright. */
 static void test_door(void)
 {
     const int64_t limit_q32 = CAROM_RATIO(-DOOR_OPEN_MRAD, 1000, 32);
@@ -112,11 +115,13 @@ static void test_chain(void)
             low_q32 = state_of(CHAIN_LINKS).position.c[2];
         }
     }
-    /* the free end began 6.1 units beside the anchor and has come by below it, or nearly */
+    /* the free end began 6.1 units beside the anchor and passed below it, or nearly so */
     CHECK_LESS(low_q32, CAROM_POSITION_MM(7500 - 5000));
 }
 
-/* The block comes down on the box, stops and says so; it crosses nothing, and goes up again. */
+/*
+ * The block moves down on the box, stops and reports that; it crosses nothing, and moves up again.
+ */
 static void test_crusher(void)
 {
     int blocked = 0;
@@ -135,7 +140,7 @@ static void test_crusher(void)
                  CAROM_POSITION_MM(CRUSHER_WAY_MM) / (CRUSHER_FRAMES / 2));
 }
 
-/* Half a second after they fell on it all boxes go with the belt. */
+/* Half a second after they fell on it, all boxes move with the belt. */
 static void test_conveyor(void)
 {
     const int64_t speed_q40 = CAROM_VELOCITY_MM_S(CONVEYOR_MM_S, FPS);
@@ -183,7 +188,7 @@ static bool is_no_part(void *context, int body)
     return body < CAR_CHASSIS || body >= CAR_RAMP;
 }
 
-/* The squared distance from the camera to the car, mm^2. Nothing but the car itself is between the two. */
+/* The squared distance from the camera to the car, mm^2. Nothing is between the two. */
 static int64_t look_at_car(void)
 {
     static const struct carom_query_filter others = {.wants = is_no_part};
@@ -206,8 +211,9 @@ static int64_t look_at_car(void)
 }
 
 /*
- * By itself it jumps from a ramp on its wheels, and picks up the balls that stand on the way, one by one. The camera
- * is 6.62 m behind and above it, 5.6 back, 1.9 aside and 3 up, unless a tower stands there: then the ray brings it nearer.
+ * Without input the car jumps from a ramp on its wheels, and collects the balls on its way, one by
+ * one. The camera is 6.62 m from it: 5.6 behind, 1.9 aside and 3 above. If a tower is in between,
+ * the ray brings the camera nearer.
  */
 static void test_car(void)
 {
@@ -237,13 +243,16 @@ static void test_car(void)
         return;
     }
     CHECK_MORE(near, 5);
-    /* the ramp is 350 mm high, the chassis as high above what it drives on */
+    /* the ramp is 350 mm high, and the chassis is as high above it as above the ground */
     CHECK_MORE(high_q32, CAROM_POSITION_MM(350 + 670));
     CHECK_SAME(carom_body_mesh(world, CAR_PICKUP), NULL);
     CHECK_SAME(carom_body_mesh(world, CAR_PICKUP + 1), NULL);
 }
 
-/* The pad: on and to the left, or to the right; it brakes when nothing is held, and goes back. */
+/*
+ * The pad: forwards and to the left, or to the right. The car brakes when nothing is held, and
+ * reverses.
+ */
 static void drive(uint32_t side, int sign)
 {
     begin("car");
@@ -289,7 +298,10 @@ static int64_t height_mm(void)
     return CAROM_TO_MM(state_of(WALKER).position.c[2]);
 }
 
-/* Untouched, the walker climbs the steps, rides the platform, descends the ramp, passes the door, climbs the block. */
+/*
+ * Without input the walker climbs the steps, rides the platform, descends the ramp, passes the
+ * door, climbs the block.
+ */
 static void test_walker(void)
 {
     int64_t platform_q32, high_mm = 0;
@@ -298,7 +310,7 @@ static void test_walker(void)
     while (frame < 200) {
         step();
     }
-    /* the platform has not left; whoever stands on it does so as high as half a body and the box */
+    /* the platform has not left; a walker on it is as high as half a body above the box */
     platform_q32 = state_of(WALKER_PLATFORM).position.c[0];
     CHECK_NEAR(state_of(WALKER).position.c[0], platform_q32, CAROM_POSITION_MM(100));
     CHECK_NEAR(height_mm(), 550 + 875, 1);
@@ -324,7 +336,7 @@ static void test_walker(void)
     CHECK_NEAR(state_of(WALKER).position.c[0], CAROM_POSITION_MM(-5500), CAROM_POSITION_MM(100));
 }
 
-/* Set where the ground is flat and nothing is near. */
+/* Set the walker where the ground is flat and nothing is near. */
 static void put_walker(int64_t up_mm)
 {
     struct carom_body_state s = state_of(WALKER);
@@ -354,7 +366,10 @@ static void test_walker_falls(void)
     CHECK_EQ(state_of(WALKER).velocity.c[0] | state_of(WALKER).velocity.c[1], 0);
 }
 
-/* The pad: a quarter of a turn to the left at 120 degrees a second, on at 1.5 m/s, a jump of v^2 / 2 g. */
+/*
+ * The pad: a quarter turn to the left at 120 degrees a second, forwards at 1.5 m/s, a jump of v^2 /
+ * 2 g.
+ */
 static void test_walker_pad(void)
 {
     int64_t high_mm = 0, y_q32;
@@ -379,12 +394,12 @@ static void test_walker_pad(void)
         step_with(0);
         high_mm = height_mm() > high_mm ? height_mm() : high_mm;
     }
-    /* 3.6^2 / (2 * 9.81) = 0.661, and half a frame's way more */
+    /* 3.6^2 / (2 * 9.81) = 0.661, plus half a frame's way */
     CHECK_NEAR(high_mm, 875 + 661 + 30, 35);
     CHECK_NEAR(height_mm(), 875, 20);
 }
 
-/* The door is shut until someone stands on the mat, and shuts again. */
+/* The door is shut until the walker stands on the mat, and shuts again. */
 static void test_walker_door(void)
 {
     struct carom_body_state s;
@@ -408,7 +423,7 @@ static void test_walker_door(void)
     CHECK_NEAR(heading(WALKER_DOOR, 1), CAROM_ONE_Q30, 16);
 }
 
-/* A walker that walks into the crate pushes it along. */
+/* A walker that walks into the crate pushes it. */
 static void test_walker_pushes(void)
 {
     struct carom_body_state s;

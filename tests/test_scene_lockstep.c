@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Two sides of a game over links of chance (examples/scene_net.h) come to the same world after every agreed frame as a
- * third one that has all keys at once, whatever the links lose, delay and reorder; and a side whose keys were changed
- * on the way notices.
+ * Two sides of a game over random links (examples/scene_net.h). After every agreed frame both have
+ * the world of a third one that has all keys at once, no matter what the links lose, delay and
+ * reorder. A side whose keys were changed on the way notices.
  */
 #include <string.h>
 
@@ -17,7 +17,7 @@
 #define LINKS 1
 #endif
 #define FRAMES    60
-#define MOST_LOSS 128 /* of 256 */
+#define MOST_LOSS 128 /* parts of 256 */
 #define TICKS     (40 * FRAMES)
 
 static struct scene scene;
@@ -29,7 +29,7 @@ static uint8_t keys[FRAMES + 1][NET_PLAYERS];
 static uint64_t truth[FRAMES + 1];
 static int compared, foretold, undone;
 
-/* Keys that are held for a third of a second, more or less. */
+/* Keys that are held for about a third of a second. */
 static void press(struct test_random *r)
 {
     for (int i = 0; i < NET_PLAYERS; i++) {
@@ -76,7 +76,10 @@ static void begin(struct test_random *r, int loss, int least, int most)
     }
 }
 
-/* A tick of one side, and every frame that it agreed to in that. Returns whether all are the true ones. */
+/*
+ * One tick of one side, with every frame that it agreed to in that tick. Returns whether all are
+ * right.
+ */
 static bool tick_side(int i, int32_t tick)
 {
     struct net_side *side = &sides[i];
@@ -86,7 +89,7 @@ static bool tick_side(int i, int32_t tick)
 
     net_take(side, &links[!i], tick);
     if (side->frame < FRAMES || side->agreed < FRAMES) {
-        /* who has no more frames to play agrees to those that there are */
+        /* a side that has no more frames to play agrees to the frames that exist */
         CHECK_AT_LEAST(net_frame(side, press_now), 0);
     }
     net_send(side, &links[i], tick);
@@ -106,7 +109,7 @@ static bool done(void)
     return sides[0].agreed >= FRAMES && sides[1].agreed >= FRAMES;
 }
 
-/* Links of any loss up to a half and any delay up to 12 ticks. */
+/* Links with any loss up to a half and any delay up to 12 ticks. */
 static void test_links(void)
 {
     struct test_random r = {2024};
@@ -131,12 +134,15 @@ static void test_links(void)
         all_foretold += foretold;
         all_undone += undone;
     }
-    /* the links were bad enough: worlds were foretold otherwise than they came, and taken back */
+    /* the links were bad enough: predicted frames were wrong and were taken back */
     CHECK_MORE(all_foretold, LINKS);
     CHECK_MORE(all_undone, LINKS * FRAMES);
 }
 
-/* One bit of one key in one packet, which arrives: both sides see other hashes from that frame on. */
+/*
+ * One bit of one key in one arriving packet is changed: both sides see different hashes from that
+ * frame on.
+ */
 static void test_changed_key(void)
 {
     struct test_random r = {5};
@@ -161,13 +167,13 @@ static void test_changed_key(void)
     CHECK(!same);
     CHECK_EQ(net_hash(&sides[0], changed - 1), net_hash(&sides[1], changed - 1));
     CHECK_DIFFER(net_hash(&sides[0], changed), net_hash(&sides[1], changed));
-    /* packets say so; each names the first frame that it was told of */
+    /* packets report it; each side names the first frame that it heard of */
     CHECK(sides[0].apart >= changed || sides[1].apart >= changed);
     CHECK(sides[0].apart == 0 || sides[0].apart >= changed);
     CHECK(sides[1].apart == 0 || sides[1].apart >= changed);
 }
 
-/* When nothing arrives a side goes on for NET_AHEAD frames and waits; then it catches up. */
+/* When nothing arrives, a side goes on for NET_AHEAD frames and waits; then it catches up. */
 static void test_cut(void)
 {
     struct test_random r = {11};

@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* The meshes of examples/models.h: closed, of the size and the volume that they are made for. */
+/*
+ * The meshes of examples/models.h are closed, and have the size and the volume that they were made
+ * for.
+ */
 #include "models.h"
 #include "lib/test.h"
 
 static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(BOWL_VERTICES, BOWL_FACES)];
 
-/* Volumes and sides in thousandths, by hand; what rounding to quanta may change is below a hundredth of them. */
+/*
+ * Volumes and sides in thousandths, by hand. Rounding to quanta changes less than a hundredth of
+ * them.
+ */
 static const struct {
     const struct carom_mesh_raw *raw;
     int vertices, faces;
@@ -25,7 +31,7 @@ static const struct {
     {&cover_mesh, COVER_VERTICES, COVER_FACES, 11, {809, 700, 20}},
     {&stone_mesh, STONE_VERTICES, STONE_FACES, 202, {555, 700, 600}}, /* 2 1.985 tan (pi / 26) */
     {&plinth_mesh, PLINTH_VERTICES, PLINTH_FACES, 648, {900, 900, 800}},
-    /* n sin (2 pi / n) / 6 times the sum of h (r^2 + r s + s^2), less that of the inside */
+    /* n sin (2 pi / n) / 6 times the sum of h (r^2 + r s + s^2), minus the same for the inside */
     {&bowl_mesh, BOWL_VERTICES, BOWL_FACES, 1183, {3000, 3000, 1100}},
     {&cup_mesh, CUP_VERTICES, CUP_FACES, 91, {1000, 951, 500}},
 };
@@ -38,7 +44,8 @@ static void check(const struct carom_mesh_raw *raw, int vertices, int faces)
     CHECK_EQ(raw->face_count, faces);
     CHECK_EQ(raw->kind, CAROM_SOLID);
     CHECK_EQ(carom_mesh_build(&mesh, raw, block, sizeof block), CAROM_OK);
-    /* one closed piece without a hole, but the link, which has one, and three: V - E + F = 2 pieces - 2 holes */
+    /* one closed piece without a hole; the link has a hole, and three links: V - E + F = 2 pieces -
+     * 2 holes */
     CHECK_EQ(vertices - (int)mesh.edge_count + faces, raw == &link_mesh       ? 0
                                                       : raw == &pendulum_mesh ? 6
                                                                               : 2);

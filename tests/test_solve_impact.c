@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* The oracle for random impacts is that of impact_real.h, given the engine's rounded numbers. */
+/*
+ * Impacts of a single contact. The oracle for random impacts is impact_real.h; it gets the engine's
+ * rounded numbers.
+ */
 #include "lib/impact_real.h"
 #include "lib/test.h"
 
@@ -15,7 +18,7 @@ static struct gauss w;
 
 static const int32_t unit_z[3] = {0, 0, CAROM_ONE_Q30};
 
-/* A ball of radius 1, inertia 2/5 m, that touches something below it. */
+/* A ball of radius 1 with inertia 2/5 m touches something below it. */
 static struct impact_side ball(int64_t mass_q20)
 {
     struct impact_side s = {.moving = true,
@@ -67,7 +70,7 @@ static void head_on(void)
 
 static void stick_or_slide(void)
 {
-    /* A ball's point yields (1 + 5/2) / m sideways: rolling takes P = 2/7 m v. */
+    /* A ball's contact point yields (1 + 5/2) / m sideways: rolling takes P = 2/7 m v. */
     struct impact in = ball_on_ground(1 << 20, ONE, -ONE);
     struct impact_result out;
 
@@ -76,7 +79,7 @@ static void stick_or_slide(void)
     CHECK(!out.slid);
     CHECK_NEAR(out.impulse.c[0], -2 * ONE / 7, 1000); /* 2/5 is not exact */
     CHECK_NEAR(out.impulse.c[2], ONE, 4);
-    /* Just under the limit, mu = 2/7 + 1/4096, and just over it. */
+    /* Just below the limit, mu = 2/7 + 1/4096, and just above it. */
     in.friction_q16 = 65536 * 2 / 7 + 16;
     CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);
     CHECK(!out.slid);
@@ -84,7 +87,7 @@ static void stick_or_slide(void)
     CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);
     CHECK(out.slid);
     CHECK_NEAR(out.impulse.c[0], -(int64_t)in.friction_q16 * (ONE >> 16), 1000);
-    /* Far over it: Coulomb's mu P.N against the slip, whatever its speed. */
+    /* Far above it: Coulomb's mu P.N against the slip, at any speed. */
     in.velocity.c[0] = -30 * ONE;
     in.velocity.c[1] = 40 * ONE;
     in.friction_q16 = 1 << 15;
@@ -105,7 +108,7 @@ static void pushes_only(void)
     struct impact in = ball_on_ground(1 << 20, ONE, ONE / 8);
     struct impact_result out;
 
-    /* Separating, or already at the target: nothing. */
+    /* Separating, or already at the target: no impulse. */
     in.friction_q16 = 1 << 15;
     CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);
     CHECK_EQ(out.normal_q40, 0);
@@ -116,7 +119,7 @@ static void pushes_only(void)
     CHECK_EQ(out.normal_q40, 0);
     CHECK_EQ(out.impulse.c[0], 0);
     CHECK_EQ(out.impulse.c[2], 0);
-    /* A target above what it has already, without friction: V'.N = 1/4 from 1/8. */
+    /* A target above the present speed, without friction: V'.N = 1/4 from 1/8. */
     in.target_q40 = ONE / 4;
     in.friction_q16 = 0;
     CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);
@@ -173,7 +176,7 @@ static struct impact random_impact(uint64_t *random)
     return real_to_engine(&real, real_random(random) % 2 ? 22 : 30);
 }
 
-/* An impact, its impulse, and what both are in real numbers. */
+/* An impact, its impulse, and both in real numbers. */
 struct solved {
     struct impact in;
     struct impact_result out;
@@ -198,7 +201,10 @@ static void solve_random(uint64_t *random, struct solved *s)
     solve(&in, s);
 }
 
-/* True if a case is so near a decision that rounding may turn it, or so near wedging, where P has no bound. */
+/*
+ * True if a case is so close to a decision that rounding may change it, or so close to wedging,
+ * where P has no bound.
+ */
 static bool doubtful(const struct solved *s)
 {
     return s->real.friction > 0 && (magnitude(s->contact.stick_excess) < 1e-6L ||
@@ -238,8 +244,8 @@ static void impulse_error(void)
 }
 
 /*
- * Contacts that wedge: sliding would take an impulse that pulls, sticking one outside of the cone.
- * Rods that graze do so at times; a search found these seeds.
+ * Contacts that wedge: sliding would need an impulse that pulls, and sticking an impulse outside of
+ * the cone. Grazing rods wedge at times; a search found these seeds.
  */
 static void wedged(void)
 {
@@ -296,9 +302,9 @@ static void restitution_and_cone(void)
 }
 
 /*
- * Energy by state: give the bodies velocities that make V, apply P and -P to momenta, and compare
- * the kinetic energy before and after; the velocities after must also have the wanted V'.N. The
- * energy is compared with that of the motion which V needs at least, V.K^-1 V / 2.
+ * Energy from states: give the bodies velocities that make V, apply P and -P to their momenta, and
+ * compare the kinetic energy before and after. The velocities after must also have the wanted V'.N.
+ * The energy is compared with the least energy that V needs, V.K^-1 V / 2.
  */
 static void energy_by_state(void)
 {
@@ -334,9 +340,9 @@ static void energy_by_state(void)
             at = plus(at, 1, cross(plus(spin, 1, dspin), body->arm));
             after += sign * dot(s.real.normal, at);
         }
-        /* 2^-24 is the bound; one rounding of P adds V' 2^-41 in each component. */
+        /* the bound is 2^-24; one rounding of P adds V' 2^-41 in each component */
         gains += gain > 0x1p-24L * before + 0x1p-39L * length(v);
-        /* And by work: P.(V + V') / 2. */
+        /* And from work: P.(V + V') / 2. */
         both = plus(times(2, v), 1, matrix_times(&s.contact.k, s.impulse));
         work = dot(s.impulse, both) / 2;
         disagree += magnitude(gain - work) > 1e-9L * before;
@@ -347,7 +353,7 @@ static void energy_by_state(void)
     CHECK_EQ(disagree, 0);
 }
 
-/* Exchanging the bodies turns N, V and P round and changes nothing else. */
+/* Exchanging the bodies reverses N, V and P and changes nothing else. */
 static void exchanged(void)
 {
     uint64_t random = 14;
@@ -378,8 +384,8 @@ static void exchanged(void)
 }
 
 /*
- * At e = 1 without friction energy neither rises nor falls, however N lies: P has no part across N
- * that is left of the rounding of the tangents.
+ * At e = 1 without friction energy neither rises nor falls, for any direction of N: P has no part
+ * across N that comes from rounding the tangents.
  */
 static void elastic(void)
 {
@@ -403,7 +409,8 @@ static void elastic(void)
         energy = dot(s.real.velocity, matrix_times(&s.contact.inverse_k, s.real.velocity));
         change = dot(s.impulse, plus(s.real.velocity, 1, after)) / energy;
         mean += length(s.impulse) > 0x1p-4L ? change / CASES : 0;
-        /* P is rounded by 2^-41 in each component, which is worth that times 2 V'; so is the target */
+        /* P is rounded by 2^-41 in each component, which is worth that times 2 V'; the target is
+         * rounded likewise */
         change = magnitude(change) - 0x1p-39L * length(after) / energy -
                  0x1p-40L / magnitude(s.contact.speed);
         worst = change > worst ? change : worst;
@@ -414,14 +421,13 @@ static void elastic(void)
 
 /* ---------------------------------------------------------------- hand cases */
 
-/* A box that lands on a corner without any slip: friction acts along the slip that the impact
- * makes. */
+/* A box lands on a corner without any slip: friction acts along the slip that the impact makes. */
 static void slip_made_by_the_impact(void)
 {
     struct impact in = ball_on_ground(1 << 20, 0, -ONE);
     struct impact_result out;
 
-    /* Beside the centre: the point would be thrown towards +x; friction holds against it. */
+    /* Beside the centre: without friction the point would be thrown towards +x. */
     in.a.arm.c[0] = 1 << 22;
     in.friction_q16 = 65536 / 10;
     CHECK_EQ(impact_solve(&w, &in, &out), CAROM_OK);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Joints: what they hold, what drives them, what they refuse; energy and momentum of jointed bodies. */
+/*
+ * Joints: what they hold, how they are driven, what they refuse; energy and momentum of jointed
+ * bodies.
+ */
 #include <string.h>
 
 #include "carom_body.h"
@@ -21,7 +24,7 @@ static uint8_t snapshot[2048];
 static struct shape box;
 static struct carom_body_def def;
 
-/* Sides of 1, 1/2 and 1/4. */
+/* Boxes with sides 1, 1/2 and 1/4. */
 static void setup_pairs(int64_t gravity_q40, uint32_t pairs)
 {
     struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -gravity_q40}}};
@@ -106,7 +109,7 @@ static int64_t apart(int number)
 /* A skin of the box: its radius, 0.573, over 2048, is 2^-11.8. */
 #define SKIN (UNIT >> 12)
 
-/* A body hangs at rest: its weight is in the joint, and it does not move by more than rounding. */
+/* A body hangs at rest: the joint carries its weight, and it moves by rounding only. */
 static void test_hangs(void)
 {
     int body, number;
@@ -126,10 +129,10 @@ static void test_hangs(void)
     CHECK_NEAR((double)joint_of(number).impulse.c[2], (double)FALL, (double)FALL / 256);
 }
 
-/* Twice the kinetic energy and the potential one, in units of ONE^2, exact enough in doubles. */
+/* Twice the kinetic and the potential energy, in units of ONE^2, exact enough in double. */
 static double energy(int body, double gravity)
 {
-    /* by the sides 1, 1/2, 1/4, mass 1: (b^2 + c^2) / 12 */
+    /* from the sides 1, 1/2, 1/4 and mass 1: (b^2 + c^2) / 12 */
     static const double inertia[3] = {(0.25 + 0.0625) / 12, (1 + 0.0625) / 12, (1 + 0.25) / 12};
     struct carom_body_state s = state_of(body);
     double w = s.rotation.c[0] / 0x1p30, x = s.rotation.c[1] / 0x1p30, y = s.rotation.c[2] / 0x1p30,
@@ -149,7 +152,7 @@ static double energy(int body, double gravity)
     return sum + 2 * gravity * (double)s.position.c[2] / 0x1p32;
 }
 
-/* A pendulum that swings in space, turning about its own axis as well, keeps its energy. */
+/* A pendulum that swings in space, and turns about its own axis as well, keeps its energy. */
 static void test_pendulum(void)
 {
     int body, number, frames = 400;
@@ -228,7 +231,7 @@ static void test_motor(void)
     CHECK_EQ(state_of(body).position.c[0], 0);
 }
 
-/* A door swings to its limit and stays there; it never goes past. */
+/* A door swings to its limit and stays there; it never goes beyond. */
 static void test_limits(void)
 {
     int body, number;
@@ -251,7 +254,7 @@ static void test_limits(void)
     CHECK_LESS(carom_abs(joint_of(number).speed_q40), ONE / 4096);
 }
 
-/* A slider falls along its axis as a free body does; a stiff one holds what is across. */
+/* A slider falls along its axis like a free body; a stiff one holds the other directions. */
 static void test_slider(void)
 {
     int body, number;
@@ -298,7 +301,7 @@ static void test_distance(void)
     }
 }
 
-/* A spring without damping: the period is that of sqrt(k / m), the energy stays. */
+/* A spring without damping has the period of sqrt(k / m), and keeps its energy. */
 static void test_spring(void)
 {
     int body, number, turns = 0;
@@ -365,8 +368,9 @@ static void test_ignore(void)
 }
 
 /*
- * Two bodies that ignored each other and overlap when their joint goes pass each other until they are apart, whether it is
- * taken away or breaks: a box falls through a ledge that it would else lie on, and then on the next one.
+ * Two bodies of a joint ignored each other and overlap when the joint is removed or breaks. They
+ * pass each other until they are apart: a box falls through a ledge on which it would otherwise
+ * lie, and then hits the next ledge.
  */
 static void test_parts(void)
 {
@@ -402,7 +406,7 @@ static void test_parts(void)
     }
 }
 
-/* No room to let them pass: the joint stays. */
+/* Without room for the pair that would pass, the joint stays. */
 static void test_parts_without_room(void)
 {
     int a, b;
@@ -427,7 +431,7 @@ static void test_parts_without_room(void)
     CHECK_EQ(carom_joint_remove(world, 0), CAROM_OK);
 }
 
-/* A joint that takes more than it bears breaks, says so, and holds nothing. */
+/* A joint that takes more than it bears breaks, reports that, and holds nothing. */
 static void test_breaks(void)
 {
     int body, broken = 0;
@@ -456,7 +460,7 @@ static void test_breaks(void)
     CHECK_MORE(apart(0), UNIT / 4);
 }
 
-/* A snapshot holds what a joint has; the same frames follow. */
+/* A snapshot holds the joints, and the same frames follow. */
 static void test_snapshot(void)
 {
     int body, size;
@@ -477,12 +481,12 @@ static void test_snapshot(void)
     CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)size), CAROM_OK);
     step(20);
     CHECK_EQ(carom_world_hash(world), hash);
-    /* cut anywhere it is refused, and the world stays */
+    /* cut anywhere, it is refused and the world stays as it was */
     for (int cut = 1; cut < 120; cut += 7) {
         CHECK_EQ(carom_snapshot_load(world, snapshot, (size_t)(size - cut)), CAROM_ERR_FORMAT);
     }
     CHECK_EQ(carom_world_hash(world), hash);
-    /* a number that no step could have left, with a check sum that fits: limits the wrong way round */
+    /* a number that no step could have left, with a correct check sum: limits in reverse order */
     {
         uint64_t fnv = FNV_START;
         int at =
@@ -550,7 +554,7 @@ static void test_refuses(void)
     memset(&drive, 0, sizeof drive);
     CHECK_EQ(carom_joint_set(world, 1, &drive), CAROM_ERR_JOINT);
     CHECK_EQ(carom_joint_add(world, &good), 1);
-    /* a body takes its joints along */
+    /* a removed body takes its joints with it */
     CHECK_EQ(carom_body_remove(world, body), CAROM_OK);
     CHECK_EQ(carom_joint_get(world, 0, &s), CAROM_ERR_JOINT);
     step(2);

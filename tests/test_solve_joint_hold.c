@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Joints where it is hard to hold: limits on a bent way, what is owed when a joint breaks, a light body between heavy ones. */
+/*
+ * Joints in hard cases: limits on a bent way, what is owed when a joint breaks, a light body
+ * between heavy ones.
+ */
 #include <string.h>
 
 #include "carom_joint.h"
@@ -16,7 +19,7 @@ static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, small;
 static struct carom_body_def def;
 
-/* A box with sides of 1, 1/2 and 1/4 and one of a sixteenth of them. */
+/* A box with sides of 1, 1/2 and 1/4, and one a sixteenth as large. */
 static void setup(int64_t gravity_q40)
 {
     struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -gravity_q40}}};
@@ -66,7 +69,10 @@ static int64_t apart(int number)
     return most;
 }
 
-/* A body that whirls at a rope by 0.4 radian a frame stays within its length and four skins: its way bends by 8 % of it. */
+/*
+ * A body that whirls at a rope by 0.4 radian a frame stays within the rope's length plus four
+ * skins. Its way bends by 8 % of the length.
+ */
 static void test_rope(void)
 {
     struct carom_joint_def j;
@@ -85,12 +91,13 @@ static void test_rope(void)
         CHECK_EQ(carom_joint_get(world, 0, &s), CAROM_OK);
         CHECK_LESS(s.coordinate_q32, UNIT + (UNIT >> 10));
     }
-    CHECK_MORE(s.coordinate_q32, UNIT - (UNIT >> 6)); /* and it is at its end */
+    CHECK_MORE(s.coordinate_q32, UNIT - (UNIT >> 6)); /* and the rope is fully stretched */
 }
 
 /*
- * A body goes along a slider, and a joint that is going to break holds another one to it, which comes across: what that has lost
- * in the frame is no part's to get back.
+ * A body moves along a slider. A joint that is about to break holds another body to it, which comes
+ * from the side. The energy that the other body has lost in the frame may not be given back to
+ * anyone.
  */
 static void test_break_owes_nothing(void)
 {
@@ -116,7 +123,10 @@ static void test_break_owes_nothing(void)
     CHECK_NEAR((double)state_of(rider).velocity.c[0], (double)speed, (double)speed / 256);
 }
 
-/* A light body, small as well, holds a heavy one that is far off to the world. It hangs, and nobody's anchor is off by a skin of the large one. */
+/*
+ * A small and light body connects a heavy body far away with the world. It hangs, and no anchor is
+ * off by a skin of the large body.
+ */
 static void test_light_between(void)
 {
     struct carom_joint_def j;

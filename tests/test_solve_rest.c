@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Single contacts, and resting ones. */
+/* Single contacts: impacts and resting ones. */
 #include "lib/hand.h"
 #include "lib/real.h"
 
 /* ----------------------------------------------------------------- one impact */
 
-/* A contact right under the centre of mass: no spin by the normal impulse, P = m (1 + e) v. */
+/* A contact exactly below the centre of mass: the normal impulse gives no spin, P = m (1 + e) v. */
 static void test_particle(void)
 {
     static const int32_t below[3] = {0, 0, -(1 << 21)};
@@ -31,7 +31,7 @@ static void test_particle(void)
     }
 }
 
-/* A gap that is all but closed opens by what it lacks to a quarter of the skin, but no faster than it closed. */
+/* A gap that is nearly closed opens up to a quarter of the skin, but no faster than it closed. */
 static void test_too_near(void)
 {
     static const int32_t below[3] = {0, 0, -(1 << 21)};
@@ -54,8 +54,8 @@ static void test_too_near(void)
 }
 
 /*
- * The same with friction and slip v along x. The slip ends by an impulse m v / (1 + m r^2 / I),
- * r^2 / J = 1/4 * 6; less than that when mu m (1 + e) |v_n| is less.
+ * The same with friction and slip v along x. An impulse m v / (1 + m r^2 / I) stops the slip, r^2 /
+ * J = 1/4 * 6; friction gives less when mu m (1 + e) |v_n| is less.
  */
 static void test_particle_friction(void)
 {
@@ -136,7 +136,7 @@ static void test_warm(void)
         hand_velocity_of(1, v, w);
         CHECK_LESS(real_length(v), 1e-3 / 367);
     }
-    /* the impulses of other bodies, places or normals are not these */
+    /* kept impulses of other bodies, places or normals must not match */
     for (int change = 0; change < 3; change++) {
         hand_clear_contacts();
         hand_set_motion(1, (double[3]){0, 0, 0}, (double[3]){0, 0, 0});
@@ -152,13 +152,13 @@ static void test_warm(void)
         CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
         CHECK_EQ(hand.rest.sweeps, cold);
     }
-    /* no contacts, nothing to keep */
+    /* no contacts, so nothing is kept */
     hand_clear_contacts();
     CHECK_EQ(rest_solve(&hand.rest, CAROM_ONE_Q30, true), CAROM_OK);
     CHECK_EQ(hand.rest.warm_count, 0);
 }
 
-/* A ramp of 20 degrees: tan is 0.364. Friction of 0.5 holds the box, of 0.3 does not. */
+/* A ramp of 20 degrees: tan is 0.364. Friction of 0.5 holds the box, friction of 0.3 does not. */
 static void test_ramp(void)
 {
     const double sine = 0.34202014332566873, cosine = 0.93969262078590838, g = 1 / 367.0;
@@ -188,7 +188,7 @@ static void test_ramp(void)
     }
 }
 
-/* Gaps: what is open may close in the time that is left; what overlaps opens slowly. */
+/* An open gap may close in the time that is left; an overlap opens slowly. */
 static void test_gaps(void)
 {
     static const int32_t below[3] = {0, 0, -(1 << 21)};
@@ -209,11 +209,12 @@ static void test_gaps(void)
         CHECK_EQ(rest_solve(&hand.rest, tau_q30, false), CAROM_OK);
         hand_velocity_of(1, v, w);
         CHECK_LESS(real_length(w), 1e-8);
-        if (n == 0) { /* it does not get there */
+        if (n == 0) { /* the body does not reach the surface */
             CHECK_EQ(v[2], speed);
             CHECK_EQ(hand_pressure(&hand.contacts[0], &across), 0);
         } else {
-            /* stops at the skin; leaves (the deeper half at a fifth a frame); has a quarter of a frame to close two skins */
+            /* stops at the skin; leaves (the deeper half at a fifth a frame); may close two skins
+             * in a quarter of a frame */
             CHECK_LESS(real_abs(v[2] - (n == 1   ? -2 * skin
                                         : n == 2 ? skin / 64 + skin / 10
                                                  : -8 * skin)),
@@ -222,11 +223,14 @@ static void test_gaps(void)
     }
 }
 
-/* Bodies that are too fast do not enter contact; those that bounce without loss only when all but at rest. */
+/*
+ * Bodies that are too fast do not enter contact. Bodies that bounce without loss enter it only when
+ * they are nearly at rest.
+ */
 static void test_enter(void)
 {
     static const struct {
-        double e, speed; /* over g */
+        double e, speed; /* speed over g */
         bool lasting, enters;
     } cases[] = {{0.5, 0, false, true},     {0.5, -4.01, false, false}, {0.5, -3.99, false, true},
                  {1, 0, false, true},       {1, -0.124, false, true},   {1, 0.124, false, true},
@@ -246,7 +250,7 @@ static void test_enter(void)
         }
         CHECK_EQ(hand_enter_contact(CAROM_ONE_Q30 / 2), cases[n].enters);
         hand_velocity_of(1, v, w);
-        /* gravity of the time that is left */
+        /* gravity for the time that is left */
         CHECK_LESS(real_abs(v[2] - (cases[n].speed - (cases[n].enters ? 0.5 : 0)) * g), 1e-9);
     }
     hand.bodies[0].def.restitution_q30 = 5;
@@ -258,9 +262,10 @@ static void test_enter(void)
 }
 
 /*
- * Two bodies without weight that hardly approach and hardly have a gap: an impact opens it as fast as it
- * closed, or as e says where the path does not bend back. In lasting contact it opens as of bodies that
- * lie, faster by what the path takes back, and not when that would take more than a 256th of the energy.
+ * Two bodies without weight that hardly approach and have hardly a gap. An impact opens the gap as
+ * fast as it closed, or as e says if the path does not bend back. In lasting contact the gap opens
+ * as it does for resting bodies, faster by what the path takes back; it does not when that would
+ * take more than a 256th of the energy.
  */
 static void test_lasting(void)
 {
@@ -308,7 +313,7 @@ static void test_lasting(void)
     }
 }
 
-/* The impulse of an impact is nothing to start the next frame from; nor is what was kept before. */
+/* The impulse of an impact is not used to start the next frame; neither are older kept impulses. */
 static void test_impact_warm(void)
 {
     static const int32_t below[3] = {0, 0, -(1 << 21)};

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The two ways to solve an impact: the paper's dense system for a single contact, and the sweeps,
- * which take any number. For one contact they must give the same impulse wherever they mean the
- * same. Friction is where they may not: the paper's opposes the slip before the impact, that of the
- * sweeps the slip after it. Both agree
+ * The two ways to solve an impact: the paper's dense system for a single contact, and the sweeps
+ * for any number of contacts. For one contact they must give the same impulse wherever both models
+ * agree. They differ in friction: the paper's friction opposes the slip before the impact, the
+ * sweeps' friction the slip after it. The models agree
  *
  *   without friction
  *   where the contact sticks
- *   where it slides on in the direction in which it slid: in a plane of symmetry of both bodies
+ *   where it goes on sliding in the same direction, in a plane of symmetry of both bodies
  *
- * unless the energy rule changes the paper's impulse; and that whether the sweeps end as those of
- * impacts do or as those of resting contact.
+ * unless the energy rule changes the paper's impulse. The sweeps may end by the rule of impacts or
+ * by the rule of resting contact.
  *
- * Two frictionless impacts at once are held against a solution in double precision.
+ * A solution in double precision checks two simultaneous frictionless impacts.
  */
 #include "lib/real.h"
 #include "solve/parts.h"
@@ -25,7 +25,7 @@
 #define CASES 40
 #endif
 
-#define SAME_SHAPES 20 /* cases */
+#define SAME_SHAPES 20 /* cases with the same model */
 
 /* Body 0 is the ground; pair 0 is (1, 0), pair 1 is (2, 1). */
 static struct shape ground, boxes[2];
@@ -41,7 +41,7 @@ static struct contact_work works[2];
 static struct contact_roll rolls[2];
 static struct boyse_pair boyse;
 static double normal[2][3];
-static double side[2][3]; /* of the boxes, units */
+static double side[2][3]; /* sides of the boxes, units */
 
 static double uniform(struct test_random *r, double low, double high)
 {
@@ -62,8 +62,8 @@ static void make_shapes(struct test_random *r)
 }
 
 /*
- * Three directions of the world, columns of a rotation matrix. In a planar case the third is an axis
- * of the world, so that rounding leaves everything in the plane of the other two.
+ * Three directions of the world, as columns of a rotation matrix. In a planar case the third is an
+ * axis of the world, so that rounding leaves everything in the plane of the other two.
  */
 struct axes {
     double m[3][3];
@@ -102,7 +102,7 @@ static void random_vector(struct test_random *r, struct axes *a, bool planar, do
     real_rotate(out, a->m, v);
 }
 
-/* A body turned about the third axis alone, or anyhow. */
+/* Turn a body about the third axis alone, or at random. */
 static void place(struct test_random *r, int i, struct axes *a, bool planar)
 {
     carom_quat_q30 *q = &states[i].rotation;
@@ -138,7 +138,7 @@ static void set_motion(struct test_random *r, int i, struct axes *a, bool planar
     body_set_motion(&bodies[i], &states[i], &v_q40, &w_q40);
 }
 
-/* The n-th contact, of bodies a and b of the pair, at arms within them. */
+/* The n-th contact, between bodies a and b of the pair, at random arms within them. */
 static void touch(struct test_random *r, uint32_t at, uint16_t number, struct axes *a, bool planar)
 {
     const struct candidate key = {number, CANDIDATE_VERTEX_FACE, at, 0};
@@ -211,7 +211,7 @@ static void reverse(struct body_state *state)
     }
 }
 
-/* The bodies, of one e and mu, moving anyhow. */
+/* Random bodies with one e and one mu, in random motion. */
 static void random_bodies(struct test_random *r, struct axes *a, bool planar, double mu)
 {
     double e = uniform(r, 0, 1), speed = uniform(r, 0.05, 0.5);
@@ -252,10 +252,10 @@ static void random_contact(struct test_random *r, int movers, bool planar, doubl
 }
 
 struct outcome {
-    bool same; /* both ways mean the same */
+    bool same; /* both models agree */
     bool slid;
-    double fast;  /* slip before, over the approach */
-    double error; /* of the sweeps' impulse against the dense one's */
+    double fast;  /* slip before the impact, over the approach */
+    double error; /* error of the sweeps' impulse against the dense one */
 };
 
 static void impulse(double p[3])
@@ -283,16 +283,16 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     push = along_normal(dense);
     memcpy(across, dense, sizeof across);
     across_normal(across);
-    /* small impulses are rounded by some 1e-6 of themselves */
+    /* small impulses are rounded by some 1e-6 of their size */
     out->slid = mu > 0 && real_length(across) > mu * push * (1 - 1e-5);
-    /* slid on, and with a direction that rounding does not turn */
+    /* slid on, in a direction that rounding does not turn */
     slip =
         real_length(before) > 0.05 * speed ? real_dot(before, after) / real_dot(before, before) : 0;
     out->same = rest.energy_rules == 0 && (!out->slid || slip > 0.05);
     rest.first = 0;
     CHECK(rest_take_island(&rest));
-    contacts[0].work = works; /* as it was prepared: the elimination has other room here */
-    PHASE_BEGIN(contacts[0].phase, CONTACT_VELOCITY); /* the impulse is in its place */
+    contacts[0].work = works; /* as before the solve: the elimination uses other memory here */
+    PHASE_BEGIN(contacts[0].phase, CONTACT_VELOCITY); /* the impulse is applied */
     rest_relative_velocity(contacts, contact_velocity(contacts));
     for (int i = 0; i < 3; i++) {
         PHASE_BEGIN(bodies[i].path.phase, BODY_SOLVE);
@@ -302,18 +302,18 @@ static void solve_both(struct outcome *out, double mu, int32_t residual)
     for (int k = 0; k < 3; k++) {
         swept[k] -= dense[k];
     }
-    /* less what rounding to momentum may do */
+    /* minus what rounding to momenta may do */
     out->error = real_length(swept) / real_length(dense) - real_power2(-40) / real_length(dense);
 }
 
-/* Sweeps follow changes of velocity up to 16 times the approach. */
+/* Sweeps follow velocity changes of up to 16 times the approach. */
 #define FASTEST 12
 
 struct agreement {
     int movers;
     bool planar, slides;
     double least_mu, most_mu;
-    uint32_t coarse; /* one in so many may be off by more than 4e-6 */
+    uint32_t coarse; /* one case in so many may be off by more than 4e-6 */
     double worst;
 };
 
@@ -362,7 +362,9 @@ static void sliding(void)
     agree(6, &(struct agreement){2, true, true, 0.02, 0.3, 10000, 1e-6});
 }
 
-/* Sweeps may run out when a contact nearly wedges: 1 case in 10,000 is off by an eighth. */
+/*
+ * Sweeps may reach their limit when a contact nearly wedges: 1 case in 10,000 is off by an eighth.
+ */
 static void sliding_roughly(void)
 {
     agree(7, &(struct agreement){1, true, true, 0.3, 1.5, 2000, 0.2});
@@ -371,7 +373,10 @@ static void sliding_roughly(void)
 
 /* ---------------------------------------------------------------- two contacts */
 
-/* The change of V.N at contact i by an impulse of 1 along N at contact j, through a box of density 1. */
+/*
+ * The change of V.N at contact i by an impulse of 1 along N at contact j, through a box of density
+ * 1.
+ */
 static double box_response(int box, int i, int j)
 {
     const double *d = side[box];
@@ -402,7 +407,7 @@ static double box_response(int box, int i, int j)
     return sum;
 }
 
-/* Impulses that push, and leave V.N - target = 0, or more where they do not push. */
+/* Impulses that push, and give V.N - target = 0, or more where they do not push. */
 static void two_impulses(double k[2][2], const double wanted[2], double p[2])
 {
     double det = k[0][0] * k[1][1] - k[0][1] * k[1][0];
@@ -418,8 +423,8 @@ static void two_impulses(double k[2][2], const double wanted[2], double p[2])
 }
 
 /*
- * Two contacts of one pair that approach. Returns whether they do, and are not nearly one: sweeps
- * gain slowly on such.
+ * Two approaching contacts of one pair. Returns false when they separate or nearly coincide: sweeps
+ * converge slowly then.
  */
 static bool random_two(struct test_random *r, int movers, double wanted[2], double k[2][2])
 {
@@ -440,7 +445,7 @@ static bool random_two(struct test_random *r, int movers, double wanted[2], doub
            k[0][0] * k[1][1] - k[0][1] * k[1][0] > 0.3 * k[0][0] * k[1][1];
 }
 
-/* A pair that meets at two places without friction: there is one answer. */
+/* A pair that meets at two places without friction: the answer is unique. */
 static void two(void)
 {
     struct test_random r = {9};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Any contacts at once. */
+/* Several contacts at once. */
 #include "lib/hand.h"
 #include "lib/real.h"
 
@@ -22,7 +22,7 @@ static double energy(void)
     return sum / 2;
 }
 
-/* Up to five contacts of random corners, normals within half a right angle of up. */
+/* Up to five contacts at random corners, with normals within 45 degrees of up. */
 static void random_contacts(struct test_random *r, uint16_t number)
 {
     int count = (int)test_random_range(r, 1, 5);
@@ -111,8 +111,8 @@ static void check_cones(void)
 }
 
 /*
- * Impacts at several places, and at one, between one or two moving bodies: momentum is what the
- * contacts gave, impulses are in the friction cone, and energy never rises, whatever e and mu.
+ * Impacts at several places, or at one, between one or two moving bodies. The momentum comes from
+ * the contacts, impulses are in the friction cone, and energy never rises, for any e and mu.
  */
 static void test_impacts(void)
 {

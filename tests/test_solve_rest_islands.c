@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Islands: what sleeps together, and what is solved apart. */
+/* Islands: the bodies that sleep together, and the ones that are solved apart. */
 #include "lib/hand.h"
 
 static void frame_of_sleep(const struct pair *touching, uint32_t count)
@@ -23,9 +23,9 @@ static void test_sleep(void)
     CHECK_EQ(frames, 20);
     CHECK_EQ(memcmp(&hand.states[1].momentum, &zero, sizeof zero), 0);
     CHECK_EQ(memcmp(&hand.states[1].angular, &zero, sizeof zero), 0);
-    CHECK(!hand.states[0].asleep); /* what does not move need not sleep */
+    CHECK(!hand.states[0].asleep); /* a body that does not move need not sleep */
 
-    /* one frame that is too fast, or without a contact, starts the count again */
+    /* one frame that is too fast, or without a contact, restarts the count */
     for (int n = 0; n < 3; n++) {
         hand.states[1].asleep = hand.states[1].quiet = 0;
         for (int frame = 0; frame < 19; frame++) {
@@ -44,8 +44,8 @@ static void test_sleep(void)
 }
 
 /*
- * Bodies that touch fall asleep together, however long the chain; those that do not, each for
- * itself.
+ * Bodies that touch fall asleep together, however long the chain; the others fall asleep one by
+ * one.
  */
 static void test_islands(void)
 {
@@ -81,8 +81,8 @@ static void test_islands(void)
 }
 
 /*
- * Two islands: 1 and 2, which touch each other and the ground, and 3, which has pairs between
- * theirs. With a bit for each: which of them have contacts.
+ * Two islands: bodies 1 and 2, which touch each other and the ground; and body 3, whose pairs stand
+ * between the pairs of the first. Each bit says that an island has contacts.
  */
 enum { TWO = 1, ONE = 2 };
 
@@ -111,7 +111,7 @@ static bool same_state(int body, const struct body_state *as)
     return memcmp(&hand.states[body], as, sizeof *as) == 0;
 }
 
-/* A fast impact of one island changes nothing in what another comes to, to the bit. */
+/* A fast impact of one island changes no bit of another island's result. */
 static void test_apart(void)
 {
     struct body_state alone[HAND_BODIES], at_first[HAND_BODIES];
@@ -135,7 +135,7 @@ static void test_apart(void)
     CHECK(same_state(3, &alone[3]));
 }
 
-/* Only the islands of bodies that newly took gravity are left to solve. */
+/* Only the islands of bodies that newly took gravity are solved. */
 static void test_enter_apart(void)
 {
     struct body_state before[HAND_BODIES];
@@ -152,7 +152,7 @@ static void test_enter_apart(void)
     CHECK(!same_state(1, &before[1]));
     CHECK(!same_state(2, &before[2]));
     CHECK(same_state(3, &before[3]));
-    CHECK_EQ(hand.rest.warm_count, 9); /* of what was solved */
+    CHECK_EQ(hand.rest.warm_count, 9); /* impulses of what was solved */
 }
 
 #define MANY 60

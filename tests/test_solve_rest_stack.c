@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Heavy on light: what a solve says of itself, and normals of faces that lie on each other. */
+/*
+ * Heavy bodies on light ones: what a solve reports about itself, and the normals of faces that lie
+ * on each other.
+ */
 #include "solve/rigid.h"
 #include "lib/hand.h"
 #include "lib/real.h"
@@ -12,7 +15,7 @@
 
 #define LEAN 3e-4
 
-/* Cube 2 on cube 1, shifted by so much of a side; cube 1 is of mass 1. */
+/* Cube 2 on cube 1, shifted by a part of a side; cube 1 has mass 1. */
 static void stack(double mass, double x, double y, double fall)
 {
     hand_make_cube();
@@ -24,7 +27,7 @@ static void stack(double mass, double x, double y, double fall)
     hand_clear_contacts();
 }
 
-/* V.N of a contact by what the bodies' momenta give. */
+/* V.N of a contact, from the bodies' momenta. */
 static double speed_of(const struct contact *c)
 {
     double speed = 0;
@@ -63,8 +66,8 @@ static double slowest(void)
 }
 
 /*
- * Impacts of masses to 1000:1. Either no place approaches by more than a 32nd of a skin a frame, or
- * the island is said to be unsettled; as one body, on the ground, it approaches nowhere.
+ * Impacts of masses up to 1000:1. Either no place approaches by more than a 32nd of a skin a frame,
+ * or the island is reported as unsettled. As one rigid body on the ground it approaches nowhere.
  */
 static void test_unsettled(void)
 {
@@ -94,7 +97,7 @@ static void test_unsettled(void)
     CHECK_MORE(unsettled, 0);
 }
 
-/* The upper cube's lower corners, with a normal that leans along x. */
+/* The lower corners of the upper cube, with a normal that leans along x. */
 static void touch_leaning(void)
 {
     const int64_t leaning[3] = {real_round(LEAN * 1e9), 0, 1000000000};
@@ -112,9 +115,9 @@ static void touch_leaning(void)
 }
 
 /*
- * A cube under one 1000 times as heavy, without friction, between normals that differ by 3e-4: held
- * up by normals of their own it would be pushed aside at 0.3 g. What slides along the lean by more
- * than a 64th of a skin a frame keeps it.
+ * A cube under another one that is 1000 times as heavy, without friction, between normals that
+ * differ by 3e-4. With different normals below and above, it would be pushed aside at 0.3 g. A cube
+ * that slides along the lean by more than a 64th of a skin a frame keeps its normals.
  */
 static void test_share(void)
 {
@@ -146,8 +149,8 @@ static bool borders(uint32_t edge, bool upper)
 }
 
 /*
- * Cube 2 on cube 1, turned by 0.3 about z and by a lean about x. Edges that border the faces between
- * them have the normal of cube 1's, unless the faces or the normal lean by too much.
+ * Cube 2 on cube 1, turned by 0.3 about z and by a lean about x. Edges at the border of the faces
+ * between them get the normal of cube 1's face, unless the faces or the normal lean too much.
  */
 static void test_flatten(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* An island put into its motion as one rigid body, or to rest: the last resort of a step. */
+/* An island that moves as one rigid body, or rests: the last resort of a step. */
 #include "solve/rigid.h"
 #include "lib/hand.h"
 #include "lib/real.h"
@@ -23,7 +23,7 @@ static void put(int body, const double x[3])
     body_place(&hand.bodies[body], &hand.states[body]);
 }
 
-/* Twice the energy of bodies 1 to `count`, by their masses and what they weigh about their axes. */
+/* Twice the energy of bodies 1 to `count`, from their masses and their inertia about their axes. */
 static double energy2(uint32_t count)
 {
     double sum = 0;
@@ -80,8 +80,8 @@ static void check_kept(const struct sums *before, uint32_t count)
 }
 
 /*
- * Whether all bodies move as body 1 does: v - v1 = w1 x (x - x1), and w = w1. By 2^-20 of the speeds
- * there are, what lies far apart may be off: arms and spins have 30 bits.
+ * Whether all bodies move as body 1 does: v - v1 = w1 x (x - x1), and w = w1. Bodies that are far
+ * apart may be off by 2^-20 of their speeds, because arms and spins have 30 bits.
  */
 static bool moves_as_one(uint32_t count)
 {
@@ -108,8 +108,8 @@ static bool moves_as_one(uint32_t count)
 }
 
 /*
- * Two cubes of mass 1 and J = 1/6 at x = -1/2 and 1/2, which fly past each other along y: they turn
- * about z by L / I, L = 2 * 1/2 * v and I = 2 (1/6 + 1/4) = 5/6. Beside that they fly along z.
+ * Two cubes of mass 1 and J = 1/6 at x = -1/2 and 1/2 fly past each other along y: they turn about
+ * z by L / I, L = 2 * 1/2 * v and I = 2 (1/6 + 1/4) = 5/6. They also fly along z.
  */
 static void test_pair(void)
 {
@@ -137,7 +137,7 @@ static void test_pair(void)
     }
 }
 
-/* On the ground it is at rest; a body by itself in the air keeps its motion. */
+/* An island on the ground is at rest; a single body in the air keeps its motion. */
 static void test_grounded(void)
 {
     for (int grounded = 0; grounded < 2; grounded++) {
@@ -161,13 +161,13 @@ static void test_grounded(void)
         } else {
             CHECK_EQ(memcmp(&before, &hand.states[1], sizeof before), 0);
         }
-        /* nobody else */
+        /* no other body moves */
         CHECK_EQ(hand.states[3].momentum.c[2], hand.states[3].momentum.c[0] * 4);
         CHECK_MORE(hand.states[3].momentum.c[2], 0);
     }
 }
 
-/* Any poses, motions and masses to 1000:1: all of both momenta stay, and no energy is gained. */
+/* Any poses, motions and masses to 1000:1: both total momenta stay, and energy does not rise. */
 static void test_random(void)
 {
     struct test_random r = {12};
@@ -201,7 +201,7 @@ static void test_random(void)
         check_kept(&before, count);
         CHECK_AT_MOST(energy2(count), energy * (1 + 1e-9));
         CHECK(moves_as_one(count));
-        /* twice is as good as once */
+        /* doing it twice changes nothing more */
         energy = energy2(count);
         before = sums_of(count);
         CHECK(rest_unite(&hand.rest, 1, false));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The calls around a step accept and refuse as carom.h says, at the limits that it states; after an error
- * a world is as it was.
+ * The calls around a step: they accept and refuse as carom.h says, at the limits that it states.
+ * After an error a world is as it was.
  */
 #include <string.h>
 
@@ -12,7 +12,7 @@
 #define CAPS 3, 2, 32, 64, 64, 128
 #define ONE  ((int64_t)1 << 40) /* a unit, or a radian, a frame */
 
-/* A constant expression: the size of an array, and more for one more of anything. */
+/* A constant expression: the size of an array. Each further element takes more bytes. */
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS) + 16];
 _Static_assert(CAROM_WORLD_BYTES(4, 2, 32, 64, 64, 128) > CAROM_WORLD_BYTES(CAPS), "bodies");
 _Static_assert(CAROM_WORLD_BYTES(3, 3, 32, 64, 64, 128) > CAROM_WORLD_BYTES(CAPS), "pairs");
@@ -51,7 +51,7 @@ static void setup(void)
     box_def.mesh = &box.mesh;
     box_def.position.c[2] = CAROM_RATIO(26, 100, 32);
     box_def.friction_q16 = 1 << 15;
-    box_def.overlap = CAROM_OVERLAP_PASS; /* some tests are not about where bodies are */
+    box_def.overlap = CAROM_OVERLAP_PASS; /* in some tests the places of bodies do not matter */
     def = box_def;
     world = NULL;
     CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
@@ -96,7 +96,7 @@ static void check_unchanged(const struct record *before)
     }
 }
 
-/* `def` gives the error and leaves the world alone; then it is as it was at the start again. */
+/* `def` gives the error and leaves the world unchanged; then `def` is reset. */
 static void refuse(int error)
 {
     struct record before;
@@ -107,7 +107,7 @@ static void refuse(int error)
     def = box_def;
 }
 
-/* `def` makes a body, which is taken away again. */
+/* `def` makes a body; the body is removed again. */
 static void accept(void)
 {
     int body = carom_body_add(world, &def);
@@ -176,7 +176,7 @@ static void test_init_memory(void)
         refuse_init(block + shift, need, CAROM_ERR_MEMORY);
     }
 
-    /* exactly enough; what stands behind the block stays, whatever the world does */
+    /* exactly enough; the bytes behind the block stay, whatever the world does */
     memset(block, 0xa5, sizeof block);
     CHECK_EQ(carom_world_init(block, need, &config, &world), CAROM_OK);
     CHECK_SAME((void *)world, (void *)block);
@@ -192,7 +192,10 @@ static void test_init_memory(void)
     }
 }
 
-/* Each capacity at its limits. The largest are too much for the block, but not for the numbers. */
+/*
+ * Each capacity at its limits. The largest ones need more than the block, but their sums do not
+ * overflow.
+ */
 static void test_init_capacities(void)
 {
     setup();
@@ -233,7 +236,7 @@ static void test_init_range(void)
 }
 
 /*
- * 60 radians take 120 slices of half a radian. They are the body's own affair: no cap of hits cuts
+ * 60 radians take 120 slices of half a radian. Slices belong to the body alone: no cap of hits cuts
  * them short, and another body far away has none.
  */
 static void test_fast_spin(void)
@@ -302,7 +305,7 @@ static void test_add_null(void)
     refuse(CAROM_ERR_NULL);
 }
 
-/* (1, 1, 1, 1) / 2 and (1, 0, 0, 0), made longer or shorter by so many parts in 2^30. */
+/* (1, 1, 1, 1) / 2 and (1, 0, 0, 0), made longer or shorter by parts of 2^30. */
 static carom_quat_q30 stretched(bool even, int32_t by)
 {
     carom_quat_q30 q = {{CAROM_ONE_Q30 + by, 0, 0, 0}};
@@ -348,7 +351,7 @@ static void test_add_rotation(void)
     }
 }
 
-/* A speed along one axis, and one that is too much only as a length: 37^2 * 3 > 64^2. */
+/* A speed along one axis, and one that is too large only as a length: 37^2 * 3 > 64^2. */
 static void check_add_speed(carom_v3_q40 *speed)
 {
     for (int k = 0; k < 3; k++) {
@@ -385,7 +388,7 @@ static void test_add_range(void)
     }
     check_add_speed(&def.velocity);
     check_add_speed(&def.spin);
-    /* its points, 0.66 units from the centre, do 32 + 0.66 x 50 and 32 + 0.66 x 48 */
+    /* its points, 0.66 units from the centre, move at 32 + 0.66 x 50 and 32 + 0.66 x 48 */
     def.velocity.c[0] = 32 * ONE;
     def.spin.c[1] = 50 * ONE;
     refuse(CAROM_ERR_RANGE);
@@ -394,14 +397,14 @@ static void test_add_range(void)
     accept();
 }
 
-/* A box whose sides are powers of two, as the moving body. */
+/* The moving body becomes a box whose sides are powers of two. */
 static void use_box(int quantum_bits, int x, int y, int z)
 {
     shape_box(&odd, quantum_bits, x, y, z);
     def.mesh = &odd.mesh;
 }
 
-/* Mass from the mesh: 2^-10 and 2^10 are the limits. A given mass goes before it. */
+/* Mass from the mesh: 2^-10 and 2^10 are the limits. A given mass takes precedence. */
 static void test_add_volume(void)
 {
     setup_floor();
@@ -432,14 +435,17 @@ static void test_add_volume(void)
     accept();
 }
 
-/* A heavy body with a radius of 30.6 units, the most that may move being 32. */
+/* A heavy body with a radius of 30.6 units; the largest allowed for a moving body is 32. */
 static void use_giant(void)
 {
     use_box(7, 36 * 128, 36 * 128, 34 * 128);
     def.mass_q20 = (uint32_t)1 << 30;
 }
 
-/* Its points may do 64 units a frame, which is a spin of 2.09; no momentum is out of range then. */
+/*
+ * Its points may move at 64 units a frame, which is a spin of 2.09; then no momentum is out of
+ * range.
+ */
 static void test_add_giant(void)
 {
     setup_floor();
@@ -512,7 +518,7 @@ static void test_numbers(void)
     CHECK_EQ(carom_body_set(NULL, 0, &state), CAROM_ERR_NULL);
     CHECK_EQ(carom_body_set(world, 0, NULL), CAROM_ERR_NULL);
 
-    /* a number of a body that was taken away is nobody's, then the next body's */
+    /* the number of a removed body names no body, then the next one */
     CHECK_EQ(carom_body_remove(world, 1), CAROM_OK);
     check_no_body(1);
     CHECK_EQ(carom_body_add(world, &box_def), 1);
@@ -527,11 +533,11 @@ static void test_numbers(void)
     CHECK_EQ(state_of(a).position.c[2], box_def.position.c[2]);
 }
 
-/* Velocities are derived from momenta, which keep 40 bits below the point whatever the mass. */
+/* Velocities are derived from momenta, which keep 40 fractional bits for any mass. */
 static void check_get_set(uint32_t mass_q20, struct test_random *r)
 {
     struct carom_body_state in, out;
-    /* a q40 unit of momentum as a speed, and one of angular momentum with k^2 >= 0.05 */
+    /* one q40 unit of momentum as a speed, and one of angular momentum with k^2 >= 0.05 */
     const int64_t unit = mass_q20 && mass_q20 < 1 << 20 ? (1 << 20) / mass_q20 : 1;
 
     setup();
@@ -554,8 +560,8 @@ static void check_get_set(uint32_t mass_q20, struct test_random *r)
             CHECK_EQ(out.position.c[k], in.position.c[k]);
             /* the mass and its inverse are right to 2^-29 each */
             CHECK_NEAR(out.velocity.c[k], in.velocity.c[k], (15 * ONE >> 28) + unit);
-            /* two turns there and back, right to 2^-27 of |w| < 52 each, and the same inverse of
-             * an inertia whose entries are within a factor of 2 of each other */
+            /* two turns there and back, right to 2^-27 of |w| < 52 each, and the same inverse of an
+             * inertia whose entries are within a factor of 2 of each other */
             CHECK_NEAR(out.spin.c[k], in.spin.c[k], (64 * ONE >> 24) + 40 * unit);
         }
         for (int k = 0; k < 4; k++) {
@@ -621,7 +627,10 @@ static void test_set_range(void)
     refuse_set(&s, CAROM_ERR_RANGE);
 }
 
-/* A sleeping body wakes when it is placed anew, even where it was, and when another goes away. */
+/*
+ * A sleeping body wakes when it is placed again, even at the same place, and when another body is
+ * removed.
+ */
 static void test_wake(void)
 {
     struct carom_body_state s;
@@ -646,7 +655,7 @@ static void test_usage(void)
 {
     static const char *const names[] = {"bodies",     "pairs",  "contacts", "faces", "entries",
                                         "candidates", "joints", "extras",   "hits"};
-    static const uint32_t sizes[CAROM_POOL_COUNT] = {CAPS}; /* the last three: none */
+    static const uint32_t sizes[CAROM_POOL_COUNT] = {CAPS}; /* the last three have no room */
     const struct carom_face_ref *faces;
     struct carom_usage usage[CAROM_POOL_COUNT], last[CAROM_POOL_COUNT];
     uint32_t most_contacts = 0, most_faces = 0;
@@ -669,7 +678,7 @@ static void test_usage(void)
         CHECK_EQ(carom_usage(world, usage), CAROM_OK);
         CHECK_EQ(usage[CAROM_POOL_bodies].used, 2);
         CHECK_EQ(usage[CAROM_POOL_contacts].used, carom_contacts(world, NULL, 0));
-        /* bodies that touch are a pair; others may be */
+        /* bodies that touch are a pair; others may be one */
         CHECK(usage[CAROM_POOL_pairs].used == 1 || usage[CAROM_POOL_contacts].used == 0);
         CHECK_EQ(usage[CAROM_POOL_faces].used, carom_interfering_faces(world, &faces));
         for (int i = 0; i < CAROM_POOL_COUNT; i++) {
@@ -696,7 +705,7 @@ static void test_usage(void)
 
 static void test_texts(void)
 {
-    /* all sums of status bits, all errors, and what is neither */
+    /* all sums of status bits, all errors, and numbers that are neither */
     const char *text[25];
     int n = 0;
 
@@ -718,7 +727,7 @@ static void test_texts(void)
     CHECK(carom_result_text(4) != NULL);
 }
 
-/* The number of the library is that of the header, and the text has its three parts. */
+/* The library's version is that of the header, and the text has its three parts. */
 static void test_version(void)
 {
     int part[3] = {0, 0, 0}, k = 0;
@@ -772,7 +781,7 @@ static void test_report_null(void)
     CHECK_EQ(carom_usage(NULL, usage), CAROM_ERR_NULL);
     CHECK_EQ(carom_usage(world, NULL), CAROM_ERR_NULL);
     CHECK_EQ(carom_world_hash(NULL), 0);
-    /* nothing is found before the first step */
+    /* there are no events before the first step */
     CHECK_EQ(carom_events(world, &events), 0);
     CHECK_EQ(carom_interfering_faces(world, &faces), 0);
     CHECK_EQ(carom_contacts(world, &contact, 1), 0);
@@ -780,7 +789,7 @@ static void test_report_null(void)
 
 /* ------------------------------------------------------------------------ out */
 
-/* One OUT event, in this frame; then frozen for good, until it is placed anew. */
+/* One OUT event, in this frame. Then the body is frozen until it is placed again. */
 static void check_frozen(const struct carom_body_state *last)
 {
     struct carom_body_state s = state_of(0);
@@ -807,8 +816,8 @@ static void check_frozen(const struct carom_body_state *last)
 }
 
 /*
- * Steps until something is seen; the numbers of frames it takes are worked out by hand, and so is
- * how far it still comes along z in the last one: nowhere when that place is out of range.
+ * Step until the body is out. The number of frames is worked out by hand, and so is the distance
+ * along z in the last frame: 0 when that place is out of range.
  */
 static void check_leaves(int frames, int64_t way_q32)
 {

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* The caller's say about contacts: what it is told, and what comes of its answer. */
+/* The contact callback: what it is told, and the effect of its answer. */
 #include <string.h>
 
 #include "lib/boxes.h"
 
 enum { PLATE, BOX };
 
-/* Orders for the callback, and what it saw. */
+/* Orders for the callback, and what it was told. */
 static struct said {
     int calls, body; /* contacts of this body are dropped; -1: none */
     bool changes;
     int32_t e_q30;
     uint32_t mu_q16;
-    struct carom_touch first; /* with an approach of more than 1/1024 unit a frame */
+    struct carom_touch first; /* a contact that approaches by more than 1/1024 unit a frame */
 } said;
 
 static bool answer(void *user, struct carom_touch *touch)
@@ -36,7 +36,7 @@ static struct carom_world *make(int number, bool asks, int32_t e_q30, uint32_t m
     struct carom_body_def def;
 
     boxes_begin();
-    boxes_config.caps.contacts = 64; /* the room of an extra */
+    boxes_config.caps.contacts = 64; /* includes the room of an extra */
     boxes_config.caps.extras = 1;
     boxes_make(PLATE, 2048, 2048, 128);
     boxes_make(BOX, 256, 200, 150);
@@ -60,7 +60,10 @@ static struct carom_world *make(int number, bool asks, int32_t e_q30, uint32_t m
     return w;
 }
 
-/* One face on another: four corners, at the height of the plate's face, at the speed that the box has. */
+/*
+ * One face falls on another: four corners, at the height of the plate's face, with the speed of the
+ * box.
+ */
 static void test_told(void)
 {
     struct carom_world *w = make(0, true, 0, 1 << 15);
@@ -74,10 +77,10 @@ static void test_told(void)
     CHECK_EQ(said.first.b, 0);
     CHECK_EQ(said.first.normal.c[2], CAROM_ONE_Q30);
     CHECK_NEAR(said.first.point.c[2], BOXES_Q32(128), BOXES_Q32(1));
-    /* it gains g within the frame at most */
+    /* the box gains at most g within the frame */
     CHECK_AT_LEAST(said.first.speed_q40, fall_q40);
     CHECK_AT_MOST(said.first.speed_q40, fall_q40 - boxes_config.gravity.c[2] + 1000);
-    /* boxes.c: the faces at the top are 6 and 7 or such; each corner of them is up there */
+    /* boxes.c: the top faces are 6 and 7; each of their corners is up there */
     for (int k = 0; k < 3; k++) {
         const struct carom_mesh_raw *plate = &boxes_mesh[PLATE].raw, *box = &boxes_mesh[BOX].raw;
 
@@ -89,7 +92,10 @@ static void test_told(void)
     CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 1, 0), 1);
 }
 
-/* Another e and mu do what those of the bodies would have done, bit for bit; who keeps all changes nothing. */
+/*
+ * A changed e and mu act like those of the bodies, bit for bit; a callback that keeps everything
+ * changes nothing.
+ */
 static void test_changed(void)
 {
     for (int kind = 0; kind < 3; kind++) {
@@ -114,7 +120,10 @@ static void test_changed(void)
     }
 }
 
-/* A snapshot holds whatever friction the function has chosen: bodies without any slide on a plate that answers with mu 4. */
+/*
+ * A snapshot holds whatever friction the callback has chosen: bodies without friction slide on a
+ * plate that answers with mu 4.
+ */
 static void test_saved(void)
 {
     static uint8_t saved[8192];
@@ -126,7 +135,7 @@ static void test_saved(void)
     said.changes = true;
     said.mu_q16 = 4 << 16;
     CHECK_EQ(carom_world_set_gravity(w, &weight), CAROM_OK);
-    boxes_step(w, 10); /* it lies on the plate by now */
+    boxes_step(w, 10); /* the box lies on the plate by now */
     state = boxes_state(w, 1);
     state.velocity.c[0] = BOXES_Q40(700);
     CHECK_EQ(carom_body_set(w, 1, &state), CAROM_OK);
@@ -151,12 +160,13 @@ static void test_dropped(void)
     said.body = 1;
     for (int frame = 0; frame < 50; frame++) {
         calls = said.calls;
-        boxes_step(w, 1); /* CAROM_OK: none is cut */
+        boxes_step(w, 1); /* CAROM_OK: no frame is cut short */
         CHECK_LESS(said.calls - calls, 40);
         CHECK_EQ(boxes_events(w, CAROM_EVENT_HIT, 1, 0), 0);
         CHECK_EQ(boxes_events(w, CAROM_EVENT_BEGIN, 1, 0), 0);
     }
-    /* free fall: 10 a frame and g n (n + 1) / 2; paths that were left early round, and gravity is exact */
+    /* free fall: 10 a frame and g n (n + 1) / 2; paths that end early are rounded, and gravity is
+     * exact */
     CHECK_NEAR(boxes_state(w, 1).velocity.c[2], BOXES_Q40(-10) + 50 * boxes_config.gravity.c[2],
                100000);
     CHECK_NEAR(boxes_state(w, 1).velocity.c[0], BOXES_Q40(4), 1000);

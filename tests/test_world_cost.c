@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The cost of a whole step, in instructions where the board counts them, when there is little to do:
- * a body that sleeps on another, and one that flies far from it, with and without spin.
+ * The cost of a whole step with little to do, in instructions where the board counts them: a body
+ * sleeps on another, or flies far from it, with and without spin.
  */
 #include "port.h"
 #include "scene.h"
@@ -70,7 +70,7 @@ static void test_flight(void)
     static struct scene scene;
 
     cost_end("in flight without spin", step_cost(box_world(&scene, false, 5)), 3000);
-    /* half of what is counted is the midpoint rule of the turn, in 60 bits */
+    /* half of the cost is the midpoint rule of the rotation, in 60 bits */
     cost_end("in flight with spin", step_cost(box_world(&scene, true, 5)), 6100);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The energy of contact over a frame: what an island gained is taken out of its momenta, island by
- * island. States before and after are made by hand.
+ * island. The states before and after are made by hand.
  */
 #include <math.h>
 #include <string.h>
@@ -21,7 +21,7 @@ static struct shape cube;
 static struct carom_world *world;
 static struct step step;
 
-/* Three cubes that move, of mass 1, 2 and 1, and one that stands still, all far from each other. */
+/* Three moving cubes of mass 1, 2 and 1, and one static cube, all far from each other. */
 static void begin(void)
 {
     const struct carom_config config = {.caps = CAROM_CAPS(CAPS), .gravity = {{0, 0, -ONE / 256}}};
@@ -102,8 +102,8 @@ static void angular(double sum[3])
 }
 
 /*
- * Two bodies that touch nothing else: the gain goes, their momentum stays to the bit, and so does
- * their angular momentum to what a place's last bit is worth.
+ * Two bodies that touch only each other: the gain is removed. Their momentum stays to the bit, and
+ * their angular momentum to the worth of the last bit of a place.
  */
 static void test_free(void)
 {
@@ -120,11 +120,11 @@ static void test_free(void)
     }
     memcpy(before, step.next->bodies, sizeof before);
     angular(turn_before);
-    step_limit_energy(&step); /* nobody touched anything */
+    step_limit_energy(&step); /* no body touched another */
     CHECK(unchanged(LOW, &before[LOW]));
     CHECK(unchanged(HIGH, &before[HIGH]));
     touch(HIGH, LOW);
-    step_limit_energy(&step); /* though neither is in contact */
+    step_limit_energy(&step); /* though neither is in contact now */
     for (int k = 0; k < 3; k++) {
         CHECK_EQ(step.next->bodies[LOW].momentum.c[k] + step.next->bodies[HIGH].momentum.c[k],
                  sum[k]);
@@ -140,7 +140,7 @@ static void test_free(void)
     CHECK(unchanged(APART, &before[APART])); /* touches nothing */
 }
 
-/* One of them touches what stands still: all momenta shrink alike. */
+/* One of them touches a static body: all momenta shrink alike. */
 static void test_grounded(void)
 {
     struct body_state before[BODIES];
@@ -156,7 +156,7 @@ static void test_grounded(void)
     step_limit_energy(&step);
     now = kinetic(step.next, LOW) + kinetic(step.next, HIGH);
     now -= kinetic(world_now(world), LOW) + kinetic(world_now(world), HIGH);
-    /* up to what lifting by a part of the skin may cost: 0.15 m g skin */
+    /* up to the cost of a lift by a part of the skin: 0.15 m g skin */
     CHECK_MORE(now, -1e-9);
     CHECK_LESS(now, 0.15 * real(cube.mesh.radius_q22, 22) / 2048 / 256 + 1e-9);
     factor = real(step.next->bodies[LOW].momentum.c[0], 40) / real(before[LOW].momentum.c[0], 40);
@@ -188,8 +188,9 @@ static void test_slack(void)
 }
 
 /*
- * A body that climbed by more than it has to give stands still where the frame found it. Another
- * that has come to that place goes back as well, with a quarter of what it had.
+ * A body that climbed by more than its energy allows goes back to its place at the start of the
+ * frame and stands still. Another body at that place goes back as well, with a quarter of its
+ * energy.
  */
 static void test_climbed(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Filters: who may touch, and what happens to bodies that a filter parts or lets touch. */
+/* Filters: the pairs that may touch, and the bodies that a filter separates or lets touch. */
 #include <string.h>
 
 #include "lib/boxes.h"
@@ -44,7 +44,7 @@ static struct carom_world *make_free(int number)
     return w;
 }
 
-/* Bit by bit, as Box2D's manual tells it. */
+/* The rule, bit by bit, as in Box2D's manual. */
 static bool may_touch(const struct carom_filter *a, const struct carom_filter *b)
 {
     bool ab = false, ba = false;
@@ -89,7 +89,7 @@ static void test_rule(void)
     CHECK_LESS(touch, 3000);
 }
 
-/* Bodies that may not touch move as they do alone, and make no pair. */
+/* Bodies that may not touch move as if they were alone, and make no pair. */
 static void check_through(struct carom_filter plate, struct carom_filter box)
 {
     struct carom_world *w = make(0, plate, box), *alone = make_free(1);
@@ -126,7 +126,10 @@ static void test_touch(void)
     check_through(nobody, none);
 }
 
-/* A box that sleeps falls when a filter lets it; halfway through the plate it may touch again and still falls. */
+/*
+ * A sleeping box falls when a filter lets it. Halfway through the plate the filter makes it solid
+ * again, and it still falls.
+ */
 static void test_change(void)
 {
     const struct carom_filter off = {2, 2, 0}, on = {0};
@@ -158,7 +161,7 @@ static void test_change(void)
             CHECK_EQ(carom_body_set_filter(w, 1, &on), CAROM_OK);
             CHECK_MORE(carom_snapshot_save(w, saved, sizeof saved), 0);
         }
-        if (frame == 16) { /* the pair that passes is in a snapshot */
+        if (frame == 16) { /* a snapshot holds the pair that passes */
             int size = carom_snapshot_size(w);
 
             CHECK_MORE(size, 0);
@@ -205,7 +208,7 @@ static void test_snapshot(void)
         CHECK_EQ(carom_snapshot_load(w, saved, (size_t)cut), CAROM_ERR_FORMAT);
     }
     CHECK_EQ(carom_world_hash(w), hash[1]);
-    /* one of the default takes the others away */
+    /* a snapshot with default filters removes the others */
     w = make(0, on, on);
     size = carom_snapshot_save(w, saved, sizeof saved);
     CHECK_EQ(carom_body_set_filter(w, 1, &off), CAROM_OK);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Gravity that changes, lasting forces and pushes: what they do to a body in free flight, where the
- * answer is known, and what they refuse.
+ * Gravity that changes, lasting forces and pushes: their effect on a body in free flight, where the
+ * answer is known, and the calls that are refused.
  */
 #include <string.h>
 
@@ -22,7 +22,7 @@ enum { BOX, STILL };
 /* Sides of the box in units, each half of the one before. */
 static const double side[3] = {2, 1, 0.5};
 
-/* A box of mass 4 in the middle of the world, and one that stands still a long way off. */
+/* A box of mass 4 in the middle of the world, and a static one far away. */
 static void setup(void)
 {
     const struct carom_config config = {.caps = CAROM_CAPS(CAPS)};
@@ -42,7 +42,7 @@ static void setup(void)
 
 /* ------------------------------------------------------------------- gravity */
 
-/* v = g n, and half of the last frame's way less: each frame is an exact parabola. */
+/* v = g n, and the place lacks half of the last frame's way: each frame is an exact parabola. */
 static void test_gravity(void)
 {
     const carom_v3_q40 down = {{0, 0, -ONE / 256}}, aside = {{ONE / 512, 0, 0}};
@@ -51,7 +51,7 @@ static void test_gravity(void)
     setup();
     hash = carom_world_hash(world);
     CHECK_EQ(carom_world_set_gravity(world, &down), CAROM_OK);
-    CHECK_DIFFER(carom_world_hash(world), hash); /* it is a part of the state */
+    CHECK_DIFFER(carom_world_hash(world), hash); /* gravity is a part of the state */
     steps(4);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 64);
     CHECK_EQ(state_of(BOX).position.c[2], -(((int64_t)1 << 32) / 256 * 8));
@@ -82,7 +82,7 @@ static void test_gravity_refused(void)
         gravity.c[k] = -ONE;
         CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
     }
-    /* not together with a body's force: 1 along y already */
+    /* it is too much together with the body's force: already 1 along y */
     gravity = (carom_v3_q40){{0, 0, 0}};
     CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
     CHECK_EQ(carom_body_set_force(world, BOX, &force), CAROM_OK);
@@ -94,7 +94,7 @@ static void test_gravity_refused(void)
 
 /* --------------------------------------------------------------------- forces */
 
-/* A force of m a for 8 frames, then one that takes gravity away, then none. */
+/* A force of m a for 8 frames, then one that cancels gravity, then none. */
 static void test_force(void)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 256}}, none = {{0, 0, 0}};
@@ -107,20 +107,20 @@ static void test_force(void)
     s = state_of(BOX);
     CHECK_EQ(s.velocity.c[0], ONE / 16);
     CHECK_EQ(s.position.c[0], (int64_t)1 << 30);                            /* 64 / 2 / 128 */
-    CHECK_EQ(s.spin.c[0] | s.spin.c[1] | s.spin.c[2] | s.rotation.c[1], 0); /* acts on the centre */
+    CHECK_EQ(s.spin.c[0] | s.spin.c[1] | s.spin.c[2] | s.rotation.c[1], 0); /* on the centre */
     CHECK_EQ(carom_world_set_gravity(world, &gravity), CAROM_OK);
     CHECK_EQ(carom_body_set_force(world, BOX, &up), CAROM_OK);
     steps(8);
     CHECK_EQ(state_of(BOX).velocity.c[2], 0);
     CHECK_EQ(state_of(BOX).velocity.c[0], ONE / 16);
-    /* it stays when the body is set */
+    /* the force stays when the body is set */
     CHECK_EQ(carom_body_set(world, BOX, &s), CAROM_OK);
     steps(1);
     CHECK_EQ(state_of(BOX).velocity.c[2], 0);
     CHECK_EQ(carom_body_set_force(world, BOX, &none), CAROM_OK);
     steps(4);
     CHECK_EQ(state_of(BOX).velocity.c[2], -ONE / 64);
-    /* and is not the next body's of that number */
+    /* and the next body with that number does not have it */
     CHECK_EQ(carom_body_set_force(world, BOX, &up), CAROM_OK);
     CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
     CHECK_EQ(carom_body_add(world, &def), BOX);
@@ -142,7 +142,7 @@ static void test_force_refused(void)
     REFUSE(carom_body_set_force(world, INT32_MIN, &force), CAROM_ERR_BODY);
     REFUSE(carom_body_set_force(world, STILL, &force), CAROM_ERR_ARGUMENT);
     for (int k = 0; k < 3; k++) {
-        /* by mass, what is left to 1 and to -1 */
+        /* by mass, the rest up to 1 and down to -1 */
         int64_t most = 4 * (ONE - gravity.c[k]), least = 4 * (-ONE - gravity.c[k]);
         const int64_t bad[] = {most + 4, least - 4, INT64_MAX, INT64_MIN, 16 * ONE, -16 * ONE};
 
@@ -160,7 +160,7 @@ static void test_force_refused(void)
 
 /* --------------------------------------------------------------------- pushes */
 
-/* Through the centre: P / m, whatever the pose, and no spin. */
+/* Through the centre: P / m in any pose, and no spin. */
 static void test_push_centre(void)
 {
     struct test_random r = {1};
@@ -188,8 +188,8 @@ static void test_push_centre(void)
 }
 
 /*
- * Anywhere else: w = R I^-1 R^T (r x P) more, and I = m (b^2 + c^2) / 12 about an axis with b and c
- * the sides across it.
+ * Anywhere else the spin grows by w = R I^-1 R^T (r x P); I = m (b^2 + c^2) / 12 about an axis,
+ * with b and c the sides across it.
  */
 static void test_push_aside(void)
 {
@@ -270,7 +270,7 @@ static void test_push_refused(void)
 
             p.c[k] = bad_push[i];
             REFUSE(carom_body_push(world, BOX, &p, &point), CAROM_ERR_RANGE);
-            /* and far off its centre, where the moment does not fit 64 bits */
+            /* and far from its centre, where the moment does not fit 64 bits */
             point.c[(k + 1) % 3] = (int64_t)4096 << 32;
             REFUSE(carom_body_push(world, BOX, &p, &point), CAROM_ERR_RANGE);
         }
@@ -286,8 +286,8 @@ static void test_push_refused(void)
 }
 
 /*
- * A bar of 2 x 1/512 x 1/512 units. Across it a push turns it as the formula says; about its axis
- * the same moment would be a million times as fast.
+ * A bar of 2 x 1/512 x 1/512 units. A push across it turns it as the formula says; about its axis
+ * the same moment would make it a million times as fast.
  */
 static void test_push_needle(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The place of a HIT event: a box of any attitude falls onto a floor, or onto another box. */
+/* The place of a HIT event: a box in any pose falls onto a floor, or onto another box. */
 #include <string.h>
 
 #include "lib/real.h"
@@ -34,7 +34,7 @@ static void setup(uint32_t hits)
     def.restitution_q30 = CAROM_ONE_Q30 / 2;
 }
 
-/* The HIT of the step, if there is any. */
+/* The HIT event of the step, or NULL. */
 static const struct carom_event *hit_event(void)
 {
     const struct carom_event *events;
@@ -48,7 +48,10 @@ static const struct carom_event *hit_event(void)
     return NULL;
 }
 
-/* The lowest corner of the box when it hits, by its rotation before; and whether a second one is close to that. */
+/*
+ * The lowest corner of the box at the hit, from its rotation before the step; and whether a second
+ * corner is almost as low.
+ */
 static uint32_t lowest(const carom_quat_q30 *q, double at[3], bool *unsure)
 {
     double m[3][3], turn[4], best = 1e9;
@@ -79,8 +82,8 @@ static uint32_t lowest(const carom_quat_q30 *q, double at[3], bool *unsure)
 }
 
 /*
- * The point is the lowest corner, on the floor; N points up; the floor's face has the point; the box' face is the one
- * at the corner that looks down most.
+ * The point is the lowest corner, on the floor; N points up; the floor's face has the point; the
+ * box's face is the one at that corner that looks down most.
  */
 static void test_floor(void)
 {
@@ -110,7 +113,7 @@ static void test_floor(void)
         }
         CHECK_EQ(carom_stats(world, &stats), CAROM_OK);
         if (unsure || stats.hits > 1) {
-            continue; /* a second hit in the frame may have been harder */
+            continue; /* a second hit in the frame may have had a larger impulse */
         }
         seen++;
         memset(&hit, 0, sizeof hit);
@@ -122,10 +125,10 @@ static void test_floor(void)
         }
         CHECK_LESS(real_abs(real(hit.point.c[2], 32)), 0.001);
         CHECK_NEAR(hit.normal.c[2], CAROM_ONE_Q30, 1 << 10);
-        /* squares of 8 units from -16 on; the half that has the point is either */
+        /* squares of 8 units from -16 on; either half of the square may have the point */
         CHECK_EQ(hit.face_b / 2,
                  ((hit.point.c[1] >> 32) + 16) / 8 * 4 + ((hit.point.c[0] >> 32) + 16) / 8);
-        /* of the box' faces the one whose normal is lowest is at the lowest corner */
+        /* the box's face with the lowest normal is at the lowest corner */
         CHECK_EQ(carom_body_matrix(world, 1, &m), CAROM_OK);
         fix_matrix(&m.r, &def.rotation);
         for (uint32_t f = 0; f < 12; f++) {
@@ -139,7 +142,10 @@ static void test_floor(void)
     CHECK_MORE(seen, 10);
 }
 
-/* Events carry details as far as there is room; the others have none. The room is free again in the next frame. */
+/*
+ * Events carry details while there is room; the others have none. The room is free again in the
+ * next frame.
+ */
 static void test_room(void)
 {
     for (uint32_t room = 0; room <= 2; room++) {
@@ -175,7 +181,7 @@ static void test_room(void)
     }
 }
 
-/* An event that is kept for too long, another world's, none. */
+/* A stale event, another world's event, no event. */
 static void test_refused(void)
 {
     struct carom_event old;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Ids of bodies that come and go, and the caller's pointer: every public function takes both names of a body. */
+/*
+ * Ids of bodies that come and go, and the caller's pointer: every public function accepts both
+ * names of a body.
+ */
 #include <string.h>
 
 #include "lib/shapes.h"
@@ -31,7 +34,7 @@ static int add(int64_t units)
     return carom_body_add(world, &def);
 }
 
-/* Bodies come and go at random: the ids of those that are there name them, all others name none. */
+/* Bodies come and go at random. The ids of present bodies name them; all other ids name none. */
 static void test_come_and_go(void)
 {
     struct test_random r = {7};
@@ -78,7 +81,7 @@ static void test_wraps(void)
     CHECK_EQ(add(0), 0);
     CHECK_EQ(carom_body_id(world, 0), 1 << 12);
     CHECK_EQ(carom_body_remove(world, 0), CAROM_OK);
-    world->bodies[0].def.generation = 65533; /* as if so many had been here */
+    world->bodies[0].def.generation = 65533; /* as if so many bodies had used this place */
     for (int n = 65534; n < 65539; n++) {
         CHECK_EQ(add(0), 0);
         CHECK_EQ(carom_body_id(world, 0), (n <= 65535 ? n : n - 65535) << 12);
@@ -171,7 +174,7 @@ static int call(int which, int body)
 
 #define CALLS 31
 
-/* The number, the id, and names of nobody. */
+/* The number, the id, and names of no body. */
 static void test_every_call(void)
 {
     setup();
@@ -204,7 +207,7 @@ static void test_every_call(void)
     CHECK_EQ(carom_query_inside(world, 1, carom_body_id(world, 1)), CAROM_ERR_ARGUMENT);
 }
 
-/* A pointer that comes with the definition, is changed, and goes with the body. */
+/* A pointer comes with the definition, can be changed, and goes with the body. */
 static void test_user(void)
 {
     int things[2];
@@ -226,7 +229,7 @@ static void test_user(void)
     CHECK_EQ(carom_body_number(-3), -3);
 }
 
-/* Extras: one a body, given back with it. */
+/* Extras: one a body, returned when the body goes. */
 static void test_extras(void)
 {
     struct carom_usage usage[CAROM_POOL_COUNT];
@@ -243,7 +246,7 @@ static void test_extras(void)
         CHECK_EQ(carom_usage(world, usage), CAROM_OK);
         CHECK_EQ(usage[CAROM_POOL_extras].used, 2);
         CHECK_EQ(usage[CAROM_POOL_extras].refused, n + 1);
-        /* what no extra is needed for is not refused */
+        /* settings that need no extra are not refused */
         CHECK_EQ(carom_body_set_damping(world, 2, 0, 0), CAROM_OK);
         CHECK_EQ(carom_body_remove(world, n % 2), CAROM_OK);
         CHECK_EQ(carom_body_set_damping(world, 2, 1000, 0), CAROM_OK);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A world in which all bodies sleep skips its steps. Beside it runs another one in which a body far
- * away hovers and spins for ever, so that no step is skipped: whatever is done to both, the box on
- * the plane must do the same in both.
+ * A world in which all bodies sleep skips its steps. A second world is the same, except that a body
+ * far away hovers and spins for ever, so it skips no step. Whatever is done to both, the box on the
+ * plane must do the same in both.
  */
 #include <string.h>
 
@@ -99,7 +99,7 @@ static void steps(int n, bool *woke)
     }
 }
 
-/* Nothing is found, and nothing changes but what is never asked. */
+/* An idle step reports nothing, and changes nothing that a caller can see. */
 static void test_nothing(void)
 {
     uint64_t hash;
@@ -180,7 +180,7 @@ static void test_disturbed(void)
     }
 }
 
-/* A snapshot of the fall goes back into the world that sleeps. */
+/* A snapshot of the fall is loaded into the sleeping world. */
 static void test_snapshot(void)
 {
     int size[2];
@@ -203,7 +203,7 @@ static void test_snapshot(void)
     CHECK(woke);
 }
 
-/* Heights cached for another place of the plane, or another gravity, are forgotten. */
+/* Heights cached for another place of the plane, or another gravity, are dropped. */
 static void test_detour(void)
 {
     uint64_t hash;

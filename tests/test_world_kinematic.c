@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Kinematic bodies: they are where they were led, to the last bit; what they push and carry has the speed
- * that it must have; what they would crush stops them.
+ * Kinematic bodies: they arrive where they are led, to the last bit; a body that they push or carry
+ * gets the right speed; a body that they would crush stops them.
  */
 #include <string.h>
 
@@ -51,7 +51,7 @@ static double at(int body, int k)
     return real(state_of(body).position.c[k], 32);
 }
 
-/* Lead a body by so much from where it is. */
+/* Lead a body by an offset from where it is. */
 static int lead(int body, double x, double z)
 {
     struct carom_body_state s = state_of(body);
@@ -134,7 +134,9 @@ static void test_slices(void)
     }
 }
 
-/* A route by the quaternion of a quarter turn, and of a half turn, about a tilted axis: 1/3, 2/3, 2/3. */
+/*
+ * A route from a quaternion: a quarter turn, and a half turn, about the tilted axis 1/3, 2/3, 2/3.
+ */
 static void test_spin(void)
 {
     static const double axis[3] = {1.0 / 3, 2.0 / 3, 2.0 / 3};
@@ -190,7 +192,7 @@ static void test_arrives(void)
     }
 }
 
-/* A velocity and a spin go on; sixteen 32ths of pi are a quarter turn. */
+/* A velocity and a spin go on; sixteen 32nds of pi are a quarter turn. */
 static void test_goes_on(void)
 {
     struct carom_body_state s;
@@ -209,7 +211,7 @@ static void test_goes_on(void)
     }
     CHECK_EQ(state_of(led).position.c[1], UNIT);
     CHECK_EQ(state_of(led).velocity.c[1], ONE / 16);
-    /* a unit along x from the centre, the spin adds to it along y */
+    /* at a unit along x from the centre, the spin adds a velocity along y */
     point = state_of(led).position;
     point.c[0] += UNIT;
     CHECK_EQ(carom_body_velocity_at(world, led, &point, &at), CAROM_OK);
@@ -217,7 +219,7 @@ static void test_goes_on(void)
     CHECK_EQ(at.c[1], ONE / 16 + s.spin.c[2]);
     CHECK_LESS(real_abs(real(state_of(led).rotation.c[0], 30) - real_sqrt(0.5)), 1e-6);
     CHECK_LESS(real_abs(real(state_of(led).rotation.c[3], 30) - real_sqrt(0.5)), 1e-6);
-    /* one that is led somewhere stands there, and so does one without a velocity */
+    /* a led body stands still at its goal, and so does one without a velocity */
     CHECK_EQ(lead(led, 1, 0), CAROM_OK);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
@@ -240,7 +242,7 @@ static void test_refused(void)
     REFUSE(carom_body_move_to(world, moves, &pose), CAROM_ERR_ARGUMENT);
     pose.rotation.c[1] = CAROM_ONE_Q30 / 2;
     REFUSE(carom_body_move_to(world, led, &pose), CAROM_ERR_ARGUMENT);
-    /* a half turn of the box takes 0.57 pi units of its corners: 64 less that are left */
+    /* a half turn moves the box's corners by 0.57 pi units: less than 64 are left for the way */
     pose.rotation.c[1] = CAROM_ONE_Q30;
     pose.position.c[0] = 62 * UNIT;
     CHECK_EQ(carom_body_move_to(world, led, &pose), CAROM_OK);
@@ -251,7 +253,7 @@ static void test_refused(void)
     s = state_of(led);
     s.spin.c[0] = real_round(3.2 * (double)ONE);
     REFUSE(carom_body_set(world, led, &s), CAROM_ERR_RANGE);
-    /* there are two extras, and neither kind is both */
+    /* there are two extras; neither kind may be both */
     CHECK_MORE(add(&box, LED, 200, 0), 0);
     REFUSE(add(&box, LED, 300, 0), CAROM_ERR_EXTRAS_FULL);
     def.stationary = def.kinematic = true;
@@ -262,7 +264,9 @@ static void test_refused(void)
 
 /* ---------------------------------------------------------------- what they push */
 
-/* A kinematic body acts as one of infinite mass: a body with e = 1 leaves it at twice its speed. */
+/*
+ * A kinematic body acts like one of infinite mass: a body with e = 1 leaves it at twice its speed.
+ */
 static void test_hits(void)
 {
     int led, hit;
@@ -279,7 +283,10 @@ static void test_hits(void)
     CHECK_LESS(real_abs(at(led, 2) - 0.5), 1e-9);
 }
 
-/* A box on a plate that goes sideways and up goes with it, and is awake; on one that stands it sleeps. */
+/*
+ * A box on a plate that moves sideways and up moves with it, and stays awake; on a plate that
+ * stands it sleeps.
+ */
 static void test_carries(void)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 367}};
@@ -306,7 +313,7 @@ static void test_carries(void)
         CHECK_LESS(real_abs(at(box_on, 0) - at(led, 0) - x), 1e-4);
         CHECK_LESS(real_abs(at(box_on, 2) - at(led, 2) - z), 3e-4);
     }
-    for (int n = 0; n < 60; n++) { /* slower than what may sleep */
+    for (int n = 0; n < 60; n++) { /* slower than the speed below which bodies sleep */
         CHECK_EQ(lead(led, 0.00004, 0), CAROM_OK);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
         CHECK(!state_of(box_on).asleep);
@@ -320,7 +327,7 @@ static void test_carries(void)
     CHECK_EQ(events_of(CAROM_EVENT_WAKE, box_on, 0), 1);
 }
 
-/* A plate comes down on a box over the ground, is stopped above it, and goes up again. */
+/* A plate comes down on a box on the ground, is stopped by it, and goes up again. */
 static void test_crushes(void)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 367}};
@@ -337,7 +344,7 @@ static void test_crushes(void)
         CHECK_EQ(lead(led, 0, -0.02), CAROM_OK);
         CHECK_AT_LEAST(carom_world_step(world), 0);
         blocked += events_of(CAROM_EVENT_BLOCKED, led, crushed);
-        /* half of both plates and the box */
+        /* half of both plates, and the box */
         CHECK_MORE(at(led, 2), 0.5);
         CHECK_MORE(at(crushed, 2), 0.25);
         CHECK_MORE(at(led, 2) - at(crushed, 2), 0.25);
@@ -359,7 +366,9 @@ static void push_on(int led, int frame)
     CHECK_AT_LEAST(carom_world_step(world), 0);
 }
 
-/* A plate on end pushes a box to and fro over another one: the same bits with room for one candidate. */
+/*
+ * A plate on end pushes a box to and fro on another one: the same bits with room for one candidate.
+ */
 static uint64_t play(uint32_t candidates, int frames, int *led)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 367}};
@@ -385,7 +394,10 @@ static void test_pools(void)
     CHECK_EQ(play(1, 40, &led), hash);
 }
 
-/* A snapshot holds a drive, which decides the frames that follow. A drive that no call could leave is refused. */
+/*
+ * A snapshot holds a drive, which decides the following frames. A drive that no call could leave is
+ * refused.
+ */
 static void test_snapshot(void)
 {
     struct carom_body_state s;
@@ -410,7 +422,7 @@ static void test_snapshot(void)
     CHECK_EQ(carom_body_set(world, led, &s), CAROM_OK);
     size = carom_snapshot_save(world, saved, sizeof saved);
     CHECK_EQ(size, plain + 48);
-    /* the top byte of the first number of its spin, behind which there are two and the hash */
+    /* the top byte of the first number of its spin; two more numbers and the hash follow */
     saved[size - 8 - 17 - 1] = 64;
     for (int n = 0; n < size - 8; n++) {
         fnv = fnv_add(fnv, saved[n]);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Snapshots in which something was changed and the hash mended: each is refused, and the world is as it
- * was, or the steps that follow are clean and end. Their worth is in a build with sanitizers.
+ * Snapshots with a changed number and a corrected check sum: each is refused and the world is as it
+ * was, or the following steps are clean and end. These tests are most useful in a build with
+ * sanitizers.
  */
 #include <string.h>
 
@@ -10,7 +11,7 @@
 #include "num/fnv.h"
 
 #if defined TEST_LONG
-#define CHANGES 2000 /* of each state of each world */
+#define CHANGES 2000 /* changes for each state of each world */
 #elif defined CAROM_DEBUG
 #define CHANGES 300
 #else
@@ -22,7 +23,7 @@
 #define STATES 3
 #define ONE    ((int64_t)1 << 40)
 
-/* A snapshot: gravity, and where places, kept impulses and touching pairs begin. */
+/* Parts of a snapshot: gravity, and where places, kept impulses and touching pairs begin. */
 enum { AT_GRAVITY = 4, AT_PLACES = 28, AT_BODY = 32, BODY_BYTES = 117, WARM_BYTES = 60 };
 
 static _Alignas(8) uint8_t block[CAROM_WORLD_BYTES(CAPS)];
@@ -40,7 +41,9 @@ static struct carom_world *empty(bool sleep)
     return w;
 }
 
-/* Boxes in a stack, one of them light, or needles and boxes that fly at each other, over a plane. */
+/*
+ * A stack of boxes, one of them light, or needles and boxes that fly at each other, above a plane.
+ */
 static struct carom_world *make(bool stack)
 {
     struct carom_body_def def = {.mesh = &ground.mesh, .stationary = true, .friction_q16 = 1 << 15};
@@ -107,7 +110,7 @@ static struct field field_from(const uint8_t *sizes, int count, int at, int n)
     return f;
 }
 
-/* Any number of the snapshot. */
+/* A random number of the snapshot. */
 static struct field choose(void)
 {
     static const uint8_t of_body[21] = {1, 8, 8, 8, 8, 8, 8, 8, 8, 8, 8,
@@ -138,7 +141,7 @@ static struct field choose(void)
     }
 }
 
-/* Another number: one near to it, an extreme one, a multiple, or any with that many bits. */
+/* Another number: a near one, an extreme one, a multiple, or a random one with that many bits. */
 static uint64_t other_number(uint64_t v, int bytes)
 {
     const int bits = 8 * bytes, n = (int)test_random_range(&rnd, 0, bits - 1);
@@ -164,7 +167,7 @@ static uint64_t other_number(uint64_t v, int bytes)
     }
 }
 
-/* One to three numbers are changed, of a body or an impulse at best. */
+/* Change one to three numbers, preferably of a body or an impulse. */
 static void change(int size)
 {
     memcpy(changed, saved, (size_t)size);
@@ -177,7 +180,7 @@ static void change(int size)
     put_number(changed + size - 8, fnv(changed, size - 8), 8);
 }
 
-/* A step that was taken, or refused because a pool is short or a body too fast for a mesh. */
+/* Take a step; it may be refused because a pool is short or a body too fast for a mesh. */
 static void go_on(struct carom_world *w)
 {
     for (int frame = 0; frame < 3; frame++) {
@@ -204,7 +207,7 @@ static void check_changes(struct carom_world *w, int *taken, int *refused)
         if (result == CAROM_OK) {
             (*taken)++;
             go_on(w);
-            /* what steps leave is always taken back */
+            /* a snapshot of a stepped world is always accepted */
             CHECK_MORE(carom_snapshot_save(w, changed, sizeof changed), 0);
             CHECK_EQ(carom_snapshot_load(w, changed, (size_t)carom_snapshot_size(w)), CAROM_OK);
         } else {

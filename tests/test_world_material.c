@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Materials of bodies: friction, restitution and rolling friction as the materials say, by body and by face;
- * surfaces that move along themselves; masses that change.
+ * Materials of bodies: friction, restitution and rolling friction by body and by face; surfaces
+ * that move along themselves; masses that change.
  */
 #include <string.h>
 
@@ -21,7 +21,7 @@ static struct shape box, floor_shape, top;
 static struct carom_config config;
 static struct carom_body_def def, ground;
 
-/* Boxes of side 1 over a floor of +-16 units and 4 x 4 squares; the floor is body 0. */
+/* Boxes of side 1 above a floor of +-16 units and 4 x 4 squares; the floor is body 0. */
 static void setup(int boxes)
 {
     memset(&config, 0, sizeof config);
@@ -75,8 +75,8 @@ static struct carom_material material_of(int body)
 /* ----------------------------------------------------------------- conveyors */
 
 /*
- * The belt carries a stack of two: each frame friction adds mu g, until the stack goes as fast as the belt;
- * never faster, and its parts together.
+ * The belt carries a stack of two. Each frame friction adds mu g, until the stack is as fast as the
+ * belt. It is never faster, and its boxes stay together.
  */
 static void test_conveyor(void)
 {
@@ -85,27 +85,28 @@ static void test_conveyor(void)
 
     setup(2);
     belt = material_of(0);
-    belt.surface_velocity = (carom_v3_q40){{speed, 0, ONE}}; /* what points out does nothing */
+    /* a component that points outwards has no effect */
+    belt.surface_velocity = (carom_v3_q40){{speed, 0, ONE}};
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     for (int n = 1; n <= 60; n++) {
         int64_t wanted = n * (G / 2) < speed ? n * (G / 2) : speed;
 
         steps(1);
-        /* one frame's friction passes to the upper one by a part of it: within 3 % of the speed */
+        /* a frame's friction reaches the upper box a little late: within 3 % of the speed */
         CHECK_NEAR(state_of(1).velocity.c[0], wanted, speed / 32);
         CHECK_NEAR(state_of(2).velocity.c[0], wanted, speed / 32);
         CHECK_AT_MOST(state_of(1).velocity.c[0], speed + (speed >> 10));
         CHECK_NEAR(state_of(1).velocity.c[1], 0, speed >> 8);
         CHECK_NEAR(state_of(2).position.c[2], (int64_t)3 << 31, (int64_t)1 << 23);
     }
-    /* it stops */
+    /* the belt stops */
     belt.surface_velocity.c[0] = 0;
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     steps(40);
     CHECK_NEAR(state_of(1).velocity.c[0], 0, speed >> 8);
 }
 
-/* The velocity is in the mesh's axes: a turned belt carries along its own. */
+/* The velocity is in the mesh's axes: a turned belt carries along its own axis. */
 static void test_turned_conveyor(void)
 {
     /* a quarter turn about z: x becomes y */
@@ -125,7 +126,7 @@ static void test_turned_conveyor(void)
     CHECK_NEAR(state_of(1).velocity.c[0], 0, ONE >> 14);
 }
 
-/* A body whose own surface moves, as that of a tank's tracks, goes the other way on the ground. */
+/* A body whose own surface moves, like a tank's tracks, moves the other way on the ground. */
 static void test_tracks(void)
 {
     struct carom_material tracks;
@@ -147,13 +148,13 @@ static void test_conveyor_wakes(void)
 
     setup_asleep();
     belt = material_of(0);
-    belt.surface_velocity.c[1] = G / 64; /* half of what is quiet */
+    belt.surface_velocity.c[1] = G / 64; /* half of the quiet speed */
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     CHECK(!state_of(1).asleep);
     steps(100);
     CHECK(!state_of(1).asleep);
     CHECK_NEAR(state_of(1).velocity.c[1], G / 64, G / 512);
-    /* the same again wakes nobody */
+    /* setting the same velocity again wakes no body */
     belt.surface_velocity.c[1] = 0;
     CHECK_EQ(carom_body_set_material(world, 0, &belt), CAROM_OK);
     fall_asleep();
@@ -204,7 +205,7 @@ static void test_combine_friction(void)
     }
 }
 
-/* The speed of rebound over the speed of approach of a box that drops onto its face. */
+/* The speed of rebound over the speed of approach for a box that drops onto its face. */
 static double rebound(int32_t e_a_q30, int32_t e_b_q30, enum carom_combine rule)
 {
     struct carom_body_state s;
@@ -243,7 +244,7 @@ static void test_combine_restitution(void)
 {
     const int32_t a = CAROM_ONE_Q30 / 2, b = CAROM_ONE_Q30 / 8 * 7;
 
-    /* within what gravity gives in the rest of the frame: g / (16 g) */
+    /* within what gravity adds in the rest of the frame: g / (16 g) */
     CHECK_LESS(real_abs(rebound(a, b, CAROM_SMALLER) - 0.5), 0.07);
     CHECK_LESS(real_abs(rebound(b, a, CAROM_SMALLER) - 0.5), 0.07);
     CHECK_LESS(real_abs(rebound(a, b, CAROM_LARGER) - 0.875), 0.07);
@@ -253,7 +254,10 @@ static void test_combine_restitution(void)
 
 /* --------------------------------------------------------------------- faces */
 
-/* The floor is slippery where x < 0, and rough where it is above: a box that slides over is braked there alone. */
+/*
+ * The floor is slippery where x < 0, and rough elsewhere: a box that slides across is braked only
+ * there.
+ */
 static void test_faces(void)
 {
     static struct carom_material materials[2];
@@ -275,11 +279,11 @@ static void test_faces(void)
     CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
     steps(13); /* to -0.75 */
     CHECK_NEAR(state_of(1).velocity.c[0], ONE / 4, ONE >> 12);
-    steps(6); /* past 0.5 */
+    steps(6); /* beyond 0.5 */
     before = state_of(1).velocity.c[0];
     steps(4);
     CHECK_NEAR(before - state_of(1).velocity.c[0], 4 * (G / 2), G / 32);
-    /* and back to one for all */
+    /* and back to one material for all faces */
     CHECK_EQ(carom_body_set_face_materials(world, 0, NULL, 0, NULL), CAROM_OK);
     CHECK_EQ(carom_body_set(world, 1, &s), CAROM_OK);
     steps(2);
@@ -289,8 +293,8 @@ static void test_faces(void)
 }
 
 /*
- * A side of the box bounces and the opposite one does not; faces of a belt go different ways. The box is dropped
- * on each.
+ * One side of the box bounces and the opposite one does not; faces of a belt go different ways. The
+ * box is dropped on each.
  */
 static void test_faces_of_box(void)
 {
@@ -324,7 +328,10 @@ static void test_faces_of_box(void)
 
 /* ------------------------------------------------------------------- rolling */
 
-/* A body that stands on a tip: an octahedron of half axis 1, whose moment about an axis is m / 10 times 2. */
+/*
+ * A body that stands on a tip: an octahedron of half axis 1, whose moment about an axis is m / 10
+ * times 2.
+ */
 static void make_top(void)
 {
     static const uint16_t faces[8][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
@@ -340,9 +347,9 @@ static void make_top(void)
 }
 
 /*
- * A top that spins upright on its tip: the moment is arm x m g, so the spin falls by arm g / (I / m) a frame.
- * The arm is 64 times the product of both bodies' rolling friction, of the radius 1; I / m = 1 / 5. It spins
- * so fast, 1/4 a frame, that it stands.
+ * A top spins upright on its tip. The moment of rolling friction is arm x m g, so the spin falls by
+ * arm g / (I / m) a frame. The arm is 64 times the product of both bodies' rolling friction, of the
+ * radius 1; I / m = 1 / 5. At 1/4 a frame the top spins so fast that it stands.
  */
 static void test_rolling(void)
 {
@@ -407,7 +414,7 @@ static void test_mass(void)
         CHECK_NEAR(got, mass_q20, 1);
         after = state_of(1);
         for (int k = 0; k < 3; k++) {
-            /* 2^-29 of the largest, and the last place of a small mass' momentum */
+            /* 2^-29 of the largest, and the last place of a small mass's momentum */
             CHECK_NEAR(after.velocity.c[k], s.velocity.c[k], ONE >> 24);
             CHECK_NEAR(after.spin.c[k], s.spin.c[k], ONE >> 24);
         }
@@ -416,7 +423,10 @@ static void test_mass(void)
     CHECK_EQ(world->bodies[1].def.mass.m, fix_scale((int64_t)1 << 32, 32).m);
 }
 
-/* A heavier body on top presses harder; sleepers wake; what a force can do to a lighter one is asked. */
+/*
+ * A heavier body on top presses harder; sleeping bodies wake; a force that is too large for a
+ * lighter mass is refused.
+ */
 static void test_mass_acts(void)
 {
     const carom_v3_q40 force = {{ONE / 2, 0, 0}};
@@ -426,7 +436,7 @@ static void test_mass_acts(void)
 
     setup_asleep();
     CHECK_EQ(carom_body_set_mass(world, 1, 1 << 20), CAROM_OK);
-    CHECK(state_of(1).asleep); /* it has that mass */
+    CHECK(state_of(1).asleep); /* setting the same mass changes nothing */
     CHECK_EQ(carom_body_set_mass(world, 1, 3 << 20), CAROM_OK);
     CHECK(!state_of(1).asleep);
     steps(1);
@@ -445,7 +455,10 @@ static void test_mass_acts(void)
 
 /* ------------------------------------------------------------- snapshots, errors */
 
-/* Kept impulses are none of those that less friction allows: a snapshot taken right then can be taken back. */
+/*
+ * Kept impulses never exceed what the smaller friction allows: a snapshot saved at that moment can
+ * be loaded.
+ */
 static void test_snapshot(void)
 {
     struct carom_body_state s;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Numbers at the interface: SI units both ways, sizes that are known at run time, speeds at the limit, places and
- * vectors between a body's axes and the world's, the texts of results.
+ * Numbers at the interface: SI units in both directions, sizes known at run time, speeds at the
+ * limit, places and vectors between a body's axes and the world's, the texts of results.
  */
 #include <string.h>
 
@@ -47,7 +47,7 @@ static void test_si(void)
     CHECK_NEAR(CAROM_ANGLE_DEG(90), 1686629713, 1); /* pi / 2 */
 }
 
-/* There and back is the same whole number, at any frame rate. */
+/* There and back gives the same whole number, at any frame rate. */
 static void test_back(void)
 {
     struct test_random r = {31};
@@ -67,7 +67,7 @@ static void test_back(void)
         CHECK_NEAR(CAROM_TO_MDEG_S(CAROM_SPIN_DEG_S(n / 1000, fps), fps), n / 1000 * 1000,
                    1 + carom_abs(n) / 10000000);
         CHECK_EQ(CAROM_TO_G(CAROM_MASS_G(carom_abs(n) + 1)), carom_abs(n) + 1);
-        /* to nearest, whatever the number */
+        /* rounded to nearest, for any number */
         CHECK_AT_MOST(real_abs((double)CAROM_TO_MM_S(v, fps) - by_hand), 0.5001);
     }
     CHECK_EQ(CAROM_TO_MM((int64_t)1 << 31), 500);
@@ -104,7 +104,7 @@ static void test_sizes(void)
 
 /* --------------------------------------------------------------------- speeds */
 
-/* Just below the limit a motion is taken and goes on; at it it is refused. */
+/* Just below the limit a motion is accepted and goes on; at the limit it is refused. */
 static void test_limit(void)
 {
     struct test_random r = {33};
@@ -233,7 +233,7 @@ static void test_places(void)
 
 /* ---------------------------------------------------------------------- texts */
 
-/* Every error has a text of its own, and what is no status is a count. */
+/* Every error has a text of its own; a number above the sums of status bits is a count. */
 static void test_texts(void)
 {
     const char *count = carom_result_text(4);

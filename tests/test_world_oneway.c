@@ -10,7 +10,7 @@ enum { PLATFORM, BOX, FLOOR };
 static uint8_t saved[4096];
 static const int axes[3][3] = {{64, 2048, 2048}, {2048, 64, 2048}, {2048, 2048, 64}};
 
-/* A turn that brings an axis of the mesh up, or down. */
+/* A rotation that brings an axis of the mesh up, or down. */
 static carom_quat_q30 turn_up(int one_way)
 {
     const int32_t half = 759250125; /* sqrt(1/2) */
@@ -87,7 +87,10 @@ static void test_above(void)
     }
 }
 
-/* Boxes thrown up from below pass as if there were no platform; then they come down and stay on top. */
+/*
+ * Boxes thrown up from below pass as if there were no platform; then they come down and stay on
+ * top.
+ */
 static void test_below(void)
 {
     struct test_random r = {7};
@@ -102,7 +105,7 @@ static void test_below(void)
         for (int k = 0; k < 3; k++) {
             def.spin.c[k] = test_random_range(&r, BOXES_Q40(-60), BOXES_Q40(60));
         }
-        /* to 500 .. 1000 over where it begins: v^2 / 2 g */
+        /* up to 500 .. 1000 above its start: v^2 / 2 g */
         def.velocity.c[2] = test_random_range(&r, BOXES_Q40(65), BOXES_Q40(75));
         boxes_add(w, &def);
         boxes_add(alone, &def);
@@ -118,7 +121,7 @@ static void test_below(void)
             out = out || (one.position.c[2] > BOXES_Q32(64) && !in);
             CHECK(out || boxes_same(&one, &other));
             CHECK(!out || lowest_q32(&one) > BOXES_Q32(64));
-            if (in && frame % 3 == 0) { /* that it passes is in a snapshot */
+            if (in && frame % 3 == 0) { /* a snapshot holds that the box is passing */
                 int size = carom_snapshot_save(w, saved, sizeof saved);
 
                 CHECK_MORE(size, 0);
@@ -133,14 +136,14 @@ static void test_below(void)
     CHECK_MORE(rode, 14);
 }
 
-/* One that does not get through falls back, and one from the side goes by. */
+/* A box that does not get through falls back, and a box from the side passes. */
 static void test_back(void)
 {
     struct carom_world *w = make(CAROM_ONE_WAY_Z);
     struct carom_body_def def = boxes_def(BOX, 0, 0, -400);
     bool was_in = false;
 
-    def.velocity.c[2] = BOXES_Q40(45); /* 400 over it by half a second */
+    def.velocity.c[2] = BOXES_Q40(45); /* 400 above it after half a second */
     boxes_add(w, &def);
     for (int frame = 0; frame < 60; frame++) {
         boxes_step(w, 1);
@@ -158,7 +161,10 @@ static void test_back(void)
     CHECK_LESS(boxes_state(w, 1).position.c[2], BOXES_Q32(-500));
 }
 
-/* A box that stands on the floor under the platform, in reach of its contacts, is not held by it. */
+/*
+ * A box that stands on the floor below the platform, within reach of its contacts, is not held by
+ * it.
+ */
 static void test_under(void)
 {
     struct carom_world *w = make(CAROM_ONE_WAY_Z);

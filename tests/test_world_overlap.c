@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies start apart: what is refused, pushed out, or let pass. */
+/* Bodies that overlap at the start: refused, pushed out, or allowed to pass. */
 #include <string.h>
 
 #include "lib/boxes.h"
@@ -36,7 +36,10 @@ static void refuse(struct carom_world *w, const struct carom_body_def *def, int 
     CHECK_EQ(carom_body_count(w), count);
 }
 
-/* The box's lowest face is at z - 150, the plate's highest at 128; a skin of the box is 360 / 2048 of a unit here. */
+/*
+ * The box's lowest face is at z - 150, the plate's highest at 128; a skin of the box is 360 / 2048
+ * of a unit here.
+ */
 static void test_depth(void)
 {
     struct carom_world *w = make();
@@ -72,7 +75,7 @@ static void test_who(void)
     struct carom_world *w = make();
     struct carom_body_def def = boxes_def(PLATE, 0, 0, 100);
 
-    def.stationary = true; /* both stand still */
+    def.stationary = true; /* both are static */
     CHECK_EQ(boxes_add(w, &def), 1);
     def = boxes_def(BOX, 0, 0, 0);
     def.sensor = true;
@@ -80,7 +83,7 @@ static void test_who(void)
     def.sensor = false;
     def.filter = (struct carom_filter){2, 2, 0};
     CHECK_EQ(boxes_add(w, &def), 3);
-    refuse(w, &def, CAROM_ERR_OVERLAP); /* the one before it has the same filter */
+    refuse(w, &def, CAROM_ERR_OVERLAP); /* the body before it has the same filter */
     def.filter = (struct carom_filter){0};
     refuse(w, &def, CAROM_ERR_OVERLAP);
     def.overlap = CAROM_OVERLAP_PASS + 1;
@@ -113,7 +116,7 @@ static void test_set(void)
     CHECK_EQ(boxes_set(w, 1, 0, 0, 100, CAROM_OVERLAP_PUSH_OUT), CAROM_OK);
     CHECK_NEAR(boxes_state(w, 1).position.c[2], BOXES_Q32(278), BOXES_Q32(1));
     CHECK(!boxes_overlap(w, 1, 0));
-    /* how it moves may change where it is, though it passes the plate */
+    /* the motion of a body may be set while it passes the plate */
     CHECK_EQ(boxes_set(w, 1, 0, 0, 100, CAROM_OVERLAP_PASS), CAROM_OK);
     state = boxes_state(w, 1);
     state.velocity.c[0] = BOXES_Q40(5);
@@ -121,7 +124,7 @@ static void test_set(void)
     CHECK_EQ(boxes_set(w, 1, 5, 0, 90, CAROM_OVERLAP_REFUSE), CAROM_OK);
 }
 
-/* The shortest way out is by hand: as deep as the box is in, by the nearest side. */
+/* The shortest way out is known by hand: as far as the box is inside, through the nearest side. */
 static void test_push(void)
 {
     static const struct {
@@ -147,7 +150,7 @@ static void test_push(void)
     }
 }
 
-/* Between two plates it fits nowhere but beside them; in a huge body nowhere. */
+/* Between two plates the box fits nowhere but beside them; in a huge body nowhere. */
 static void test_blocked(void)
 {
     struct carom_world *w = make();
@@ -176,7 +179,7 @@ static void test_blocked(void)
     refuse(w, &def, CAROM_ERR_BLOCKED);
 }
 
-/* A body that passes falls as if nothing were there, and is solid again when it is out. */
+/* A passing body falls as if nothing were there, and is solid again when it is out. */
 static void test_pass(void)
 {
     struct carom_world *w = make(), *alone = boxes_world(1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom_query_faces, carom_query_inside and carom_body_look: what they accept and refuse, and that asking
- * changes nothing that a step does. Contacts are said to be where they are.
+ * carom_query_faces, carom_query_inside and carom_body_look: the arguments that they accept and
+ * refuse, and that asking changes nothing in a step. Contacts are reported where they are.
  */
 #include <string.h>
 
@@ -16,7 +16,7 @@ static _Alignas(8) uint8_t block[2][CAROM_WORLD_BYTES(CAPS)];
 static struct shape box, ground;
 static struct carom_face_pair pairs[ROOM];
 
-/* A plane as body 0 and a box as body 1, half in the plane, a corner down. */
+/* A plane as body 0 and a box as body 1, half in the plane, with a corner down. */
 static struct carom_world *setup_capped(int n, uint8_t substep_cap)
 {
     const struct carom_config config = {.caps = CAROM_CAPS(CAPS),
@@ -94,7 +94,7 @@ static void test_errors(void)
     }
 }
 
-/* Over the plane, through it, and under it. */
+/* Above the plane, through it, and below it. */
 static void test_places(void)
 {
     struct carom_world *world;
@@ -112,7 +112,10 @@ static void test_places(void)
     CHECK_EQ(carom_query_inside(world, 0, 1), 0);
 }
 
-/* Two worlds run the same steps; one of them is asked between its steps, with too little room, too. Both stay equal. */
+/*
+ * Two worlds run the same steps; one of them is asked between its steps, also with too little room.
+ * Both stay equal.
+ */
 static void test_no_change(void)
 {
     struct carom_world *asked, *other;
@@ -139,12 +142,12 @@ static void test_no_change(void)
         CHECK_AT_LEAST(carom_world_step(other), 0);
         CHECK_EQ(carom_world_hash(asked), carom_world_hash(other));
     }
-    CHECK_MORE(carom_contacts(asked, NULL, 0), 0); /* it has come down */
+    CHECK_MORE(carom_contacts(asked, NULL, 0), 0); /* the box has come down */
 }
 
 /*
- * Contacts of a box with a plane are on the plane and on the box, whether the frame goes on after them
- * or, for want of hits, ends with an impact.
+ * Contacts of a box with a plane are on the plane and on the box. This holds when the frame goes on
+ * after them, and when it runs out of hits and ends with an impact.
  */
 static void test_contacts(void)
 {
@@ -171,7 +174,7 @@ static void test_contacts(void)
                     arm[k] = contacts[i].point.c[k] - state.position.c[k];
                 }
                 CHECK_NEAR(contacts[i].point.c[2], 0, near_q32);
-                if (status != CAROM_OK) { /* the box is where it was hit */
+                if (status != CAROM_OK) { /* the box is where it hit */
                     CHECK_LESS(fix_length(arm), ((int64_t)box.mesh.radius_q22 << 10) + near_q32);
                     cut++;
                 }
@@ -183,7 +186,7 @@ static void test_contacts(void)
     }
 }
 
-/* A look at a body shows the mesh it was made from and where it is; free numbers show nothing. */
+/* carom_body_look shows a body's mesh and pose; free numbers show nothing. */
 static void test_look(void)
 {
     struct carom_body_look look = {.mesh = NULL};

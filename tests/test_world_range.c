@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Whole steps at the ends of what a world takes. Their worth is in a build with sanitizers. */
+/*
+ * Whole steps at the ends of a world's ranges. These tests are most useful in a build with
+ * sanitizers.
+ */
 #include <string.h>
 
 #include "lib/shapes.h"
@@ -8,7 +11,7 @@
 #ifdef TEST_LONG
 #define STRIDE 1
 #else
-#define STRIDE 40 /* of the spins on either side of a whole number of slices */
+#define STRIDE 40 /* every STRIDE-th spin on either side of a whole number of slices */
 #endif
 
 #define CAPS 2, 1, 32, 64, 0, 256
@@ -38,8 +41,8 @@ static struct carom_world *make(void)
 }
 
 /*
- * Slices of half a radian may leave a few units of time of a frame: regions are that
- * short, and parts of them are asked for. The box turns about an axis of its own and stays clear.
+ * Slices of half a radian may leave a few units of time in a frame. Regions are then that short,
+ * and are gathered for in parts. The box turns about its own axis and stays clear of the plane.
  */
 static void test_slice_ends(void)
 {
@@ -70,8 +73,8 @@ static void test_slice_ends(void)
 }
 
 /*
- * A box whose corners come down on vertices of the ground: each touches the six faces around. Room for
- * the places alone is enough, and makes no difference.
+ * The corners of a box come down on vertices of the ground: each touches the six faces around a
+ * vertex. Room for the places alone is enough, and changes nothing.
  */
 static void test_merged_contacts(void)
 {
@@ -104,8 +107,8 @@ static void test_merged_contacts(void)
 }
 
 /*
- * The spin of a needle is worked out only where it fits: about its axis an angular
- * momentum that a box hardly notices is a million radians a frame.
+ * The spin of a needle is computed only where it fits: about its axis, an angular momentum that is
+ * small for a box is a million radians a frame.
  */
 static void test_thin_spin(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Sensors: what is in them, to the frame; and that nothing else notices them. */
+/* Sensors: what is in them, to the frame; and nothing else notices them. */
 #include <string.h>
 
 #include "lib/boxes.h"
@@ -26,7 +26,7 @@ static int add_sensor(struct carom_world *w, int mesh, int x, int y, int z, bool
     return boxes_add(w, &def);
 }
 
-/* A box falls through a zone: heights say when it overlaps. */
+/* A box falls through a zone; its height tells when it overlaps. */
 static void test_fall(void)
 {
     struct carom_world *w;
@@ -58,7 +58,10 @@ static void test_fall(void)
     CHECK_EQ(ends, 1);
 }
 
-/* Both events in the one frame in which a fast box goes through a thin plate; none beside it. */
+/*
+ * A fast box goes through a thin plate: both events come in one frame. A box beside the plate has
+ * none.
+ */
 static void test_through(void)
 {
     struct test_random r = {3};
@@ -76,7 +79,7 @@ static void test_through(void)
         def.velocity.c[2] = BOXES_Q40(-2500);
         def.spin.c[2] = i % 2 ? CAROM_RATIO(1, 10, 40) : 0;
         if (carom_abs(carom_abs(x) - 2048) < 400) {
-            continue; /* how it turns would have to be known */
+            continue; /* the answer would depend on how it turns */
         }
         box = boxes_add(w, &def);
         sensor = add_sensor(w, PLATE, 0, 0, 0, !moving);
@@ -96,7 +99,7 @@ static void test_through(void)
     CHECK_MORE(beside, 5);
 }
 
-/* Bodies that fall, hit, lie and sleep do all of that bit for bit as without sensors. */
+/* Bodies that fall, hit, lie and sleep do so bit for bit as without sensors. */
 static void test_unnoticed(void)
 {
     int seen = 0;
@@ -146,7 +149,7 @@ static void test_unnoticed(void)
     CHECK_MORE(seen, 5);
 }
 
-/* A sensor that comes finds a sleeping body, one that goes leaves it, and the body sleeps on. */
+/* A new sensor finds a sleeping body, a removed one loses it, and the body sleeps on. */
 static void test_asleep(void)
 {
     struct carom_world *w;
@@ -174,17 +177,17 @@ static void test_asleep(void)
     CHECK(boxes_state(w, box).asleep);
     boxes_step(w, 1);
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 1);
-    /* as it was: it is in, and that is not news */
+    /* as before: the body is inside, and that is no new event */
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
     boxes_step(w, 1);
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 0);
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 0);
     CHECK(boxes_state(w, box).asleep);
-    /* a body that is set out of it */
+    /* a body that is set outside */
     CHECK_EQ(boxes_set(w, box, 0, 3000, 151, 0), CAROM_OK);
     boxes_step(w, 1);
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 1);
-    /* one that goes while something is in it */
+    /* a sensor that is removed while a body is inside */
     CHECK_EQ(boxes_set(w, box, 0, 0, 151, 0), CAROM_OK);
     boxes_step(w, 1);
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_BEGIN, sensor, box), 1);
@@ -193,7 +196,9 @@ static void test_asleep(void)
     CHECK_EQ(boxes_events(w, CAROM_EVENT_SENSOR_END, sensor, box), 0);
 }
 
-/* Two sensors do not see each other; filters hold; a body may be wholly inside, and be set there. */
+/*
+ * Two sensors do not see each other; filters apply; a body may be wholly inside, and be set there.
+ */
 static void test_who(void)
 {
     struct carom_world *w;

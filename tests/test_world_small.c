@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A world of a few kilobytes: a box and a tetrahedron fall on a plane of two faces, collide and come
- * to rest. Beside it runs one with room to spare, which must do the same.
+ * A world of a few kilobytes: a box and a tetrahedron fall on a plane of two faces, collide and
+ * come to rest. A second world has room to spare and must do the same.
  */
 #include <string.h>
 
@@ -71,7 +71,7 @@ static struct carom_body_state state_of(const struct carom_world *world, int bod
     return state;
 }
 
-/* Faces of two bodies that have a point in common where they are. */
+/* The number of face pairs of two bodies that have a common point. */
 static uint32_t crossing(const struct carom_world *world, int a, int b)
 {
     static int32_t points[2][8][3];
@@ -92,7 +92,7 @@ static uint32_t crossing(const struct carom_world *world, int a, int b)
     return tally.crossing;
 }
 
-/* Hits of the two bodies by each other in the last step. */
+/* Hits between the two bodies in the last step. */
 static int hits(const struct carom_world *world)
 {
     const struct carom_event *events;
@@ -109,7 +109,9 @@ static bool asleep(const struct carom_world *world)
     return state_of(world, 1).asleep && state_of(world, 2).asleep;
 }
 
-/* Centres as high as a box that lies on its largest side, and as the sphere in a tetrahedron. */
+/*
+ * The centres are as high as that of a box on its largest side, and as the sphere in a tetrahedron.
+ */
 static void check_heights(const struct carom_world *world)
 {
     const double lie[3] = {0, Z / 4096.0, T / 4096.0 / real_sqrt(3)};
@@ -117,7 +119,7 @@ static void check_heights(const struct carom_world *world)
     for (int i = 1; i < 3; i++) {
         double gap = real(state_of(world, i).position.c[2], 32) - lie[i];
 
-        /* a skin, 1/2048 of the radius: and what a body may lean */
+        /* a skin, 1/2048 of the radius, plus what a body may lean */
         CHECK_MORE(gap, 0);
         CHECK_LESS(gap, 2 * real(meshes[i].radius_q22, 22) / 2048);
     }

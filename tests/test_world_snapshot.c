@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Snapshots and the hash: a world goes on from one as if nothing had been, in flight, in contact
- * and asleep; bytes that are not whole are refused; the bytes are those that SPEC.md lays down.
+ * Snapshots and the hash: a world goes on from a snapshot as if nothing had happened, in flight, in
+ * contact and asleep; incomplete or changed bytes are refused; the layout is the one of SPEC.md.
  */
 #include <string.h>
 
@@ -11,21 +11,21 @@
 #ifdef TEST_LONG
 #define STRIDE 1
 #else
-#define STRIDE 7 /* of the bytes of a large snapshot; of a small one every byte is tried */
+#define STRIDE 7 /* every STRIDE-th byte of a large snapshot; every byte of a small one */
 #endif
 
 #define FRAMES 50
 #define CAPS   3, 2, 16, 64, 64, 128
 #define ONE    ((int64_t)1 << 40)
 
-/* Places of a snapshot of a stationary body, a moving one and a free place. */
+/* Offsets in a snapshot of a stationary body, a moving one and a free place. */
 enum {
     AT_GRAVITY = 4,
     AT_PLACES = 28,
     AT_GROUND = 32,
     BODY_BYTES = 117,
     AT_BOX = AT_GROUND + BODY_BYTES,
-    AT_POSITION = 1, /* of a body */
+    AT_POSITION = 1, /* offsets in a body */
     AT_MOMENTUM = 25,
     AT_ANGULAR = 49,
     AT_FORCE = 73,
@@ -47,7 +47,7 @@ static struct carom_body_def floor_def, box_def;
 
 /* ------------------------------------------------------------------- helpers */
 
-/* A box a little above a plane that leans by 3.6 degrees, with the same lean and some spin. */
+/* A box a little above a plane that leans by 3.6 degrees; the box leans alike and has some spin. */
 static void setup(void)
 {
     const struct carom_caps caps = CAROM_CAPS(CAPS);
@@ -95,7 +95,7 @@ static struct carom_world *make(int n)
     return w;
 }
 
-/* The same bodies with a past of their own. */
+/* The same bodies with another history. */
 static struct carom_world *make_elsewhere(int n)
 {
     struct carom_world *w = make(n);
@@ -112,7 +112,7 @@ static struct carom_world *make_elsewhere(int n)
     return w;
 }
 
-/* The number of `n` bytes there, lowest byte first. */
+/* The number in the next `n` bytes, lowest byte first. */
 static uint64_t number_at(const uint8_t *bytes, int n)
 {
     uint64_t v = 0;
@@ -199,7 +199,9 @@ static void push(struct carom_world *w)
     CHECK_EQ(carom_body_set(w, 1, &s), CAROM_OK);
 }
 
-/* A world with another past takes the snapshot and goes on as the first; half way it is pushed. */
+/*
+ * A world with another history loads the snapshot and goes on like the first; halfway it is pushed.
+ */
 static void check_future(enum phase phase)
 {
     struct carom_world *a, *b;
@@ -230,7 +232,7 @@ static void check_future(enum phase phase)
         changes += carom_world_hash(a) != last;
         last = carom_world_hash(a);
     }
-    /* something went on in those frames */
+    /* those frames were not idle */
     CHECK_AT_LEAST(changes, FRAMES / 2);
 }
 
@@ -249,7 +251,7 @@ static void test_asleep(void)
     check_future(ASLEEP);
 }
 
-/* A world goes back to a snapshot of its own and comes to the same end. */
+/* A world goes back to its own snapshot and comes to the same end. */
 static void test_rewind(void)
 {
     struct carom_world *w;
@@ -305,8 +307,8 @@ static void check_altered(struct carom_world *w, int size, int stride)
 }
 
 /*
- * A refusal leaves the world as it was: the world goes on like a twin that was never
- * offered anything, and takes the snapshot when it is whole.
+ * A refusal leaves the world as it was: it goes on like a twin that was never given any of the
+ * snapshots, and it loads the complete snapshot.
  */
 static void test_altered(void)
 {
@@ -346,7 +348,7 @@ static void test_altered_small(void)
     CHECK_EQ(carom_snapshot_load(w, saved, (size_t)size), CAROM_OK);
 }
 
-/* Worlds of other bodies: fewer, more, of another kind, in another order, with less room. */
+/* Worlds with other bodies: fewer, more, of another kind, in another order, with less room. */
 static void test_other_bodies(void)
 {
     struct carom_world *w;
@@ -371,7 +373,7 @@ static void test_other_bodies(void)
     refuse(w, saved, size); /* no box */
     box_def.stationary = true;
     CHECK_EQ(carom_body_add(w, &box_def), 1);
-    refuse(w, saved, size); /* a box that stands still */
+    refuse(w, saved, size); /* a stationary box */
     box_def.stationary = false;
 
     w = empty_world(1);
@@ -384,7 +386,10 @@ static void test_other_bodies(void)
     refuse(make(1), saved, size);
 }
 
-/* Alter one number and make the hash right again: whole bytes that no step could have left. */
+/*
+ * Alter one number and correct the check sum: the bytes are complete, but no step could have left
+ * them.
+ */
 static void refuse_number(struct carom_world *w, int size, int at, uint64_t v, int n)
 {
     memcpy(other, saved, sizeof other);
@@ -414,7 +419,7 @@ static void test_implausible(void)
     for (int k = 0; k < 3; k++) {
         refuse_number(w, size, far + 8 * k, ((uint64_t)4096 << 32) + 1, 8);
         refuse_number(w, size, far + 8 * k, (uint64_t)1 << 63, 8);
-        /* the box weighs 0.35: a momentum of 23 is a speed above 64 */
+        /* the box has mass 0.35: a momentum of 23 is a speed above 64 */
         refuse_number(w, size, fast + 8 * k, (uint64_t)(23 * ONE), 8);
         refuse_number(w, size, fast + 8 * k, (uint64_t)(-23 * ONE), 8);
         refuse_number(w, size, fast + 8 * k, (uint64_t)1 << 62, 8);
@@ -448,7 +453,7 @@ static void test_implausible(void)
         refuse_number(w, size, touching + 4 + 2 * side, 3, 2);
         refuse_number(w, size, touching + 4 + 2 * side, 0xffff, 2);
     }
-    /* the way to alter a number does not itself spoil a snapshot */
+    /* correcting the check sum does not itself spoil a snapshot */
     memcpy(other, saved, sizeof other);
     put_number(other + far, 0, 8);
     put_number(other + size - 8, fnv(other, size - 8), 8);
@@ -480,7 +485,7 @@ static void test_memory(void)
         clean = clean && saved[i] == 0xa5;
     }
     CHECK(clean);
-    /* any address will do */
+    /* any alignment will do */
     CHECK_EQ(carom_snapshot_save(w, other + 3, (size_t)size), size);
     CHECK_EQ(memcmp(saved, other + 3, (size_t)size), 0);
     CHECK_EQ(carom_snapshot_load(w, other + 3, (size_t)size), CAROM_OK);
@@ -519,7 +524,7 @@ static void test_layout(void)
     int size;
 
     setup();
-    /* a cube of volume, so mass, 1: its momentum is its velocity */
+    /* a cube of volume, and so mass, 1: its momentum is its velocity */
     shape_box(&box, 12, 4096, 4096, 4096);
     w = make(0);
     memset(&s, 0, sizeof s);
@@ -578,7 +583,7 @@ static void test_layout_contact(void)
         const uint8_t *warm = saved + AT_WARM + 4 + WARM_BYTES * i;
         int64_t square_q60 = 0;
 
-        /* the same two bodies, a unit normal, a push and no pull */
+        /* the same two bodies, a unit normal, and an impulse that does not pull */
         CHECK_EQ(memcmp(warm, saved + touching + 4, 4), 0);
         for (int k = 0; k < 3; k++) {
             int64_t n_q30 = (int32_t)(uint32_t)number_at(warm + 16 + 4 * k, 4);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Whole steps on any board: a box of three different sides that falls, bounces, rests and sleeps;
- * the events and the status of a step; and that a step is all or nothing.
+ * Whole steps on any board: a box with three different sides falls, bounces, rests and sleeps; the
+ * events and the status of a step; a step does all or nothing.
  */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 #include "lib/test.h"
 
 #define BOX_BYTES (SCENE_MESH(8, 12) + SCENE_MESH(4, 2))
-/* A pair, a few contacts: what one box on one plane needs, and some more. */
+/* Capacities for one box on one plane, a pair and a few contacts, with some to spare. */
 #define CAPS 3, 2, 64, 64, 64, 256
 
 static _Alignas(8) uint8_t mesh_block[BOX_BYTES];
@@ -19,7 +19,7 @@ static _Alignas(8) uint8_t other_block[CAROM_WORLD_BYTES(CAPS)];
 static struct scene scene;
 static struct carom_config config;
 
-/* Half the sides of the box of scene.c; its skin is the radius by 2048. */
+/* Half the sides of the box of scene.c; its skin is the radius over 2048. */
 static const double half_side[3] = {0.5, 1434. / 4096, 0.25};
 #define RADIUS 0.6598
 #define SKIN   (RADIUS / 2048)
@@ -61,7 +61,7 @@ static struct carom_body_state state_of(const struct carom_world *world)
     return state;
 }
 
-/* Whether the last step had an event, and its number; -1: none. */
+/* The index of an event of the last step; -1: none. */
 static int find_event(const struct carom_world *world, int kind)
 {
     const struct carom_event *events;
@@ -75,7 +75,7 @@ static int find_event(const struct carom_world *world, int kind)
     return -1;
 }
 
-/* The rows of the rotation matrix of a quaternion that is nearly of length 1. */
+/* The rows of the rotation matrix of a quaternion whose length is nearly 1. */
 static void matrix(double m[3][3], const carom_quat_q30 *q)
 {
     double w = real(q->c[0], 30), u[3] = {real(q->c[1], 30), real(q->c[2], 30), real(q->c[3], 30)};
@@ -102,8 +102,10 @@ static double lowest(const struct carom_world *world)
     return z;
 }
 
-/* Energy by mass: a box's inertia by mass about an axis is a third of the other two half sides'
- * squares. */
+/*
+ * Energy by mass: a box's inertia by mass about an axis is a third of the sum of the other two half
+ * sides' squares.
+ */
 static double energy(const struct carom_world *world)
 {
     struct carom_body_state s = state_of(world);
@@ -169,7 +171,7 @@ static void test_parabola(void)
 
 /*
  * Without friction and with e = 1 energy stays. Rounding a rotation to 2^-30 may change it by 2^-30
- * a frame; the kept bound is what 300 frames of that come to.
+ * a frame; the bound is the sum over 300 frames.
  */
 static void test_energy(void)
 {
@@ -193,7 +195,7 @@ static void test_energy(void)
     CHECK_AT_LEAST(hits, 3);
 }
 
-/* A hit changes the momentum by its impulse; the speeds before and after are as 1 to e. */
+/* A hit changes the momentum by its impulse; the speed after is e times the speed before. */
 static void test_hit(void)
 {
     struct carom_world *world;
@@ -220,13 +222,14 @@ static void test_hit(void)
     carom_events(world, &events);
     CHECK_EQ(events[hit].a, SCENE_BODY);
     CHECK_EQ(events[hit].b, SCENE_GROUND);
-    /* v^2 = 2 g h from both sides of the hit to where the surfaces met, half a skin up */
+    /* v^2 = 2 g h from both sides of the hit to the height where the surfaces met, half a skin
+     * up */
     fall = real(scene.body.position.c[2], 32) - half_side[2] - SKIN / 2;
     rise = real(events[hit].speed_q40, 40);
     CHECK_NEAR((int64_t)(rise * rise * 1e9),
                (int64_t)(-2 * real(config.gravity.c[2], 40) * fall * 1e9), 100);
     rise = real(after.velocity.c[2] - before.velocity.c[2] - config.gravity.c[2], 40);
-    /* four corners share the impulse; the event has that of the hardest */
+    /* four corners share the impulse; the event reports the largest part */
     CHECK_LESS(real(events[hit].impulse_q40, 40) / mass, rise);
     CHECK_MORE(real(events[hit].impulse_q40, 40) / mass, rise / 8);
     CHECK_NEAR((int64_t)(rise * 1e9), (int64_t)(1.75 * real(events[hit].speed_q40, 40) * 1e9), 100);
@@ -287,8 +290,8 @@ static void test_working_pools(void)
 }
 
 /*
- * A step that fails leaves the world as it was. Afterwards it goes on in a world with room, by a
- * snapshot, like one that never failed.
+ * A step that fails leaves the world as it was. A snapshot of it, loaded into a world with room,
+ * goes on like a world that never failed.
  */
 static void test_all_or_nothing(void)
 {
@@ -326,8 +329,8 @@ static void test_all_or_nothing(void)
 }
 
 /*
- * A body that has used up its hits stands still for the rest of the frame: the status, an event and a
- * count say so. It gains no energy, and the next frame goes on.
+ * A body that has used up its hits stands still for the rest of the frame: the status, an event and
+ * a count report that. It gains no energy, and the next frame goes on.
  */
 static void test_cap(void)
 {
@@ -359,8 +362,8 @@ static void test_cap(void)
 }
 
 /*
- * With few sweeps a solve of several contacts ends sooner: energy does not rise all the same but by
- * what lifts the box within its skin, and it comes to rest on the plane.
+ * With few sweeps a solve of several contacts ends sooner. Energy still rises only by what lifts
+ * the box within its skin, and the box comes to rest on the plane.
  */
 static void test_sweep_cap(void)
 {
@@ -414,14 +417,14 @@ static void test_out(void)
     CHECK_AT_LEAST(out, 0);
     s = state_of(world);
     CHECK(s.out);
-    /* momentum, which is the state, keeps a velocity of 4 to 30 bits of the mass */
+    /* the momentum is the state, and the velocity has 4 bits less for a mass of 30 bits */
     CHECK_NEAR(s.position.c[1], (int64_t)4094 << 32, 16);
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     CHECK_EQ(find_event(world, CAROM_EVENT_OUT), -1);
     CHECK_EQ(state_of(world).position.c[2], s.position.c[2]);
 }
 
-/* A counter that goes on by a thousand at every look. */
+/* A counter that advances by a thousand at every reading. */
 static uint32_t fake_ticks(void)
 {
     static uint32_t ticks;
@@ -429,7 +432,7 @@ static uint32_t fake_ticks(void)
     return ticks += 1000;
 }
 
-/* Timing and a budget tell, and change nothing. */
+/* Timing and a budget report, and change nothing. */
 static void test_budget(void)
 {
     struct carom_world *world, *other;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Bodies on a surface that the caller moves: they ride up, down and aside, are lifted out of it with
- * what lies on them, wake and sleep with it; both sources of its z-lists give the same hashes, and
- * what is refused changes nothing.
+ * Bodies on a surface that the caller moves. They ride up, down and aside; the surface lifts them
+ * out of itself, with the bodies on top of them; they wake and sleep with it. Both sources of its
+ * z-lists give the same hashes, and a refused move changes nothing.
  */
 #include <string.h>
 
@@ -15,7 +15,7 @@
 #define SIDE          8
 #define COUNT         ((SIDE + 1) * (SIDE + 1))
 #define FACES         (2 * SIDE * SIDE)
-#define HALF          CAROM_RATIO(1, 4, 32) /* of the box's height */
+#define HALF          CAROM_RATIO(1, 4, 32) /* half of the box's height */
 #define FLOOR         0
 #define BOX           1
 /* 2^-12 of a unit in q32, q40 */
@@ -39,7 +39,7 @@ static int put(void)
     return carom_surface_set(world, FLOOR, (const int16_t(*)[3])at);
 }
 
-/* A flat surface of 8 x 8 units, and above it a box of 1 x 0.75 x 0.5 that falls. */
+/* A flat surface of 8 x 8 units, and above it a falling box of 1 x 0.75 x 0.5. */
 static void begin(uint32_t entries, int32_t e_q30, uint32_t mu_q16)
 {
     struct carom_config config = {.caps = CAROM_CAPS(CAPS(entries)), .sleep = true};
@@ -100,7 +100,7 @@ static void wave(int frame)
 
 static void run_waves(uint32_t entries, bool own_lists, uint64_t hashes[FRAMES])
 {
-    /* as carom_surface_build has it, but for the lists */
+    /* as carom_surface_build makes it, without the lists */
     static const struct mesh_moving keeps_lists = {
         mesh_drift_vertex, mesh_drift_edge, mesh_drift_face, NULL, NULL, NULL};
 
@@ -140,7 +140,9 @@ static void test_sources(void)
     }
 }
 
-/* While it stands still it is as good as a rigid mesh: all but its own entry of the snapshot. */
+/*
+ * While the surface stands still it is like a rigid mesh, except for its own entry in the snapshot.
+ */
 static void test_rigid(void)
 {
     static uint8_t wanted[2048], found[2048];
@@ -174,8 +176,8 @@ static void test_rigid(void)
 /* ------------------------------------------------------------------- carrying */
 
 /*
- * Up and down by a parabola: accelerated by 1/3 of gravity at most. The box stays within a skin or so
- * of where the surface will be a frame later or is now.
+ * Up and down by a parabola, accelerated by 1/3 of gravity at most. The box stays within about a
+ * skin of where the surface is now or will be a frame later.
  */
 static void test_lift(void)
 {
@@ -199,7 +201,7 @@ static void test_lift(void)
         above_q32 = s.position.c[2] - HALF - height * QUANTUM_Q32;
         CHECK_MORE(above_q32, 0);
         CHECK_LESS(above_q32, 3 * skin + (height > before ? height - before : 0) * QUANTUM_Q32);
-        /* 2 quanta: how much its speed changes in a frame; and what opens skins */
+        /* 2 quanta: the change of its speed in a frame, plus what opens skins */
         CHECK_NEAR(s.velocity.c[2], (height - before) * QUANTUM_Q40, 5 * QUANTUM_Q40);
         CHECK_LESS(carom_abs(s.position.c[0]) + carom_abs(s.position.c[1]), 24 * QUANTUM_Q32);
         before = height;
@@ -209,13 +211,13 @@ static void test_lift(void)
     CHECK(state_of(BOX).asleep); /* nothing moved */
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     CHECK(state_of(BOX).asleep);
-    at[0][2]++; /* a corner far away: but the box lies on this surface */
+    at[0][2]++; /* a corner far away moves, but the box lies on this surface */
     CHECK_EQ(move(), CAROM_OK);
     CHECK(!state_of(BOX).asleep);
     settle();
 }
 
-/* Aside at a speed: friction takes the box along, and no farther than that. */
+/* Sideways at a speed: friction takes the box along, and no farther. */
 static void test_aside(void)
 {
     begin(MOST, 0, 1 << 15);
@@ -234,7 +236,10 @@ static void test_aside(void)
     CHECK_NEAR(state_of(BOX).position.c[0], 60 * 20 * QUANTUM_Q32, 60 * QUANTUM_Q32);
 }
 
-/* At once, by more than its height: it is on top, thrown up by the way of a frame and no more. */
+/*
+ * A jump by more than the box's height: the box is on top, thrown up by the way of a frame and no
+ * more.
+ */
 static void test_jump(void)
 {
     const int64_t skin = (int64_t)box.mesh.radius_q22 << 10 >> 11;
@@ -261,7 +266,7 @@ static void test_jump(void)
     CHECK_LESS(state_of(BOX).velocity.c[2], 3002 * QUANTUM_Q40);
 }
 
-/* A body that flies past where the surface rises is lifted together with the body that it meets. */
+/* A body that flies by is lifted where the surface rises, together with the body that it meets. */
 static void test_spread(void)
 {
     struct carom_body_state s;
@@ -325,7 +330,7 @@ static void test_refused(void)
     }
 }
 
-/* A step that fails leaves the surface on its way: the next one with room goes on from there. */
+/* A step that fails keeps the surface's move; the next step with room goes on from there. */
 static void test_all_or_nothing(void)
 {
     struct carom_world *w = NULL;
@@ -349,7 +354,7 @@ static void test_all_or_nothing(void)
     CHECK_NEAR(state_of(BOX).velocity.c[2], 40 * QUANTUM_Q40, 5 * QUANTUM_Q40);
 }
 
-/* Heights at random, by some units a frame: nothing overflows, and the box stays above. */
+/* Random heights that change by some units a frame: nothing overflows, and the box stays above. */
 static void test_wild(void)
 {
     struct test_random r = {5};
@@ -366,14 +371,14 @@ static void test_wild(void)
             CHECK_AT_LEAST(carom_world_step(world), 0);
             if (carom_abs(state_of(BOX).position.c[0]) < CAROM_RATIO(3, 1, 32) &&
                 carom_abs(state_of(BOX).position.c[1]) < CAROM_RATIO(3, 1, 32)) {
-                /* of what is under it nothing is lower than -range */
+                /* no vertex below it is lower than -range */
                 CHECK_MORE(state_of(BOX).position.c[2], -range * QUANTUM_Q32);
             }
         }
     }
 }
 
-/* A refusal while the box sleeps and something else does not: it stays where it lies. */
+/* A move is refused while the box sleeps and another body does not: the box stays where it lies. */
 static void test_refused_asleep(void)
 {
     struct carom_body_def lid;
@@ -422,7 +427,7 @@ static void test_no_entries(void)
 
 /* ----------------------------------------------------------------- worlds at rest */
 
-/* A move while nothing is awake lasts for a frame as any other; the next one does not know of it. */
+/* A move while nothing is awake lasts for one frame; the next one does not know about it. */
 static void test_idle(void)
 {
     begin(MOST, 0, 1 << 15);
@@ -444,7 +449,7 @@ static void test_idle(void)
     CHECK_NEAR(state_of(BOX).position.c[2], HALF + 400 * QUANTUM_Q32, 4 * QUANTUM_Q32);
 }
 
-/* It comes from far below after it stood still for a while, and is found. */
+/* The surface comes from far below after it stood still for a while, and the box is found. */
 static void test_from_afar(void)
 {
     begin(MOST, 0, 1 << 15);
@@ -474,7 +479,7 @@ static bool listed(const struct carom_face_pair *list, int count, struct carom_f
     return i < count;
 }
 
-/* Queries of a surface that has moved answer as those of a rigid mesh of its shape do. */
+/* Queries of a surface that has moved answer like queries of a rigid mesh with its shape. */
 static void ask(int rigid)
 {
     enum { ROOM = 128 };
@@ -504,7 +509,7 @@ static void test_queries(void)
     for (int i = 0; i < 3; i++) {
         begin(entries[i], 0, 1 << 15);
         CHECK_EQ(carom_body_remove(world, BOX), CAROM_OK);
-        shape_ball(&box, 12, 3000); /* of several leaves */
+        shape_ball(&box, 12, 3000); /* it has several leaves */
         CHECK_MORE(box.mesh.leaf_count, 1);
         box_def.overlap = CAROM_OVERLAP_PASS;
         CHECK_EQ(carom_body_add(world, &box_def), BOX);
@@ -538,7 +543,7 @@ static void test_queries(void)
     CHECK_MORE(inside, 20);
 }
 
-/* A snapshot goes back once the surface is where it was, and not before. */
+/* A snapshot is accepted when the surface is where it was, and is refused otherwise. */
 static void test_snapshot(void)
 {
     static uint8_t bytes[4096];
@@ -552,7 +557,7 @@ static void test_snapshot(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
     wave(40);
-    CHECK_EQ(move(), CAROM_OK); /* and with a surface on its way */
+    CHECK_EQ(move(), CAROM_OK); /* and while a surface is moving */
     size = carom_snapshot_save(world, bytes, sizeof bytes);
     CHECK_EQ(size, carom_snapshot_size(world));
     mark = carom_world_hash(world);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Torques, damping, the scale of gravity, and impulses: against recurrences in whole numbers, and what a snapshot has
- * of them. Plain forces and pushes are in test_world_force.c.
+ * Torques, damping, the scale of gravity, and impulses: against recurrences in whole numbers, and
+ * their part of a snapshot. Plain forces and pushes are in test_world_force.c.
  */
 #include <string.h>
 
@@ -37,7 +37,7 @@ static void begin(void)
     def.position.c[2] = 0;
 }
 
-/* A box of three sides and mass 4 in the middle of the world, and a floor a long way off. */
+/* A box of three sides and mass 4 in the middle of the world, and a floor far away. */
 static void setup(void)
 {
     memset(&config, 0, sizeof config);
@@ -57,7 +57,9 @@ static const struct body_state *state(int body)
 
 /* ------------------------------------------------------------------- torque */
 
-/* In free flight the angular momentum after n frames is n times the torque, however the body turns. */
+/*
+ * In free flight the angular momentum after n frames is n times the torque, however the body turns.
+ */
 static void test_torque(void)
 {
     struct test_random r = {3};
@@ -88,8 +90,8 @@ static void test_torque(void)
 }
 
 /*
- * About a principal axis: I = m (b^2 + c^2) / 12, the spin after n frames is n T / I, and the angle
- * n (n + 1) / 2 T / I, for a frame turns at the spin that it ends with.
+ * About a principal axis: I = m (b^2 + c^2) / 12. After n frames the spin is n T / I and the angle
+ * n (n + 1) / 2 T / I, because a frame turns at the spin with which it ends.
  */
 static void test_torque_turns(void)
 {
@@ -112,7 +114,10 @@ static void test_torque_turns(void)
     }
 }
 
-/* On the floor without friction about the floor's normal: contact has no part in it, nor does it take it for a gain. */
+/*
+ * A torque about the normal of a floor without friction: contact neither changes it nor takes it
+ * for a gain of energy.
+ */
 static void test_torque_on_floor(void)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 400}}, about_z = {{0, 0, ONE / 512}};
@@ -132,7 +137,10 @@ static void test_torque_on_floor(void)
     }
 }
 
-/* One that spins a body up beyond what the formats hold takes it out of the world, as falling does. */
+/*
+ * A torque that spins a body beyond the range of the formats takes it out of the world, as a fall
+ * does.
+ */
 static void test_torque_out(void)
 {
     carom_v3_q40 torque = {{0, 0, 0}};
@@ -145,7 +153,7 @@ static void test_torque_out(void)
         CHECK_AT_LEAST(carom_world_step(world), 0);
     }
     CHECK(state_of(BOX).out);
-    /* and whoever sleeps or is out takes none */
+    /* and a body that sleeps or is out takes none */
     torque = state(BOX)->angular;
     CHECK_EQ(carom_world_step(world), CAROM_OK);
     CHECK_EQ(memcmp(&torque, &state(BOX)->angular, sizeof torque), 0);
@@ -153,13 +161,16 @@ static void test_torque_out(void)
 
 /* ------------------------------------------------------------------ damping */
 
-/* v less its part, to nearest; v below 2^32 */
+/* v minus its part, to nearest; v below 2^32 */
 static int64_t damped(int64_t v, int32_t part_q30)
 {
     return v - ((v * part_q30 + (1 << 29)) >> 30);
 }
 
-/* Momenta by the recurrence, to the last place; the angular one too, while rounding gains nothing. */
+/*
+ * Momenta follow the recurrence, to the last place; so does the angular one while rounding gains
+ * nothing.
+ */
 static void test_damping(void)
 {
     struct test_random r = {4};
@@ -207,7 +218,7 @@ static void test_damping_falls(void)
     CHECK_LESS(state_of(BOX).velocity.c[2], -7 * (ONE / 256));
 }
 
-/* Energy never rises, whatever the momenta, be they a few units of their last place. */
+/* Energy never rises, for any momenta, even of a few units of their last place. */
 static void test_damping_loses(void)
 {
     struct test_random r = {5};
@@ -232,7 +243,7 @@ static void test_damping_loses(void)
         fix_matrix(&turn, &s->rotation);
         body_add_kinetic2(&before, &world->bodies[BOX], s, &turn);
         CHECK_EQ(carom_world_step(world), CAROM_OK);
-        /* in the pose before: a turn keeps energy but for rounding */
+        /* in the earlier pose: a turn keeps energy up to rounding */
         body_add_kinetic2(&after, &world->bodies[BOX], state(BOX), &turn);
         fix_wide_subtract(&after, &before);
         CHECK_AT_MOST(fix_wide_sign(&after), 0);
@@ -260,7 +271,9 @@ static void test_gravity_scale(void)
 
 /* -------------------------------------------------------------------- impulses */
 
-/* At the centre and about it: what a push at a point is made of. */
+/*
+ * A linear impulse at the centre and an angular one about it: together they are a push at a point.
+ */
 static void test_pushes(void)
 {
     struct test_random r = {6};
@@ -371,7 +384,7 @@ static void give_all(int body)
     CHECK_EQ(carom_body_set_damping(world, body, 1 << 20, 1 << 24), CAROM_OK);
 }
 
-/* Taken back, the same frames follow; extras come and go with what is taken back. */
+/* After loading, the same frames follow; extras come and go with the snapshot. */
 static void test_snapshot(void)
 {
     const carom_v3_q40 gravity = {{0, 0, -ONE / 512}};
@@ -393,7 +406,8 @@ static void test_snapshot(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
     hash = carom_world_hash(world);
-    /* one without: what acts on the body acts no more, and the bytes are those of before */
+    /* one without: the body has no torque, damping or scale any more, and the bytes are those from
+     * before */
     CHECK_EQ(carom_snapshot_load(world, changed, (size_t)plain_size), CAROM_OK);
     CHECK_EQ(carom_world_hash(world), plain);
     CHECK_EQ(carom_snapshot_load(world, saved, (size_t)size), CAROM_OK);
@@ -410,7 +424,7 @@ static void test_snapshot(void)
         CHECK_EQ(carom_world_step(world), CAROM_OK);
     }
     CHECK_EQ(carom_world_hash(world), hash);
-    /* and into one that has none left */
+    /* and into a world that has no extra left */
     config.caps.extras = 0;
     begin();
     def.position.c[0] += (int64_t)10 << 32;
@@ -418,7 +432,9 @@ static void test_snapshot(void)
     REFUSE(carom_snapshot_load(world, saved, (size_t)size), CAROM_ERR_EXTRAS_FULL);
 }
 
-/* Bytes of the section changed and the sum mended: refused unless they are what a world could have. */
+/*
+ * Changed bytes of the section with a corrected check sum: refused unless a world could have them.
+ */
 static void test_snapshot_bad(void)
 {
     static const struct {
@@ -467,7 +483,7 @@ static void test_snapshot_bad(void)
             changed[size - 8 + n] = (uint8_t)(sum >> 8 * n);
         }
         for (int n = size - 8; n < size; n++) {
-            sum = fnv_add(sum, changed[n]); /* the hash is of all bytes */
+            sum = fnv_add(sum, changed[n]); /* the check sum covers all bytes */
         }
         CHECK_EQ(carom_snapshot_load(world, changed, (size_t)size), changes[i].result);
         if (changes[i].result < 0) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Z-lists as a step asks them, for tools/zlists.py, which draws them. Plays a scene in the viewer up to its first hit, and
- * writes two rows of cells in section: one of the moving body's mesh, and one of the ground's with the leaf of the
- * body that had the most candidates in the frame of the hit.
+ * zlists - the z-lists that a step uses, for tools/zlists.py, which draws them. The program plays
+ * a scene in the viewer up to its first hit, and writes two rows of cells in section: one of the
+ * moving body's mesh, and one of the ground's mesh with the leaf of the body that had the most
+ * candidates in the frame of the hit.
  *
- * It is linked with -Wl,--wrap=interfere_leaves, so it sees the gathers of the step itself.
+ * The program is linked with -Wl,--wrap=interfere_leaves, so it sees the step's own gathers.
  *
  * Options: scene=NAME (of scene.h)  pictures=DIRECTORY (two pictures of the viewer: cells, leaves)
  */
@@ -21,7 +22,10 @@ enum { FRAMES_MOST = 600, FACES_MOST = 65536 };
 void __real_interfere_leaves(struct interfere *w);
 void __wrap_interfere_leaves(struct interfere *w);
 
-/* A leaf as a gather left it, and by face of b: met is whose plane the leaf reaches, found who has candidates. */
+/*
+ * A leaf as a gather left it. Per face of b: `met` says that the leaf reaches its plane, `found`
+ * that it has candidates.
+ */
 struct seen {
     struct interfere_leaf leaf;
     const struct carom_mesh *a, *b;
@@ -76,7 +80,10 @@ void __wrap_interfere_leaves(struct interfere *w)
 
 /* ------------------------------------------------------------------ a section */
 
-/* The fate of an entry of a cell under the leaf: the first cull that drops it, in their order. */
+/*
+ * The fate of an entry of a cell below the leaf: the first cull that drops it, in the order of the
+ * culls.
+ */
 static const char *fate(const struct seen *s, const struct carom_zref *entry)
 {
     if (entry->z1 < s->leaf.quanta_low[2]) {
@@ -117,7 +124,7 @@ static void print_row(const char *name, const struct carom_mesh *mesh, int32_t r
     }
 }
 
-/* The row under the leaf in which most entries have candidates. */
+/* The row below the leaf in which most entries have candidates. */
 static int32_t richest_row(const struct seen *s)
 {
     struct interfere_cells under =
