@@ -22,7 +22,7 @@ for source in tests/accuracy_*.c; do
             echo "ok $tests - accuracy/$kernel ($cases cases, max $max, $failures failures)"
         fi
     done <"$work/rows"
-    # a program that ends early
+    # the program ended early
     if [ ! -s "$work/rows" ] || [ "$status" -gt 1 ]; then
         tests=$((tests + 1))
         echo "not ok $tests - accuracy/$(basename "$source" .c) (exit status $status)"

@@ -1,6 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""tools/run_scene.py keeps every picture of a run, whoever writes it: the emulator when asked, or the board itself."""
+"""tools/run_scene.py keeps every picture of a run, whether the emulator writes it on request or the board
+itself."""
 import io
 import os
 import sys
@@ -24,7 +25,7 @@ def check(name, ok, seen):
 
 
 def write(path, frame):
-    """A bar as long as the number of the frame."""
+    """The picture of a frame: a bar whose length is the frame's number."""
     image = Image.new("RGB", SIZE, "white")
     image.paste("black", (0, 0, frame, SIZE[1]))
     image.save(path)
@@ -36,7 +37,7 @@ def bar(path):
 
 
 class Emulator:
-    """Photographs what is on the screen."""
+    """An emulator that photographs the screen."""
 
     frame = 0
 
@@ -46,7 +47,7 @@ class Emulator:
 
 
 def said_by_board(out):
-    """A board that writes a picture before it says that a frame is over."""
+    """A board that writes a picture before it reports the end of a frame."""
     for frame in range(1, FRAMES + 1):
         write(os.path.join(out, "frame-%04d.ppm" % frame), frame)
         yield "frame %d\n" % frame
@@ -73,7 +74,7 @@ def run(name, lines, camera):
         check(name + "/all_are_there_and_no_others", rows == FRAMES and left == wanted, (rows, left[:3]))
         seen = [bar(run_scene.png_name(out, n)) for n in range(1, FRAMES + 1)]
         check(name + "/each_in_its_place", seen == list(range(1, FRAMES + 1)), seen[:3])
-        # every third from the first on: 1, 4, ... 40
+        # every third picture from the first: 1, 4, ... 40
         film = Image.open(os.path.join(out, "film.gif"))
         check(name + "/animation", film.n_frames == 14 and film.width == 256, (film.n_frames, film.size))
 

@@ -1,8 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-A board that counts instructions says of every step whether it held its budget, and of one that did
-not which stage took most: against the counts of a run without a budget, to the instruction. TAP.
+A board that counts instructions reports for every step whether it kept its budget; for a step that did not, it
+names the costliest stage. The test compares that with the counts of a run without a budget, to the instruction.
+TAP.
 """
 import os
 import subprocess
@@ -30,7 +31,7 @@ def stages(result):
 
 
 def as_counted(result, counted, budget):
-    """Whether a run with a budget says what the counts without one say."""
+    """Whether a run with a budget reports what the counts of a run without one show."""
     for row, free in zip(result.rows, counted.rows):
         over = free["total"] > budget
         dearest = max(stages(counted), key=lambda stage: free[stage])  # the first of equal ones

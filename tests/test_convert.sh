@@ -60,7 +60,7 @@ write("far.obj", obj([(200 * x, y, z) for x, y, z in box], quads))
 write("hollow.obj", obj([(3 * x - 3, 3 * y - 2, 3 * z - 1) for x, y, z in box] + box,
                         quads + moved(back(quads), 8)))
 write("edge.obj", obj(box + [(x + 3, y + 2, z) for x, y, z in box], quads + moved(quads, 8)))
-# The box with a vertex on its lower front edge, and there a face without area.
+# The box with a vertex on its lower front edge, and a face without area there.
 front, floor = (1, 5, 0), (1, 0, 3)
 assert {front, floor} <= {t[k:] + t[:k] for t in triangles for k in range(3)}
 whole = [t for t in triangles if set(t) not in (set(front), set(floor))]
@@ -69,7 +69,7 @@ write("sliver.obj", obj(box + [(1, 0, 0)], whole + [floor, (0, 1, 8), (8, 1, 5),
 write("many.obj", obj([(x / 4, y / 4, 0) for x in range(280) for y in range(251)],
                       [(a, a + 251, a + 252, a + 1) for x in range(279)
                        for a in range(251 * x, 251 * x + 250)]))
-# An L of two hexagons, which are not convex, and six walls.
+# An L of two hexagons that are not convex, and six walls.
 corners = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 write("bent.obj", obj([(x, y, z) for z in (0, 1) for x, y in corners],
                       [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11)]
@@ -184,7 +184,7 @@ accepts one_turned one_turned.obj 'volume    6' 'turned 2 faces that disagreed'
 accepts face_given_twice twice.obj "$box_faces" 'volume    6' 'dropped 2 faces given twice'
 accepts face_without_area sliver.obj '14 faces, 21 edges, 9 vertices' 'volume    6' \
     'mended 1 face without area'
-accepts hollow hollow.obj '24 faces' 'volume    156' 'as hollow' # 9 x 6 x 3 less 3 x 2 x 1
+accepts hollow hollow.obj '24 faces' 'volume    156' 'as hollow' # 9 x 6 x 3 minus 3 x 2 x 1
 
 # -------------------------------------------------------------- what is refused
 
@@ -257,8 +257,8 @@ report $? c_source
 
 # --------------------------------------------------------------- larger meshes
 
-# same FILE C-SOURCE: an OBJ on a grid of 1/1024 and a converted mesh are equal in every
-# vertex and face, and in their orders
+# same FILE C-SOURCE: an OBJ on a grid of 1/1024 and a converted mesh have the same vertices and
+# faces, in the same order
 same()
 {
     python3 - "$1" "$2" >said 2>&1 <<'END'
@@ -284,7 +284,7 @@ accepts field '--surface -o field.c field.obj' 'SURFACE' '2^-10 ' \
 same field.obj field.c
 report $? field_keeps_its_order
 
-# an indexed mesh is what carom_mesh_build makes of it
+# an indexed mesh is equal to the result of carom_mesh_build
 cat >index.c <<'END'
 #include <string.h>
 #include "carom.h"

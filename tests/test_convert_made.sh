@@ -24,7 +24,7 @@ def packed(samples, bits):
 def rows_of(grid, bits):
     return b"".join(b"\0" + packed(row, bits) for row in grid)
 
-# 7 x 5 samples, those of Adam7's passes one after another for the interlaced one.
+# 7 x 5 samples; for the interlaced picture, in the order of Adam7's passes.
 grid = [[(3 * x + 40 * y) % 256 for x in range(7)] for y in range(5)]
 passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
 adam = b""
@@ -48,7 +48,7 @@ damaged[50] ^= 0xff
 write("damaged.png", bytes(damaged))
 write("dot.png", png(1, 1, 8, 0, b"\0a"))
 write("large.png", png(300, 200, 8, 0, rows_of([[9] * 300] * 200, 8)))
-# z = 2 x + 3 y of places 1 apart, the first row in the north
+# z = 2 x + 3 y at places 1 apart, with the first row in the north
 plane = [[2 * x + 3 * y for x in (-1.5, -0.5, 0.5, 1.5)] for y in (1, 0, -1)]
 for name, separator in (("comma", ","), ("semicolon", ";"), ("blank", "  "), ("tab", "\t")):
     write(name + ".csv", "\n".join(separator.join("%g" % z for z in row) for row in plane) + "\n")
@@ -67,8 +67,8 @@ write("binary.csv", bytes(range(256)))
 write("long.csv", "\n".join(["1 2"] * 300))
 END
 
-# grid_is FILE CELL HEIGHT OFFSET EVERY GREY: out.crm has the samples of the picture that the test made, each
-# at its place, faces that look up and cover the whole rectangle
+# grid_is FILE CELL HEIGHT OFFSET EVERY GREY: out.crm has the samples of the test's picture, each at its
+# place, and faces that look up and cover the whole rectangle
 grid_is()
 {
     python3 - "$@" >>said 2>&1 <<'END'
@@ -117,7 +117,7 @@ report $? heights_every_2
 report $? heights_every_3
 accepts heights_scaled '--heights --scale 2 grey8.png' '7 x 5 samples'
 
-# the plane z = 2 x + 3 y, whatever separates its numbers
+# the plane z = 2 x + 3 y, for every separator of its numbers
 for file in comma semicolon blank tab dos; do
     rm -f out.crm
     "$convert" --heights -b out.crm $file.csv >said 2>&1 && python3 - >>said 2>&1 <<'END'
@@ -162,7 +162,7 @@ report $? heights_no_cell
 [ $? -eq 1 ] && says 'go with --heights'
 report $? cell_alone
 
-# shape NAME TEXT CALL SIDES: the blob is what the run time makes in quanta of 2^-10 units
+# shape NAME TEXT CALL SIDES: the blob is equal to the run-time shape in quanta of 2^-10 units
 shape()
 {
     cat >shape.c <<END
@@ -197,7 +197,7 @@ shape capsule capsule:0.25,1,12 'carom_shape_capsule(&raw, &room, 256, 512, 12)'
 shape cylinder cylinder:1,0.5,9 'carom_shape_cylinder(&raw, &room, 1024, 256, 9)'
 shape cone cone:1,3,7 'carom_shape_cone(&raw, &room, 1024, 1536, 7)'
 
-# volume OPTIONS EXPRESSION: what the converter says is within 1/1000 of a closed form
+# volume OPTIONS EXPRESSION: the reported volume is within 1/1000 of a closed form
 volume()
 {
     # shellcheck disable=SC2086
@@ -271,8 +271,8 @@ report $? objects_named
 
 # --------------------------------------------------------------- previews
 
-# seen OPTIONS LEAST MOST: a picture of 1200 x 600, and of the left half the share in percent that is not the
-# background, which is alike along each row but for the mesh and the letters
+# seen OPTIONS LEAST MOST: the picture has 1200 x 600 pixels; in its left half, the share in percent that is
+# not background is between LEAST and MOST. The background has one colour in each row.
 seen()
 {
     rm -f seen.png
@@ -317,7 +317,7 @@ for side in (0, 600):
 END
     report $? "preview_$(echo "${1##*--shape }" | tr -c 'a-z0-9\n' '_')"
 }
-# a ball as wide as 84 % of the picture: pi / 4 * 0.84^2 = 55 %, and somewhat less as a polygon
+# a ball as wide as 84 % of the picture: pi / 4 * 0.84^2 = 55 %, and a little less as a polygon
 seen '--shape sphere:0.5,32' 50 57
 seen '--unit mm --shape sphere:1,32' 50 57
 seen '--shape sphere:100,32' 50 57

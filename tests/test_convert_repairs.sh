@@ -46,7 +46,7 @@ warped = [list(p) for p in plain[0]]
 warped[7][2] = 2
 write("warped.obj", (warped, quads[:1] + quads[2:]))
 write("leaf.obj", ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
-# a bow tie of walls: its ends cross themselves
+# a bow tie of walls: its ends intersect themselves
 write("crossed.obj", walls([(0, 0), (2, 2), (2, 0), (0, 2)]))
 
 write("shifted.obj", plain, box((1, 0, 0), (4, 2, 1)))
@@ -68,7 +68,7 @@ def grid(n, m, place, name):
             faces += [(a, b, c), (a, c, d)]
     write(name, ([place(2 * pi * i / n, 2 * pi * j / m) for i in range(n) for j in range(m)], faces))
 grid(300, 120, lambda a, b: ((1 + 0.3 * cos(b)) * cos(a), (1 + 0.3 * cos(b)) * sin(a), 0.3 * sin(b)), "torus.obj")
-# a cube of 120 x 120 squares a side, which 12 faces say as well
+# a cube with 120 x 120 squares a side, which needs only 12 faces
 points = {}
 def at(*p):
     return points.setdefault(p, len(points))
@@ -93,15 +93,16 @@ accepts close_one '--close open.obj' '12 faces, 18 edges, 8 vertices' 'volume   
     'closed 1 hole, 2 faces added'
 accepts close_two '--close tube.obj' 'volume    6' 'closed 2 holes, 4 faces added'
 accepts close_concave '--close bent.obj' 'volume    3' 'closed 2 holes, 8 faces added'
-# 4 x 4 less 2 x 2; a ring of 4 and 4 corners takes 8 faces
+# 4 x 4 minus 2 x 2; a ring of 4 and 4 corners takes 8 faces
 accepts close_ring '--close ring.obj' 'volume    12' 'closed 4 holes, 16 faces added'
 # 36 - 16 + 4; at each end a ring of 8 faces and a square of 2
 accepts close_island '--close isle.obj' 'volume    24' 'closed 6 holes, 20 faces added'
 # 72 - 3 - 3; a polygon of n corners with h holes takes n + 2 h - 2 faces: 19 + 4 - 2, twice
 accepts close_slots '--close slots.obj' 'volume    66' 'closed 6 holes, 42 faces added'
 accepts close_nothing '--close plus.obj --overlaps allow' 'mended    nothing'
-# three corners of the hole lie in z = 1 and one a unit above: its plane lies 1 / 4 unit below or above
-# each, upright; tilted by slopes of 1 / 6 and 1 / 4 that is 0.25 / sqrt(1 + 1/36 + 1/16) = 0.239
+# three corners of the hole lie in z = 1 and one a unit above. Its plane lies 1 / 4 unit below or above
+# each, measured upright; tilted by slopes of 1 / 6 and 1 / 4 that is 0.25 / sqrt(1 + 1/36 + 1/16) =
+# 0.239
 refuses close_warped '--close warped.obj' '1 hole' 'not flat: 0.239 units'
 refuses close_crossed '--close crossed.obj' 'cannot be filled'
 refuses close_leaf '--close leaf.obj'
@@ -138,7 +139,7 @@ assert 1000 < nf <= 2000, nf
 ways = [(t[k], t[k - 2]) for t in f for k in range(3)]
 assert len(set(ways)) == len(ways) and all((b, a) in set(ways) for a, b in ways[:300])
 assert {(b, a) for a, b in ways} == set(ways)
-assert nv - len(ways) // 2 + nf == 0 # a torus still
+assert nv - len(ways) // 2 + nf == 0 # still a torus
 volume = 0
 for t in f:
     a, b, c = (v[i] for i in t)
@@ -146,7 +147,7 @@ for t in f:
                + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
 volume /= 2 ** (3 * bits)
 assert abs(volume / (2 * math.pi ** 2 * 0.09) - 1) < 0.02, volume
-# no vertex is moved: each is on the torus but for half a quantum along each axis
+# no vertex moved: each is on the torus within half a quantum along each axis
 for x, y, z in v:
     off = math.hypot(math.hypot(x, y) / 2 ** bits - 1, z / 2 ** bits) - 0.3
     assert abs(off) < 0.9 / 2 ** bits, off
@@ -160,7 +161,7 @@ f = list(struct.iter_unpack("<HHH", blob[16 + 6 * nv:16 + 6 * nv + 6 * nf]))
 assert 1000 < nf <= 2000, nf
 ways = [(t[k - 1], t[k]) for t in f for k in range(3)]
 assert len(set(ways)) == len(ways) and {(b, a) for a, b in ways} == set(ways)
-assert nv - len(ways) // 2 + nf == 0 # a torus still
+assert nv - len(ways) // 2 + nf == 0 # still a torus
 volume = 0
 for t in f:
     a, b, c = (v[i] for i in t)
@@ -168,7 +169,7 @@ for t in f:
                + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
 volume /= 2 ** (3 * bits)
 assert abs(volume / (2 * math.pi ** 2 * 0.09) - 1) < 0.02, volume
-# no vertex is moved: each is on the torus but for half a quantum along each axis
+# no vertex moved: each is on the torus within half a quantum along each axis
 for x, y, z in v:
     off = math.hypot(math.hypot(x, y) / 2 ** bits - 1, z / 2 ** bits) - 0.3
     assert abs(off) < 0.9 / 2 ** bits, off
@@ -181,7 +182,7 @@ accepts simplify_small '--simplify 100 nested.obj' 'volume    512'
 
 # ----------------------------------------------------------------- bad options
 
-# wrong OPTIONS TEXT: with status 1, and nothing written
+# wrong OPTIONS TEXT: ends with status 1, and writes nothing
 wrong()
 {
     rm -f out.crm

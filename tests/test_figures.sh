@@ -21,7 +21,7 @@ report()
     fi
 }
 
-# The first frame with a hit, and its faces, by the columns of a run.
+# The first frame with a hit, and its faces, from the columns of a run.
 hit_of_run()
 {
     build/host/head.elf "scene=$1" frames=60 | awk '
@@ -35,7 +35,8 @@ for scene in head head836; do
     hit_of_run "$scene" >"$work/run"
     awk '$1 == "first" { first = $2 } $1 == "interfering" { print first, $2 + $3 }' "$work/said" | diff "$work/run" - >"$work/difference"
     report $? "$scene/the_hit_of_the_run" "$work/difference"
-    # near by or from below faces of the body are seen that are of the orange of its ramp, red well above blue
+    # seen from near or from below, some faces of the body have the orange of its ramp, with red well
+    # above blue
     /usr/bin/python3 - "$work/frame-0002.png" "$work/frame-0003.png" >"$work/colours" 2>&1 <<'END'
 import sys
 from PIL import Image

@@ -39,7 +39,7 @@ plausible()
         END { exit bad || seen != 2 || rest < 222 || rest > 224 }' "$1"
 }
 
-# The fence after the program of README.md that is not a command.
+# The fenced output that follows the program in README.md.
 readme_output()
 {
     awk '/^```/ { inside = !inside

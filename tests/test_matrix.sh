@@ -16,7 +16,7 @@ matrix()
         >"$work/said" 2>&1
 }
 
-# report STATUS NAME: a line of TAP; after a failure, what the tool said last
+# report STATUS NAME: a line of TAP; after a failure, the tool's last output
 tests=0
 report()
 {
@@ -29,7 +29,7 @@ report()
     fi
 }
 
-# says TEXT...: every text is in what the tool said
+# says TEXT...: the tool's output has every text
 says()
 {
     for text in "$@"; do
@@ -37,14 +37,15 @@ says()
     done
 }
 
-# copy: the engine anew, to be spoilt
+# copy: a fresh copy of the engine, for faults
 copy()
 {
     rm -rf "$work/src"
     cp -r src "$work/src"
 }
 
-# spoil FRAME STAGE STATEMENT: done when a stage ends in a frame; a frame ends with commit
+# spoil FRAME STAGE STATEMENT: the statement runs when a stage ends in a frame; a frame ends with
+# commit
 spoil()
 {
     copy
@@ -54,7 +55,7 @@ stage == CAROM_STAGE_$2) {\n        $3;\n    }\n    frame += stage == CAROM_STAG
     ! cmp -s src/step/slice.c "$work/src/step/slice.c"
 }
 
-# Two scenes go on from a snapshot, from either machine to the other.
+# Two scenes continue from a snapshot, from each machine on the other.
 matrix
 status=$?
 says '2 builds, 15 scenes, 1 hash each' \
@@ -68,13 +69,13 @@ spoil 137 REST 'w->states[w->now == w->states].bodies[1].momentum.c[0] += 1' &&
     says 'FAIL m68k gcc -O0: slide has ' 'first in frame 137, after stage rest'
 report $? 'a state that differs by a bit: its frame and stage'
 
-# The findings of a stage are in no state yet; the state differs after advance only.
+# The findings of a stage are in no state yet; the state differs only after advance.
 spoil 41 PREDICT 'w->bodies[1].path.v.c[0] += 1 << 20' &&
     { matrix --scene slide --engine "m68k=$work/src"; [ $? -eq 1 ]; } &&
     says 'first in frame 41, after stage predict'
 report $? 'a path that differs: the stage that made it'
 
-# Bytes the other way round are right for whoever wrote them, but for nobody else.
+# A hash of swapped bytes agrees with itself on one machine, but not with other machines.
 copy
 sed -i 's/v >> (8 \* i)/v >> (8 * (bytes - 1 - i))/' "$work/src/world/stream.c"
 ! cmp -s src/world/stream.c "$work/src/world/stream.c" &&

@@ -1,8 +1,8 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-The files that a Nintendo DS is given, against what GBATEK says of a cartridge's header: places, sizes, check sum;
-that what is in them is the program; and that the front end writes arguments where the program reads them. TAP.
+The files for a Nintendo DS: places, sizes and check sum as GBATEK describes a cartridge's header; they hold the
+program; and the front end writes arguments to the place where the program reads them. TAP.
 """
 import os
 import re
@@ -17,9 +17,9 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILT = os.path.join(ROOT, "build", "nds", "head")
 TOOL = os.path.join(ROOT, "tools", "nds.py")
 OUT = os.path.join(ROOT, "build", "tests", "nds")
-MAIN, MAIN_LOADED = 0x02000000, 0x3bfe00  # main memory, and how much of it a loader fills
-SECOND, SECOND_LOADED = 0x037f8000, 0xfe00  # the second processor's own
-SECURE = 0x4000  # from here to 0x8000 a cartridge is encrypted
+MAIN, MAIN_LOADED = 0x02000000, 0x3bfe00  # main memory, and the part of it that a loader fills
+SECOND, SECOND_LOADED = 0x037f8000, 0xfe00  # the second processor's own memory
+SECURE = 0x4000  # a cartridge is encrypted from here to 0x8000
 LOGO = slice(0xc0, 0x15e)
 
 
@@ -30,8 +30,8 @@ def read(path):
 
 def check_sum(data):
     """
-    The remainder of a division of polynomials: bits from the low end of each byte, those of the first two turned, and the
-    remainder read from the low end.
+    The remainder of a division of polynomials. Each byte's bits come from the low end; the bits of the first
+    two bytes are inverted; the remainder is read from the low end.
     """
     bits = [byte >> i & 1 for byte in data for i in range(8)] + [0] * 16
     bits[:16] = [1 - bit for bit in bits[:16]]
@@ -53,7 +53,7 @@ def holds_program(cartridge, image):
 
 
 def second_sleeps(cartridge):
-    """Its code, as binutils read it: interrupts off, then the BIOS's Halt, in a loop."""
+    """Its code as binutils disassemble it: interrupts off, then the BIOS's Halt, in a loop."""
     place, entry, address, size = words(cartridge, 0x30, 4)
     path = os.path.join(OUT, "second.bin")
     with open(path, "wb") as file:
@@ -66,7 +66,7 @@ def second_sleeps(cartridge):
 
 
 def fits(cartridge):
-    """Whether its parts are in the file one behind the other, and the file is in a chip of the size that it says."""
+    """Whether the parts of the file follow each other, and the file fits the chip of the size in its header."""
     (first, _, _, first_size), (second, _, _, second_size) = words(cartridge, 0x20, 4), words(cartridge, 0x30, 4)
     used, header = words(cartridge, 0x80, 2)
     chip = (128 << 10) << cartridge[0x14]
@@ -75,19 +75,19 @@ def fits(cartridge):
 
 
 def room():
-    """Where in the cartridge the program looks for arguments."""
+    """The place in the cartridge at which the program looks for arguments."""
     said = subprocess.run(["arm-none-eabi-nm", BUILT + ".elf"], stdout=subprocess.PIPE, text=True).stdout
     return int(re.search(r"^(\w+) . room$", said, re.M)[1], 16) - MAIN + 0x200
 
 
 def told_where():
-    """Where the front end writes them."""
+    """The place at which the front end writes arguments."""
     source = read(os.path.join(ROOT, "tools", "retro_nds.c")).decode()
     return int(re.search(r"\.arguments_at = (\w+)", source)[1], 0)
 
 
 def refuses(size):
-    """Whether the tool makes nothing of a program of so many bytes."""
+    """Whether the tool refuses a program of so many bytes."""
     path = os.path.join(OUT, "large.bin")
     with open(path, "wb") as file:
         file.write(bytes(size))

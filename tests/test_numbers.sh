@@ -23,7 +23,8 @@ report()
     fi
 }
 
-# try COMMAND NAME CODE MINDS: whether the compiler minds the code, by an error or a warning, as it should
+# try COMMAND NAME CODE MINDS: whether the compiler reports the code, by an error or a warning, as it
+# should
 try()
 {
     printf '#include "carom_body.h"\n%s\n' "$3" >"$work/it.c"
@@ -61,7 +62,7 @@ for compiler in "gcc -std=c11 -Wfloat-conversion" "clang -std=c11" "g++ -x c++ -
         "$([ "$name" = g++ ] && echo 1 || echo 0)"
     try "$compiler" "$name/plain" "struct carom_body_def d = {.velocity = {{CAROM_VELOCITY_M_S(2, 60)}}};" 1
 done
-# what gcc says of C alone, with -Wconversion
+# gcc's warnings for C alone, with -Wconversion
 try "gcc -std=c11 -Wconversion" "gcc/conversion" "struct carom_body_def d = {.velocity = {{9.81}}};" 0
 try "g++ -x c++ -std=c++20 -Wfloat-conversion" "g++/assigned" \
     "void f(struct carom_body_def *d); void f(struct carom_body_def *d) { d->restitution_q30 = 0.5; }" 0

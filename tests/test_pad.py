@@ -1,8 +1,8 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-The games of the Game Boy Advance, the Nintendo DS and the PlayStation, their keys pressed by a script: what
-they do to the body is read off the states and the pictures. TAP.
+The games of the Game Boy Advance, the Nintendo DS and the PlayStation, with keys pressed by a script. The
+states and the pictures show the keys' effect on the body. TAP.
 """
 import os
 import shutil
@@ -18,7 +18,7 @@ SCENES = {"gba": "head48", "nds": "head450", "psx": "head450"}
 STEPS = 200
 A, B, SELECT, START, RIGHT, LEFT = 1, 2, 4, 8, 16, 32
 HELD_FROM, TILTED = 12, 32  # pictures
-FIGURES = 10  # rows at the bottom of a screen that the game's figures take, and an edge
+FIGURES = 10  # rows at the bottom of a screen that the game's figures take, plus an edge
 
 
 class Picture:
@@ -33,17 +33,17 @@ class Picture:
         self.scene, self.figures = rows[:-FIGURES], rows[3 - FIGURES:]
 
     def centre(self):
-        """Of the body, which alone is brown: column and row, in pixels."""
+        """Column and row, in pixels, of the body, which alone is brown."""
         at = [(x, y) for y, row in enumerate(self.scene) for x, (r, g, b) in enumerate(row)
               if r > g + 16 and g >= b]
         return [sum(axis) / len(at) for axis in zip(*at)] if at else None
 
     def grass(self):
-        """Pixels that are green: a wire frame of the ground has few of them."""
+        """The number of green pixels; a wire frame of the ground has few of them."""
         return sum(g > r + 16 and g > b + 16 for row in self.scene for r, g, b in row)
 
     def white(self):
-        """Whether there are figures."""
+        """Whether figures are shown."""
         return any(min(pixel) > 240 for row in self.figures for pixel in row)
 
 
@@ -54,7 +54,7 @@ class Game:
         self.out = os.path.join(ROOT, "build", "tests", "pad", board)
 
     def play(self, name, press=None):
-        """Play with some keys; returns the last state and the pictures in turn."""
+        """Play with some keys; returns the last state and the pictures in order."""
         folder = os.path.join(self.out, name)
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
@@ -64,7 +64,7 @@ class Game:
                                          for each in sorted(os.listdir(folder))]
 
     def hashes(self, most):
-        """The states of the scene when nobody plays, a frame each."""
+        """The states of the scene without keys, one a frame."""
         result = run_board.run(self.image, [self.scene, "frames=%d" % most], 100)
         return [row["hash"] for row in result.rows]
 
@@ -81,7 +81,7 @@ def cases(board):
     last = len(plain) - 1
     yield "untouched_it_is_the_scene", untouched is not None and untouched == alone[-1]
 
-    # thrown up at 3.5 m/s: it is at the top a third of a second later, some 5 pictures
+    # thrown up at 3.5 m/s: the body is at the top a third of a second later, some 5 pictures
     state, pictures = game.play("a", tap(last - 6, A))
     yield "a_throws_it_up", state != untouched and \
         pictures[last].centre()[1] < plain[last].centre()[1] - 5
@@ -91,7 +91,8 @@ def cases(board):
         yield name + "_tilts_gravity", state != untouched and \
             sign * (pictures[TILTED].centre()[0] - plain[TILTED].centre()[0]) > 5
 
-    # begins again: it ends as a scene that has had only the steps since, four a picture at most
+    # the game begins again: it ends like a scene that had only the steps since then, at most four a
+    # picture
     state, pictures = game.play("start", tap(last - 8, START))
     yield "start_begins_again", state in alone[19:44]
 

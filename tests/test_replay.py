@@ -1,11 +1,12 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-Every function of the headers that changes a world is recorded, redirected and tested, and the command plays a
-recording of a scene on the host and in WebAssembly, begun with the world and in its middle, names the frame of one that was altered,
-and builds one into the image of a board that reads no files. TAP.
+Every function of the headers that changes a world is recorded, redirected and tested. The command plays a
+recording of a scene on the host and in WebAssembly, whether it began with the world or later; it names the
+frame of an altered one; and it builds one into the image of a board that reads no files. TAP.
 
-With the argument `long`: 10,000 frames of the car take less than 64 KB and are the same here, on a Cortex-M3 and in WebAssembly.
+With the argument `long`: 10,000 frames of the car take less than 64 KB and are the same here, on a Cortex-M3
+and in WebAssembly.
 """
 import os
 import re
@@ -16,7 +17,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 os.chdir(ROOT)
 FILE = "build/tests/car.replay"
 FRAMES = 300
-# They take a world that is not const, for their scratch or for what is yours, and change no bit of its state.
+# These take a world that is not const, for scratch memory or for the caller's data, and change no bit of its
+# state.
 QUESTIONS = {"query_faces", "overlap_mesh", "cast_mesh", "closest_points", "body_set_user"}
 
 
@@ -26,7 +28,7 @@ def read(path):
 
 
 def changing():
-    """The functions that change a world, by the headers."""
+    """The functions of the headers that change a world."""
     found = set()
     for name in sorted(os.listdir("include")):
         if name != "carom_replay.h":
@@ -58,7 +60,7 @@ def record(*options):
 
 
 def on_board(board):
-    """The command itself, without the lines of what it builds."""
+    """The command itself, without the lines of the builds that it starts."""
     done = subprocess.run(["make", "-s", "replay", "FILE=" + FILE, "BOARD=" + board], text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.DEVNULL, env=without_make())
@@ -81,7 +83,8 @@ def cases():
     yield "plays", run("tools/replay.py", FILE) == (0, "host: %d frames, the same\n" % FRAMES)
     with open(FILE, "rb") as file:
         whole = bytearray(file.read())
-    # before the end (17 bytes) stands the check of the last frame, with the state's 2 bytes at its end
+    # the check of the last frame stands before the end (17 bytes), with the state's 2 bytes at its
+    # own end
     whole[-18] ^= 1
     with open(FILE, "wb") as file:
         file.write(whole)
@@ -104,7 +107,7 @@ def cases():
 
 
 def long_cases():
-    """The bar, which takes minutes on an emulated board."""
+    """The long test, which takes minutes on an emulated board."""
     make("host", "record", "replay")
     make("wasm", "replay")
     make("mps2-an385", "replay")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""tools/scene_sheet.py: a thumbnail, a line and a place on both sheets for each scene that the host shows. TAP."""
+"""tools/scene_sheet.py puts a thumbnail, a line and a place on both sheets for each scene that the host
+shows. TAP."""
 import html
 import io
 import itertools
@@ -20,13 +21,13 @@ import scene_sheet  # noqa: E402
 import terminal  # noqa: E402
 
 PROGRAM = os.path.join(ROOT, "build", "host", "head.elf")
-COLOURS_LEAST = 12  # of a picture with something in it; sky and ground alone have eleven
-SHEET_MOST = 300000  # bytes: it is committed
+COLOURS_LEAST = 12  # colours of a picture with something in it; sky and ground alone have eleven
+SHEET_MOST = 300000  # bytes, because the sheet is committed
 failed = count = 0
 
 
 def check(name, bad):
-    """A case that is good when there is nothing bad."""
+    """A case that passes when the list of faults is empty."""
     global failed, count
     count += 1
     failed += bool(bad)
@@ -56,7 +57,7 @@ def page(out, names, texts):
 
 
 def sheet(out, names, images):
-    """In each place is the picture that belongs there: its colours are, within what a palette changes."""
+    """Each place of the sheet has its scene's picture: the colours match, within what a palette changes."""
     path = os.path.join(out, "scenes.png")
     whole, off = Image.open(path).convert("RGB"), []
     size, wide, high = scene_sheet.THUMBNAIL, scene_sheet.THUMBNAIL + scene_sheet.GAP, \
@@ -73,7 +74,7 @@ def sheet(out, names, images):
 
 def in_a_terminal(out, names):
     ours, theirs = pty.openpty()
-    rows = names[:2]  # as many as 72 columns have room for: a terminal of no known width
+    rows = names[:2]  # a terminal of unknown width has as many columns as fit into 72
     with os.fdopen(theirs, "w", encoding="utf-8") as stream:
         shown = terminal.shows(stream, {"COLORTERM": "truecolor"})
     os.close(ours)
@@ -102,7 +103,8 @@ def in_a_terminal(out, names):
 
 
 def one_frame_alone():
-    """The picture of a frame that alone is drawn is that of a run in which each was, and so is the state."""
+    """A run that draws one frame only gives the same picture and the same state as a run that draws every
+    frame."""
     with tempfile.TemporaryDirectory() as folder:
         said = []
         for name, options in (("all", []), ("one", ["only=12"])):

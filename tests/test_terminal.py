@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""tools/terminal.py: the progress of a run, and a picture in characters, on a terminal and where there is none."""
+"""tools/terminal.py: the progress of a run, and a picture in characters, on a terminal and without one."""
 import io
 import os
 import pty
@@ -25,7 +25,7 @@ class Tap:
 
 
 class Screen(io.StringIO):
-    """A stream that says it is a terminal."""
+    """A stream that claims to be a terminal."""
 
     def isatty(self):
         return True
@@ -57,7 +57,7 @@ def progress_is_quiet(tap):
 
 
 def halves():
-    """Red over blue."""
+    """A picture that is red above and blue below."""
     image = Image.new("RGB", (16, 16), (255, 0, 0))
     image.paste((0, 0, 255), (0, 8, 16, 16))
     return image
@@ -83,14 +83,14 @@ def terminals(tap):
 
 
 def all_of_it_is_seen(tap):
-    """A square picture is twice as wide in characters as it is high; five lines are to stay below it."""
+    """A square picture is twice as wide in characters as it is high; five lines stay free below it."""
     cases = (((200, 100), 72), ((50, 100), 50), ((200, 40), 70), ((80, 24), 38), ((80, 6), 20), ((72, 0), 72))
     said = [terminal.columns_for(halves(), *size) for size, _ in cases]
     tap.check("fits_the_terminal", said == [columns for _, columns in cases], said)
 
 
 def on_a_terminal(environment):
-    """Whether a picture was shown on a terminal that is read while it is written, and what was read."""
+    """Whether a picture was shown on a terminal that is read while it is written, and the text that was read."""
     ours, theirs = pty.openpty()
     seen = []
 

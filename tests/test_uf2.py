@@ -1,9 +1,8 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
 """
-The files that a Raspberry Pi Pico's boot ROM takes, against what Microsoft's UF2 and the RP2040's
-datasheet say of them: blocks, check sum of the loader, vectors; and that tools/uf2.py and the runner refuse
-a loader that is damaged. TAP.
+The files that a Raspberry Pi Pico's boot ROM takes, against Microsoft's UF2 and the RP2040's datasheet: blocks,
+check sum of the loader, vectors. tools/uf2.py and the runner refuse a damaged loader. TAP.
 """
 import os
 import shutil
@@ -32,13 +31,13 @@ def mirrored(value, bits):
 
 
 def check_sum(data):
-    """zlib's check sum runs through the bits of a byte from the low end, and is inverted."""
+    """zlib's check sum takes the bits of a byte from the low end, and is inverted."""
     crc = zlib.crc32(bytes(mirrored(byte, 8) for byte in data)) ^ 0xffffffff
     return mirrored(crc, 32)
 
 
 def blocks_are_right(uf2, image):
-    """Whether the blocks are all there, in turn, for this chip, and hold the image."""
+    """Whether all blocks are there, in order, for this chip, and hold the image."""
     count = len(uf2) // BLOCK.size
     if len(uf2) % BLOCK.size or count * 256 < len(image):
         return False
@@ -53,14 +52,14 @@ def blocks_are_right(uf2, image):
 
 
 def starts(image):
-    """Whether the vectors hold a stack in RAM and a Thumb function in the flash."""
+    """Whether the vectors hold a stack in RAM and a Thumb function in flash."""
     stack, begin = struct.unpack_from("<2I", image, 256)
     return RAM < stack <= RAM + RAM_BYTES and stack % 8 == 0 and \
         begin % 2 == 1 and FLASH + 256 < begin < FLASH + len(image)
 
 
 def damaged(place):
-    """(whether the tool refuses an image with a bit turned, whether the runner a file)"""
+    """(whether the tool refuses an image with a changed bit, whether the runner refuses such a file)"""
     image, uf2 = bytearray(read(BUILT + ".bin")), bytearray(read(BUILT + ".uf2"))
     image[place] ^= 1
     uf2[32 + place] ^= 1

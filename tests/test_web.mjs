@@ -8,7 +8,9 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 const ROOT = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const { chromium } = createRequire(path.join(ROOT, "build/npm/web/"))("playwright-core");
 const PAGE = pathToFileURL(path.join(ROOT, "out/web/index.html")).href;
-const GOLDEN = { scene: "head", frame: 600, hash: "b57fdd286fde9cb7" }; // tests/bench_scenes.csv, by a Cortex-M3
+const GOLDEN = { scene: "head", frame: 600, hash: "b57fdd286fde9cb7" }; // from
+                                                                        // tests/bench_scenes.csv,
+                                                                        // measured on a Cortex-M3
 const FRAMES = 12;
 const CUBE = `v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n`;
@@ -40,7 +42,7 @@ async function open(hash = "", options = {}) {
 const frame = async (page) => Number(await page.textContent("#count"));
 const text = (page, id) => page.textContent("#" + id);
 
-// Pause, then press Step until the frame is there.
+// Pause, then press Step until the frame is reached.
 async function stepTo(page, last) {
     await page.evaluate(async (last) => {
         const count = () => Number(document.getElementById("count").textContent);
@@ -57,7 +59,8 @@ async function stepTo(page, last) {
     return { frame: await frame(page), hash: await text(page, "hash") };
 }
 
-// The middle of what is brown in the picture, the moving body: column and row from the top left, 0 .. 1.
+// The middle of the brown pixels of the picture, which are the moving body: column and row from the top
+// left, 0 .. 1.
 const bodyPlace = (page) => page.evaluate(() => {
     const canvas = document.getElementById("canvas");
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -87,7 +90,7 @@ async function runs() {
     await page.context().close();
 }
 
-// Each scene of the page for some frames: no message, and the host's state.
+// Run each scene of the page for some frames: no message, and the host's state.
 async function scenes() {
     const page = await open(), wrong = [], all = await page.$$eval("#list button", (each) => each.map(({ dataset }) => dataset.name));
     for (const name of all.filter((each) => !each.startsWith("growth"))) {
@@ -109,7 +112,7 @@ async function scenes() {
     await page.context().close();
 }
 
-// Fingers: one turns the view, two come nearer.
+// Fingers: one turns the view, two move the camera closer.
 async function touches() {
     const page = await open("#box", { viewport: { width: 360, height: 740 }, hasTouch: true });
     const client = await page.context().newCDPSession(page), box = await page.locator("#canvas").boundingBox();
@@ -193,7 +196,7 @@ async function links() {
     await changed.context().close();
 }
 
-// A hand takes the box, draws it aside and lets go; the link has it all.
+// A hand takes the box, pulls it aside and lets go; the link has all of that.
 async function throws() {
     const free = await open("#box"), alone = await stepTo(free, 120);
     await free.context().close();
@@ -218,7 +221,7 @@ async function throws() {
     await other.context().close();
 }
 
-// The least contrast of text on what is behind it, and the colour of the page.
+// The smallest contrast of text on its background, and the colour of the page.
 const colours = (page) => page.evaluate(() => {
     const parts = (colour) => colour.match(/[\d.]+/g).map(Number);
     const light = (colour) => parts(colour).slice(0, 3).map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))

@@ -1,9 +1,11 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""The window of `make view` on an X server without a screen, by keys and a pointer: test_window.py [FOLDER FOR PICTURES]
+"""The window of `make view` on an X server without a screen, driven by keys and a pointer: test_window.py
+[FOLDER FOR PICTURES]
 
-What a picture must show follows from what was done: a paused scene does not change a pixel, edges leave the sky on both
-sides, a drag turns all of it, a link is followed to its own state, and the host's head.elf has the same one.
+The actions determine what a picture must show: a paused scene does not change a pixel, edges leave the sky on
+both sides, a drag turns everything, a link leads to its own state, and the host's head.elf has the same
+state.
 """
 import os
 import queue
@@ -19,7 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WINDOW = os.path.join(ROOT, "build", "host", "window.elf")
 HEAD = os.path.join(ROOT, "build", "host", "head.elf")
 WIDTH, HEIGHT = 1024, 720
-BAR = (0xf6, 0xb2, 0x6b)  # of the stage boyse
+BAR = (0xf6, 0xb2, 0x6b)  # colour of the stage boyse
 PICTURES = sys.argv[1] if len(sys.argv) > 1 else None
 tests = {"count": 0, "failed": 0}
 
@@ -32,7 +34,7 @@ def check(name, ok, seen=""):
 
 
 def until(what, seconds=30):
-    """Wait until something holds; whether it does."""
+    """Wait until something holds; returns whether it does."""
     end = time.time() + seconds
     while time.time() < end:
         if what():
@@ -42,7 +44,7 @@ def until(what, seconds=30):
 
 
 class Screen:
-    """An X server of its own; nothing else shows there."""
+    """An X server of its own, with nothing else on it."""
 
     def __init__(self):
         read, write = os.pipe()
@@ -62,7 +64,7 @@ class Screen:
 
 
 class Window:
-    """The program, its window at the left top, and the lines that it says."""
+    """The program, its window at the top left, and the lines that it prints."""
 
     def __init__(self, screen, *options, command=(WINDOW,)):
         self.screen = screen
@@ -74,7 +76,7 @@ class Window:
         until(self.settles, 60)
 
     def settles(self):
-        """Find the window, put it to the left top and let it have the keys; whether all that is done."""
+        """Find the window, move it to the top left and give it the keys; returns whether all of that worked."""
         self.id = self.screen.ask("search", "--onlyvisible", "--name", "^Carom:").split("\n")[-1]
         if not self.id:
             return False
@@ -83,13 +85,13 @@ class Window:
                 self.screen.ask("getwindowfocus") == self.id)
 
     def state(self):
-        """Link, frame and hash. When they are said, all keys and moves before are done."""
+        """Link, frame and hash. The program prints them after all earlier keys and moves are done."""
         self.screen.ask("key", "k")
         found = self.says(r"link (\S+)/(\d+)/([0-9a-f]{16})$")
         return found.group(1), int(found.group(2)), found.group(3)
 
     def shown(self):
-        """Wait until what was done is in the picture: it is drawn between two answers."""
+        """Wait until the last action is in the picture, which is drawn between two answers."""
         self.state()
         time.sleep(0.1)
         self.state()
@@ -100,7 +102,7 @@ class Window:
         self.shown()
 
     def move(self, *way, button=1):
-        """The pointer along places, with a button held."""
+        """Move the pointer along places, with a button held."""
         self.screen.ask("mousemove", *way[0], "mousedown", button)
         for place in way[1:]:
             self.shown()
@@ -116,7 +118,7 @@ class Window:
         return image
 
     def says(self, pattern):
-        """The next line that fits."""
+        """The next line that matches."""
         end = time.time() + 40
         while time.time() < end:
             try:
@@ -146,7 +148,8 @@ def changed(a, b):
 
 
 def thin(image):
-    """How many pixels have the sky, which has one colour a row, on both sides: edges, on the sky."""
+    """The number of pixels with the sky's colour, which is the same along a row, on both sides: edges before
+    the sky."""
     pixels, count = image.load(), 0
     for y in range(2, image.height, 3):
         sky = pixels[0, y]
@@ -161,7 +164,7 @@ def of_colour(image, wanted, box=None):
 
 
 def brown(red, green, blue):
-    """What moves: the usual ramp of it."""
+    """The moving bodies, by their default ramp."""
     return red > green + 16 and green >= blue
 
 
@@ -283,7 +286,8 @@ def throw(screen):
 
 
 def toggles(screen):
-    """Contacts are yellow and red, leaves have many colours, cells are cyan: on what lies there and sleeps or nearly so."""
+    """Contacts are yellow and red, leaves have many colours, cells are cyan, on bodies that lie there and
+    sleep or nearly so."""
     window = Window(screen, "scene=pile")
     check("pile_lies", until(lambda: window.state()[1] > 90, 60))
     window.press("t", "space")

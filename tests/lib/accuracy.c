@@ -10,7 +10,9 @@
 
 static bool missed;
 
-/* Shared files of tests call CHECK; a program without a runner ends at the first check that fails. */
+/*
+ * Shared files of tests call CHECK. A program without a runner ends at the first check that fails.
+ */
 void test_check(bool ok, const char *file, int line, const char *text)
 {
     if (!ok) {
@@ -91,7 +93,7 @@ static int by_size(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* The least error that `share` of the cases stay within. */
+/* The smallest error bound that `share` of the cases keep. */
 static double quantile(const struct accuracy *a, double share)
 {
     size_t place = (size_t)(share * (double)a->count);

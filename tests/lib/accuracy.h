@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * accuracy - what the programs of `make accuracy` share: errors of many cases, their quantiles as a
- * row of out/accuracy.csv, and the bar that they are held to. Host only.
+ * accuracy - what the programs of `make accuracy` share: errors of many cases, their quantiles as
+ * a row of out/accuracy.csv, and the bar that they must keep. Host only.
  *
  *   int main(int argc, char **argv)
  *   {
@@ -13,8 +13,8 @@
  *       return accuracy_finish();
  *   }
  *
- * A program takes one argument, `share=N`: do an Nth of the cases. Rows go to standard output, bars
- * that are missed to standard error and into the exit status.
+ * A program takes one argument, `share=N`: do an Nth of the cases. Rows go to standard output.
+ * Missed bars go to standard error and into the exit status.
  */
 #ifndef CAROM_TESTS_ACCURACY_H
 #define CAROM_TESTS_ACCURACY_H
@@ -24,7 +24,7 @@
 
 struct accuracy {
     const char *kernel;
-    size_t wanted; /* cases to do */
+    size_t wanted; /* number of cases */
     size_t count, failures;
     double *errors;
 };
@@ -41,9 +41,9 @@ size_t accuracy_cases(int argc, char **argv, size_t all);
 struct accuracy accuracy_begin(const char *kernel, size_t wanted);
 /* The error of one case, >= 0; a NaN counts as a failure. */
 void accuracy_add(struct accuracy *a, double error);
-/* A case that gave no answer, or one that cannot be right. */
+/* A case that gave no answer, or an impossible one. */
 void accuracy_fail(struct accuracy *a);
-/* Print the row and hold it against the bar. */
+/* Print the row and compare it with the bar. */
 void accuracy_end(struct accuracy *a, const struct accuracy_bar *bar);
 
 /* The exit status: 1 when any bar was missed. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Small worlds of randomly placed shapes, for the tests of questions between steps. */
+/* Small worlds of shapes at random places, for the tests of queries between steps. */
 #include <string.h>
 
 #include "asked.h"
@@ -28,7 +28,7 @@ int asked_add(struct carom_world *world, const struct carom_mesh *mesh, bool mov
 
     memset(&def, 0, sizeof def);
     def.mesh = mesh;
-    def.overlap = CAROM_OVERLAP_PASS; /* bodies lie as chance has it */
+    def.overlap = CAROM_OVERLAP_PASS; /* bodies may overlap */
     def.stationary = !moving || mesh->raw.kind == CAROM_SURFACE;
     def.position = (carom_v3_q32){{x, y, z}};
     def.rotation = turn;

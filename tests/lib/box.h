@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * box - the vertices and faces of a box, the one place where the tests build one. Bit k of a corner's number is set
- * where the corner is on the high side of axis k.
+ * box - the vertices and faces of a box; the tests build boxes here only. Bit k of a corner's
+ * number is set if the corner is on the high side of axis k.
  */
 #ifndef CAROM_TEST_BOX_H
 #define CAROM_TEST_BOX_H

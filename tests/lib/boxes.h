@@ -19,7 +19,10 @@ extern struct carom_mesh boxes_mesh[BOXES_MESHES];
 
 /* Build mesh `number`, a box of half sides x, y, z. */
 void boxes_make(int number, int x, int y, int z);
-/* Make world 0 or 1. Gravity of 9.81 units / s^2 at 60 frames, sleep on, unless the configuration says otherwise. */
+/*
+ * Make world 0 or 1: gravity of 9.81 units / s^2 at 60 frames, sleep on, unless the configuration
+ * says otherwise.
+ */
 struct carom_world *boxes_world(int number);
 void boxes_begin(void);
 /* The definition of a body of a mesh at a place. */
@@ -27,9 +30,9 @@ struct carom_body_def boxes_def(int mesh, int x, int y, int z);
 /* Add a body, which must be accepted; returns its number. */
 int boxes_add(struct carom_world *world, const struct carom_body_def *def);
 struct carom_body_state boxes_state(const struct carom_world *world, int body);
-/* Put a body elsewhere; its rotation and motion stay. */
+/* Put a body in another place; its rotation and motion stay. */
 int boxes_set(struct carom_world *world, int body, int x, int y, int z, int overlap);
-/* Steps that must succeed. */
+/* Take steps that must succeed. */
 void boxes_step(struct carom_world *world, int frames);
 /* Count the events of a kind between two bodies in the last step. */
 int boxes_events(const struct carom_world *world, int kind, int a, int b);
@@ -37,9 +40,12 @@ int boxes_events(const struct carom_world *world, int kind, int a, int b);
 bool boxes_overlap(struct carom_world *world, int a, int b);
 /* True if two states have the same pose and motion, bit for bit. */
 bool boxes_same(const struct carom_body_state *a, const struct carom_body_state *b);
-/* Step two worlds; a body of one must move like body `other`, which is alone in the other world. */
+/* Step two worlds. A body of one must move like body `other`, which is alone in the other world. */
 void boxes_step_alike(struct carom_world *world, int body, struct carom_world *alone, int other);
-/* Throw body 1 up against a plate of +-128 in the middle, by BOXES_Q40(speed) a frame: it stays below. */
+/*
+ * Throw body 1 upwards against a plate of +-128 in the middle, by BOXES_Q40(speed) a frame: it
+ * stays below.
+ */
 void boxes_held_down(struct carom_world *world, int speed);
 /* The number of pairs in use. */
 uint32_t boxes_pairs(const struct carom_world *world);

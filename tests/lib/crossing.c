@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* An exact oracle: the faces of two placed meshes that have a point in common. */
+/* An exact oracle: the faces of two posed meshes that have a common point. */
 #include "crossing.h"
 #include "real.h"
 
@@ -46,7 +46,7 @@ static void normal_of(int64_t n[3], const int32_t a[3], const int32_t b[3], cons
     }
 }
 
-/* On which side of the plane a b c a point is: 1 where the corners run counter-clockwise. */
+/* The side of the plane a b c on which a point is: 1 where the corners run counter-clockwise. */
 static int side(const int32_t a[3], const int32_t b[3], const int32_t c[3], const int32_t p[3])
 {
     int64_t n[3], w[3];
@@ -56,20 +56,20 @@ static int side(const int32_t a[3], const int32_t b[3], const int32_t c[3], cons
     return sign_of_dot(n, w);
 }
 
-/* The same of the line a b in a plane, by coordinates i and j. */
+/* The same for the line a b in a plane, by coordinates i and j. */
 static int side_2d(const int32_t a[3], const int32_t b[3], const int32_t p[3], int i, int j)
 {
     return sign(((int64_t)b[i] - a[i]) * ((int64_t)p[j] - a[j]) -
                 ((int64_t)b[j] - a[j]) * ((int64_t)p[i] - a[i]));
 }
 
-/* Whether three signs agree, zeros being of either. */
+/* Whether three signs agree; a zero agrees with both signs. */
 static bool agree(int a, int b, int c)
 {
     return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
 }
 
-/* Whether the boxes of a b and c d meet along a coordinate. */
+/* Whether the extents of a b and c d along a coordinate overlap. */
 static bool spans_meet(const int32_t a[3], const int32_t b[3], const int32_t c[3],
                        const int32_t d[3], int k)
 {
@@ -77,7 +77,7 @@ static bool spans_meet(const int32_t a[3], const int32_t b[3], const int32_t c[3
              (a[k] > c[k] && a[k] > d[k] && b[k] > c[k] && b[k] > d[k]));
 }
 
-/* Two segments in one plane. */
+/* Whether two segments in one plane meet. */
 static bool segments_meet(const int32_t a[3], const int32_t b[3], const int32_t c[3],
                           const int32_t d[3], int i, int j)
 {
@@ -86,7 +86,7 @@ static bool segments_meet(const int32_t a[3], const int32_t b[3], const int32_t 
            spans_meet(a, b, c, d, j);
 }
 
-/* A segment that lies in the plane of a triangle with normal n. */
+/* Whether a segment in the plane of a triangle with normal n meets the triangle. */
 static bool meets_in_plane(const int32_t a[3], const int32_t b[3], const int32_t t[3][3],
                            const int64_t n[3])
 {
@@ -101,7 +101,7 @@ static bool meets_in_plane(const int32_t a[3], const int32_t b[3], const int32_t
                  side_2d(t[2], t[0], a, i, j));
 }
 
-/* Whether an edge of p, whose corners are on these sides of q's plane, meets q. */
+/* Whether an edge of p meets q; the sides of q's plane on which p's corners are are given. */
 static bool edges_meet(const int32_t p[3][3], const int32_t q[3][3], const int sides[3],
                        const int64_t n[3])
 {
@@ -168,7 +168,7 @@ void crossing_place(struct crossing_body *body, const carom_v3_q32 *position,
     }
 }
 
-/* The box of a face, or of all of a mesh. */
+/* The box of a face, or of a whole mesh. */
 static void begin_box(struct crossing_face *box)
 {
     for (int k = 0; k < 3; k++) {
@@ -206,7 +206,7 @@ static struct crossing_face bounds(const struct crossing_body *body)
     return box;
 }
 
-/* List the faces whose boxes meet a box; returns how many. */
+/* List the faces whose boxes overlap a box; returns how many. */
 static uint32_t list_near(struct crossing_body *body, const struct crossing_face *box)
 {
     uint32_t count = 0;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * crossing - the oracle of queries: which faces of two posed meshes have a point in common, by a test of all pairs
- * in exact arithmetic. Shares no code with the engine.
+ * crossing - the oracle of queries: the faces of two posed meshes that have a common point, by a
+ * test of all pairs in exact arithmetic. It shares no code with the engine.
  *
- * Corners are carried into the world in double precision and rounded once, to q22; all that follows is whole numbers.
- * The answer is exact for the rounded corners, which are within one unit of q22 of the true ones.
+ * Corners are moved into the world in double precision and rounded once, to q22; everything after
+ * that is in whole numbers. The answer is exact for the rounded corners, which are within one unit
+ * of q22 of the true ones.
  */
 #ifndef CAROM_TEST_CROSSING_H
 #define CAROM_TEST_CROSSING_H
@@ -12,9 +13,8 @@
 #include "carom.h"
 
 /*
- * True if two triangles have a point in common. Touching counts, and so does an overlap in one plane. A triangle
- * without area has no point in common with any.
- * Range: |p|, |q| < 2^28
+ * True if two triangles have a common point. Touching counts, and so does an overlap in one plane.
+ * A triangle without area has no common point with any other. Range: |p|, |q| < 2^28
  */
 bool crossing_triangles(const int32_t p[3][3], const int32_t q[3][3]);
 
@@ -29,17 +29,17 @@ struct crossing_face {
 struct crossing_body {
     const struct carom_mesh *mesh;
     int32_t (*p_q22)[3];
-    struct crossing_face *near; /* those that meet the box of the other body */
+    struct crossing_face *near; /* faces that overlap the box of the other body */
 };
 
 /* Pose a mesh relative to `origin`; it must be within 64 units of it. */
 void crossing_place(struct crossing_body *body, const carom_v3_q32 *position,
                     const carom_quat_q30 *rotation, const carom_v3_q32 *origin);
 
-/* The sums over all comparisons. */
+/* Sums over all comparisons. */
 struct crossing_tally {
     uint32_t poses, touching; /* touching: poses with crossing pairs */
-    uint32_t crossing;        /* pairs that have a point in common */
+    uint32_t crossing;        /* pairs that have a common point */
     uint32_t found;           /* pairs that the query found */
     uint32_t missed, repeated;
 };
@@ -51,7 +51,9 @@ struct crossing_tally {
 void crossing_compare(struct crossing_body *a, struct crossing_body *b,
                       const struct carom_face_pair *found, uint32_t count, uint8_t *bits,
                       struct crossing_tally *tally);
-/* A convex body in doubles: its corners, and the directions that can part it from another. */
+/*
+ * A convex body in doubles: its corners, and the directions that can separate it from another body.
+ */
 #define CROSSING_CORNERS 16
 #define CROSSING_SIDES   64
 struct crossing_hull {
@@ -59,7 +61,7 @@ struct crossing_hull {
     uint32_t corners, faces, edges;
 };
 
-/* Carry a convex mesh of few corners into the world; w, x, y, z of any length. */
+/* Move a convex mesh of few corners into the world; w, x, y, z of any length. */
 void crossing_place_hull(struct crossing_hull *hull, const struct carom_mesh *mesh,
                          const double position[3], const double rotation[4]);
 /*

@@ -7,13 +7,13 @@
 #include "crowd.h"
 #include "real.h"
 
-/* Bounds on the rise of an island's energy in a frame: see DESIGN.md. */
+/* Bounds on the rise of an island's energy in a frame (DESIGN.md). */
 #define LIFT_ALLOWED   0.2
 #define IMPACT_ALLOWED 0x1p-24
 #define ULP_Q40        0x1p-40
 #define LINK_PLACES                                                                                \
-    0x1p-26 /* units: places that links are held at, the last place of a rotation on a long arm */
-#define LINK_LEFT         0.125   /* skins: a solve is done when anchors are as near as that */
+    0x1p-26 /* units: the places that links keep, and the last place of a rotation on a long arm */
+#define LINK_LEFT         0.125   /* skins: a solve ends when anchors are that close */
 #define ROTATION_ROUNDING 0x1p-29 /* radians */
 
 /* bodies, pairs, contacts, faces, entries, candidates, joints, extras */
@@ -79,7 +79,7 @@ int crowd_mesh(struct crowd *crowd, const struct carom_mesh_raw *raw)
     return crowd->mesh_count++;
 }
 
-/* Sixteen thousand quanta to the largest coordinate, if they are not too small. */
+/* Sixteen thousand quanta for the largest coordinate, unless quanta would be too small. */
 int crowd_solid(struct crowd *crowd, const struct carom_mesh_raw *raw, const double scale[3])
 {
     struct carom_mesh_raw scaled = *raw;
@@ -310,7 +310,7 @@ static bool drives(const struct crowd *crowd, int body)
     return crowd->bodies[body].drives || crowd->bodies[body].def.kinematic;
 }
 
-/* Two bodies are of one island, or one of them is on what does not move. */
+/* Put two bodies into one island, or note that one of them touches a static body. */
 static void unite(struct crowd *crowd, int a, int b)
 {
     int from = crowd->bodies[a].island, to = crowd->bodies[b].island;
@@ -386,7 +386,7 @@ static void find_islands(struct crowd *crowd, struct crowd_tally *tally)
     unite_links(crowd);
 }
 
-/* A bound from below of the least moment of inertia over the mass: the determinant over the largest two. */
+/* A lower bound of the least moment of inertia by mass: the determinant over the largest two. */
 static double least_inertia(const double i[6])
 {
     double determinant = i[0] * (i[1] * i[2] - i[4] * i[4]) - i[3] * (i[3] * i[2] - i[4] * i[5]) +
@@ -397,10 +397,10 @@ static double least_inertia(const double i[6])
 }
 
 /*
- * The energy that rounding may add to a body: some units of the last place of its momenta, of its place
- * and of the velocities that we are told, once more in every few sub-steps; and its rotation, which
- * each sub-step and each slice of half a radian rounds to q30: an angular momentum L that stays while
- * the body is turned by an angle has w x L times that of energy more or less.
+ * The energy that rounding may add to a body. Some units of the last place of its momenta, of its
+ * place and of the reported velocities, once more in every few sub-steps. Each sub-step, and each
+ * slice of half a radian, rounds its rotation to q30: if the angular momentum L stays while the
+ * body turns by an angle, the energy changes by up to w x L times that angle.
  */
 static double noise(const struct crowd *crowd, const struct crowd_body *body)
 {
@@ -418,7 +418,10 @@ static double noise(const struct crowd *crowd, const struct crowd_body *body)
 
 /* ------------------------------------------------------------------------ watch */
 
-/* The energy that the springs of an island took up in the frame; `rounding` is that of the last places of their ends. */
+/*
+ * The energy that the springs of an island took up in the frame. `rounding` is the part from the
+ * last places of their ends.
+ */
 static double stored_in(const struct crowd *crowd, int island, double *rounding)
 {
     double rise = 0;
@@ -454,7 +457,8 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         }
         linked |= body->linked;
         touching |= body->touching;
-        /* what hangs on a body that is lifted goes along: as one body the two would have more weight and the larger skin */
+        /* a body that hangs on a lifted one moves with it; as one body, both have more weight and
+         * the larger skin */
         weight += body->touching || body->linked
                       ? body->mass * real_length(gravity) * crowd->meshes[body->mesh].skin
                       : 0;
@@ -465,7 +469,7 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
         rounding += noise(crowd, body);
     }
     if (linked && !touching) {
-        return; /* see watch_groups */
+        return; /* watch_groups does that */
     }
     rounding += IMPACT_ALLOWED * fmax(kinetic[0], kinetic[1]);
     allowed = rounding + LIFT_ALLOWED * weight;
@@ -479,7 +483,7 @@ static void watch_energy(const struct crowd *crowd, int island, struct crowd_tal
     }
 }
 
-/* Momentum of bodies that touch nothing stationary changes by gravity alone. */
+/* Only gravity changes the momentum of bodies that touch nothing stationary. */
 static void watch_momentum(const struct crowd *crowd, int island, struct crowd_tally *tally)
 {
     double change[3] = {0}, turn[3] = {0}, gravity[3];
@@ -550,7 +554,7 @@ void crowd_group_links(struct crowd *crowd)
             }
         }
     }
-    /* other groups begin anew */
+    /* other groups start again */
     for (int i = 0; i < crowd->body_count; i++) {
         for (int k = 0; k < crowd->body_count; k++) {
             if ((before[k] == i) != (crowd->group_of[k] == i)) {
@@ -560,7 +564,10 @@ void crowd_group_links(struct crowd *crowd)
     }
 }
 
-/* Kinetic energy, and that of springs, of a group; what it has in all; false when it is touched or driven. */
+/*
+ * The kinetic and spring energy of a group, and all its energy. False when the group is touched or
+ * driven.
+ */
 static bool look_at_group(const struct crowd *crowd, int group, double *moves_or_held, double *rise,
                           double *rounding)
 {
@@ -594,7 +601,7 @@ static bool look_at_group(const struct crowd *crowd, int group, double *moves_or
     return alone;
 }
 
-/* A group that something touched has no lost energy left to get back. */
+/* A touched group may not get back the energy that it lost before. */
 static void watch_groups(struct crowd *crowd, struct crowd_tally *tally)
 {
     for (int i = 0; i < crowd->body_count; i++) {

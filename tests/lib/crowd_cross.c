@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which bodies of a crowd cross, lie inside each other: by all of their faces. */
+/* The bodies of a crowd that cross or lie inside each other, judged by all of their faces. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,7 +95,7 @@ void crowd_let_pass(struct crowd *crowd, int a, int b, enum crowd_pass pass)
     crowd->pass[a][b] = crowd->pass[b][a] = (uint8_t)pass;
 }
 
-/* A body over a surface must not be under it, unless it was beside it once. */
+/* A body above a surface must not come below it, unless it was once beside the surface. */
 static void watch_surface(struct crowd *crowd, struct crowd_tally *tally, int a, int b)
 {
     const int16_t(*box)[3] = crowd->bodies[b].def.mesh->box;
@@ -130,7 +130,7 @@ static void watch_surfaces(struct crowd *crowd, struct crowd_tally *tally)
     }
 }
 
-/* Whether the first corner of one is inside of another, or under it. */
+/* Whether the first corner of one body is inside another body, or below it. */
 static bool corner_inside(const struct crowd *crowd, int a, int b, const struct oracle_pose *pose_a,
                           const struct oracle_pose *pose_b)
 {
@@ -167,7 +167,7 @@ int crowd_overlap_now(const struct crowd *crowd, int a, int b, double near)
     return crowd_overlap(crowd, a, b, &pose_a, &pose_b, near);
 }
 
-/* Whether body a, of which no face crosses one of b, is inside of b. */
+/* Whether body a is inside b, when no face of a crosses one of b. */
 static bool is_inside(const struct crowd *crowd, int a, int b)
 {
     double at[3];
@@ -190,7 +190,7 @@ static bool changed(const struct crowd_body *body)
                   sizeof body->now.state.rotation) != 0;
 }
 
-/* The gap that a resting contact of the two keeps. */
+/* The gap that a resting contact of two bodies keeps. */
 static double skin_of(const struct crowd *crowd, int a, int b)
 {
     double skin = 0;
@@ -219,7 +219,10 @@ static void note_crossing(const struct crowd *crowd, struct crowd_tally *tally, 
     tally->crossed_skins = fmax(tally->crossed_skins, depth / skin_of(crowd, a, b));
 }
 
-/* Whether two bodies may cross; who was to pass another one until they are apart, and is, may no more. */
+/*
+ * Whether two bodies may cross. A pair that may pass until it is apart, and is apart, may not any
+ * more.
+ */
 static bool passes(struct crowd *crowd, int a, int b)
 {
     if (crowd->pass[a][b] == CROWD_PASS_ONCE &&

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Meetings of two bodies of a crowd: places from which they are about to touch in a known way. */
+/* Meetings of two bodies of a crowd: places from which they soon touch in a known way. */
 #include <limits.h>
 #include <math.h>
 
@@ -7,13 +7,13 @@
 #include "real.h"
 
 #define TRIES 4000
-/* Least distance of all other features behind the meeting one, in radii: many skins. */
+/* Smallest distance of all other features behind the meeting one, in radii: many skins. */
 #define CLEAR 0.02
 
 /* A mesh about its centre of mass, turned. */
 struct placed {
     const struct oracle_mesh *mesh;
-    struct oracle_pose pose; /* its position is that of the mesh's origin from the centre */
+    struct oracle_pose pose; /* its position leads from the centre to the mesh's origin */
     double radius;
 };
 
@@ -77,8 +77,8 @@ static void face_of(const struct placed *p, size_t face, double corner[3][3], do
 }
 
 /*
- * How many vertices lie within `slack` of the farthest along `direction`, at `best`; a vertex a
- * little farther behind than that, but not clear of it, makes it -1.
+ * The number of vertices within `slack` of the farthest along `direction`, which is `best`. -1 when
+ * another vertex is behind that, but not clear of it.
  */
 static int farthest(const struct placed *p, const double direction[3], double *best, size_t *which)
 {
@@ -108,7 +108,10 @@ static int farthest(const struct placed *p, const double direction[3], double *b
     return count;
 }
 
-/* Whether nothing of the body lies beyond a point along `direction`, and so many vertices with it. */
+/*
+ * Whether no vertex of the body lies beyond a point along `direction`, and only so many are level
+ * with it.
+ */
 static bool ends_at(const struct placed *p, const double point[3], const double direction[3],
                     int least, int most)
 {
@@ -127,7 +130,7 @@ static void opposite(double out[3], const double v[3])
     }
 }
 
-/* A corner of a, whichever comes first, over the inside of a face of b. */
+/* A corner of a, the first that comes, above the inside of a face of b. */
 static bool meet_corner(struct feature *out, const struct placed *a, const struct placed *b,
                         uint64_t *random)
 {
@@ -187,7 +190,7 @@ static bool meet_edge(struct feature *out, const struct placed *a, const struct 
     return ends_at(a, out->on_a, down, 2, 2) && ends_at(b, out->on_b, out->normal, 2, 2);
 }
 
-/* The turn that takes the unit vector `from` to `to`. */
+/* The rotation that takes the unit vector `from` to `to`. */
 static carom_quat_q30 turn_between(const double from[3], const double to[3])
 {
     double axis[3], angle = acos(fmax(-1, fmin(1, real_dot(from, to))));
@@ -201,7 +204,7 @@ static carom_quat_q30 turn_between(const double from[3], const double to[3])
     return lab_turn(axis[0], axis[1], axis[2], angle);
 }
 
-/* A face of a flat on a face of b, middle on middle: turns a, whose mesh comes unturned. */
+/* A face of a flat on a face of b, middle on middle. Turns a, whose mesh is not turned before. */
 static bool meet_flat(struct feature *out, struct crowd *crowd, int a, struct placed *at,
                       const struct placed *b, uint64_t *random)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * draw_scene.h - what the tests of drawing share: small meshes, a world, a picture of SIZE x SIZE.
+ * draw_scene.h - the base of the tests of drawing: small meshes, a world, a picture of SIZE x SIZE.
  *
  * Most scenes look straight down from 4 units above the origin at a focal length of one picture
  * height, 64 pixels: at z = 0 a unit is 16 pixels, x to the right and y up the page.

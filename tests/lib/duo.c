@@ -196,7 +196,7 @@ double duo_inside(const struct duo_features *f, const struct candidate *c)
     return least;
 }
 
-/* The least rise along n, a cosine, of the edges that leave a vertex. */
+/* The smallest rise along n, a cosine, of the edges that leave a vertex. */
 static double vertex_rise(int side, const struct duo_pose *p, uint32_t v, const double n[3])
 {
     double least = 1, local[3], rotated[3], d[3];
@@ -220,7 +220,7 @@ static double vertex_rise(int side, const struct duo_pose *p, uint32_t v, const 
     return least;
 }
 
-/* The most that n points into a face of an edge, a cosine. */
+/* The largest component of n, a cosine, into a face of an edge. */
 static double into_faces(int side, struct duo_pose *p, uint32_t number, const double n[3])
 {
     const struct carom_edge *edge = &duo.shape[side].mesh.edges[number];

@@ -9,7 +9,7 @@
 #include "real.h"
 
 #define UNIT  (1.0 / 4194304) /* the last place of q22, to which positions are rounded */
-#define LEVEL 12              /* units: so much nearer is the surface that bodies are followed to */
+#define LEVEL 12              /* units: bodies are followed to a surface that is so much closer */
 
 /* --------------------------------------------------------------------- world */
 
@@ -36,7 +36,7 @@ static struct carom_world *make_world(const struct first_hit_motion *motion)
         struct carom_body_def def = motion->def[i];
 
         def.overlap =
-            CAROM_OVERLAP_PASS; /* as chance has it, at a place that only a search asks about */
+            CAROM_OVERLAP_PASS; /* overlaps are random, at a place that only a search asks about */
         expect(carom_body_add(world, &def), "body");
     }
     return world;
@@ -47,11 +47,11 @@ static struct carom_world *make_world(const struct first_hit_motion *motion)
 struct search {
     struct boyse_pair pair;
     struct boyse_hit best;
-    int32_t parts; /* parts that the window is cut into */
+    int32_t parts; /* parts of the window */
     bool found;
 };
 
-/* The part of the window in which surfaces meet. */
+/* The part of the window in which the surfaces meet. */
 static int64_t part_of(const struct search *s, const struct boyse_hit *hit)
 {
     int64_t part = (int64_t)hit->root_q30 * s->parts / CAROM_ONE_Q30;
@@ -59,7 +59,9 @@ static int64_t part_of(const struct search *s, const struct boyse_hit *hit)
     return part < s->parts ? part : s->parts - 1;
 }
 
-/* Order of hits: the part in which surfaces meet, time, kind, then the numbers of the features. */
+/*
+ * Order of hits: the part in which the surfaces meet, time, kind, then the numbers of the features.
+ */
 static bool comes_first(const struct search *s, const struct boyse_hit *p,
                         const struct boyse_hit *q)
 {
@@ -124,7 +126,7 @@ static bool same_hit(const struct boyse_hit *p, const struct boyse_hit *q)
            memcmp(&s->normal, &t->normal, sizeof s->normal) == 0;
 }
 
-/* The distance of the features where their lines cross, between a stop and a root behind that. */
+/* The distance of the features where their lines cross, between a stop and a later root. */
 static double distance_between(const struct first_hit_motion *motion,
                                const struct first_hit_track track[2], const struct boyse_hit *hit,
                                const double n[3])
@@ -141,7 +143,7 @@ static double distance_between(const struct first_hit_motion *motion,
     return at.distance;
 }
 
-/* The least distance of the features from the root on: steps that pass no closer place. */
+/* The least distance of the features from the root on, in steps that skip no closer place. */
 static double distance_after(const struct first_hit_motion *motion,
                              const struct first_hit_track track[2], const struct boyse_hit *hit,
                              const double n[3])
@@ -173,13 +175,15 @@ static bool were_open(const struct first_hit_motion *motion, const struct first_
 }
 
 /*
- * Whether the bodies stop at the event gap, or at less where they were never farther apart, and the
- * features would then meet. The kernel stops within a few units of the last place of the gap, and
- * follows a polynomial of 29 bits, which is the gap times the sine, to a surface 12 units nearer: of
- * edges by their sine, but no more than half of the event gap at the start, so that some that pass by
- * each other that near are held; where they are nearly parallel it stops within a half of the event gap
- * of it. A vertex is over a face up to 4 units beyond each of its sides seen along an axis, 12 units
- * above it, which is farther beyond a sharp corner.
+ * Judge whether the bodies stop at the event gap, or at less if they were never farther apart, and
+ * whether the features then meet.
+ *
+ * The kernel stops within a few units of the last place of the gap. It follows a polynomial of 29
+ * bits, the gap times the sine, to a surface 12 units closer. For edges, 12 units over their sine
+ * count, but no more than half of the event gap at the start, so some edges that pass each other
+ * that close count as hits. Where edges are nearly parallel, the kernel stops within half of the
+ * event gap. A vertex counts as above a face up to 4 units beyond each of its sides seen along an
+ * axis, 12 units above it; beyond a sharp corner that is farther.
  */
 static void judge_hit(const struct first_hit_motion *motion, const struct first_hit_track track[2],
                       const struct boyse_hit *hit, struct first_hit_verdict *verdict)
@@ -221,11 +225,11 @@ static int32_t window_end(const struct step *s)
 }
 
 /*
- * Where the step goes: on paths set up again for the time up to the hit. A turn over a part of a
- * slice is not a part of the turn over the whole. While a body turns by an angle a its spin changes
- * by at most a of itself (Euler's equations, as no moment of inertia exceeds the sum of the others),
- * so the turn over a part t differs from t a by at most t (1 - t) a^2 / 2 <= a^2 / 8, and the step
- * may stop that far from the surface.
+ * Move the bodies to the hit, on paths set up again for the time up to the hit. A turn over a part
+ * of a slice is not a part of the turn over the whole. While a body turns by an angle a, its spin
+ * changes by at most a times itself (Euler's equations; no moment of inertia exceeds the sum of the
+ * others). So the turn over a part t differs from t a by at most t (1 - t) a^2 / 2 <= a^2 / 8, and
+ * the step may stop that far from the surface.
  */
 static void go_to_hit(struct step *s, const struct first_hit_motion *motion,
                       const struct boyse_hit *hit, struct first_hit_verdict *verdict)
@@ -323,7 +327,7 @@ void first_hit_judge(const struct first_hit_motion *motion, struct first_hit_ver
     }
 }
 
-/* Winding number of a mesh around a point: the solid angle of its faces, over 4 pi. */
+/* The winding number of a mesh around a point: the solid angle of its faces, over 4 pi. */
 static double winding(const struct first_hit_mesh *mesh, const struct oracle_pose *pose,
                       const double p[3])
 {
@@ -377,7 +381,7 @@ bool first_hit_overlap(const struct first_hit_motion *motion)
     return false;
 }
 
-/* Thin bodies may come to spin faster than a body may be given. */
+/* False when a thin body spins faster than a caller may set. */
 static bool can_begin(const struct carom_body_state *state)
 {
     double spin[3], velocity[3];

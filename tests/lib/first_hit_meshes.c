@@ -193,7 +193,7 @@ static void make(struct first_hit_mesh *m, const char *name, double thin,
     first_hit_make_mesh(m, name, thin);
 }
 
-/* The mesh in all sizes that other quanta give. */
+/* Make the mesh in all sizes that other quanta give. */
 static void make_sizes(int number, const char *name, double thin, const struct carom_mesh_raw *raw)
 {
     static const int8_t finer[FIRST_HIT_SIZES] = {0, 3, -3, 7, -5};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Random motions by which two bodies of the first-hit test approach each other. */
+/* Random motions on which two bodies of the first-hit test approach each other. */
 #include <math.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static void random_direction(uint64_t *random, double out[3])
     lab_rotate(out, &turn, x);
 }
 
-/* A unit vector square to n. */
+/* A unit vector perpendicular to n. */
 static void random_across(uint64_t *random, const double n[3], double out[3])
 {
     double v[3], length;
@@ -38,7 +38,7 @@ static double random_size(uint64_t *random, double low, double high)
     return low * pow(high / low, lab_random(random, 0, 1));
 }
 
-/* The rotation by p after q. */
+/* The rotation by q, then by p. */
 static carom_quat_q30 both_turns(const carom_quat_q30 *p, const carom_quat_q30 *q)
 {
     double a[4], b[4], c[4], length = 0;
@@ -67,12 +67,12 @@ static carom_quat_q30 both_turns(const carom_quat_q30 *p, const carom_quat_q30 *
 /* The kinds of motion by which two bodies meet. */
 enum manner {
     AIMED,    /* at a point near the other's centre, turning slowly */
-    CLOSE,    /* the same from hardly a gap, and slowly */
+    CLOSE,    /* the same, from a very small gap, and slowly */
     TANGLED,  /* from any place where they do not overlap: through holes, into notches */
     SPINNING, /* the same, at up to 30 radians a frame */
     GRAZING,  /* a face of one along the other, a few skins apart */
     ALIGNED,  /* both turned alike: faces and edges parallel, or nearly */
-    LATER,    /* two close bodies, after a few frames under gravity */
+    LATER,    /* two close bodies, after a few frames with gravity */
     FAST,     /* up to 50 units a frame */
     MANNERS
 };
@@ -85,13 +85,14 @@ struct start {
     double away[3];      /* from b to a */
     double place[3];     /* direction from b's centre to a's */
     double velocity[3];  /* velocity of a relative to b */
-    double common;       /* velocity of both, at most */
+    double common;       /* largest velocity of both */
     double spin;         /* largest spin of both */
     double
-        pace; /* factor of all speeds; at full speed every face of a large head is near every other one */
+        pace; /* factor of all speeds; at full speed every face of a large head is near every other
+               * one */
 };
 
-/* Largest distance of a vertex from the centre of mass along a direction. */
+/* The largest distance of a vertex from the centre of mass along a direction. */
 static double reach(const struct first_hit_mesh *mesh, const carom_quat_q30 *turned,
                     const double direction[3], double sign)
 {
@@ -136,7 +137,7 @@ static void place_apart(struct start *s, double gap)
     }
 }
 
-/* Whether they overlap when a is a way nearer to b. */
+/* Whether they overlap when a is so much nearer to b. */
 static bool overlap_at(struct start *s, double nearer)
 {
     carom_v3_q32 *place = &s->motion->def[1].position;
@@ -147,7 +148,7 @@ static bool overlap_at(struct start *s, double nearer)
     return first_hit_overlap(s->motion);
 }
 
-/* Nearly touching: brought together until they overlap, then apart again by the gap. */
+/* Nearly touching: moved together until they overlap, then apart again by the gap. */
 static void place_close(struct start *s, double gap)
 {
     double nearer = 0, step = s->small / 4, most;
@@ -167,7 +168,7 @@ static void place_close(struct start *s, double gap)
     for (int k = 0; k < 3; k++) {
         s->place[k] += s->away[k] * (gap - nearer);
     }
-    if (overlap_at(s, 0)) { /* a thin part was stepped over on the way in */
+    if (overlap_at(s, 0)) { /* the search stepped over a thin part */
         place_apart(s, gap);
     }
 }
@@ -270,7 +271,7 @@ static void start_spinning(struct start *s)
     start_tangled(s);
 }
 
-/* A turn that brings a direction of the body to one of the world, and any angle about it. */
+/* A rotation that takes a direction of the body to one of the world, with any angle about it. */
 static carom_quat_q30 turn_to(struct start *s, const double from[3], const double to[3])
 {
     double axis[3], angle = atan2(0, 1);
@@ -322,7 +323,7 @@ static void start_grazing(struct start *s)
     define(s);
 }
 
-/* A quarter of them exactly aligned, as far as rotations can be. */
+/* A quarter of them are aligned exactly, as far as rotations can be. */
 static void start_aligned(struct start *s)
 {
     carom_quat_q30 turn = lab_random_turn(&s->random);
@@ -344,7 +345,7 @@ static void start_aligned(struct start *s)
     }
 }
 
-/* Gravity pulls a to b, or only a moves much: either way they touch for some frames. */
+/* Gravity pulls a to b, or only a moves much: in both cases they touch for some frames. */
 static void start_later(struct start *s)
 {
     bool held = lab_random(&s->random, 0, 1) < 0.5;
@@ -367,7 +368,7 @@ static void start_later(struct start *s)
 static void choose_bodies(struct start *s, int mesh_a, int mesh_b)
 {
     struct first_hit_motion *m = s->motion;
-    /* two in three of the usual size; the large heads always */
+    /* two in three have the usual size; the large heads always do */
     int size[2] = {(int)lab_random(&s->random, 0, 12), (int)lab_random(&s->random, 0, 12)};
 
     for (int i = 0; i < 2; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The true motion of two bodies of the first-hit test, and where their features are. */
+/* The true motion of two bodies of the first-hit test, and the places of their features. */
 #include <math.h>
 
 #include "first_hit_track.h"
@@ -134,7 +134,10 @@ static double clamp(double t)
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-/* Distance of two segments: the least of the inner solution and of the ends of each against the other. */
+/*
+ * The distance of two segments: the smallest of the inner solution and of each end against the
+ * other segment.
+ */
 static double segment_distance(const double p[3], const double q[3], const double u[3],
                                const double v[3])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * first_hit_track - the true motion of two bodies on the paths of a step, in double precision: where
- * they are, whether their faces cross, how far apart two of their features are. Host only.
+ * first_hit_track - the true motion of two bodies on the paths of a step, in double precision:
+ * their poses, whether their faces cross, and the distance of two features. Host only.
  */
 #ifndef CAROM_TESTS_FIRST_HIT_TRACK_H
 #define CAROM_TESTS_FIRST_HIT_TRACK_H
@@ -14,13 +14,13 @@ struct first_hit_track {
     double radius;
 };
 
-/* The tracks that the bodies of a step are on; places as seen from where body 0 begins. */
+/* The tracks of the bodies of a step; places are relative to the start of body 0. */
 void first_hit_read_tracks(struct first_hit_track track[2], const struct step *s);
 
 struct oracle_pose first_hit_pose(const struct first_hit_track *track, const double centre[3],
                                   double t);
 
-/* No point of one body moves faster than this as seen from the other, units a slice. */
+/* A bound on the speed of any point of one body relative to the other, units a slice. */
 double first_hit_speed(const struct first_hit_track track[2]);
 
 /* Whether faces cross at one time. */
@@ -40,13 +40,15 @@ void first_hit_point(double out[3], const struct first_hit_mesh *mesh,
 
 /* Two features of a candidate at one time. */
 struct first_hit_features {
-    double gap;      /* signed, of the plane or the lines, along N */
+    double gap;      /* signed distance of the plane or the lines, along N */
     double distance; /* distance of the closed features */
     double sine;     /* sine of the edges' angle; 1 for a face */
     double sharp;    /* sine of the face's least angle; 1 for edges */
 };
 
-/* N, from body 0 into body 1, only tells which side of the lines is which. */
+/*
+ * The features at one time. N leads from body 0 into body 1, and only tells the sides of the lines.
+ */
 struct first_hit_features first_hit_features(const struct first_hit_motion *motion,
                                              const struct first_hit_track track[2],
                                              const struct candidate *c, const double n[3],

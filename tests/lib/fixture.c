@@ -12,11 +12,10 @@
 
 /* Well above the rounding of coordinates, far below the skin. */
 #define CROSSING_TOLERANCE 1e-9
-/* A body stands still when it goes less than this part of the way that its velocity says. */
+/* A body stands still when it moves less than this part of the way that its velocity gives. */
 #define STILL_PART 0.02
 /*
- * The energy that all bodies may free within a skin: far more than a frame's lift, far less than a
- * fall.
+ * The largest rise of all bodies' energy: far more than the lifts of a frame, far less than a fall.
  */
 #define RISE_ALLOWED 4.0
 
@@ -268,7 +267,7 @@ static bool crosses(struct fixture *f, int i, int j, double *deepest)
     return found.pairs != 0;
 }
 
-/* Every pair of bodies of which one moves; returns how deep they cross, in skins. */
+/* Check every pair with a moving body; returns the depth of the deepest crossing, in skins. */
 static double watch_crossings(struct fixture *f)
 {
     bool crossed = false;
@@ -315,8 +314,8 @@ static double speed(const struct oracle_body *body, double radius)
 }
 
 /*
- * A body stands still that has a velocity before and after the frame and hardly goes anywhere, or
- * that is where it was to the last bit when the frame was cut short.
+ * A body stands still if it has a velocity before and after the frame and hardly moves; or if its
+ * pose did not change by a bit while the frame was cut short.
  */
 static int watch_still(struct fixture *f, bool cut)
 {

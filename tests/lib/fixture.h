@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * fixture - scenes that others have published, or that are hard in a known way, each judged by what
- * it must do and by an independent checker of crossings: a world of up to 160 bodies of generated
- * meshes, watched in double precision through the public interface. Host only.
+ * fixture - scenes that others have published, or that are hard in a known way. Each has its own
+ * rule, and an independent checker of crossings judges it as well. A scene is a world of up to 160
+ * bodies with generated meshes, watched in double precision through the public interface. Host
+ * only.
  *
  * A scene makes its bodies, may look at each frame, and judges the end:
  *
@@ -28,7 +29,7 @@ struct fixture_scene {
     const char *name, *should;
     int frames;                       /* frames of the long form */
     int brief;                        /* frames of the short form; 0: left out there */
-    void (*make)(struct fixture *f);  /* e = 0 and scene->mu are set afterwards */
+    void (*make)(struct fixture *f);  /* e = 0 and scene->mu are set after this */
     void (*watch)(struct fixture *f); /* after each frame; may be NULL */
     bool (*judge)(struct fixture *f); /* judges the last frame; may be NULL; adds to f->said */
     int n;                            /* a number that the scene's functions interpret */
@@ -36,7 +37,7 @@ struct fixture_scene {
     double mu;
 };
 
-/* Each ends with a scene without a name. */
+/* Each array ends with a scene without a name. */
 extern const struct fixture_scene fixture_stacks[], fixture_links[], fixture_arches[],
     fixture_cards[], fixture_movers[], fixture_contacts[];
 
@@ -57,8 +58,8 @@ struct fixture_body {
     double mass; /* 0: stationary */
     struct oracle_body first, before, now;
     struct oracle_pose pose;
-    double low[3], high[3]; /* its box, now */
-    long still;             /* frames running in which it has stood still until now */
+    double low[3], high[3]; /* its present box */
+    long still;             /* frames in a row in which it has stood still */
 };
 
 struct fixture_tally {
@@ -66,13 +67,14 @@ struct fixture_tally {
     long cut;          /* frames that the engine cut short */
     long cut_first;    /* the first of them */
     long crossed;      /* frames with faces that cross */
-    int crossed_first; /* the first of them */
+    int crossed_first; /* the first of these frames */
     int crossed_pair[2];
     double depth;     /* the deepest crossing, in skins of the smaller body */
-    long still;       /* the longest run of frames in which a body stood still that had to move */
+    long still;       /* the longest run of frames in which a body stood still though it had to
+                       * move */
     long still_first; /* frame in which that run begins */
     int still_body;
-    double energy_first, rise; /* rise: above that at the start, in m g skin of all */
+    double energy_first, rise; /* rise: above the energy at the start, in m g skin of all bodies */
     double worst_ms, total_ms; /* processor time of the slowest step and of all */
 };
 
@@ -85,20 +87,20 @@ struct fixture {
     int mesh_count;
     struct fixture_body bodies[FIXTURE_BODIES];
     int body_count;
-    struct fixture_shape shape; /* to make meshes in */
-    double mark[8];             /* the scene's own */
+    struct fixture_shape shape; /* for making meshes */
+    double mark[8];             /* for the scene's own use */
     struct fixture_tally tally;
     int error; /* error of a step; 0: none */
-    bool late; /* given up for time */
+    bool late; /* stopped because it took too long */
     bool passed;
     char said[400];
 };
 
 struct fixture *fixture_new(const struct fixture_scene *scene);
 void fixture_free(struct fixture *f);
-/* Step and judge. `talk` prints a line for each frame; 0 seconds: as long as it takes. */
+/* Step and judge. `talk` prints a line for each frame. 0 seconds: no limit of time. */
 void fixture_run(struct fixture *f, int frames, double seconds, bool talk);
-/* Add to what is said of the scene. */
+/* Add to the remarks about the scene. */
 void fixture_say(struct fixture *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* ---------------------------------------------------------------- for scenes */
@@ -107,16 +109,16 @@ void fixture_say(struct fixture *f, const char *format, ...) __attribute__((form
 int fixture_mesh(struct fixture *f);
 /* The gap at which a body of this mesh rests on something stationary. */
 double fixture_skin(const struct fixture *f, int mesh);
-/* A body whose mesh's origin is at a point, turned about that point. Returns its number. */
+/* Add a body whose mesh's origin is at a point, turned about that point. Returns its number. */
 int fixture_body(struct fixture *f, int mesh, double x, double y, double z, carom_quat_q30 turn);
 int fixture_fixed(struct fixture *f, int mesh, double x, double y, double z, carom_quat_q30 turn);
 /* A plane at z = 0. */
 int fixture_plane(struct fixture *f);
 extern const carom_quat_q30 fixture_upright;
-/* The turn that one after another makes. */
+/* The rotation by `first`, then by `second`. */
 carom_quat_q30 fixture_compose(carom_quat_q30 second, carom_quat_q30 first);
 void fixture_weigh(struct fixture *f, int body, double mass);
-/* Units a second and radians a second. */
+/* Set a body's motion in units a second and radians a second. */
 void fixture_throw(struct fixture *f, int body, const double velocity[3], const double spin[3]);
 
 /* ----------------------------------------------------------------- for judges */
@@ -126,7 +128,7 @@ void fixture_point(const struct fixture *f, int body, const double local[3], dou
 /* Distance of a body's centre from its first place; the largest of all bodies. */
 double fixture_drift(const struct fixture *f, int body);
 double fixture_farthest(const struct fixture *f);
-/* The angle between the way an axis of a body points now and pointed at first, radians. */
+/* The angle between an axis of a body now and at first, radians. */
 double fixture_tilt(const struct fixture *f, int body, int axis);
 /* The speed of a body's fastest point, units a second; the greatest of all. */
 double fixture_speed(const struct fixture *f, int body);

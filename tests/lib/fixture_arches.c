@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Arches of stones without mortar. Before one is asked to stand, its line of thrust must be found
- * inside of the stones with a margin, at angles to the joints that friction holds with a margin.
+ * Arches of stones without mortar. An arch is only asked to stand if a line of thrust exists that
+ * stays inside of the stones with a margin, at angles to the joints that friction holds with a
+ * margin.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@
 #define DEPTH  0.8
 
 struct joint {
-    double middle[2], out[2]; /* x, z; out: a unit, from inside outwards along the joint */
+    double middle[2], out[2]; /* x, z; out: a unit vector, outwards along the joint */
 };
 
 struct arch {
@@ -21,7 +22,7 @@ struct arch {
     double thick, mu;
     struct joint joints[STONES + 1];  /* from right to left */
     double weight[STONES], x[STONES]; /* weight and place of each stone */
-    double margin, friction;          /* found: of half the thickness; the largest tangent */
+    double margin, friction;          /* results: part of half the thickness; the largest tangent */
 };
 
 /* --------------------------------------------------------------------- shapes */
@@ -40,7 +41,7 @@ static void round_arch(struct arch *arch, double radius)
     }
 }
 
-/* A chain upside down: z = rise - a (cosh(x / a) - 1), in equal lengths. */
+/* An inverted chain: z = rise - a (cosh(x / a) - 1), in equal lengths. */
 static void catenary_arch(struct arch *arch, double a, double span)
 {
     double length = 2 * a * sinh(span / 2 / a);
@@ -58,7 +59,7 @@ static void catenary_arch(struct arch *arch, double a, double span)
     }
 }
 
-/* The corners of a stone, its joints moved in by half a gap. */
+/* The corners of a stone, with its joints moved in by half a gap. */
 static void stone(const struct arch *arch, int i, double gap, double corner[4][2])
 {
     for (int side = 0; side < 2; side++) {
@@ -97,9 +98,9 @@ static void weigh(struct arch *arch)
 }
 
 /*
- * How far the line of thrust is from the joints' middles, in halves of the thickness: the most. It
- * begins at the right foot, off the middle by so much, with a push to the left and half the weight;
- * what follows at each joint is equilibrium. Torque is x F_z - z F_x.
+ * The largest distance of the line of thrust from the joints' middles, in halves of the thickness.
+ * The line begins at the right foot, at `off` from its middle, with a push to the left and half the
+ * weight. Equilibrium gives its place at each later joint. Torque is x F_z - z F_x.
  */
 static double eccentricity(const struct arch *arch, double push, double off, double *tangent)
 {
@@ -128,7 +129,7 @@ static double eccentricity(const struct arch *arch, double push, double off, dou
     return worst;
 }
 
-/* The best line of thrust, by a search that narrows. */
+/* Find the best line of thrust, by a search that narrows. */
 static void find_thrust(struct arch *arch)
 {
     double total = 0, push, off = 0, width, best = HUGE_VAL, tangent = 0;
@@ -158,7 +159,7 @@ static void find_thrust(struct arch *arch)
 
 /* ---------------------------------------------------------------------- worlds */
 
-/* A stone's mesh about its middle; the body where it was. */
+/* Add a stone: its mesh is made about its middle, and its body stands where the stone was. */
 static void put(struct fixture *f, const double corner[4][2], bool fixed)
 {
     double middle[2] = {0}, about[4][2];
@@ -175,7 +176,7 @@ static void put(struct fixture *f, const double corner[4][2], bool fixed)
                                            fixture_upright);
 }
 
-/* The foot under an end of the arch: half a unit thick, larger than the joint. */
+/* The foot below an end of the arch: half a unit thick, larger than the joint. */
 static void put_foot(struct fixture *f, const struct arch *arch, const struct joint *j, double side)
 {
     double corner[4][2];
@@ -202,7 +203,7 @@ static void make(struct fixture *f, struct arch *arch)
         printf("Bail out! %s would fall: %s\n", f->scene->name, f->said);
         exit(1);
     }
-    /* the skin of a stone as long as its neighbours' middles are apart */
+    /* the skin of a stone with the length between its neighbours' middles */
     gap = hypot(hypot(first[0].middle[0] - first[1].middle[0],
                       first[0].middle[1] - first[1].middle[1]),
                 hypot(arch->thick, DEPTH)) /
@@ -232,7 +233,7 @@ static void make_catenary(struct fixture *f)
     make(f, &arch);
 }
 
-/* No stone goes farther than a tenth of the thickness. */
+/* No stone may move by more than a tenth of the thickness. */
 static bool judge(struct fixture *f)
 {
     return fixture_farthest(f) < f->mark[0] / 10;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Houses of cards: pairs that lean on each other, cards flat across their tops, the next level on
- * these. A house is only asked to stand when 6/10 of its friction can hold it, by statics.
+ * Houses of cards: pairs of cards lean on each other, flat cards lie across their tops, and the
+ * next level stands on these. A house is only asked to stand if statics says that 6/10 of its
+ * friction can hold it.
  */
 #include <math.h>
 #include <stdio.h>
@@ -12,16 +13,16 @@
 
 #define LONG   1.0
 #define WIDE   0.7
-#define BEYOND 0.05 /* the ends of a level's flat cards, over the last top */
+#define BEYOND 0.05 /* overhang of a level's flat cards at the ends, beyond the last top */
 #define BLOCK  0.25
 #define THIN   10 /* added to a scene's levels: thinner cards that lean more */
 
 struct house {
     struct fixture *f;
     struct statics statics;
-    double gap, thick, slope; /* slope: off upright */
+    double gap, thick, slope; /* slope: angle from upright */
     double pitch, apart;      /* from top to top; between flat cards of a level */
-    int card;                 /* the mesh of those that stand */
+    int card;                 /* the mesh of the standing cards */
 };
 
 static void bear(struct house *h, int a, int b, double x, double z, double nx, double nz)
@@ -31,7 +32,7 @@ static void bear(struct house *h, int a, int b, double x, double z, double nx, d
     *c = (struct statics_contact){a, b, {x, z}, {nx, nz}};
 }
 
-/* A card in the house and in its statics; returns its number there. */
+/* Add a card to the house and to its statics; returns its number there. */
 static int lay(struct house *h, int mesh, double length, double x, double z, double slope)
 {
     int number = h->statics.body_count++;
@@ -44,8 +45,8 @@ static int lay(struct house *h, int mesh, double length, double x, double z, dou
 }
 
 /*
- * Two cards under a top; `on`: what they stand on. Returns the left one's number, the other is
- * next.
+ * Two cards below a top; `on`: the cards that support them. Returns the left one's number; the
+ * other follows it.
  */
 static int lean(struct house *h, double top, double base, int on)
 {
@@ -61,7 +62,7 @@ static int lean(struct house *h, double top, double base, int on)
     return left;
 }
 
-/* A flat card over tops `i` and i + 1 of a level of n, whose left cards are `under`. */
+/* A flat card over tops `i` and i + 1 of a level of n, with left cards `under`. */
 static int span(struct house *h, int i, int n, double first, double height, const int *under)
 {
     double from = first + i * h->pitch + (i == 0 ? -BEYOND : h->apart / 2);
@@ -140,9 +141,9 @@ static int block(struct fixture *f, double x, double z, carom_quat_q30 turn, dou
 }
 
 /*
- * A block that falls on the house from a unit above its topmost edge, so far aside. Beside the
- * edge no card can hold it; upon it the house may stand or fall. It weighs as much as ten cards,
- * or as seventy.
+ * A block falls on the house from a unit above its topmost edge, with an offset to the side. Beside
+ * the edge no card can hold it; on the edge the house may stand or fall. It weighs as much as ten
+ * cards, or as seventy.
  */
 static void make_dropped(struct fixture *f)
 {
@@ -153,7 +154,7 @@ static void make_dropped(struct fixture *f)
     }
 }
 
-/* One thrown at the topmost pair from aside. */
+/* A block is thrown at the topmost pair from the side. */
 static void make_thrown(struct fixture *f)
 {
     const double velocity[3] = {-f->scene->value, 0, 1}, spin[3] = {3, 2, 1};
@@ -172,7 +173,7 @@ static bool judge_house(struct fixture *f)
     return tilt < 0.03 && fixture_farthest(f) < f->mark[3];
 }
 
-/* The block ends on a card of the level below or deeper; all is at rest, whatever stands. */
+/* The block ends on a card of the level below or deeper, and all is at rest. */
 static bool judge_dropped(struct fixture *f)
 {
     int block = (int)f->mark[2];
@@ -182,7 +183,7 @@ static bool judge_dropped(struct fixture *f)
     return (f->scene->value == 0 || height < f->mark[0] + 0.35) && fastest < 0.1;
 }
 
-/* The topmost pair, the last two cards before the block, is off its place; all is at rest. */
+/* The topmost pair, the last two cards before the block, has left its place, and all is at rest. */
 static bool judge_thrown(struct fixture *f)
 {
     int last = (int)f->mark[2] - 1;

@@ -17,7 +17,7 @@ static carom_quat_q30 yaw(double radians)
 
 /* --------------------------------------------------------- something on a point */
 
-/* A ridge along y, its edge at z = 1; n: how steep its sides are, degrees. */
+/* A ridge along y, with its edge at z = 1; n: the slope of its sides, degrees. */
 static void fix_ridge(struct fixture *f)
 {
     double half = 1 / tan(f->scene->n * REAL_PI / 180);
@@ -33,7 +33,7 @@ static void fix_spike(struct fixture *f)
     fixture_fixed(f, fixture_mesh(f), 0, 0, 0, fixture_upright);
 }
 
-/* A body `gap` above the tip or the edge, off it by the scene's value, with a turn of its own. */
+/* A body `gap` above the tip or the edge, off it by the scene's value, and turned by `turn`. */
 static void drop(struct fixture *f, double turn)
 {
     f->mark[0] =
@@ -103,7 +103,10 @@ static void make_box_on_ridge(struct fixture *f)
     drop(f, 0);
 }
 
-/* Put down exactly over it, a body may stay there; put down beside, it falls to the floor. */
+/*
+ * A body that is put exactly over the tip or edge may stay there; put beside, it falls to the
+ * floor.
+ */
 static bool judge_fall(struct fixture *f)
 {
     const struct fixture_body *body = &f->bodies[(int)f->mark[0]];
@@ -114,7 +117,7 @@ static bool judge_fall(struct fixture *f)
 
 /* --------------------------------------------------------------- cracks, holes */
 
-/* A crack of the wedge's own angle; value: the tangent of its half. */
+/* A crack with the wedge's own angle; value: the tangent of its half. */
 static void make_crack(struct fixture *f)
 {
     double deep = 0.8, mouth = deep * f->scene->value, tip = 0.75 * mouth;
@@ -148,8 +151,8 @@ static void make_hole(struct fixture *f)
 }
 
 /*
- * It settles with its sides on the crack's: its tip above the bottom by what a skin is along the
- * axis, and a few skins for what friction holds.
+ * The wedge settles with its sides on the crack's sides. Its tip is above the bottom by the skin
+ * along the axis, plus a few skins that friction holds.
  */
 static bool judge_settled(struct fixture *f)
 {
@@ -165,7 +168,7 @@ static bool judge_settled(struct fixture *f)
 
 /* ---------------------------------------------------------------------- cliffs */
 
-/* Half of a cube over a cliff's edge, its middle inside by the scene's value. */
+/* Half of a cube over a cliff's edge, with its middle inside by the scene's value. */
 static void make_cliff(struct fixture *f)
 {
     int mesh;
@@ -178,7 +181,7 @@ static void make_cliff(struct fixture *f)
     f->mark[0] = fixture_body(f, mesh, -f->scene->value, 0, 2.5 + fixture_skin(f, mesh), yaw(0));
 }
 
-/* The same over the corner, inside of both edges. */
+/* The same at the corner, inside of both edges. */
 static void make_corner(struct fixture *f)
 {
     make_cliff(f);
@@ -228,7 +231,7 @@ static void make_tiles(struct fixture *f)
     slide(f, 0);
 }
 
-/* Nothing is in its way. */
+/* Nothing stops the body. */
 static bool judge_slide(struct fixture *f)
 {
     const struct fixture_body *body = &f->bodies[(int)f->mark[0]];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Closed links: chains that swing from a fixed one, and a net like that of chain mail, hung by two
- * corners. They hold: the linking numbers of all pairs stay what they were.
+ * Closed links: chains that swing from a fixed link, and a net like chain mail that hangs by two
+ * corners. They hold: the linking numbers of all pairs stay the same.
  */
 #include <math.h>
 
@@ -15,8 +15,8 @@
 /* ------------------------------------------------------------------ linking */
 
 /*
- * How often the middle line of ring a goes through the disc of ring b, by sign: their linking
- * number, for b's line bounds the disc.
+ * The linking number of two rings: how often the middle line of ring a goes through the disc of
+ * ring b, by sign. The middle line of b is the border of that disc.
  */
 static int linking(const struct fixture *f, int a, int b)
 {
@@ -53,8 +53,8 @@ static int linking(const struct fixture *f, int a, int b)
 }
 
 /*
- * How many pairs are linked; of those that were made so, how many still are, once. `made` says
- * whether a later body was linked with an earlier one.
+ * Count the linked pairs; `expected` pairs were made linked, and `kept` of these still are, once.
+ * `made` tells whether a later body was linked with an earlier one.
  */
 static int count_links(const struct fixture *f, bool (*made)(int later, int earlier), int *expected,
                        int *kept)
@@ -85,7 +85,8 @@ static bool judge_links(struct fixture *f, bool (*made)(int later, int earlier))
 /* -------------------------------------------------------------------- chains */
 
 /*
- * Straight at first, off the vertical by so many degrees; of square section when that is negative.
+ * A straight chain, turned from the vertical by `value` degrees; a negative value means square
+ * sections.
  */
 static void make_chain(struct fixture *f)
 {
@@ -104,7 +105,7 @@ static void make_chain(struct fixture *f)
     }
 }
 
-/* Watch the swing of the last link to the other side, as a part of where it began. */
+/* Watch the swing of the last link to the other side, as a part of its first distance. */
 static void watch_chain(struct fixture *f)
 {
     double x = f->bodies[f->body_count - 1].now.position[0];
@@ -130,8 +131,8 @@ static bool judge_chain(struct fixture *f)
 #define LINK 1.2627
 
 /*
- * Rows tilt one way and the other; each link holds two of the row before and two of the next. Their
- * sections have n sides.
+ * Rows tilt one way and the other. Each link holds two of the row before and two of the next. The
+ * links' sections have n sides.
  */
 static void make_net(struct fixture *f)
 {

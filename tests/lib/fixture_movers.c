@@ -13,7 +13,7 @@
 #define PLAY  0.012
 
 /*
- * The nut's thread is the bolt's with some play. The bolt starts a pitch deep in the nut and goes
+ * The nut's thread is the bolt's with some play. The bolt starts one pitch deep in the nut and goes
  * down by its weight, without friction.
  */
 static void make_screw(struct fixture *f)
@@ -38,8 +38,8 @@ static void watch_screw(struct fixture *f)
 }
 
 /*
- * Without losses it falls at g / (1 + (turn / pitch)^2 inertia / mass). Half of that way is asked
- * for, and that way and turn go together within the play.
+ * Without losses the bolt falls at g / (1 + (turn / pitch)^2 inertia / mass). It must fall at least
+ * half of that way, and way and turn must agree within the play.
  */
 static bool judge_screw(struct fixture *f)
 {
@@ -91,7 +91,10 @@ static bool judge_dominoes(struct fixture *f)
 
 /* -------------------------------------------------------------------- knives */
 
-/* A prism over a triangle from y = -half to half, in so many pieces: its edges have vertices. */
+/*
+ * A prism over a triangle from y = -half to half, in so many pieces, so that its edges have
+ * vertices.
+ */
 static int piecewise(struct fixture *f, const double corner[3][2], double half, int pieces)
 {
     struct fixture_shape *s = &f->shape;
@@ -116,7 +119,7 @@ static const double blade_corner[3][2] = {{0, 0}, {0.06, 0.4}, {-0.06, 0.4}};
 static const double ridge_corner[3][2] = {{0, 0}, {-0.5, -0.5}, {0.5, -0.5}};
 
 /*
- * Its edge along the ridge, all but `value` radians. Where edges are in pieces, it leans by 40
+ * Its edge is along the ridge, up to `value` radians. When edges are in pieces, it leans by 40
  * times as much.
  */
 static void make_knife(struct fixture *f)
@@ -133,7 +136,7 @@ static void make_knife(struct fixture *f)
     f->mark[0] = knife;
 }
 
-/* Its edge across two ridges. */
+/* Its edge lies across two ridges. */
 static void make_skate(struct fixture *f)
 {
     const double velocity[3] = {0, 10, 0}, none[3] = {0};
@@ -148,8 +151,8 @@ static void make_skate(struct fixture *f)
 }
 
 /*
- * Nothing pushes along the ridge but friction. As long as the knife stands both sides of the ridge press on it,
- * at 45 degrees: with 1.41 of its weight. When it begins to fall they press with less.
+ * Only friction pushes along the ridge. As long as the knife stands, both sides of the ridge press
+ * on it at 45 degrees, with 1.41 times its weight. When it begins to fall they press less.
  */
 static bool judge_knife(struct fixture *f)
 {
@@ -165,7 +168,7 @@ static bool judge_knife(struct fixture *f)
 
 /* -------------------------------------------------------------------- gomboc */
 
-/* Seen from the middle, the plane of face n: its normal, and how far it is. */
+/* The plane of face n, seen from the middle: its normal and its distance. */
 static double plane_of(const struct oracle_mesh *mesh, size_t n, const double centre[3],
                        double normal[3])
 {
@@ -187,8 +190,8 @@ static double plane_of(const struct oracle_mesh *mesh, size_t n, const double ce
 }
 
 /*
- * How far, within the plane of face n, the foot of the middle is beyond the line in which another
- * face's plane cuts it; the farthest.
+ * The largest distance, within the plane of face n, from a line in which another face's plane cuts
+ * it, outwards to the foot of the middle.
  */
 static double beyond(const struct oracle_mesh *mesh, size_t n, const double centre[3])
 {
@@ -205,8 +208,8 @@ static double beyond(const struct oracle_mesh *mesh, size_t n, const double cent
 }
 
 /*
- * The one face that a convex solid stands on: where the foot of its centre of mass lies on the
- * solid. For all others the foot must be out by a margin, a part of the radius.
+ * The single face on which a convex solid stands: the foot of its centre of mass lies on that face.
+ * For all other faces the foot must be outside by a margin, a part of the radius.
  */
 static size_t only_face(const struct fixture *f, int mesh_number, double *margin)
 {
@@ -233,8 +236,8 @@ static size_t only_face(const struct fixture *f, int mesh_number, double *margin
 }
 
 /*
- * Turned away from where it stands by so many degrees, about its length or (n is odd) across it;
- * the fine one from n = 2.
+ * Turned away from its standing pose by so many degrees, about its length, or across it if n is
+ * odd; the fine solid from n = 2.
  */
 static void make_gomboc(struct fixture *f)
 {
@@ -247,7 +250,7 @@ static void make_gomboc(struct fixture *f)
     fixture_shape_monostable(&f->shape, f->scene->n >= 2);
     for (uint32_t v = 0; v < f->shape.vertex_count; v++) {
         for (int k = 0; k < 3; k++) {
-            f->shape.p[v][k] *= 0.39; /* which uses the quanta well */
+            f->shape.p[v][k] *= 0.39; /* uses the range of quanta well */
         }
     }
     mesh = fixture_mesh(f);
@@ -267,7 +270,7 @@ static void make_gomboc(struct fixture *f)
     fixture_body(f, mesh, 0, 0, 2 * fixture_skin(f, mesh) - low, turn);
 }
 
-/* Its ridge is above again: the face it stands on looks down. */
+/* Its ridge is up again, and its standing face looks down. */
 static bool judge_gomboc(struct fixture *f)
 {
     double angle = acos(fmin(1, f->bodies[1].pose.rotation.row[2][2])) * 180 / REAL_PI;

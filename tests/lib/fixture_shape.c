@@ -96,8 +96,8 @@ static bool is_ear(const double (*corner)[2], const int *ring, int n, int i)
 }
 
 /*
- * Cut both ends of a prism into triangles, ear by ear; vertex i is below, n + i above. A corner
- * seen from -y runs from x to z counter-clockwise: that is the lower end's outside.
+ * Cut both ends of a prism into triangles, ear by ear. Vertex i is at the lower end, n + i at the
+ * upper one. Seen from -y, the outside of the lower end, corners run counter-clockwise from x to z.
  */
 static void close_ends(struct fixture_shape *s, const double (*corner)[2], int n, int *ring)
 {
@@ -212,10 +212,10 @@ void fixture_shape_hole(struct fixture_shape *s, double half, double thick, doub
 }
 
 /*
- * The half of the section to the right, from the ridge down; returns how many corners. Each side's
- * foot, seen from the origin, lies beyond its lower corner by margin sin(its angle from above).
- * Sides after the first are `growth` times as long as that; all take the same step when growth is
- * 0.
+ * The right half of the section, from the ridge down; returns the number of corners. Seen from the
+ * origin, each side's foot lies beyond its lower corner by margin sin(its angle from above). Sides
+ * after the first are `growth` times as long as that needs; when growth is 0, all take the same
+ * step.
  */
 static int spiral(double (*corner)[2], int most, double step, double margin, double growth)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Boxes on a plane, the heavier the higher: they stand, awake. */
+/* Boxes on a plane, heavier towards the top: they stand, awake. */
 #include <math.h>
 
 #include "fixture.h"
@@ -18,7 +18,7 @@ static void make(struct fixture *f, int count, double ratio, bool askew)
         int body = fixture_body(f, mesh, upper ? 0.1 : 0, upper ? 0.06 : 0, z + (i + 1) * skin,
                                 lab_turn(0, 0, 1, upper ? 0.2 : 0));
 
-        /* a mass of 2^10 is the largest */
+        /* 2^10 is the largest mass */
         fixture_weigh(f, body, pow(ratio, (double)i / (count - 1)));
     }
 }

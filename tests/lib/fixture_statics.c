@@ -71,7 +71,7 @@ static double remain(void)
     return sqrt(product(q.left, q.left));
 }
 
-/* Least squares over the active columns by their normal equations, a little damped. */
+/* Least squares over the active columns by their normal equations, slightly damped. */
 static void solve(void)
 {
     int place[COLUMNS], n = 0;
@@ -107,7 +107,7 @@ static void solve(void)
     }
 }
 
-/* Go from x towards z as far as nothing becomes negative; returns whether that is all the way. */
+/* Go from x towards z until a number would become negative; returns whether z was reached. */
 static bool walk(void)
 {
     double part = 1;
@@ -127,7 +127,7 @@ static bool walk(void)
     return part >= 1;
 }
 
-/* Lawson and Hanson's way. */
+/* The method of Lawson and Hanson. */
 double statics_rest(const struct statics *s, double mu)
 {
     double weight = 0, rest;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * fixture_statics - whether bodies in a plane can stand: whether forces within the cones of
- * friction at given contacts hold given weights, by least squares over numbers that are not
- * negative.
+ * fixture_statics - whether bodies in a plane can stand: whether forces within the friction cones
+ * at given contacts can hold given weights, by non-negative least squares.
  */
 #ifndef CAROM_TESTS_FIXTURE_STATICS_H
 #define CAROM_TESTS_FIXTURE_STATICS_H
@@ -12,7 +11,7 @@
 
 struct statics_contact {
     int a, b;                   /* bodies; -1: the ground */
-    double point[2], normal[2]; /* x, z; from b into a, a unit */
+    double point[2], normal[2]; /* x, z; from b into a, a unit vector */
 };
 
 struct statics {
@@ -22,8 +21,8 @@ struct statics {
 };
 
 /*
- * The weights and torques that the best forces leave unbalanced, as a part of all the
- * weights; nearly 0 when the bodies can stand.
+ * The weights and torques that the best forces leave unbalanced, as a part of all weights; nearly 0
+ * when the bodies can stand.
  */
 double statics_rest(const struct statics *s, double mu);
 

@@ -35,7 +35,8 @@ static void thread(struct fixture_shape *s, const struct fixture_thread *t, bool
         for (int m = 0; m < t->rows - 1; m++) {
             int a = at(t, i, m), b = at(t, i + 1, m), c = at(t, i + 1, m + 1), d = at(t, i, m + 1);
 
-            /* the diagonal runs the same way in both, as the surfaces lie on each other */
+            /* the diagonal has the same direction in both, because the surfaces lie on each
+             * other */
             if (inside) {
                 fixture_shape_quad(s, a, d, c, b);
             } else {

@@ -24,23 +24,23 @@ struct fuzz {
     uint8_t of_face[FUZZ_VERTICES];
     uint32_t pixels[FUZZ_PIXELS * FUZZ_PIXELS];
     int16_t vertices[4][3]; /* vertices of the surface */
-    int last;               /* call that was made, see fuzz_calls.c */
+    int last;               /* the last call (fuzz_calls.c) */
     void *block, *mesh_block[FUZZ_MESHES], *workspace;
 };
 
-/* A world with some bodies in it. */
+/* Begin a world with some bodies in it. */
 void fuzz_begin(struct fuzz *f, uint64_t seed);
 void fuzz_end(struct fuzz *f);
-/* One random call; what it returned. */
+/* Make a random call; returns its result. */
 int fuzz_call(struct fuzz *f);
 
-/* Any of 0 .. count - 1. */
+/* A random number of 0 .. count - 1. */
 int fuzz_pick(struct fuzz *f, int count);
-/* Any number: now and then an extreme one, else within +- 2^bits. */
+/* A random number: now and then an extreme one, otherwise within +- 2^bits. */
 int64_t fuzz_number(struct fuzz *f, int bits);
-/* A number or id of a body, there or not. */
+/* A number or id of a body, which may not exist. */
 int fuzz_body(struct fuzz *f);
-/* Definitions, sound more often than not. */
+/* Definitions, valid more often than not. */
 void fuzz_body_def(struct fuzz *f, struct carom_body_def *def);
 void fuzz_joint_def(struct fuzz *f, struct carom_joint_def *def);
 void fuzz_drive(struct fuzz *f, struct carom_joint_drive *drive);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Questions and pictures: what must change nothing, whatever it is given. */
+/* Queries and pictures: calls that must change nothing, whatever their arguments are. */
 #include <string.h>
 
 #include "fuzz.h"
@@ -69,7 +69,7 @@ int fuzz_ask(struct fuzz *f)
     case 2:
         return carom_query_faces(f->world, fuzz_body(f), fuzz_body(f), pairs,
                                  (uint32_t)fuzz_pick(f, 9));
-    case 3: /* asks what faces interfere first: none may */
+    case 3: /* asks first which faces interfere, and there may be none */
         return carom_query_inside(f->world, fuzz_body(f), fuzz_body(f));
     default:
         return carom_closest_points(f->world, fuzz_body(f), fuzz_body(f), &closest);
@@ -102,7 +102,7 @@ static void set_camera(struct fuzz *f, struct carom_camera *camera)
     camera->focal_q16 = (int32_t)(fuzz_pick(f, 9) ? 1 << 16 : fuzz_number(f, 30) & INT32_MAX);
 }
 
-/* Colours of bodies and faces, light and lines of any kind. */
+/* Set colours of bodies and faces, light and lines, of any kind. */
 static void set_paint(struct fuzz *f, struct carom_paint *paint, struct carom_body_paint bodies[2],
                       struct carom_paint_line lines[4])
 {

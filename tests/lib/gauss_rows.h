@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* gauss_rows - a system solved from beginning to end, with a copy of its rows; those of impacts. */
+/*
+ * gauss_rows - solves a system from beginning to end, with a copy of its rows; also the rows of an
+ * impact.
+ */
 #ifndef CAROM_TEST_GAUSS_ROWS_H
 #define CAROM_TEST_GAUSS_ROWS_H
 
@@ -15,8 +18,8 @@ static inline int gauss_rows_solve(struct gauss *w, int n)
 }
 
 /*
- * The rows of an impact: as it sticks, or as it slides where it does and that has a solution. Returns
- * what impact_solve does.
+ * The rows of an impact: for sticking, or for sliding where it slides and has a solution. Returns
+ * the result of impact_solve.
  */
 static inline int gauss_rows_of(struct gauss *w, const struct impact *in,
                                 int32_t rows[GAUSS_MAX][GAUSS_MAX + 1])

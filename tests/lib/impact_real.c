@@ -157,7 +157,7 @@ struct impact real_to_engine(const struct real_impact *real, int arm_bits)
         in.normal.c[k] = (int32_t)rounded(real->normal.c[k], 30);
         in.velocity.c[k] = rounded(real->velocity.c[k], 40);
     }
-    /* the target is what the caller makes of the rounded numbers */
+    /* the caller makes the target from the rounded numbers */
     speed = dot(vector_q40(in.velocity.c), vector_q30(in.normal.c));
     in.target_q40 = rounded(-speed * fixed(rounded(real->restitution, 30), 30), 40);
     in.friction_q16 = (uint32_t)rounded(real->friction, 16);
@@ -193,7 +193,7 @@ struct real_impact real_from_engine(const struct impact *in)
 
 /* ------------------------------------------------------------------- oracle */
 
-/* K += the change of the velocity of the body's point under an impulse there. */
+/* K += the change of the velocity of the body's point by an impulse there. */
 static void add_mobility(const struct real_body *body, struct matrix *k)
 {
     struct matrix inverse = matrix_inverse(&body->inertia);
@@ -209,7 +209,7 @@ static void add_mobility(const struct real_body *body, struct matrix *k)
     }
 }
 
-/* The part of t across N, whose length is not quite 1 when it was rounded. */
+/* The part of t across N. A rounded N has not quite the length 1. */
 static struct vector across(const struct real_impact *in, struct vector t)
 {
     return plus(t, -dot(t, in->normal) / dot(in->normal, in->normal), in->normal);
@@ -230,7 +230,7 @@ void real_prepare(const struct real_impact *in, struct real_contact *c)
     c->speed = dot(in->velocity, n);
     normal_k = dot(n, matrix_times(&c->k, n));
     c->frictionless = times((in->target - c->speed) / normal_k, n);
-    /* V' is to be along N, and V'.N the target */
+    /* V' must be along N, and V'.N the target */
     change = difference(times(in->target / dot(n, n), n), in->velocity);
     c->stick = matrix_times(&c->inverse_k, change);
     along = length(across(in, c->stick));
@@ -290,7 +290,7 @@ void real_solve(const struct real_impact *in, const struct real_contact *c, enum
     } else if (way == REAL_SLIDES) {
         out->impulse =
             times(normal / (c->wedge_measure * dot(n, n)), plus(n, -in->friction, c->along));
-    } else { /* from the frictionless impulse towards the sticking one, as far as the cone goes */
+    } else { /* from the frictionless impulse towards the sticking one, up to the cone */
         scalar beyond = length(across(in, d)) - in->friction * dot(d, n);
 
         out->impulse = plus(c->frictionless, in->friction * normal / beyond, d);
@@ -327,7 +327,7 @@ struct vector real_direction(uint64_t *state)
         struct vector v;
         scalar l;
 
-        for (int k = 0; k < 3; k++) { /* an initialiser would leave the order open */
+        for (int k = 0; k < 3; k++) { /* an initializer would leave the order open */
             v.c[k] = real_uniform(state, -1, 1);
         }
         l = length(v);
@@ -337,7 +337,7 @@ struct vector real_direction(uint64_t *state)
     }
 }
 
-/* Half the sides of a box, and its moments of inertia, none over 50 times another. */
+/* Half the sides of a box, and its moments of inertia; none is over 50 times another. */
 static void random_sides(uint64_t *state, scalar half[3], scalar moment[3])
 {
     scalar radius = real_spread(state, -2, 1), low, high;

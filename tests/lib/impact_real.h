@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * impact_real - one impact in real numbers: random ones, their rounding to what impact_solve reads,
- * and what the impulse should be, by another way than the engine's.
+ * impact_real - one impact in real numbers: random impacts, their rounding to the input of
+ * impact_solve, and the right impulse, by a method that is not the engine's.
  *
- * The engine eliminates in all 9 or 15 unknowns. Here the impulse is found in contact space: K P =
- * dV with K = sum of (1/m) 1 - [r] I^-1 [r], a 3 x 3 matrix, in long double.
+ * The engine eliminates all 9 or 15 unknowns. Here the impulse is found in contact space: K P = dV
+ * with K = sum of (1/m) 1 - [r] I^-1 [r], a 3 x 3 matrix, in long double.
  */
 #ifndef CAROM_TESTS_IMPACT_REAL_H
 #define CAROM_TESTS_IMPACT_REAL_H
@@ -55,7 +55,7 @@ struct vector vector_q30(const int32_t v[3]);
 /* ------------------------------------------------------------------- impact */
 
 struct real_body {
-    bool moving; /* if not, the rest means nothing */
+    bool moving; /* false: the other fields mean nothing */
     scalar mass;
     struct matrix inertia; /* divided by the mass */
     struct vector arm;
@@ -73,7 +73,7 @@ struct real_impact {
  *   arm_bits  fractional bits of arms, at most; they never take more than 30 in all
  */
 struct impact real_to_engine(const struct real_impact *real, int arm_bits);
-/* The numbers that this stands for; the restitution is left open. */
+/* The real numbers of this input; the restitution is left open. */
 struct real_impact real_from_engine(const struct impact *in);
 
 /* ------------------------------------------------------------------- oracle */
@@ -85,10 +85,12 @@ struct real_contact {
     struct matrix k, inverse_k;
     scalar speed; /* V.N */
     struct vector frictionless, stick;
-    bool slips;           /* V has a part across N */
-    struct vector along;  /* of that part, or of the slip that a frictionless impact leaves */
+    bool slips;           /* V has a tangential part */
+    struct vector along;  /* direction of that part, or of the slip that a frictionless impact
+                           * leaves */
     scalar stick_excess;  /* -1 .. 1: above 0, sticking is outside of the cone */
-    scalar wedge_measure; /* 1 without friction; not above 0: sliding would take a pull */
+    scalar wedge_measure; /* 1 without friction; not above 0: sliding would need an impulse that
+                           * pulls */
 };
 
 struct real_answer {
@@ -97,14 +99,14 @@ struct real_answer {
 };
 
 void real_prepare(const struct real_impact *in, struct real_contact *c);
-/* The way that the rules choose; the impulse of any way. */
+/* The way that the rules choose; the impulse of a given way. */
 enum real_way real_choose(const struct real_impact *in, const struct real_contact *c);
 void real_solve(const struct real_impact *in, const struct real_contact *c, enum real_way way,
                 struct real_answer *out);
 
 /* ------------------------------------------------------------ random impacts */
 
-/* splitmix64; uniform in [low, high); evenly over the powers of two from 2^low to 2^high. */
+/* splitmix64; uniform in [low, high); log-uniform from 2^low to 2^high. */
 uint64_t real_random(uint64_t *state);
 scalar real_uniform(uint64_t *state, scalar low, scalar high);
 scalar real_spread(uint64_t *state, int low, int high);
@@ -112,9 +114,9 @@ struct vector real_direction(uint64_t *state);
 
 /*
  * Turned boxes of radius 1/4 .. 2 with moments of inertia up to 50:1, a sixteenth of them rods at
- * that limit; masses 2^-5 .. 2^5; touched at a corner, on an edge or on a face. Speeds 1/4 .. 8, a
- * quarter of them grazing, none with |V.N| below 2^-graze |V|, an eighth straight on. e = 0 and e =
- * 1 a quarter each; mu 0 .. 1.5, in steps of 2^-16, an eighth without friction.
+ * that limit; masses 2^-5 .. 2^5; with the contact at a corner, on an edge or on a face. Speeds
+ * 1/4 .. 8, a quarter of them grazing, none with |V.N| below 2^-graze |V|, an eighth straight on.
+ * e = 0 and e = 1 a quarter each; mu 0 .. 1.5, in steps of 2^-16, an eighth without friction.
  *   movers  1: one of the two, a or b; 2: both
  */
 void real_random_impact(uint64_t *state, int movers, int graze, struct real_impact *out);

@@ -203,9 +203,9 @@ const struct carom_mesh_raw *lab_grid(void)
 /* ---------------------------------------------------------------------- mass */
 
 /*
- * Volume, centre and second moments by summing the tetrahedra that the faces span with the origin:
- * with corners 0, a, b, c and six times the volume d, the integral of x_i x_j is
- * d (sum_i sum_j + a_i a_j + b_i b_j + c_i c_j) / 120, sum = a + b + c.
+ * Volume, centre and second moments, by summing the tetrahedra between each face and the origin.
+ * With corners 0, a, b, c and six times the volume d, the integral of x_i x_j is d (sum_i sum_j +
+ * a_i a_j + b_i b_j + c_i c_j) / 120, sum = a + b + c.
  */
 struct oracle_body lab_weigh(const struct oracle_mesh *mesh, double centre[3])
 {
@@ -378,10 +378,7 @@ double lab_energy(const struct lab *lab)
     return oracle_energy(&body, gravity);
 }
 
-/*
- * The mesh's own centre is what its vertices are placed about: lab_weigh need not have the last
- * bit.
- */
+/* Vertices are relative to the mesh's own centre; lab_weigh may differ in the last bit. */
 struct oracle_pose lab_pose_of(const struct carom_world *world, int body,
                                const struct carom_mesh *mesh)
 {

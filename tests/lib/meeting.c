@@ -26,7 +26,7 @@ static void minus(long double out[3], const long double p[3], const long double 
     }
 }
 
-/* Newton's iteration: boards have no mathematics library. */
+/* Newton's iteration, because boards have no mathematics library. */
 static long double length_of(const long double v[3])
 {
     long double square = dot(v, v), root = (long double)real_sqrt((double)square);
@@ -51,7 +51,7 @@ static long double fixed(int64_t v, int bits)
 
 /* -------------------------------------------------------------------- motion */
 
-/* x + v t + g t^2 and the axes of the quaternion q (1, t u) of any length. */
+/* x + v t + g t^2, and the axes of the quaternion q (1, t u) of any length. */
 static void pose_at(const struct meeting *m, int side, long double t, struct meeting_features *f)
 {
     const struct body_path *path = &m->body[side].path;
@@ -83,7 +83,7 @@ static void pose_at(const struct meeting *m, int side, long double t, struct mee
     f->r[side][2][1] = s * (y * z + w * x);
 }
 
-/* A vertex about its body's centre of mass. */
+/* A vertex relative to its body's centre of mass. */
 static void local_vertex(const struct meeting *m, int side, uint32_t v, long double out[3])
 {
     const struct shape *shape = &m->shape[side];
@@ -198,7 +198,7 @@ static void into_body(const struct meeting_features *f, int side, const long dou
     }
 }
 
-/* The least rise along n, a cosine, of the sides of faces that leave a vertex. */
+/* The smallest rise along n, a cosine, of the sides of faces that leave a vertex. */
 static long double vertex_rise(const struct meeting *m, int side, uint32_t v,
                                const long double n[3])
 {
@@ -223,7 +223,7 @@ static long double vertex_rise(const struct meeting *m, int side, uint32_t v,
     return least;
 }
 
-/* The most that n, square to an edge, points into one of its faces, a cosine. */
+/* The largest component, a cosine, of n (perpendicular to an edge) into one of the edge's faces. */
 static long double into_faces(const struct meeting *m, int side, uint32_t number,
                               const long double n[3])
 {
@@ -300,7 +300,7 @@ void meeting_shapes(struct meeting *m, unsigned which, const struct meeting_plan
     shape_body(&m->shape[1], plan->both, &m->body[1], &m->state[1]);
 }
 
-/* A number from 2^low to 2^high; the smaller, the denser. */
+/* A number from 2^low to 2^high, log-uniform. */
 static double random_size(struct test_random *r, int low, int high)
 {
     return (1 + real(test_random_range(r, 0, 1023), 10)) *
@@ -331,8 +331,8 @@ static void set_paths(struct meeting *m, const carom_v3_q40 *gravity)
 }
 
 /*
- * Any turn and any motion of both: from 1/512 unit a slice to 4 units, from 1/512 radian to 1/2.
- * A body that moves fast has gravity such that its path bends.
+ * Any rotation and any motion of both: from 1/512 unit a slice to 4 units, from 1/512 radian to
+ * 1/2. A fast body gets gravity that bends its path.
  */
 static void random_motion(struct meeting *m, struct test_random *r, const struct meeting_plan *plan,
                           carom_v3_q40 *gravity)
@@ -385,7 +385,7 @@ static bool face_each_other(const struct meeting *m, const struct meeting_featur
             (m->candidate.kind == CANDIDATE_EDGE_EDGE && meeting_in_cones(m, f, -1) > 0.01L));
 }
 
-/* Move a so that a point well inside one feature is at one well inside the other. */
+/* Move a so that a point well inside one feature lies on a point well inside the other. */
 static void bring_together(struct meeting *m, struct test_random *r,
                            const struct meeting_features *f)
 {
@@ -393,7 +393,7 @@ static void bring_together(struct meeting *m, struct test_random *r,
     long double q = (long double)real(test_random_range(r, 50, 950), 10);
 
     if (m->candidate.kind != CANDIDATE_EDGE_EDGE && s + q > 0.95L) {
-        s /= 2; /* at most 0.93 together then */
+        s /= 2; /* at most 0.93 together in that case */
         q /= 2;
     }
     for (int k = 0; k < 3; k++) {
@@ -454,7 +454,7 @@ static bool try_meeting(struct meeting *m, struct test_random *r, const struct m
     bring_together(m, r, &f);
     set_paths(m, &gravity);
     m->length = path_length(m);
-    /* they come nearer, with the normal in the right cones */
+    /* they approach, with the normal in the right cones */
     slope = meeting_slope(m, m->time);
     return (plan->kind == CANDIDATE_EDGE_EDGE || slope < 0) &&
            meeting_in_cones(m, &f, slope < 0 ? 1 : -1) > 0.01L;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * meeting - two bodies whose motions are chosen such that two features of them meet squarely, and
- * where these features truly are: on the path that the engine was given, worked out in the widest
- * floating point there is.
+ * meeting - two bodies whose motions are chosen so that two features meet squarely, and the true
+ * places of these features: on the path that the engine was given, computed in the widest floating
+ * point of the machine.
  *
- * One or both bodies move; everything is turned anyhow and lies far out in the world.
+ * One or both bodies move; everything is turned at random and lies far out in the world.
  */
 #ifndef CAROM_TESTS_MEETING_H
 #define CAROM_TESTS_MEETING_H
@@ -27,13 +27,13 @@ struct meeting {
     struct body_state state[2];
     struct boyse_pair pair;
     struct candidate candidate;
-    long double time;   /* the features meet then, perhaps not for the first time */
-    long double length; /* bound on the path's length of any point of a relative to b */
+    long double time;   /* the features meet at this time, perhaps not for the first time */
+    long double length; /* bound on the path length of any point of a relative to b */
 };
 
 /* The features at one time; places are relative to the origin of a's path. */
 struct meeting_features {
-    long double x[2][3], r[2][3][3]; /* the bodies: centre and axes */
+    long double x[2][3], r[2][3][3]; /* centre and axes of the bodies */
     long double n[3];                /* unit vector: the face's normal, or along e x f */
     long double gap;                 /* signed distance along n */
     long double sine;                /* sine of the angle between the edges; 1 for a face */
@@ -41,7 +41,7 @@ struct meeting_features {
     long double from[2][3], e[2][3], edge[2]; /* edges: start, direction, length */
 };
 
-/* Another pair of shapes of about a unit, `which` being any number. */
+/* Choose another pair of shapes of about a unit; `which` is any number. */
 void meeting_shapes(struct meeting *m, unsigned which, const struct meeting_plan *plan);
 
 /* Choose motions and features; sets the paths of both bodies and the pair. */
@@ -56,8 +56,8 @@ long double meeting_slope(const struct meeting *m, long double t);
 long double meeting_inside(const struct meeting *m, const struct meeting_features *f);
 
 /*
- * How far within the normal cones sign * n is, a cosine: as N from b into a for edges, as the
- * face's normal (sign is 1) for a face. Below 0: outside of one.
+ * How far sign * n is within the normal cones, a cosine: for edges as N from b into a, for a face
+ * as the face's normal (sign is 1). Below 0: outside of a cone.
  */
 long double meeting_in_cones(const struct meeting *m, const struct meeting_features *f, int sign);
 

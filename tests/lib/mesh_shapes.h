@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_shapes - raw meshes for the tests of the mesh stage, whose insides can be damaged.
+ * mesh_shapes - raw meshes for the tests of the mesh stage, which tests may damage.
  *
  * One mesh at a time: a shape function fills `vertices` and `faces` and points `raw` at them, with
- * 10 quantum bits; build() makes `mesh` of them in `block`.
+ * 10 quantum bits; build() makes `mesh` from them in `block`.
  */
 #ifndef CAROM_TEST_MESH_SHAPES_H
 #define CAROM_TEST_MESH_SHAPES_H
@@ -39,7 +39,7 @@ void make_field(uint32_t n, int side, int rough, uint64_t seed);
  */
 void make_bumpy(uint32_t n, int side, int rough, uint64_t seed);
 
-/* carom_mesh_build in as many bytes as it asks for. */
+/* carom_mesh_build in exactly the bytes that it asks for. */
 int build(void);
 
 #endif

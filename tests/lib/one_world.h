@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* one_world - the world of a source of tests, its states and steps, and the calls that it refuses. */
+/* one_world - the world of a test source, its states and steps, and the calls that it refuses. */
 #ifndef CAROM_TEST_ONE_WORLD_H
 #define CAROM_TEST_ONE_WORLD_H
 
@@ -19,7 +19,7 @@ static inline struct carom_body_state state_of(int body)
     return s;
 }
 
-/* Steps that must succeed. */
+/* Take steps that must succeed. */
 static inline void steps(int frames)
 {
     for (int i = 0; i < frames; i++) {
@@ -27,7 +27,7 @@ static inline void steps(int frames)
     }
 }
 
-/* A call is refused and leaves the state alone. */
+/* Check that a call is refused and leaves the state unchanged. */
 #define REFUSE(call, error)                                                                        \
     do {                                                                                           \
         const uint64_t hash = carom_world_hash(world);                                             \

@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const struct {
-    const char *program; /* the program, with the arguments before the number */
+    const char *program; /* the program, and its arguments before the number */
     long number;
     const char *why;
 } cases[] = {

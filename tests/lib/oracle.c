@@ -35,7 +35,7 @@ static void rotate(double out[3], const struct oracle_matrix *m, const double v[
     }
 }
 
-/* fmin and fmax are calls, these are not. */
+/* fmin and fmax are calls, these functions are not. */
 static double smaller(double a, double b)
 {
     return a < b ? a : b;
@@ -227,7 +227,7 @@ static bool boxes_meet(const double low_a[3], const double high_a[3], const doub
     return true;
 }
 
-/* Keep only the faces that meet a box. */
+/* Keep only the faces that overlap a box. */
 static void keep_in(struct set *set, const double low[3], const double high[3])
 {
     size_t kept = 0;
@@ -247,7 +247,7 @@ static int by_low_x(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The deepest of the three edges of one face through the other. */
+/* The depth of the deepest of the three edges of one face through the other. */
 static double deepest_edge(const struct placed *edges, const struct placed *face)
 {
     double depth = 0;
@@ -259,7 +259,9 @@ static double deepest_edge(const struct placed *edges, const struct placed *face
     return depth;
 }
 
-/* Whether one face lies wholly on one side of the other's plane: no edge of either can pierce. */
+/*
+ * Whether one face lies wholly on one side of the other's plane: then no edge of either can pierce.
+ */
 static bool on_one_side(const struct placed *one, const struct placed *other)
 {
     double side[2][3], normal[3], from[3];
@@ -303,7 +305,7 @@ static void test_pair(struct oracle_crossings *out, const struct placed *a, cons
     }
 }
 
-/* Sweep along x: each face against those of the other mesh that begin within its extent. */
+/* Sweep along x: each face against the faces of the other mesh that begin within its extent. */
 static void sweep(struct oracle_crossings *out, const struct set *a, const struct set *b,
                   double tolerance)
 {
@@ -351,7 +353,10 @@ static double clamp(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
-/* The square of the distance of the segments p p1 and q q1: the nearest point of one, then the other. */
+/*
+ * The squared distance of the segments p p1 and q q1: find the nearest point of one, then of the
+ * other.
+ */
 static double between_segments(const double p[3], const double p1[3], const double q[3],
                                const double q1[3])
 {
@@ -377,7 +382,7 @@ static double between_segments(const double p[3], const double p1[3], const doub
     return real_dot(away, away);
 }
 
-/* Whether a point is within a distance of a face, and over it. */
+/* Whether a point is within a distance of a face, and above it. */
 static bool over_face(const double p[3], const struct placed *face, double distance)
 {
     double side[3][3], normal[3], from[3];
@@ -449,7 +454,7 @@ bool oracle_near(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
     return near;
 }
 
-/* The solid angle of a triangle seen from the origin, halved: Van Oosterom and Strackee. */
+/* Half the solid angle of a triangle seen from the origin: Van Oosterom and Strackee. */
 static double half_angle(const double a[3], const double b[3], const double c[3])
 {
     double across[3], la = real_length(a), lb = real_length(b), lc = real_length(c);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * oracle - an independent judge of committed frames, in double precision: which faces of two meshes
- * cross, how deep, and the energy of a body. It shares no code with the engine. Host only.
+ * oracle - an independent judge of committed frames, in double precision: the crossing faces of
+ * two meshes, their depth, and the energy of a body. It shares no code with the engine. Host only.
  *
- * A face is pierced by an edge when the edge's ends lie strictly on both sides of the face's plane
- * and the point where it meets the plane lies strictly inside the face. How deep is the shortest
- * shift that would end it: along the face's normal until one end of the edge is back on the plane,
- * or along the plane until the point is on the face's border. A piercing counts when it is deeper
- * than the tolerance, so faces that touch or lie in one plane do not cross.
+ * An edge pierces a face when its ends lie strictly on both sides of the face's plane and it meets
+ * the plane strictly inside the face. The depth is the shortest shift that would end the piercing:
+ * along the face's normal until one end of the edge is back on the plane, or along the plane until
+ * the point is on the face's border. A piercing counts when it is deeper than the tolerance, so
+ * faces that touch or lie in one plane do not cross.
  */
 #ifndef CAROM_TESTS_ORACLE_H
 #define CAROM_TESTS_ORACLE_H
@@ -46,9 +46,9 @@ struct oracle_pose oracle_pose_make(const double position[3], const double quate
                                     const double centre[3]);
 
 struct oracle_crossings {
-    size_t pairs;      /* face pairs of which an edge of one pierces the other */
-    size_t by_a, by_b; /* pairs where an edge of a's face pierces b's, and of b's pierces a's */
-    double depth;      /* depth of the deepest piercing; 0: none */
+    size_t pairs;            /* face pairs in which an edge of one face pierces the other */
+    size_t by_a, by_b;       /* pairs where an edge of a's face pierces b's face, and the reverse */
+    double depth;            /* depth of the deepest piercing; 0: none */
     uint32_t face_a, face_b; /* the pair of the deepest piercing */
 };
 
@@ -65,11 +65,11 @@ struct oracle_crossings oracle_crossings(const struct oracle_mesh *a,
 double oracle_piercing(const double p[3], const double q[3], const double a[3], const double b[3],
                        const double c[3]);
 
-/* Whether any points of the two are within a distance above 0 of each other. */
+/* Whether any two points of the meshes are within a distance above 0 of each other. */
 bool oracle_near(const struct oracle_mesh *a, const struct oracle_pose *pose_a,
                  const struct oracle_mesh *b, const struct oracle_pose *pose_b, double distance);
 
-/* Whether a point, in the mesh's own axes, is inside a closed mesh; whether it is below a surface. */
+/* Whether a point, in the mesh's own axes, is inside a closed mesh; or below a surface. */
 bool oracle_inside(const struct oracle_mesh *mesh, const double point[3]);
 bool oracle_under(const struct oracle_mesh *mesh, const double point[3]);
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes that go on for thousands of frames: each frame's acts follow from its number and the state. */
+/*
+ * Scenes that go on for thousands of frames. The acts of each frame follow from its number and from
+ * the state.
+ */
 #include "plays.h"
 
 #include "carom_query.h"
@@ -15,7 +18,7 @@ uint64_t play_fold(uint64_t digest, uint64_t number)
 
 /* ---------------------------------------------------------------- before a frame */
 
-/* A number in [-range, range], another for each frame, body and axis. */
+/* A number in [-range, range] that differs for each frame, body and axis. */
 static int64_t chance(int frame, int body, int axis, int64_t range)
 {
     uint32_t x = (uint32_t)frame * 2654435761u + (uint32_t)body * 40503u + (uint32_t)axis * 977u;
@@ -27,8 +30,9 @@ static int64_t chance(int frame, int body, int axis, int64_t range)
 }
 
 /*
- * Throw the bodies up and back over the middle of the ground, each by an impulse beside its centre.
- * Their mass is 1, so an impulse is a velocity: 1/64 unit a frame for each unit that they are off.
+ * Throw the bodies up and back to the middle of the ground, each by an impulse beside its centre.
+ * Their mass is 1, so an impulse is a velocity: 1/64 unit a frame for each unit of distance from
+ * the middle.
  */
 static int throw_all(struct carom_world *world, int bodies, int frame)
 {
@@ -62,7 +66,9 @@ static int throw_sometimes(struct carom_world *world, int bodies, int frame)
     return frame % 250 == 200 ? throw_all(world, bodies, frame) : CAROM_OK;
 }
 
-/* Lift one body after the other straight up, so that some sleep while others move, and none meet. */
+/*
+ * Lift one body after the other straight up, so that some sleep while others move, and none meet.
+ */
 static int lift_one(struct carom_world *world, int bodies, int frame)
 {
     const carom_v3_q40 impulse = {{0, 0, CAROM_VELOCITY_MM_S(1500, FPS)}};
@@ -79,7 +85,7 @@ static int lift_one(struct carom_world *world, int bodies, int frame)
     return result;
 }
 
-/* Gravity leans, by 18 degrees along each axis, to the side that the first body is not on. */
+/* Gravity leans by 18 degrees along each axis, away from the side of the first body. */
 static int lean(struct carom_world *world, int bodies, int frame)
 {
     const int64_t across = CAROM_GRAVITY_MM_S2(3030, FPS);
@@ -120,7 +126,9 @@ static int take_up(struct carom_world *world, int bodies)
     return result;
 }
 
-/* Each is drawn to the middle by 7 units / s^2 a unit; from time to time all are thrown. */
+/*
+ * A force of 7 units / s^2 a unit draws each body to the middle; from time to time all are thrown.
+ */
 static int draw_together(struct carom_world *world, int bodies, int frame)
 {
     const carom_v3_q40 none = {{0, 0, 0}};
@@ -146,7 +154,7 @@ static int draw_together(struct carom_world *world, int bodies, int frame)
 
 /* ----------------------------------------------------------------- after a frame */
 
-/* Which faces of two bodies interfere, and what is inside of what. */
+/* Ask which faces of two bodies interfere, and whether one body is inside the other. */
 static int ask_pair(struct carom_world *world, int a, int b, uint64_t *digest)
 {
     static struct carom_face_pair found[48];
@@ -173,13 +181,16 @@ static int ask_pairs(struct carom_world *world, const struct scene *scene, int f
     return result;
 }
 
-#if SCENE_GAMES /* a board without has not the scenes, nor the memory */
+#if SCENE_GAMES /* a board without the games has neither the scenes nor the memory */
 static bool is_not(void *context, int body)
 {
     return body != *(const int *)context;
 }
 
-/* The first hit of a ray that comes down on a body slantwise, and how many faces it goes through. */
+/*
+ * Ask for the first hit of a slanting ray down on a body, and for the number of faces that it
+ * passes.
+ */
 static int ask_ray(const struct carom_world *world, const carom_v3_q32 *at, uint64_t *digest)
 {
     const struct carom_ray ray = {
@@ -238,7 +249,10 @@ static int ask_closest(struct carom_world *world, int a, int b, uint64_t *digest
     return result < 0 && result != CAROM_ERR_OVERLAP ? result : CAROM_OK;
 }
 
-/* One body after the other, from time to time; what was picked up is not there any more. */
+/*
+ * Ask about one body after the other, from time to time; a body that was picked up is not there any
+ * more.
+ */
 static int ask_queries(struct carom_world *world, const struct scene *scene, int frame,
                        uint64_t *digest)
 {
@@ -273,11 +287,12 @@ static uint64_t fold_picture(const struct carom_picture *picture, uint64_t diges
     return digest;
 }
 
-/* Small pictures, in every format and style in turn. */
+/* Draw small pictures, in every format and style in turn. */
 static int ask_picture(struct carom_world *world, const struct scene *scene, int frame,
                        uint64_t *digest)
 {
-    static _Alignas(4) uint32_t pixels[WIDTH * HEIGHT]; /* m68k would have it at any even place */
+    /* m68k would place it at any even address */
+    static _Alignas(4) uint32_t pixels[WIDTH * HEIGHT];
     static _Alignas(8) uint8_t workspace[CAROM_DRAW_BYTES_LEAST(
         SCENE_HEAD_VERTICES + SCENE_FIELD_VERTICES, SCENE_HEAD_FACES + SCENE_FIELD_FACES)];
     const int number = frame / 25;
@@ -314,7 +329,7 @@ static int throw_ball(struct carom_world *world, int bodies, int frame)
     return frame % 300 == 0 ? carom_body_set(world, DOOR_BALL, &state) : CAROM_OK;
 }
 
-/* A game goes by its script for a while, then its keys are let go until it is at rest. */
+/* A game follows its script for a while, then gets no keys until it is at rest. */
 static int play_car(struct carom_world *world, int bodies, int frame)
 {
     (void)bodies;
@@ -344,7 +359,7 @@ static void set_surface(struct scene *scene, int32_t e_q30, uint32_t mu_q16)
     scene->ground.friction_q16 = scene->body.friction_q16 = mu_q16;
 }
 
-/* Nothing is lost: a box that bounces for ever. */
+/* Without losses: a box that bounces for ever. */
 static void bounce(struct scene *scene)
 {
     set_surface(scene, CAROM_ONE_Q30, 0);
@@ -353,7 +368,7 @@ static void bounce(struct scene *scene)
     }
 }
 
-/* Slippery, and flat on the plane. */
+/* Without friction, flat on the plane. */
 static void slide(struct scene *scene)
 {
     set_surface(scene, CAROM_ONE_Q30 / 4, 1 << 14);

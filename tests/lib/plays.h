@@ -21,7 +21,7 @@ struct play {
 #define PLAYS 15
 extern const struct play plays[PLAYS];
 
-/* 64-bit FNV-1a of a number's bytes, the lowest first, from where the last ones left it. */
+/* 64-bit FNV-1a of a number's bytes, lowest first, continued from the last digest. */
 #define PLAY_DIGEST 0xcbf29ce484222325u
 uint64_t play_fold(uint64_t digest, uint64_t number);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * real - a little double precision for the oracles of tests, without a mathematics library: the
- * same source runs on boards that have none.
+ * real - some double precision for the oracles of tests, without a mathematics library: the same
+ * source runs on boards that have none.
  */
 #ifndef CAROM_TEST_REAL_H
 #define CAROM_TEST_REAL_H

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The scenes of which everybody knows what must come: a cradle, dominoes, a house of cards, an arch, a bowl. */
+/*
+ * The scenes whose outcome everybody knows: a cradle, dominoes, a house of cards, an arch, a bowl.
+ */
 #include <math.h>
 #include <stdio.h>
 
 #include "host_scenes.h"
 #include "real.h"
 
-/* The angle between the way that a body's z axis points now and pointed at first, degrees. */
+/* The angle between a body's z axis now and at first, degrees. */
 static double tilt(const struct play *play, int body)
 {
     const double z[3] = {0, 0, 1};
@@ -30,10 +32,13 @@ static int awake(const struct play *play, int first, int count)
 
 /* ------------------------------------------------------------------------- newton */
 
-/* mark: the highest that each ball is between the first hit and the second, for each count of balls lifted. */
+/*
+ * mark: the largest height of each ball between the first hit and the second, for each number of
+ * lifted balls.
+ */
 enum { NEWTON_ROUNDS = 3, NEWTON_HIT = NEWTON_FRAMES / 8, NEWTON_AGAIN = 3 * NEWTON_FRAMES / 8 };
 
-/* Height of a ball over the height from which the first one falls. */
+/* A ball's height, over the height from which the first one falls. */
 static double rise(const struct play *play, int ball)
 {
     const double low = play_at(&play->first[NEWTON_BALL + 1], 2);
@@ -42,7 +47,10 @@ static double rise(const struct play *play, int ball)
            (play_at(&play->first[NEWTON_BALL], 2) - low);
 }
 
-/* A period is half of the frames of a round: the first hit is after an eighth, the second after three. */
+/*
+ * A period is half of the frames of a round: the first hit is after an eighth of them, the second
+ * after three eighths.
+ */
 static void watch_newton(struct play *play)
 {
     const int round = play->frame / NEWTON_FRAMES, at = play->frame % NEWTON_FRAMES;
@@ -55,8 +63,8 @@ static void watch_newton(struct play *play)
 }
 
 /*
- * As many balls as were lifted rise on the other side to as high as that, nearly, and the others keep out of it: height is
- * energy. Rolling, air and sound, which take some from a real cradle, are not there.
+ * As many balls as were lifted rise on the other side, nearly as high, and the others stay low:
+ * height is energy. A real cradle loses some energy by rolling, air and sound; this one does not.
  */
 static bool judge_newton(struct play *play)
 {
@@ -77,7 +85,7 @@ static bool judge_newton(struct play *play)
 
 /* ----------------------------------------------------------------------- dominoes */
 
-/* mark: how many fell; those that fell before one in front of them, or leant before the ball came. */
+/* mark: how many fell; how many fell before one in front of them, or leant before the ball came. */
 static void watch_dominoes(struct play *play)
 {
     for (int i = (int)play->mark[0]; i < DOMINOES; i++) {
@@ -100,7 +108,10 @@ static bool judge_dominoes(struct play *play)
 
 /* ---------------------------------------------------------- what stands, and is hit */
 
-/* mark: the most that any of some bodies is off its place, and leans, before the ball is thrown. */
+/*
+ * mark: the largest offset of some bodies from their places, and their largest lean, before the
+ * ball is thrown.
+ */
 static void watch_standing(struct play *play, int first, int count, int start)
 {
     for (int i = first; i < first + count && play->frame < start; i++) {
@@ -131,7 +142,10 @@ static void say_standing(struct play *play, double height, int moving)
              play->mark[0], play->mark[1], height, moving);
 }
 
-/* Until then no card goes by a tenth of its thickness of 0.02; after that those of the top lie below their storey. */
+/*
+ * Before the throw no card moves by a tenth of its thickness of 0.02; after it the top cards lie
+ * below their storey.
+ */
 static bool judge_cards(struct play *play)
 {
     const double height =
@@ -154,7 +168,7 @@ static bool judge_arch(struct play *play)
 
 /* --------------------------------------------------------------------------- bowl */
 
-/* mark: how many lie still in the bowl before the toss. */
+/* mark: the number of bodies at rest in the bowl before the toss. */
 static void watch_bowl(struct play *play)
 {
     for (int i = BOWL_PIECE; i < BOWL_PIECE + BOWL_PIECES && play->frame == BOWL_TOSS - 1; i++) {
@@ -165,7 +179,10 @@ static void watch_bowl(struct play *play)
     }
 }
 
-/* All lie in the bowl, and after the toss all come to rest again above the ground, there or beside it. */
+/*
+ * All bodies lie in the bowl. After the toss all come to rest again above the ground, in the bowl
+ * or beside it.
+ */
 static bool judge_bowl(struct play *play)
 {
     const int moving = awake(play, BOWL_PIECE, BOWL_PIECES);

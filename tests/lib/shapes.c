@@ -91,7 +91,7 @@ void shape_l(struct shape *s, int quantum_bits, int side)
     build(s);
 }
 
-/* The vertex half way between two, lifted to the sphere; each once. */
+/* The vertex halfway between two, lifted to the sphere; each is made once. */
 static uint32_t between(struct shape *s, uint32_t a, uint32_t b, int radius)
 {
     double p[3], scale;
@@ -118,7 +118,7 @@ void shape_ball(struct shape *s, int quantum_bits, int radius)
                                        {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
                                        {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                        {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-    /* corners (0, +-1, +-golden ratio) and its turns, on the sphere */
+    /* corners (0, +-1, +-golden ratio) and their cyclic permutations, on the sphere */
     int x = (int)real_round(radius * 0.52573111211913360603);
     int z = (int)real_round(radius * 0.85065080835203993218);
 
@@ -248,7 +248,7 @@ carom_quat_q30 shape_random_turn(struct test_random *r)
     carom_quat_q30 q;
     double p[4], sum = 2;
 
-    /* a point of the ball, brought to the sphere */
+    /* a random point of the ball, moved to the sphere */
     while (sum > 1 || sum < 0.01) {
         sum = 0;
         for (int k = 0; k < 4; k++) {

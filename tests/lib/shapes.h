@@ -2,8 +2,8 @@
 /*
  * shapes - small meshes for tests, and bodies of them without a world.
  *
- * Each function makes the raw mesh and builds it; sizes are in quanta of 2^-quantum_bits units. A
- * shape may be made again as another one.
+ * Each function makes the raw mesh and builds it; sizes are in quanta of 2^-quantum_bits units. The
+ * same struct may be used again for another shape.
  */
 #ifndef CAROM_TEST_SHAPES_H
 #define CAROM_TEST_SHAPES_H
@@ -23,7 +23,7 @@ struct shape {
     _Alignas(8) uint8_t block[CAROM_MESH_BYTES(SHAPE_VERTICES, SHAPE_FACES)];
 };
 
-/* For the meshes of a scene; one for all tests, or a board's memory would not do. */
+/* For the meshes of a scene; all tests share it, because a board's memory is small. */
 extern uint8_t shape_scene_block[SCENE_MESH_BYTES];
 
 /* A box of sides x, y, z about the origin; its vertex i has the sign of bit k along axis k. */
@@ -41,22 +41,22 @@ void shape_ball(struct shape *s, int quantum_bits, int radius);
 /* A SURFACE of n x n squares, each two triangles, at z = 0 about the origin; n <= 24. */
 void shape_plane(struct shape *s, int quantum_bits, int n, int side);
 
-/* The same with heights from 0 to `rough` at random. */
+/* The same, with random heights from 0 to `rough`. */
 void shape_field(struct shape *s, int quantum_bits, int n, int side, int rough, uint64_t seed);
 
 /*
- * A body of the shape at density 1, in the middle of the world, at rest: what carom_body_add makes
- * of it, with e = mu = 0.
+ * A body of the shape at density 1, in the middle of the world, at rest: as carom_body_add makes
+ * it, with e = mu = 0.
  */
 void shape_body(const struct shape *s, bool moving, struct body *b, struct body_state *state);
 
-/* Whether the mesh leaves a vertex or an edge to be tested: it is convex. */
+/* Whether a vertex or an edge of the mesh is convex, and so is tested. */
 bool shape_owns_vertex(const struct shape *s, uint32_t vertex);
 bool shape_owns_edge(const struct shape *s, uint32_t edge);
 
 /*
- * Every vertex with every face, and every edge with every edge, of a pair of shapes, as interfere
- * would hand them over if all were near: sorted. Returns how many; at most `max` are written.
+ * Every vertex with every face, and every edge with every edge, of a pair of shapes, sorted: what
+ * interfere would return if all features were near. Returns how many; at most `max` are written.
  */
 uint32_t shape_candidates(const struct shape *a, const struct shape *b, uint16_t pair,
                           struct candidate *out, uint32_t max);

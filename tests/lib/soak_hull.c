@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* The hull of points, exactly, one point after the other. */
+/* The hull of points, exactly: adds one point after the other. */
 #include <string.h>
 
 #include "soak_shapes.h"
 
-/* Six times the volume over face a b c, positive where it looks: differences below 2^16. */
+/* Six times the volume over face a b c, positive on its outer side: differences below 2^16. */
 static int64_t over(const int16_t (*p)[3], const uint16_t f[3], int q)
 {
     int64_t u[3], v[3], w[3];
@@ -18,7 +18,7 @@ static int64_t over(const int16_t (*p)[3], const uint16_t f[3], int q)
            w[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
-/* Which face lies to the left of the edge from one point to another; its number and 1. */
+/* The face to the left of the edge from one point to another: its number plus 1. */
 static uint16_t left_of[SOAK_POINTS][SOAK_POINTS];
 
 static void put_face(struct soak_shape *s, uint32_t at, int a, int b, int c)
@@ -31,7 +31,7 @@ static void put_face(struct soak_shape *s, uint32_t at, int a, int b, int c)
     }
 }
 
-/* Take the faces that a point sees away, and join their border to it. */
+/* Remove the faces that a point sees, and connect their border with the point. */
 static void add_point(struct soak_shape *s, int q)
 {
     static bool seen[SOAK_FACES];
@@ -56,7 +56,7 @@ static void add_point(struct soak_shape *s, int q)
             }
         }
     }
-    /* a border has at least two edges more than the faces that it encloses have to give */
+    /* a border has at most two edges more than the number of faces that it encloses */
     for (uint32_t i = 0; i < border_count; i++) {
         uint32_t at = i < free_count ? free_at[i] : s->raw.face_count++;
 
@@ -71,7 +71,7 @@ static void add_point(struct soak_shape *s, int q)
     }
 }
 
-/* Leave out the points that no face has. */
+/* Remove the points that belong to no face. */
 static void drop_unused(struct soak_shape *s)
 {
     uint16_t place[SOAK_POINTS];

@@ -6,7 +6,7 @@
 #include "real.h"
 #include "soak.h"
 
-/* A joint in the world as its bodies are now. */
+/* A joint in the world, from the present poses of its bodies. */
 struct place {
     double at[2][3], axis[2][3];
     double
@@ -103,7 +103,7 @@ static double angle_of(const double q[4])
     return 2 * atan2(real_length(q + 1), fabs(q[0]));
 }
 
-/* The coordinate of a joint, by carom_joint.h: an angle, a way, a distance. */
+/* The coordinate of a joint, by carom_joint.h: an angle, a way or a distance. */
 static double coordinate(const struct soak_joint *joint, const struct place *p)
 {
     double apart[3], axis[3];
@@ -137,7 +137,8 @@ double soak_joint_energy(const struct crowd *crowd, const struct soak_joint *joi
     }
     find(crowd, joint, &p);
     stretch = coordinate(joint, &p) - real(d->rest_q32, 32);
-    /* a rotation is known to q30, an anchor by that times its arm; of a hinge the rotations alone count */
+    /* a rotation is known to q30, and an anchor to that times its arm; for a hinge only rotations
+     * count */
     place = 0x1p-29 * (1 + (joint->def.kind == CAROM_JOINT_HINGE
                                 ? 0
                                 : real_length(joint->arm[0]) + real_length(joint->arm[1])));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Bodies that are led about in random worlds. */
+/* Kinematic bodies of random worlds. */
 #include <string.h>
 
 #include "real.h"
@@ -22,7 +22,7 @@ void soak_leader_begin(struct soak_leader *l, const struct carom_body_def *def, 
     l->start = def->rotation;
 }
 
-/* No library's sine: a world is to be the same on every machine. */
+/* Not a library's sine, because a world must be the same on every machine. */
 static double sine(double angle, double *cosine)
 {
     double s;

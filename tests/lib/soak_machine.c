@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Machines: what a random world of soak_world.c gets beside bodies, before it starts. */
+/* Machines: the parts that a random world of soak_world.c gets besides bodies, before it starts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "real.h"
 #include "soak.h"
 
-#define ARM_RADII 50 /* anchors are within so many of a body's radii */
+#define ARM_RADII 50 /* anchors are within so many radii of a body */
 
 static struct carom_body_def *def_of(struct soak_world *w, int body)
 {
@@ -71,7 +71,7 @@ static void sense_some(struct soak_world *w, struct test_random *r)
     }
 }
 
-/* A filter of three kinds of bodies; the usual one more often than others. */
+/* A filter for one of three kinds of bodies; the default one is more likely than the others. */
 static struct carom_filter any_filter(struct test_random *r)
 {
     static const uint16_t masks[] = {0xffff, 0xffff, 7, 1, 3, 6};
@@ -103,7 +103,10 @@ static void open_some(struct soak_world *w, struct test_random *r)
 
 /* ---------------------------------------------------------------------------- joints */
 
-/* Next to another one: 60 % of the time apart from all, else across it. */
+/*
+ * Put a body next to another one: 60 % of the time apart from all bodies, otherwise overlapping the
+ * other.
+ */
 static void put_beside(struct soak_world *w, struct soak_joint *joint, struct test_random *r)
 {
     const int a = joint->def.a, b = joint->def.b;
@@ -129,7 +132,7 @@ static void put_beside(struct soak_world *w, struct soak_joint *joint, struct te
     def->position = was;
 }
 
-/* Between two bodies, or about one of them; false when there is none within their reach. */
+/* Anchors between two bodies, or near one of them; false when none is within their reach. */
 static bool set_anchors(struct soak_world *w, struct soak_joint *joint, struct test_random *r)
 {
     const int a = joint->def.a, b = joint->def.b < 0 ? a : joint->def.b;
@@ -155,7 +158,7 @@ static bool set_anchors(struct soak_world *w, struct soak_joint *joint, struct t
            real_length(far_off[0]) > 0.01 * radius_of(w, a);
 }
 
-/* Limits about where it begins, a motor or a spring; in proportion to the lighter body. */
+/* Limits around the first coordinate, a motor or a spring, in proportion to the lighter body. */
 static void set_drive(struct soak_world *w, struct soak_joint *joint, struct test_random *r)
 {
     const struct carom_joint_def *def = &joint->def;
@@ -227,7 +230,7 @@ static void calm(struct soak_world *w, int body)
     }
 }
 
-/* The partner of a body's joint: the world or a body before it. */
+/* The partner of a body's joint: the world, or an earlier body. */
 static int partner(const struct soak_machine *m, int body, bool chain, struct test_random *r)
 {
     int other;
@@ -243,7 +246,7 @@ static int partner(const struct soak_machine *m, int body, bool chain, struct te
     return other == body ? CAROM_WORLD : other;
 }
 
-/* A body with one of those before it, or with the world; some with two. */
+/* Join a body with an earlier one or with the world; some bodies get two joints. */
 static void join_some(struct soak_world *w, struct test_random *r)
 {
     struct soak_machine *m = w->machine;
@@ -276,7 +279,7 @@ static void join_some(struct soak_world *w, struct test_random *r)
         }
         m->joint_count++;
         last = i;
-        i -= again; /* and once more */
+        i -= again; /* the same body once more */
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Machines: what is set up when their bodies are there, and what happens to them before a frame. */
+/* Machines: their setup when the bodies are there, and the calls before a frame. */
 #include <string.h>
 
 #include "real.h"
@@ -7,7 +7,7 @@
 
 /* ---------------------------------------------------------------------- callback */
 
-/* Whether the callback drops the contacts of two bodies; never with what belongs to the ground. */
+/* Whether the callback drops the contacts of two bodies; never with bodies of the ground. */
 static bool drops(const struct soak_machine *m, int a, int b)
 {
     int low = a < b ? a : b, high = a < b ? b : a;
@@ -15,7 +15,7 @@ static bool drops(const struct soak_machine *m, int a, int b)
     return m->asks && low >= m->first && ((uint64_t)(low * 31 + high * 17) + m->seed) % 5 == 0;
 }
 
-/* Other e and mu by face, too. */
+/* The callback also sets other e and mu by face. */
 static bool ask(void *user, struct carom_touch *touch)
 {
     const struct soak_machine *m = user;
@@ -217,7 +217,7 @@ int soak_machine_start(struct soak_world *w)
 
 /* -------------------------------------------------------------------- before a frame */
 
-/* A motor turns the other way, a spring rests elsewhere, a joint goes. */
+/* A motor reverses, a spring's rest length changes, a joint is removed. */
 static int change_joint(struct soak_world *w)
 {
     struct soak_machine *m = w->machine;

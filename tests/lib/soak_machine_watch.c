@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Machines: what is seen of joints and sensors, and a second run. */
+/* Machines: the checks of joints and sensors, and a second run. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "real.h"
 #include "soak.h"
 
-#define NEAR 3e-5 /* units: nearer to each other, bodies may overlap or not */
+#define NEAR 3e-5 /* units: closer bodies may overlap or not */
 
 /* ------------------------------------------------------------------------ events */
 
@@ -69,7 +69,7 @@ void soak_machine_see(struct soak_world *w)
     }
 }
 
-/* Whether anything touched the island of a body, or led it. */
+/* Whether anything touched or led the island of a body. */
 static bool touched(const struct crowd *crowd, int body)
 {
     for (int i = 0; i < crowd->body_count; i++) {
@@ -111,7 +111,10 @@ static bool boxes_meet(const struct crowd_seen *a, const struct crowd_seen *b)
     return true;
 }
 
-/* A sensor sees what may meet it when one of the two moves and neither is out; not other sensors. */
+/*
+ * Whether a sensor sees a body: filters allow it, one of the two moves, neither is out, and the
+ * body is no sensor.
+ */
 static bool is_asked(const struct soak_world *w, int sensor, int other)
 {
     const struct crowd_body *a = &w->crowd->bodies[sensor], *b = &w->crowd->bodies[other];
@@ -162,14 +165,14 @@ void soak_machine_half(struct soak_world *w)
     seen->half = *w->machine;
 }
 
-/* The world anew, as it was at the start. */
+/* The world again, as it was at the start. */
 static bool begin_again(struct soak_world *w)
 {
     *w->machine = w->seen->start;
     return crowd_start(w->crowd) >= 0 && soak_machine_start(w) >= 0;
 }
 
-/* The same frames, unwatched, up to the first after which the world is another; false then. */
+/* Play the same frames, unwatched, up to the first after which the hash differs; false then. */
 static bool run(struct soak_world *w, long from, long to)
 {
     for (long frame = from; frame <= to; frame++) {
@@ -183,7 +186,10 @@ static bool run(struct soak_world *w, long from, long to)
     return true;
 }
 
-/* Joints that were taken away by half-way are to be so before the snapshot comes; broken ones are there. */
+/*
+ * Joints that were removed before halfway are removed before the snapshot is loaded; broken ones
+ * stay.
+ */
 static void take_joints_away(struct soak_world *w)
 {
     for (int i = 0; i < w->machine->joint_count; i++) {

@@ -19,7 +19,7 @@ double soak_uniform(struct test_random *r, double low, double high)
     return low + (high - low) * real((int64_t)(test_random_next(r) >> 11), 53);
 }
 
-/* Between powers of two in a straight line: no library's exp2 is the same as another's. */
+/* Between powers of two linearly, because exp2 differs between libraries. */
 double soak_powers(struct test_random *r, double low, double high)
 {
     int doublings = 0;
@@ -73,7 +73,7 @@ void soak_any_turn(struct test_random *r, double out[4])
 
 /* ---------------------------------------------------------------------- parts */
 
-/* A mesh that is being made: its points go through a turn and a scale. */
+/* A mesh that is being made: its points are turned and scaled. */
 struct making {
     struct soak_shape *shape;
     double turn[3][3];
@@ -107,7 +107,7 @@ static void square(struct making *m, uint32_t a, uint32_t b, uint32_t c, uint32_
     face(m, a, c, d);
 }
 
-/* Quanta as fine as they may be for points within a size; turned at random, or not at all. */
+/* The finest quanta for points within a size; turned at random, or not at all. */
 static struct making begin(struct soak_shape *shape, int kind, double size, struct test_random *r)
 {
     struct making m = {.shape = shape};
@@ -179,7 +179,7 @@ static int triangulate(const double (*p)[2], int count, int out[][3])
     return found;
 }
 
-/* An outline, counter-clockwise, from -half to half along z. */
+/* A prism over a counter-clockwise outline, from -half to half along z. */
 static void prism(struct making *m, const double (*outline)[2], int count, double half)
 {
     int caps[OUTLINE][3], found = triangulate(outline, count, caps);
@@ -331,7 +331,7 @@ static void hull(struct making *m, int count, const double axes[3], struct test_
     soak_wrap(m->shape);
 }
 
-/* Whether all faces look away from the origin: then no two meet but at their edges. */
+/* Whether all faces look away from the origin: then no two meet except at their edges. */
 static bool is_around_origin(const struct soak_shape *s)
 {
     for (uint32_t f = 0; f < s->raw.face_count; f++) {
@@ -350,7 +350,7 @@ static bool is_around_origin(const struct soak_shape *s)
     return true;
 }
 
-/* On every face of a small hull a spike; without faces when the hull is not around the origin. */
+/* A spike on every face of a small hull; no faces when the hull is not around the origin. */
 static void spikes(struct making *m, double size, struct test_random *r)
 {
     const double length = size * soak_uniform(r, 0.2, 0.8);
@@ -421,7 +421,7 @@ static void draw(struct making *m, enum soak_kind kind, double size, struct test
     }
 }
 
-/* Whether the mesh can be built and moved: one that is too thin has no inverse of its inertia. */
+/* Whether the mesh can be built and moved: the inertia of a very thin one has no inverse. */
 static bool builds(const struct soak_shape *shape)
 {
     static _Alignas(8) uint8_t block[CAROM_MESH_BYTES(SOAK_VERTICES, SOAK_FACES)];

@@ -7,7 +7,7 @@
 #include "real.h"
 #include "soak.h"
 
-#define WORLD_SECONDS 60 /* a world whose steps take more is left */
+#define WORLD_SECONDS 60 /* a world whose steps take longer is stopped */
 
 const char *const soak_fault_names[SOAK_FAULTS] = {
     "crosses",   "error",     "stands still", "cut short", "energy",    "momentum",
@@ -25,7 +25,10 @@ static int64_t larger(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
-/* Bound on the motion of any point of a body in the frame; the largest change of a number of its pose goes out. */
+/*
+ * A bound on the motion of any point of a body in the frame; also returns the largest change of a
+ * number of its pose.
+ */
 static double way_of(const struct crowd *crowd, const struct crowd_body *body, int64_t *places)
 {
     const struct carom_body_state *from = &body->before.state, *to = &body->now.state;
@@ -61,10 +64,10 @@ static double speed_of(const struct crowd *crowd, const struct crowd_body *body,
 }
 
 /*
- * A body that rests is slower than an eighth of what gravity gives in a frame, and so says the state
- * after a frame of one that has stopped. What is faster at both ends of a frame has not moved when no
- * number of its pose changed by more than 2, or, if it is faster than a skin in 16 frames as well, when
- * it went less than a thousandth of its speed and of a skin.
+ * A body at rest is slower than an eighth of what gravity gives in a frame, and so is the state
+ * after a frame of a body that has stopped. A body that is faster at both ends of a frame has not
+ * moved when no number of its pose changed by more than 2. If it is also faster than a skin in 16
+ * frames, it has not moved when it went less than a thousandth of its speed and of a skin.
  */
 static bool stands_still(const struct crowd *crowd, int i)
 {
@@ -102,8 +105,9 @@ void soak_watch_still(const struct crowd *crowd, struct soak_still *still, long 
 /* -------------------------------------------------------------------- momentum */
 
 /*
- * The sum of all momenta, in units of the last place. The interface tells velocities: p / m is exact
- * for a mass of 2^-n, so p is its velocity shifted back, without a remainder. False when there is one.
+ * The sum of all momenta, in units of the last place. The interface reports velocities: p / m is
+ * exact for a mass of 2^-n, so p is the velocity shifted back, without a remainder. False when
+ * there is one.
  */
 static bool momentum_of(const struct soak_world *w, int64_t sum[3])
 {
@@ -139,7 +143,7 @@ static void watch_momentum(struct soak_world *w, struct soak_result *r, long out
 
 /* ------------------------------------------------------------------------ rooms */
 
-/* Whether a body goes where it is led, or through walls: those are the bodies before the others. */
+/* Whether a body is led, or goes through walls: these are the bodies before the others. */
 static bool may_leave(const struct soak_world *w, int body)
 {
     const struct carom_body_def *def = &w->crowd->bodies[body].def;
@@ -151,7 +155,7 @@ static bool may_leave(const struct soak_world *w, int body)
     return leaves || w->left[body];
 }
 
-/* The centre of mass of what is in a room is in it as well. */
+/* The centre of mass of all bodies in a room must be in the room as well. */
 static void watch_room(struct soak_world *w, struct soak_result *r)
 {
     double m[3][3];
@@ -220,7 +224,7 @@ static void watch_costs(struct soak_world *w, struct soak_result *r, double seco
     }
 }
 
-/* A step, and what is done before it. */
+/* A step, with the calls before it. */
 static int act_and_step(struct soak_world *w, struct soak_result *r)
 {
     double start;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Random worlds: what there is, of what size and weight, where, and how it moves at first. */
+/* Random worlds: their bodies, with sizes and weights, places, and first motions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +17,12 @@ const char *const soak_pace_names[SOAK_PACES] = {"at rest", "slow", "any speed",
 /* The plan of a random world: the properties that its bodies share. */
 struct plan {
     struct test_random r;
-    double size[2];  /* least and largest size of bodies */
-    double light;    /* the lightest: others have up to 1000 times as much */
+    double size[2];  /* smallest and largest size of bodies */
+    double light;    /* the lightest mass; others are up to 1000 times as heavy */
     int masses;      /* 0: any; 1: by volume; 2: all the same */
-    double e, mu;    /* below 0: of each body its own */
+    double e, mu;    /* below 0: each body has its own */
     double lean;     /* largest lean of bodies from the axes, radians; below 0: any rotation */
-    double half;     /* half side of the cube that bodies are put into */
+    double half;     /* half side of the cube into which bodies are put */
     double start[3]; /* its middle */
 };
 
@@ -33,7 +33,7 @@ static struct soak_shape *next_shape(struct soak_world *w)
     return &w->shapes[w->crowd->mesh_count];
 }
 
-/* A body of the shape that was made last. */
+/* Add a body of the last shape. */
 static int add_body(struct soak_world *w, enum soak_kind kind)
 {
     struct crowd *crowd = w->crowd;
@@ -79,7 +79,7 @@ static void corner_in(double out[3], const struct oracle_mesh *a, const struct o
     }
 }
 
-/* Whether two bodies keep clear of each other by more than two skins. */
+/* Whether two bodies are apart by more than two skins. */
 static bool apart(const struct crowd *crowd, int a, int b)
 {
     const struct crowd_body *body[2] = {&crowd->bodies[a], &crowd->bodies[b]};
@@ -128,7 +128,7 @@ static bool inside_room(const struct soak_world *w, const struct carom_body_def 
     return true;
 }
 
-/* The same of the bodies below `count`; grounds may lie in each other. */
+/* The same for the bodies below `count`; grounds may overlap each other. */
 static bool is_clear(const struct soak_world *w, int body, int but, int count)
 {
     const struct crowd_body *bodies = w->crowd->bodies;
@@ -164,7 +164,7 @@ static void any_turn(struct plan *p, double q[4])
     }
 }
 
-/* Put a body where it is clear of all that are there; the cube grows until there is such a place. */
+/* Put a body where it is clear of all others; the cube grows until there is such a place. */
 static void find_place(struct soak_world *w, struct plan *p, int body)
 {
     struct crowd *crowd = w->crowd;
@@ -188,7 +188,7 @@ static void find_place(struct soak_world *w, struct plan *p, int body)
         }
     } while (!clear && tries < 2000);
     if (!clear) {
-        crowd->body_count--; /* a room that is full */
+        crowd->body_count--; /* the room is full */
     }
 }
 
@@ -233,7 +233,7 @@ static void add_surface(struct soak_world *w, struct plan *p)
     p->start[2] += 1.2 * p->half + rough;
 }
 
-/* Solids that stand about below what falls. */
+/* Solids that stand below the falling bodies. */
 static void add_obstacles(struct soak_world *w, struct plan *p)
 {
     int count = 3 + soak_pick(&p->r, SOAK_OBSTACLE - 2);
@@ -305,7 +305,7 @@ static void add_ground(struct soak_world *w, struct plan *p)
 
 /* --------------------------------------------------------------------- motion */
 
-/* |v| + r |w|, shared out between both. */
+/* |v| + r |w|, divided between both. */
 static void set_motion(struct soak_world *w, struct plan *p, int body)
 {
     struct carom_body_def *def = &w->crowd->bodies[body].def;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Meshes in a pose, in double precision: distances and normal cones by way of all faces. */
+/* Posed meshes in double precision: distances and normal cones from all faces. */
 #include "solids.h"
 #include "real.h"
 
@@ -88,7 +88,7 @@ static double clamp(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
-/* Distance of p0 p1 from q0 q1: try the inner optimum, then each end. */
+/* The distance of p0 p1 from q0 q1: try the inner optimum, then each end. */
 static double between_segments(const double p0[3], const double p1[3], const double q0[3],
                                const double q1[3])
 {
@@ -151,7 +151,7 @@ static double from_face(const double p[3], const struct solid *s, uint32_t f)
     return best;
 }
 
-/* Whether boxes are farther apart than the reach: only to save time. */
+/* Whether boxes are farther apart than the reach; this only saves time. */
 static bool bounds_apart(const struct solid_bounds *p, const struct solid_bounds *q,
                          int64_t reach_q22)
 {
@@ -243,7 +243,7 @@ bool solid_edge_cones(const struct solid *a, uint32_t i, const struct solid *b, 
     real_cross(w, e, f);
     length = real_length(w);
     if (length < 0.01 * real_length(e) * real_length(f)) {
-        return false; /* parallel: vertices and faces are enough */
+        return false; /* parallel edges: vertices and faces are enough */
     }
     for (int sign = -1; sign <= 1; sign += 2) {
         double n[3], back[3];

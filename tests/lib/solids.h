@@ -10,7 +10,7 @@
 
 #define SOLID_EDGES 1800
 
-/* A box along the axes of the world, in whole numbers, since boards compare these faster. */
+/* A box along the axes of the world, in whole numbers, because boards compare these faster. */
 struct solid_bounds {
     int64_t low_q22[3], high_q22[3];
 };
@@ -21,14 +21,14 @@ struct solid {
     double p[SHAPE_VERTICES][3];
     double normal[SHAPE_FACES][3];
     struct solid_bounds vertex[SHAPE_VERTICES], face[SHAPE_FACES], edge[SOLID_EDGES];
-    bool own_vertex[SHAPE_VERTICES], own_edge[SOLID_EDGES]; /* which the mesh leaves to be tested */
+    bool own_vertex[SHAPE_VERTICES], own_edge[SOLID_EDGES]; /* the features that the mesh tests */
 };
 
 /* Note which features a new shape owns. */
 void solid_note_owned(struct solid *s);
 void solid_place(struct solid *s, const struct body_state *state);
 
-/* Whether a vertex comes within the reach of a face, or two edges of each other. */
+/* Whether a vertex is within the reach of a face, or two edges of each other. */
 bool solid_vertex_near(const struct solid *from, uint32_t vertex, const struct solid *to,
                        uint32_t face, int64_t reach_q22);
 bool solid_edges_near(const struct solid *a, uint32_t i, const struct solid *b, uint32_t j,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Two convex bodies that meet in special positions, to within nothing or a unit of the last place. */
+/* Two convex bodies that meet in special positions: exactly, or off by a unit of the last place. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ const char *const special_names[SPECIAL_CLASSES] = {"peak_peak",   "peak_ridge",
 
 /* -------------------------------------------------------------------- shapes */
 
-/* Vertices in doubles until the quantum is known. */
+/* Vertices in doubles, until the quantum is known. */
 struct outline {
     double p[SPECIAL_VERTICES][3];
     int count, faces;
@@ -89,8 +89,8 @@ static void make_peak(struct special_shape *s, double size, double slope, uint64
 }
 
 /*
- * A frustum: its top is a rectangle of half sides x, y at z = 0, its sides along y slope as told; a
- * ridge when y is 0.
+ * A frustum: its top is a rectangle of half sides x, y at z = 0, and its sides along y have the
+ * given slopes; a ridge when y is 0.
  */
 static void make_frustum(struct special_shape *s, double x, double y, double size,
                          const double slope[2], double overhang)
@@ -180,7 +180,7 @@ static double random_offset(uint64_t *random)
     return offsets[(int)lab_random(random, 0, 8)];
 }
 
-/* Radians, up to 0.2 degrees: none, any, or of any order of magnitude. */
+/* Radians, up to 0.2 degrees: 0, uniform, or log-uniform. */
 static double random_yaw(uint64_t *random)
 {
     const double most = 0.2 * REAL_PI / 180;
@@ -308,7 +308,9 @@ static void choose_motion(struct special *c, struct motion *m, uint64_t *random)
     }
 }
 
-/* Body `which` at the time of the meeting and then some frames before that, its feature at `at`. */
+/*
+ * Pose body `which` at the time of the meeting, with its feature at `at`; then go back some frames.
+ */
 static void place(struct special *c, int which, const carom_quat_q30 *turned, const double at[3],
                   const struct motion *m, double lift)
 {
@@ -338,7 +340,7 @@ static void place(struct special *c, int which, const carom_quat_q30 *turned, co
     }
 }
 
-/* Turn all of a case about the origin. */
+/* Turn a whole case about the origin. */
 static void turn_all(struct special *c, const carom_quat_q30 *turn, const double away[3])
 {
     const double up[3] = {0, 0, 1};
@@ -411,7 +413,7 @@ void special_place(struct crossing_hull *hull, const struct special *s, int whic
 {
     double x[3], q[4];
 
-    /* seen from one place, so that digits are left for what is small */
+    /* relative to one place, so that doubles keep digits for small differences */
     for (int k = 0; k < 3; k++) {
         x[k] = lab_double(position->c[k] - s->def[0].position.c[k], 32);
     }
@@ -429,7 +431,7 @@ static double apart_at_start(const struct special *c)
     return crossing_apart(&hull[0], &hull[1]);
 }
 
-/* Come from less far aside, and turn less. */
+/* Come from a smaller offset, and turn less. */
 static void straighten(struct special *c, struct motion *m)
 {
     for (int i = 0; i < 2; i++) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * special - two convex bodies that meet in a special position: their features lie exactly over each other, or off by a
- * unit of the last place, or by up to 1/1000 of a unit. Host only.
+ * special - two convex bodies that meet in a special position: their features lie exactly over each
+ * other, or are off by a unit of the last place, or by up to 1/1000 of a unit. Host only.
  *
- * A number alone makes a case. The lower body has a feature that looks up: a peak, a ridge or the flat top of a frustum;
- * the upper body has one that looks down. They meet at a known place and time; the bodies begin some frames earlier.
+ * A number determines a case. The lower body has a feature that looks up: a peak, a ridge or the
+ * flat top of a frustum; the upper body has one that looks down. They meet at a known place and
+ * time; the bodies begin some frames earlier.
  */
 #ifndef CAROM_TESTS_SPECIAL_H
 #define CAROM_TESTS_SPECIAL_H
@@ -17,7 +18,7 @@ enum special_class {
     SPECIAL_PEAK_FACE,
     SPECIAL_PEAK_BORDER,  /* over an edge or a corner of a flat top */
     SPECIAL_RIDGE_ACROSS, /* a ridge over another at any angle */
-    SPECIAL_RIDGE_ALONG,  /* parallel, but for a yaw of up to 0.2 degrees */
+    SPECIAL_RIDGE_ALONG,  /* parallel, up to a yaw of 0.2 degrees */
     SPECIAL_RIDGE_END,    /* the same, and only the ends meet */
     SPECIAL_RIDGE_BORDER, /* a ridge along an edge of a flat top */
     SPECIAL_FACE_FACE,    /* flat tops, their edges over each other */

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests in Python of what a board's build leaves, in TAP."""
+"""Tests in Python of a board's build results, in TAP."""
 import os
 import subprocess
 

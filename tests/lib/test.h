@@ -34,7 +34,10 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
                      const char *text);
 
 #define CHECK(condition) test_check((condition), __FILE__, __LINE__, #condition)
-/* Comparisons print both values, so they are not written as a CHECK. Numbers of tests' own oracles may be double. */
+/*
+ * Comparisons print both values, so use them in place of CHECK. Numbers of tests' own oracles may
+ * be double.
+ */
 #define CHECK_REAL_ORDER_(a, order, b, text)                                                       \
     test_check_real_order((double)(a), order, (double)(b), __FILE__, __LINE__, text)
 #define CHECK_ORDER_(a, order, b, text)                                                            \
@@ -48,7 +51,7 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
 #define CHECK_AT_MOST(a, b)  CHECK_ORDER_(a, TEST_AT_MOST, b, #a " <= " #b)
 #define CHECK_MORE(a, b)     CHECK_ORDER_(a, TEST_MORE, b, #a " > " #b)
 #define CHECK_AT_LEAST(a, b) CHECK_ORDER_(a, TEST_AT_LEAST, b, #a " >= " #b)
-/* Two pointers. */
+/* Compare two pointers. */
 #define CHECK_SAME(a, b)                                                                           \
     test_check_near((int64_t)(intptr_t)(const void *)(a), (int64_t)(intptr_t)(const void *)(b), 0, \
                     __FILE__, __LINE__, #a " == " #b)
@@ -57,8 +60,8 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
                     #a " ~ " #b)
 
 /*
- * Bars of instructions are of a Cortex-M3 at the usual optimisation; where they are not held, a test
- * still says what it counted.
+ * Bars in instructions hold for a Cortex-M3 at the usual optimisation. Elsewhere a test only prints
+ * its count.
  */
 #if defined __ARM_ARCH_7M__ && defined __OPTIMIZE__ && !defined __OPTIMIZE_SIZE__ &&               \
     !defined CAROM_DEBUG
@@ -68,7 +71,7 @@ void test_check_near(int64_t a, int64_t b, int64_t tolerance, const char *file, 
 #endif
 #define CHECK_BAR(count, bar) CHECK_AT_MOST(TEST_BARS ? (count) : 0, bar)
 
-/* A stream of numbers that is the same everywhere. */
+/* A stream of random numbers that is the same everywhere. */
 struct test_random {
     uint64_t state;
 };

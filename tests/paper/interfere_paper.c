@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The paper's way in place of Carom's gather: the faces that interfere where the frame ends, each
- * pair with all its vertices and edges, for Boyse's test of the way there.
+ * The paper's interference detection in place of Carom's gather. It finds the faces that interfere
+ * at the end of the frame, and gives each pair with all its vertices and edges to Boyse's test of
+ * the way there.
  *
- * Programs are linked with -Wl,--wrap=interfere_leaves, so what gathers the leaves of a pair gets this;
- * and with that of interfere_note_faces.
+ * Programs are linked with -Wl,--wrap=interfere_leaves, so this file replaces the gather of a
+ * pair's leaves; and likewise interfere_note_faces.
  */
 #include "paper.h"
 #include "interfere/narrow.h"
@@ -69,7 +70,7 @@ static void visit_pair(struct paper_visitor *self, uint16_t face_a, uint16_t fac
     }
 }
 
-/* Both bodies where the time ends that the pair is gathered for, seen from the middle of a. */
+/* Both bodies at the end of the time for which the pair is gathered, seen from the middle of a. */
 static void gather_pair(struct interfere *w)
 {
     struct body_sweep a, b;
@@ -90,7 +91,7 @@ static void gather_pair(struct interfere *w)
     paper_pairs(&placed_a, &placed_b, &gather.base);
 }
 
-/* A query asks for faces, not for candidates: it is answered as ever. */
+/* A query asks for faces, not for candidates, so Carom's own code answers it. */
 void __wrap_interfere_leaves(struct interfere *w)
 {
     if (w->meet == interfere_features) {
@@ -101,8 +102,8 @@ void __wrap_interfere_leaves(struct interfere *w)
 }
 
 /*
- * It names many more faces than Carom's when bodies are deep in each other: those that find no room in
- * the list are left out.
+ * For bodies deep in each other this method names many more faces than Carom's. Faces beyond the
+ * list's room are left out.
  */
 void __wrap_interfere_note_faces(struct interfere *w, const struct interfere_pairs *all,
                                  const struct candidate *c, uint32_t n)

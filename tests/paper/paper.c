@@ -5,30 +5,30 @@
 
 #define VERTICES 65535
 #define PIXELS   (PAPER_SIDE * PAPER_SIDE)
-#define CORNERS  7    /* of a triangle clipped by four planes */
-#define SEEN     4096 /* pairs that are remembered, so as to be handed over once */
-/* Faces that are nearer to upright than 1 in 65536 are left out: no pixel's centre sees them. */
+#define CORNERS  7    /* corners of a triangle clipped by four planes */
+#define SEEN     4096 /* pairs that are remembered, so that each is handed over once */
+/* Faces closer to upright than 1 in 65536 are left out: no pixel's centre sees them. */
 #define UPRIGHT_Q30 (1 << 14)
 
-/* An entry of a z-list, packed: to write and to compare it takes few instructions. */
+/* An entry of a z-list, packed so that writing and comparing take few instructions. */
 struct paper_entry {
     uint32_t z_face; /* z, 0 .. 65535 over the height of the box, and the face below */
-    uint32_t link;   /* the next entry, of lower or equal z, or NONE; and whose face it is */
+    uint32_t link;   /* the next entry, of lower or equal z, or NONE; and the mesh of its face */
 };
 #define NONE 0x0fffffffu
 #define OF_A 0x80000000u
 #define OF_B 0x40000000u
-#define DOWN 0x20000000u /* it looks down: a ray from above leaves its body there */
+#define DOWN 0x20000000u /* the face looks down: a ray from above leaves its body there */
 
 static struct {
-    uint32_t head[PIXELS]; /* the highest entry of a pixel, and whose faces it has */
+    uint32_t head[PIXELS]; /* the highest entry of a pixel, and the meshes of its faces */
     struct paper_entry entry[PAPER_ENTRIES];
     uint32_t used, refused;
     int32_t placed_q20[2][VERTICES][3]; /* of a, of b */
     uint32_t seen[SEEN];
 } buffer;
 
-/* The box of the moving mesh, and what a pixel is. */
+/* The box of the moving mesh, and the size of a pixel. */
 struct paper_box {
     int32_t low_q20[3], high_q20[3];
     int64_t scale_q30[2]; /* from q20 to pixels, q4 */
@@ -38,11 +38,12 @@ struct paper_box {
 /* A face that is being scanned. */
 struct paper_face {
     uint32_t number, bits;         /* for its entries */
-    int32_t z0, z1;                /* its extent, as entries have it, but not clipped */
-    int64_t z_q32, dx_q32, dy_q32; /* over the box: at the centre of pixel 0, 0, and a step on */
+    int32_t z0, z1;                /* its unclipped extent, in units of entries */
+    int64_t z_q32, dx_q32, dy_q32; /* over the box: at the centre of pixel 0, 0, and the step to the
+                                    * next pixel */
 };
 
-/* A row of its pixels: x0 <= x < x1. */
+/* A row of a face's pixels: x0 <= x < x1. */
 struct paper_run {
     int32_t y, x0, x1;
 };
@@ -108,7 +109,9 @@ struct polygon {
     int32_t xy_q20[CORNERS][2];
 };
 
-/* Cut off what is beyond a limit along axis k; `sign` is 1 for an upper limit, -1 for a lower one. */
+/*
+ * Cut off the part beyond a limit along axis k; `sign` is 1 for an upper limit, -1 for a lower one.
+ */
 static void clip(struct polygon *p, int k, int sign, int32_t limit)
 {
     struct polygon from = *p;
@@ -171,7 +174,10 @@ static bool project(const struct paper_box *box, const int32_t *const corner[3],
 
 /* ----------------------------------------------------------------- scanning */
 
-/* The later of two equal z lies above: b comes before a, so that touching faces count as crossing. */
+/*
+ * Of two equal z the later one lies above. b is entered before a, so touching faces count as
+ * crossing.
+ */
 static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
 {
     uint32_t above = z << 16 | 0xffff, here = buffer.used, first = buffer.head[pixel];
@@ -193,8 +199,8 @@ static void enter(uint32_t pixel, uint32_t z, const struct paper_face *f)
 }
 
 /*
- * A row of a face that leaves the box. What is above it counts as at its top, so that a ray knows
- * from there on where it is inside; what is below ends nothing within the box and is left out.
+ * A row of a face that leaves the box. The part above the box counts as at its top, so that a ray
+ * knows whether it is inside; the part below ends nothing within the box and is left out.
  */
 static void enter_clipped(const struct paper_box *box, const struct paper_face *f,
                           const struct paper_run *run, int64_t z_q32)
@@ -212,8 +218,8 @@ static void enter_clipped(const struct paper_box *box, const struct paper_face *
 }
 
 /*
- * One row of a face. Where both ends are within the box by a unit of z, steps of 2^-15 of that are
- * fine enough: 512 of them are off by 2^-6.
+ * One row of a face. If both ends are within the box by a unit of z, steps of 2^-15 of that unit
+ * are fine enough: 512 steps are off by 2^-6.
  */
 static void enter_run(const struct paper_box *box, const struct paper_face *f,
                       const struct paper_run *run)
@@ -286,7 +292,10 @@ static void walk_edge(int16_t x[PAPER_SIDE], int32_t rows[2], const int32_t a[2]
     }
 }
 
-/* Every pixel of a face over the box: a convex polygon, counter-clockwise unless the face looks down. */
+/*
+ * Every pixel of a face over the box. The face is a convex polygon, counter-clockwise unless it
+ * looks down.
+ */
 static void fill(const struct paper_box *box, const struct paper_face *f,
                  const int32_t xy_q4[CORNERS][2], int count)
 {
@@ -363,8 +372,9 @@ static void hand_over(struct paper_visitor *visitor, const struct paper_entry *o
 }
 
 /*
- * Down one pixel: a body is entered by a face that looks up and left by one that looks down. A face
- * that is met while inside of the other body interferes, with that body's faces next to it.
+ * Go down one pixel. A ray enters a body by a face that looks up and leaves it by one that looks
+ * down. A face that the ray meets inside of the other body interferes with that body's faces next
+ * to it.
  */
 static void read_pixel(uint32_t at, struct paper_visitor *visitor)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * paper - interference detection as the paper does it, to compare Carom's with (make PAPER=1).
+ * paper - interference detection as the paper does it, for comparison with Carom's (make PAPER=1).
  *
  * Both meshes, clipped to the box of the moving one, are scan-converted along z onto 512 x 512
- * pixels; each pixel keeps its entries sorted by z; where the insides of both overlap, the faces at
- * the ends of the overlap interfere. A crossing between the centres of pixels is missed.
+ * pixels. Each pixel keeps its entries sorted by z. Where the insides of both meshes overlap, the
+ * faces at the ends of the overlap interfere. A crossing between the centres of pixels is missed.
  *
- * Not a part of the engine: its z-list buffer is a static block of some megabytes.
+ * It is not a part of the engine: its z-list buffer is a static block of some megabytes.
  */
 #ifndef CAROM_SRC_PAPER_H
 #define CAROM_SRC_PAPER_H
@@ -20,7 +20,7 @@
 struct paper_placed {
     const struct carom_mesh *mesh;
     const carom_m3_q30 *r; /* its axes */
-    int32_t at_q20[3];     /* its centre of mass, from some place that both meshes have in common */
+    int32_t at_q20[3];     /* its centre of mass, relative to a place that both meshes share */
 };
 
 struct paper_visitor {
