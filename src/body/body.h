@@ -188,6 +188,8 @@ struct body_extra {
  *   search  what pairs and candidates are gathered for; outlives steps, but no result depends on it
  *   solve   what a solve works in
  *
+ * tools/check_writers has the folders that may write each part.
+ *
  * Flags that are read most have bytes of their own.
  */
 
@@ -224,8 +226,8 @@ struct body_def {
 enum body_contact { BODY_FLIES, BODY_ENTERS, BODY_LIES };
 
 /*
- * The present frame. The step writes it, except `contact`, which rest_enter_contact writes; valid
- * from begin_clock until the next frame.
+ * The present frame. The step writes it, except `contact`, which solve writes, too; valid from
+ * begin_clock until the next frame.
  */
 struct body_clock {
     int32_t from_q30, to_q30; /* part of the frame that the present path takes */
@@ -322,6 +324,14 @@ static inline bool body_travels(const struct body *b)
 static inline bool body_region_moves(const struct body *b)
 {
     return b->search.state >= BODY_REGION_MOVING;
+}
+
+/* Forget what only makes steps faster. */
+static inline void body_forget(struct body *b)
+{
+    b->search.state = BODY_REGION_NONE;
+    b->search.boxed = false;
+    b->clock.contact = BODY_FLIES;
 }
 
 /* The path, region and box of a body that stands still must be set again. */

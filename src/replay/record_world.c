@@ -161,11 +161,7 @@ static void note_all(struct carom_record *r)
 static void forget(struct carom_world *w)
 {
     for (uint32_t i = 0; i < w->body_count; i++) {
-        struct body *b = &w->bodies[i];
-
-        b->search.state = BODY_REGION_NONE;
-        b->search.boxed = false;
-        b->clock.contact = BODY_FLIES;
+        body_forget(&w->bodies[i]);
     }
     w->idle = false;
     w->regions_stale = true;
