@@ -185,7 +185,7 @@ enum carom_combine {
 };
 
 /**
- * Choose how materials combine in this world. Bodies at rest stay at rest until something wakes them.
+ * Choose how materials combine in this world. A change wakes all bodies.
  *
  * @return CAROM_OK; CAROM_ERR_ARGUMENT
  */

@@ -252,6 +252,32 @@ static void test_combine_restitution(void)
     CHECK_LESS(real_abs(rebound(a, b, CAROM_MEAN) - 0.6875), 0.07);
 }
 
+/* A box sleeps on a slope by the larger friction. By the smaller one it must slide. */
+static void test_combine_wakes(void)
+{
+    struct carom_material slippery;
+    int64_t before;
+
+    setup(1);
+    config.sleep = true;
+    config.gravity.c[0] = G / 4;
+    CHECK_EQ(carom_world_init(block, sizeof block, &config, &world), CAROM_OK);
+    CHECK_EQ(carom_world_set_combine(world, CAROM_SMALLER, CAROM_LARGER), CAROM_OK);
+    CHECK_EQ(carom_body_add(world, &ground), 0);
+    CHECK_EQ(carom_body_add(world, &def), 1);
+    slippery = material_of(1);
+    slippery.friction_q16 = 0;
+    CHECK_EQ(carom_body_set_material(world, 1, &slippery), CAROM_OK);
+    fall_asleep();
+    before = state_of(1).position.c[0];
+    CHECK_EQ(carom_world_set_combine(world, CAROM_SMALLER, CAROM_LARGER), CAROM_OK);
+    CHECK(state_of(1).asleep);
+    CHECK_EQ(carom_world_set_combine(world, CAROM_SMALLER, CAROM_SMALLER), CAROM_OK);
+    steps(20);
+    /* half of what a free fall along the slope takes */
+    CHECK_MORE(state_of(1).position.c[0] - before, (20 * 20 * (G / 4) / 4) >> 8);
+}
+
 /* --------------------------------------------------------------------- faces */
 
 /*
@@ -541,6 +567,7 @@ const struct test tests_world_material[] = {
     {"world_material/conveyor_wakes", test_conveyor_wakes},
     {"world_material/combine_friction", test_combine_friction},
     {"world_material/combine_restitution", test_combine_restitution},
+    {"world_material/combine_wakes", test_combine_wakes},
     {"world_material/faces", test_faces},
     {"world_material/faces_of_box", test_faces_of_box},
     {"world_material/rolling", test_rolling},

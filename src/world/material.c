@@ -160,6 +160,7 @@ int carom_world_set_combine(struct carom_world *w, enum carom_combine restitutio
         w->rest.list.restitution_rule = restitution & 3u;
         w->rest.list.friction_rule = friction & 3u;
         w->now->warm_count = 0; /* they may exceed the new friction */
+        world_wake_all(w);
     }
     return CAROM_OK;
 }
