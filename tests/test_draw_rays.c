@@ -311,8 +311,60 @@ static void shadows(void)
     CHECK_AT_MOST(counts.wrong, counts.all / 10000);
 }
 
+#ifdef TEST_LONG
+#define BARS 18
+
+/* Bars side by side, 3 pixels from one to the next on the ground: each throws a shadow of its own. */
+static void bars(void)
+{
+    static int16_t vertices[8 * BARS][3];
+    static uint16_t faces[12 * BARS][3];
+    static _Alignas(8) uint8_t room[CAROM_DRAW_BYTES(200, 300) + 400000];
+    MESH_MEMORY(memory, 8 * BARS, 12 * BARS);
+    struct carom_mesh_raw raw = {(const int16_t(*)[3])vertices,
+                                 (const uint16_t(*)[3])faces,
+                                 8 * BARS,
+                                 12 * BARS,
+                                 12,
+                                 CAROM_SOLID};
+    /* more along x than along y, so that a sweep across the light meets all bars at once */
+    struct carom_paint paint = {.light = {{1000, -900, 1000}}, .shadows = &carom_shadows};
+    struct carom_picture picture = picture_8();
+    struct carom_world *world = new_world();
+    struct carom_mesh mesh;
+    int count = 0;
+
+    for (unsigned b = 0; b < BARS; b++) {
+        const int x = (2 * (int)b - BARS) * 480;
+        const int low[3] = {x, -2048, -64}, high[3] = {x + 480, 2048, 64};
+
+        box_corners(&vertices[8 * b], low, high);
+        for (unsigned f = 0; f < 12; f++) {
+            for (int k = 0; k < 3; k++) {
+                faces[12 * b + f][k] = (uint16_t)(8 * b + box_faces[f][k]);
+            }
+        }
+    }
+    build(&mesh, raw, memory, sizeof memory);
+    add(world, &plain, at(Q32(20, 1), -Q32(20, 1), Q32(-1, 1)), upright, false);
+    add(world, &mesh, at(Q32(3, 2), -Q32(1, 1), Q32(1, 2)), upright, false);
+    picture.paint = &paint;
+    picture.workspace = room;
+    picture.workspace_bytes = sizeof room;
+    CHECK_EQ(carom_draw(world, &above, &picture, CAROM_DRAW_FLAT), CAROM_OK);
+    /* the shadow lies 1.35 units up the page from the bars */
+    for (int x = 1; x < SIZE; x++) {
+        count += pixels[26][x] < pixels[26][x - 1];
+    }
+    CHECK_EQ(count, BARS);
+}
+#endif
+
 const struct test tests_draw_rays[] = {
     {"draw_rays/cubes", cubes},
     {"draw_rays/shadows", shadows},
+#ifdef TEST_LONG
+    {"draw_rays/bars", bars},
+#endif
     {0},
 };

@@ -369,7 +369,8 @@ static inline const struct carom_smooth *draw_smooth(const struct carom_paint *p
 struct draw_outline_edge {
     int32_t at[2][3]; /* lower and upper end, view coordinates */
     int32_t p[2], q[2];
-    int32_t up; /* 1 if the lit side is on the left, -1 if on the right */
+    int16_t up;         /* 1 if the lit side is on the left, -1 if on the right */
+    uint16_t trapezoid; /* the last one with this edge on its left */
 };
 
 /* The area between two edges and two heights. */

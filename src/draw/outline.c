@@ -37,6 +37,7 @@ static void add_edge(struct draw_outline *o, const struct draw_body *body, uint3
         return;
     }
     edge->up = a[1] < b[1] ? 1 : -1;
+    edge->trapezoid = 0;
     if (edge->up < 0) {
         draw_place(body, to, edge->at[0]);
         draw_place(body, from, edge->at[1]);
@@ -86,14 +87,6 @@ void draw_outline_point(const struct draw_outline *o, uint32_t number, int32_t q
 
 /* -------------------------------------------------------------------- sweep */
 
-#define STRETCHES_MAX 16
-
-/* The stretches inside the outline at one height, each an unfinished trapezoid. */
-struct stretches {
-    struct draw_trapezoid open[STRETCHES_MAX];
-    int count;
-};
-
 /* Order the active edges from left to right, half way between two heights. */
 static void order_edges(struct draw_outline *o, uint32_t count, int32_t low, int32_t high)
 {
@@ -114,49 +107,41 @@ static void order_edges(struct draw_outline *o, uint32_t count, int32_t low, int
     }
 }
 
-/* Find the stretches between the ordered edges. */
-static void find_stretches(const struct draw_outline *o, uint32_t count, int32_t low,
-                           struct stretches *now)
+/* Extend the trapezoid between two edges that ends at `low`, or begin one. Returns false if there is no room. */
+static bool add_stretch(struct draw_outline *o, uint16_t left, uint16_t right, int32_t low,
+                        int32_t high, uint32_t most)
+{
+    struct draw_outline_edge *edge = &o->edges[left];
+    struct draw_trapezoid *t = &o->trapezoids[edge->trapezoid];
+
+    if (edge->trapezoid < o->trapezoid_count && t->left == left && t->right == right &&
+        t->high == low) {
+        t->high = high;
+        return true;
+    }
+    if (o->trapezoid_count == most) {
+        return false;
+    }
+    edge->trapezoid = (uint16_t)o->trapezoid_count;
+    o->trapezoids[o->trapezoid_count++] = (struct draw_trapezoid){left, right, low, high};
+    return true;
+}
+
+/* Add the stretches between the ordered edges. Returns false if there is no room. */
+static bool add_stretches(struct draw_outline *o, uint32_t count, int32_t low, int32_t high,
+                          uint32_t most)
 {
     int winding = 0;
     uint16_t left = 0;
 
-    now->count = 0;
     for (uint32_t i = 0; i < count; i++) {
         int before = winding;
 
         winding += o->edges[o->active[i]].up;
         if (before == 0) {
             left = o->active[i];
-        } else if (winding == 0 && now->count < STRETCHES_MAX) {
-            now->open[now->count++] = (struct draw_trapezoid){left, o->active[i], low, low};
-        }
-    }
-}
-
-/*
- * Continue stretches that have the same edges as before; finish the others as trapezoids. Returns
- * false if there is no room.
- */
-static bool join_stretches(struct draw_outline *o, const struct stretches *before,
-                           struct stretches *now, int32_t q, uint32_t most)
-{
-    for (int i = 0; i < before->count; i++) {
-        const struct draw_trapezoid *old = &before->open[i];
-        bool goes_on = false;
-
-        for (int k = 0; k < now->count; k++) {
-            if (now->open[k].left == old->left && now->open[k].right == old->right) {
-                now->open[k].low = old->low;
-                goes_on = true;
-            }
-        }
-        if (!goes_on) {
-            if (o->trapezoid_count == most) {
-                return false;
-            }
-            o->trapezoids[o->trapezoid_count] = *old;
-            o->trapezoids[o->trapezoid_count++].high = q;
+        } else if (winding == 0 && !add_stretch(o, left, o->active[i], low, high, most)) {
+            return false;
         }
     }
     return true;
@@ -188,7 +173,6 @@ static int32_t height_of(uint64_t key)
 
 static bool sweep(struct draw_outline *o, uint32_t most)
 {
-    struct stretches was = {.count = 0}, now;
     uint32_t active = 0, n = 2 * o->edge_count;
 
     /* number 2 e is the begin of edge e, 2 e + 1 its end */
@@ -207,15 +191,14 @@ static bool sweep(struct draw_outline *o, uint32_t most)
                 o->active[active++] = (uint16_t)(end / 2);
             }
         }
-        now.count = 0;
         if (i < n) {
-            order_edges(o, active, q, height_of(o->keys[i]));
-            find_stretches(o, active, q, &now);
+            int32_t next = height_of(o->keys[i]);
+
+            order_edges(o, active, q, next);
+            if (!add_stretches(o, active, q, next, most)) {
+                return false;
+            }
         }
-        if (!join_stretches(o, &was, &now, q, most)) {
-            return false;
-        }
-        was = now;
     }
     return true;
 }
@@ -242,6 +225,9 @@ static bool find_across(struct draw_outline *o, const int32_t sun[3])
     return fix_normalise(&o->across[1], v);
 }
 
+/* numbers of trapezoids, three for each edge, have 16 bits */
+#define MOST_EDGES (0xffff / 3)
+
 #define EDGE_BYTES                                                                                 \
     (sizeof(struct draw_outline_edge) + 3 * sizeof(uint64_t) + 3 * sizeof(struct draw_trapezoid) + \
      sizeof(uint16_t))
@@ -251,7 +237,7 @@ bool draw_outline_find(struct draw_outline *o, const struct draw_body *body, con
 {
     size_t most = bytes / EDGE_BYTES;
 
-    most = most < 0x7fff ? most : 0x7fff;
+    most = most < MOST_EDGES ? most : MOST_EDGES;
     o->keys = (uint64_t *)scratch; /* two for each edge */
     o->place = (int64_t *)(o->keys + 2 * most);
     o->edges = (struct draw_outline_edge *)(void *)(o->place + most);
