@@ -150,7 +150,7 @@ COMPARE_SCENES := $(call mesh_pair,head,head,field) \
 COMPARE_WASM := build/tools/heap.wasm
 COMPARE_MESHES := $(filter %.crm,$(subst $(comma), ,$(subst =, ,$(COMPARE_SCENES))))
 
-.PHONY: help docs run view web scenes test budget accuracy oracle fixtures soak bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
+.PHONY: help docs run view web scenes test budget accuracy oracle fixtures physics soak bench matrix replay figures zlists pictures compare check size boards packages amalgamation five commands build need clean force
 
 help: ## list these commands
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' Makefile | \
@@ -228,6 +228,11 @@ fixtures: ## run published and special scenes: do they hold, stand, turn? To out
 	@tools/need $(NEED_MESHES) $(NEED_HOST)
 	@$(SUBMAKE) BOARD=host build/host/host_fixtures.elf
 	@tools/fixtures.py build/host/host_fixtures.elf $(BENCH_SCENES)
+
+physics: ## compare motions with closed forms and published figures, to out/physics.csv and docs/physics.md
+	@tools/need $(NEED_MESHES) $(NEED_HOST)
+	@$(SUBMAKE) BOARD=host build/host/host_physics.elf
+	@tools/physics.py build/host/host_physics.elf
 
 N ?= 5000
 SEED ?= 1

@@ -7,8 +7,8 @@
  */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "lib/ball.h"
 #include "lib/lab.h"
 #include "lib/real.h"
 
@@ -46,7 +46,7 @@ static void tilt_all(struct lab *lab, const carom_quat_q30 *tilt)
  * A sliding box stops after v^2 / (2 mu g), more than 200 frames later. Speeds are per frame and a
  * frame brakes before it moves, so the way of half a frame at v is missing, 0.2 %.
  */
-static void stop(double mu, double speed, bool sleeps, const char *name)
+static void stop(double mu, double speed)
 {
     struct lab *lab = lab_load(&lab_sheet, &lab_box);
     carom_quat_q30 tilt = lab_turn(3, -2, 1, 0.4);
@@ -62,7 +62,6 @@ static void stop(double mu, double speed, bool sleeps, const char *name)
     lab_rotate(velocity, &tilt, along);
     set_q32(&lab->scene.body.position, from);
     set_q40(&lab->scene.body.velocity, velocity);
-    lab->config.sleep = sleeps;
     lab_surface(lab, 0.4, mu);
     lab_start(lab);
     while (tally.frames < 400) {
@@ -77,108 +76,15 @@ static void stop(double mu, double speed, bool sleeps, const char *name)
     }
     lab_report(fabs(sqrt(real_dot(way, way)) / wanted - 1) <= 0.01 && last >= 200 &&
                    tally.crossed == 0 && tally.capped == 0,
-               name, "%.4f units, analytic %.4f, after %ld frames", sqrt(real_dot(way, way)),
-               wanted, last);
+               "roll/box_stops_and_sleeps", "%.4f units, analytic %.4f, after %ld frames",
+               sqrt(real_dot(way, way)), wanted, last);
     lab_free(lab);
 }
 
 /* ---------------------------------------------------------------------- ball */
 
-#define CUTS          4
-#define FINER_CUTS    5 /* cuts of the ball that comes to rest on a face */
-#define BALL_FACES    (20 << (2 * CUTS))
-#define FINER_FACES   (20 << (2 * FINER_CUTS))
-#define BALL_VERTICES (BALL_FACES / 2 + 2)
-#define QUANTA        16384 /* radius in quanta */
-
-static int16_t ball_vertices[FINER_FACES / 2 + 2][3];
-static uint16_t ball_faces[FINER_FACES][3];
-static struct carom_mesh_raw ball = {
-    (const int16_t (*)[3])ball_vertices, (const uint16_t (*)[3])ball_faces, 0, 0, 12, CAROM_SOLID};
-#define RADIUS 4.0
-
-/* The vertex of the ball in a direction; makes it when there is none. */
-static uint16_t vertex_along(const double direction[3])
-{
-    double length = sqrt(real_dot(direction, direction));
-    int16_t v[3];
-
-    for (int k = 0; k < 3; k++) {
-        v[k] = (int16_t)lrint(QUANTA * direction[k] / length);
-    }
-    for (uint16_t i = 0; i < ball.vertex_count; i++) {
-        if (memcmp(ball_vertices[i], v, sizeof v) == 0) {
-            return i;
-        }
-    }
-    memcpy(ball_vertices[ball.vertex_count], v, sizeof v);
-    return (uint16_t)ball.vertex_count++;
-}
-
-static uint16_t vertex_between(uint16_t a, uint16_t b)
-{
-    double middle[3];
-
-    for (int k = 0; k < 3; k++) {
-        middle[k] = ball_vertices[a][k] + ball_vertices[b][k];
-    }
-    return vertex_along(middle);
-}
-
-/* Cut every face of the ball in four. */
-static void cut(void)
-{
-    for (uint32_t f = 0, n = ball.face_count; f < n; f++) {
-        uint16_t corner[3], middle[3];
-
-        memcpy(corner, ball_faces[f], sizeof corner);
-        for (int k = 0; k < 3; k++) {
-            middle[k] = vertex_between(corner[k], corner[(k + 1) % 3]);
-        }
-        for (int k = 0; k < 3; k++) {
-            const uint16_t face[3] = {corner[k], middle[k], middle[(k + 2) % 3]};
-
-            memcpy(ball_faces[ball.face_count++], face, sizeof face);
-        }
-        memcpy(ball_faces[f], middle, sizeof middle);
-    }
-}
-
-/*
- * An icosahedron, cut. Its corners are (0, +-1, +-golden ratio) and their cyclic permutations. Its
- * faces are the triples of corners with the least distance, 2, between each other.
- */
-static void make_ball(void)
-{
-    const double golden = (1 + sqrt(5)) / 2;
-    double corner[12][3] = {{0}};
-
-    for (int i = 0; i < 12; i++) {
-        corner[i][(i / 4 + 1) % 3] = i & 1 ? 1 : -1;
-        corner[i][(i / 4 + 2) % 3] = i & 2 ? golden : -golden;
-        vertex_along(corner[i]);
-    }
-    for (uint16_t a = 0; a < 12; a++) {
-        for (uint16_t b = 0; b < 12; b++) {
-            for (uint16_t c = 0; c < 12; c++) {
-                const double *p = corner[a], *q = corner[b], *r = corner[c];
-                double volume = p[0] * (q[1] * r[2] - q[2] * r[1]) +
-                                p[1] * (q[2] * r[0] - q[0] * r[2]) +
-                                p[2] * (q[0] * r[1] - q[1] * r[0]);
-                const uint16_t face[3] = {a, b, c};
-
-                /* a.b is the golden ratio for neighbours and below 0 for others; each face once */
-                if (a < b && a < c && real_dot(p, q) > 1 && real_dot(q, r) > 1 &&
-                    real_dot(r, p) > 1 && volume > 0.1) {
-                    memcpy(ball_faces[ball.face_count++], face, sizeof face);
-                }
-            }
-        }
-    }
-    for (int i = 0; i < CUTS; i++) {
-        cut();
-    }
-}
+#define CUTS   4   /* and one more of the body that is to right itself */
+#define RADIUS 4.0 /* in units of 2^-12, the ball's quanta */
 
 /* ---------------------------------------------------------------------- roll */
 
@@ -224,7 +130,7 @@ static struct mean roll(double slope, double mu)
 {
     const double along[3] = {1, 0, 0}, up[3] = {0, 0, 1}, angle = atan(slope);
     const double unit = POSES * FRAMES * GRAVITY * cos(angle);
-    struct lab *lab = lab_load(&lab_sheet, &ball);
+    struct lab *lab = lab_load(&lab_sheet, &ball_raw);
     carom_quat_q30 tilt = lab_turn(0, 1, 0, angle);
     double downhill[3], normal[3];
     struct mean mean = {0};
@@ -370,11 +276,11 @@ static void test_stands(void)
     long bad = 0, last = 0;
     struct lab *lab;
 
-    cut();
-    for (uint32_t v = 0; v < ball.vertex_count; v++) {
+    ball_cut();
+    for (uint32_t v = 0; v < ball_raw.vertex_count; v++) {
         ball_vertices[v][2] = (int16_t)lrint(FLATNESS * ball_vertices[v][2]);
     }
-    lab = lab_load(&lab_sheet, &ball);
+    lab = lab_load(&lab_sheet, &ball_raw);
     lab_surface(lab, 0.4, 0.5);
     for (size_t i = 0; i < 3 * sizeof lean / sizeof *lean; i++) {
         struct lab_tally tally = {0};
@@ -397,11 +303,12 @@ static void test_stands(void)
 
 int main(void)
 {
-    stop(0.3, 12, false, "roll/box_stops");
-    stop(0.3, 12, true, "roll/box_stops_and_sleeps");
-    make_ball();
-    lab_report(ball.face_count == BALL_FACES && ball.vertex_count == BALL_VERTICES, "roll/ball",
-               "%u vertices, %u faces", (unsigned)ball.vertex_count, (unsigned)ball.face_count);
+    stop(0.3, 12);
+    ball_make(CUTS);
+    lab_report(ball_raw.face_count == BALL_FACES(CUTS) &&
+                   ball_raw.vertex_count == BALL_FACES(CUTS) / 2 + 2,
+               "roll/ball", "%u vertices, %u faces", (unsigned)ball_raw.vertex_count,
+               (unsigned)ball_raw.face_count);
     for (int i = 0; i < 2; i++) {
         test_below(i ? 0.4 : 0.25);
         test_above(i ? 0.4 : 0.25);

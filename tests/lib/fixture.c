@@ -198,12 +198,13 @@ static double energy(const struct fixture *f)
     return sum;
 }
 
-static void start(struct fixture *f)
+void fixture_start(struct fixture *f)
 {
-    const struct carom_caps *caps = &f->config.caps;
-    size_t bytes = CAROM_WORLD_BYTES(caps->bodies, caps->pairs, caps->contacts, caps->faces,
-                                     caps->entries, caps->candidates);
+    size_t bytes = carom_world_bytes(&f->config.caps);
 
+    for (int i = 0; i < f->body_count; i++) {
+        f->bodies[i].def.friction_q16 = (uint32_t)lab_fixed(f->scene->mu, 16);
+    }
     f->block = lab_need(bytes);
     lab_expect(carom_world_init(f->block, bytes, &f->config, &f->world), "world");
     for (int i = 0; i < f->body_count; i++) {
@@ -214,18 +215,22 @@ static void start(struct fixture *f)
     f->tally.energy_first = energy(f);
 }
 
-struct fixture *fixture_new(const struct fixture_scene *scene)
+struct fixture *fixture_begin(const struct fixture_scene *scene)
 {
     struct fixture *f = lab_need(sizeof *f);
 
     f->scene = scene;
     f->config.caps = (struct carom_caps)CAROM_CAPS(CAPS);
     f->config.gravity.c[2] = -lab_fixed(FIXTURE_G, 40);
+    return f;
+}
+
+struct fixture *fixture_new(const struct fixture_scene *scene)
+{
+    struct fixture *f = fixture_begin(scene);
+
     scene->make(f);
-    for (int i = 0; i < f->body_count; i++) {
-        f->bodies[i].def.friction_q16 = (uint32_t)lab_fixed(scene->mu, 16);
-    }
-    start(f);
+    fixture_start(f);
     return f;
 }
 

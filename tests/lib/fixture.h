@@ -97,6 +97,9 @@ struct fixture {
 };
 
 struct fixture *fixture_new(const struct fixture_scene *scene);
+/* The same in parts, for who makes the bodies: a fixture without any; its world. */
+struct fixture *fixture_begin(const struct fixture_scene *scene);
+void fixture_start(struct fixture *f);
 void fixture_free(struct fixture *f);
 /* Step and judge. `talk` prints a line for each frame. 0 seconds: no limit of time. */
 void fixture_run(struct fixture *f, int frames, double seconds, bool talk);
@@ -115,6 +118,12 @@ int fixture_fixed(struct fixture *f, int mesh, double x, double y, double z, car
 /* A plane at z = 0. */
 int fixture_plane(struct fixture *f);
 extern const carom_quat_q30 fixture_upright;
+/*
+ * A half circle of stones on its feet, the radius to the middle of its thickness. The margin of the best line of thrust, a part
+ * of half the thickness; below 0 it cannot stand.
+ */
+void fixture_arch(struct fixture *f, int stones, double radius, double thick);
+double fixture_arch_margin(int stones, double radius, double thick);
 /* The rotation by `first`, then by `second`. */
 carom_quat_q30 fixture_compose(carom_quat_q30 second, carom_quat_q30 first);
 void fixture_weigh(struct fixture *f, int body, double mass);

@@ -191,18 +191,12 @@ static void put_foot(struct fixture *f, const struct arch *arch, const struct jo
     put(f, (const double(*)[2])corner, true);
 }
 
-static void make(struct fixture *f, struct arch *arch)
+/* Feet and stones, whether the arch can stand or not. */
+static void build(struct fixture *f, const struct arch *arch)
 {
     const struct joint *first = arch->joints;
     double corner[4][2], gap;
 
-    weigh(arch);
-    find_thrust(arch);
-    fixture_say(f, "thrust margin %.2f, tangent %.2f", arch->margin, arch->friction);
-    if (arch->margin < 0.2 || arch->friction > 0.7 * f->scene->mu) {
-        printf("Bail out! %s would fall: %s\n", f->scene->name, f->said);
-        exit(1);
-    }
     /* the skin of a stone with the length between its neighbours' middles */
     gap = hypot(hypot(first[0].middle[0] - first[1].middle[0],
                       first[0].middle[1] - first[1].middle[1]),
@@ -214,7 +208,37 @@ static void make(struct fixture *f, struct arch *arch)
         stone(arch, i, gap, corner);
         put(f, (const double(*)[2])corner, false);
     }
+}
+
+static void make(struct fixture *f, struct arch *arch)
+{
+    weigh(arch);
+    find_thrust(arch);
+    fixture_say(f, "thrust margin %.2f, tangent %.2f", arch->margin, arch->friction);
+    if (arch->margin < 0.2 || arch->friction > 0.7 * f->scene->mu) {
+        printf("Bail out! %s would fall: %s\n", f->scene->name, f->said);
+        exit(1);
+    }
+    build(f, arch);
     f->mark[0] = arch->thick;
+}
+
+double fixture_arch_margin(int stones, double radius, double thick)
+{
+    struct arch arch = {.stones = stones, .thick = thick};
+
+    round_arch(&arch, radius);
+    weigh(&arch);
+    find_thrust(&arch);
+    return arch.margin;
+}
+
+void fixture_arch(struct fixture *f, int stones, double radius, double thick)
+{
+    struct arch arch = {.stones = stones, .thick = thick};
+
+    round_arch(&arch, radius);
+    build(f, &arch);
 }
 
 static void make_round(struct fixture *f)
