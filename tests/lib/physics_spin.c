@@ -142,7 +142,7 @@ static void top(double spin, double degrees)
                 1e-3, MIDPOINT);
     snprintf(name, sizeof name, "top that leans %.0f degrees, %.0f rad/s: change of its lean",
              degrees, spin);
-    physics_row(name, "0", 0, most, 5e-3, MIDPOINT);
+    physics_row(name, "0", 0, most, 1e-2, MIDPOINT);
     fixture_free(f);
 }
 
