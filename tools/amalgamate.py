@@ -21,7 +21,7 @@ BRANDS = """/* SPDX-License-Identifier: MIT */
 {licence}
  */
 """
-# In C++ the same text needs other words for four things, and some warnings apply to C++ only.
+# C++ needs other words for four things of the same text, and some warnings apply to C++ only.
 OPEN = """
 #if defined __cplusplus
 #include <string.h>
@@ -70,7 +70,7 @@ MEMORY = re.compile(r"((?:^(?:void \*|int )mem\w+\(.*\);\n)+)", re.M)
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(["<])([^">]+)[">].*\n', re.M)
 DIRECTIVE = re.compile(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", re.M)
-# names private to a file: static ones (under any macro for static), its tags, its types
+# names that are private to a file: static ones (under any macro for static), its tags, its types
 TAG = re.compile(r"\b(?:struct|union|enum)\s+(\w+)\s*\{")
 OWN = re.compile(r"\b(?:static|FORCE_INLINE|OUT_OF_LINE)\b")
 
@@ -87,7 +87,8 @@ def includes(path):
 
 
 def ordered(paths):
-    """The headers that files include, with their own includes, each after those that it includes itself."""
+    """The headers that files include, with their own includes. A header comes after the headers that it
+    includes itself."""
     order = []
 
     def visit(path):
@@ -134,7 +135,7 @@ def own_names(path):
 
 
 def renamed(path, clashing, taken):
-    """The text of a source in which private names that clash get the source's name behind them."""
+    """The text of a source. Private names that clash get the source's name appended."""
     text = read(path)
     stem = os.path.basename(path)[:-2]
     new = {}
@@ -173,7 +174,8 @@ def piece(path, text):
 
 
 def bodies(paths):
-    """A table for C++ of the inline functions that sources declare extern: C++ has bodies only of those that are used."""
+    """A table of the inline functions that sources declare extern, for C++, which makes bodies only for used
+    ones."""
     names = re.findall(r"^extern inline [^(]*?(\w+)\(", "".join(map(read, paths)), re.M)
     rows = "".join("    (void (*)(void))%s,\n" % name for name in names)
     return ("\n#if defined __cplusplus\nextern void (*const carom_inline_bodies[])(void);\n"

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Instructions by stage of the scenes of tests/bench_scenes.csv, on a board that counts them.
 
-Every scene must end in its committed state, on the host and on the board, before its figures are used. They go to
-out/bench.csv (scene, phase, stage; mean, median, 99th percentile and worst frame); rows of scenes that do not run stay
-there. A label may have many throws of one body: one trajectory is one chaotic sample, and its worst frame says little.
+Every scene must end in its committed state, on the host and on the board, before its figures are used. The figures go
+to out/bench.csv (scene, phase, stage; mean, median, 99th percentile and worst frame); rows of scenes that do not run
+stay there. A label may have many throws of one body: one trajectory is one chaotic sample, and its worst frame says
+little.
 
-Phases: apart, no two broad boxes overlap; near, some do but nothing touches; contact, bodies touch; asleep, all bodies
-sleep; all. Beside the stages there are: total; draw-WxH of the frames that are drawn; whole, which is total and the
-larger picture of the same frame; candidates, pairs of features handed to the collision test.
+Phases: apart, no two broad boxes overlap; near, some do but nothing touches; contact, bodies touch; asleep, all
+bodies sleep; all. There are four more rows besides the stages: total; draw-WxH, for the drawn frames; whole, the sum
+of total and the larger picture of the same frame; candidates, the number of feature pairs handed to the collision
+test.
 
 With the label paper the images use the paper's interference detection. It may miss contacts, so its state is not the
 committed one: host and board must only agree.
@@ -53,8 +55,9 @@ BARS = [
     ("head", "contact", "draw-512x512", "mean", 2200000),
     ("head", "contact", "whole", "mean", 2600000),
 ]
-GROWTH = "growth-512", "growth-49928", 5  # the second costs at most so many times the first, in contact
-RAM = 16384  # a world that just holds the head scene, and the stack
+GROWTH = "growth-512", "growth-49928", 5  # the second may cost at most so many times the first, in
+                                          # contact
+RAM = 16384  # a world that just holds the head scene, plus the stack
 # bytes of code at -Os: a program that builds meshes and makes steps; and everything except drawing
 CODE_STEP = "carom_mesh_build carom_world_init carom_body_add carom_world_step carom_body_get"
 CODE = {"build + step": 60 * 1024, "all but drawing": 75 * 1024}
@@ -62,12 +65,12 @@ BLOCKS = {"a world of 16 boxes in a heap": 40 * 1024,
           "a world of 32 mixed bodies in a heap": 80 * 1024, "a box as a mesh": 2 * 1024}
 GROWN = 1.01  # the gate: a frame may cost so many times the committed one
 
-# The paper's table: seconds a frame, on a machine of so many instructions a second
+# The paper's table: seconds a frame, on a machine with so many instructions a second
 PAPER = {"head": 0.24, "head450": 0.35, "espresso": 0.53}
 PAPER_RATE = 16e6
-PAPER_LABEL = "paper"  # its interference detection in place of Carom's
+PAPER_LABEL = "paper"  # the paper's interference detection in place of Carom's
 PAPER_SCENES = [*PAPER, "growth-512", "growth-3034", "growth-12012"]  # a larger mesh does not fit
-PAPER_FRAMES = 200  # the first impacts; a frame takes about 40 million instructions
+PAPER_FRAMES = 200  # covers the first impacts; a frame takes about 40 million instructions
 
 
 def options_of(entry, *without):
@@ -83,7 +86,8 @@ def paper_entry(entry):
 
 
 def measure(entry, host, board):
-    """The rows of an entry of SCENES, from the board; the state must be the committed one, if there is one."""
+    """The rows of an entry of SCENES, from the board; its state must be the committed one, if one is
+    committed."""
     expected, source = entry["hash"], SCENES
     for image, options in [(host, options_of(entry, "draw=")), (board, options_of(entry, "-"))]:
         result = run_board.run(image, options)
@@ -107,7 +111,8 @@ def measure(entry, host, board):
 
 
 def cost(values):
-    """The statistics of `values`, one for each frame; a percentile is a frame's figure, not one between two."""
+    """The statistics of `values`, one value a frame. A percentile is the figure of a frame, not one between
+    two frames."""
     ordered = sorted(values)
     return Cost(round(sum(ordered) / len(ordered)), ordered[len(ordered) // 2],
                 ordered[len(ordered) * 99 // 100], ordered[-1])
@@ -181,8 +186,8 @@ def print_paper(figures):
 
 
 def head_ram(entry, host, room):
-    """Bytes and pools of the smallest world that takes the head scene to the same state. The rest of the room holds
-    candidates, and the faces of a gather that keeps so many."""
+    """Bytes and pools of the smallest world that takes the head scene to the same state. The rest of its room
+    holds candidates, and the faces of a gather that keeps that many."""
     def caps(contacts, faces, candidates):
         return "2,1,%d,%d,0,%d" % (contacts, faces, candidates)
 
@@ -192,7 +197,7 @@ def head_ram(entry, host, room):
         return int(result.said["world"]) if same else None
 
     def least(fits, most):
-        low, high = 0, most  # `low` does not do it, `high` does
+        low, high = 0, most  # `low` is too small, `high` is enough
         while high - low > 1:
             middle = (low + high) // 2
             low, high = (low, middle) if fits(middle) else (middle, high)
@@ -213,7 +218,7 @@ def deepest_stack():
 
 
 def memory_bars(entries, host, board):
-    """(bar, limit, measured) of RAM, and the cost of a frame in so little of it."""
+    """(bar, limit, measured) of RAM, and the cost of a frame in that little RAM."""
     entry = next(e for e in entries if e["scene"] == "head")
     stack = deepest_stack()
     block, caps = head_ram(entry, host, RAM - stack)

@@ -15,7 +15,7 @@ import results
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE, README = "docs/measured.md", "README.md"
 USES, BLOCKS = "tests/size_of_use.csv", "tests/blocks.csv"
-# uses that README.md names, in its words
+# the uses that README.md shows, with its words for them
 NAMED = {"a world and its step with meshes in ROM": "a program that takes steps, with its meshes in ROM",
          "meshes from vertices and faces": "one with joints that builds its meshes at run time",
          "snapshots": "everything but drawing", "drawing of what changed": "everything with drawing"}

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Write the table of boards in README.md, between its two comments.
 
-A board's board.mk and linker file say what it is; its figures come from the files that `make budget` and `make size`
-leave in out/. A board that was not measured keeps its figures in the table. tools/check_boards checks only the first part.
+A board's board.mk and linker file describe the board; its figures come from the files that `make budget` and `make size`
+leave in out/. A board that was not measured keeps its figures in the table. tools/check_boards checks only the first
+part.
 """
 import os
 
@@ -16,7 +17,7 @@ README = os.path.join(run_board.ROOT, "README.md")
 MARK = "boards"
 COLUMNS = ["board", "processor", "ROM, RAM", "display", "scenes, frames a second",
            "a frame of the first, mean / worst", "code", "RAM used"]
-STATIC = 5  # of the columns
+STATIC = 5  # number of columns that need no run
 
 
 def bytes_text(number):
@@ -34,7 +35,7 @@ def count_text(number):
 
 
 def static_cells(board):
-    """What is known of a board without running it."""
+    """The cells of a board that need no run."""
     its, places = run_board.settings(board), size.linker(board)
     clock = ", %s MHz" % its["CLOCK_MHZ"] if "CLOCK_MHZ" in its else \
         ", %s million a second" % its["MIPS"] if "MIPS" in its else ""
@@ -45,7 +46,7 @@ def static_cells(board):
 
 
 def figures(board):
-    """Cells of measured figures; None for those that were not measured."""
+    """The cells of measured figures; None if the board was not measured."""
     def row(path, **wanted):
         return next((row for row in results.read(path)
                      if all(row[name] == value for name, value in wanted.items())), None)

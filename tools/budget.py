@@ -7,8 +7,8 @@ costs its step and, where there is a display, its picture, by the board's own ex
 scene; out/budget_stages.csv has the cost of each stage; out/budget_over.csv has every frame that takes too much, with its
 costliest stage.
 
-For a machine whose rate was measured (MIPS, the paper's) the row shows frames in contact, as the paper does; the worst
-frame is that of all.
+For a machine with a measured rate (MIPS, the paper's machine) the row shows frames in contact, as the paper does; the
+worst frame is the worst of all frames.
 """
 import argparse
 import collections
@@ -35,7 +35,7 @@ class Scene:
         self.ok = self.worst <= self.budget
 
     def over(self):
-        """Frames over the budget: number, cost, costliest stage, cost of that."""
+        """Frames over the budget: number, cost, costliest stage, cost of that stage."""
         for row, cost in zip(self.rows, self.costs):
             if cost > self.budget:
                 stage = max(self.stages, key=lambda name: row[name])

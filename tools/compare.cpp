@@ -2,9 +2,9 @@
 /*
  * carom-compare - a moving mesh against a stationary one, through Carom, ODE, Bullet and FCL.
  *
- * Poses are recorded from Carom's own run of the scene `head` with these meshes. Its bodies never cross, so the ends of
- * frames would have no overlaps. The poses are where each frame would end if nothing were in the way: the question that an
- * engine which looks for overlaps is given.
+ * Poses are recorded from Carom's own run of the scene `head` with these meshes. Its bodies never
+ * cross, so the ends of frames would have no overlaps. A pose is the place where a frame would end
+ * if nothing were in the way: an engine that looks for overlaps is asked about such poses.
  *
  * tools/compare.py runs this and explains the figures. Rows to the console:
  *
@@ -136,7 +136,10 @@ struct World {
     }
 };
 
-/* The poses at the ends of frames, and the poses where frames would end if nothing were in the way. */
+/*
+ * The poses at the ends of frames, and the poses at which frames would end if nothing were in the
+ * way.
+ */
 struct Run {
     std::vector<Pose> committed, free;
 
@@ -315,7 +318,7 @@ std::vector<Made> contenders(const Mesh &moving, const Mesh &still)
     return made;
 }
 
-/* The crossing pairs among those that a contender found, each counted once. */
+/* The crossing pairs among the pairs that a contender found, each counted once. */
 size_t crossing_found(const Judge &judge, const Pose &pose, const Contender &contender)
 {
     const oracle_pose at = judge.pose(pose);
@@ -331,8 +334,9 @@ size_t crossing_found(const Judge &judge, const Pose &pose, const Contender &con
 }
 
 /*
- * For contenders that report face pairs: the frames in which they differ from FCL on whether any pair crosses, and the number of
- * crossing pairs that they found. The judge checks each reported pair, since some are only near.
+ * For contenders that report face pairs: the number of frames in which they differ from FCL on
+ * whether any pair crosses, and the number of crossing pairs that they found. The judge checks each
+ * reported pair, because some are only near.
  */
 void compare_findings(const Judge &judge, const char *which, const std::vector<Pose> &poses)
 {

@@ -2,8 +2,8 @@
 /*
  * compare - Carom and others on the same meshes at the same poses.
  *
- * A contender finds all contacts of a moving mesh with a stationary one, in the way of each library, its own test of boxes
- * included, from poses that it has already.
+ * A contender finds all contacts of a moving mesh with a stationary one, as its library does it,
+ * including the library's test of boxes. It already has the poses.
  */
 #ifndef CAROM_TOOLS_COMPARE_HPP
 #define CAROM_TOOLS_COMPARE_HPP
@@ -45,9 +45,9 @@ class Contender
     virtual void place(const Pose &pose) = 0;
     /* Find the contacts. Measured. */
     virtual void query() = 0;
-    /* The count of what the query found: contacts, face pairs or the like. */
+    /* The number of things that the query found: contacts, face pairs or the like. */
     virtual size_t found() const = 0;
-    /* A slow contender is measured only at every so many poses. */
+    /* A slow contender is measured only at every stride-th pose. */
     virtual size_t stride() const
     {
         return 1;

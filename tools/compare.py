@@ -26,8 +26,8 @@ import compare_table
 OUT = "out/compare.csv"
 RECALL = "out/recall.csv"
 RECALL_COLUMNS = ["scene", "contender", "crossing", "found", "frames", "frames_missed"]
-BAR = 0.5  # of ODE's instructions
-AIM = 0.7  # of its time
+BAR = 0.5  # as a part of ODE's instructions
+AIM = 0.7  # as a part of ODE's time
 
 
 def instructions(program, meshes):
@@ -87,7 +87,7 @@ def write(path, columns, rows):
 
 
 def query_figures(rows):
-    """In the form of the other figures."""
+    """Return the figures in the common form."""
     for scene, phase, who, count, time in rows:
         yield ["query", scene, phase, who, count, compare_heaps.UNIT]
         yield ["query", scene, phase, who, time, "us"]
@@ -121,7 +121,7 @@ def main(program, heaps, image, *scenes):
     figures += compare_heaps.long(heaps) + compare_heaps.wasm(heaps, image)
     write(OUT, compare_table.COLUMNS, figures)
     wrong += compare_heaps.complaints(figures, [])
-    # times of queries differ from run to run, and bodies that are apart teach nothing
+    # times of queries differ from run to run, and bodies that are apart tell nothing
     shown = [row for row in figures if row[-1] != "us" and row[2] != "apart"]
     compare_table.write(shown)
     print(compare_table.table(compare_table.read(), False), end="")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Carom: two bodies of a world, and their faces that interfere where the bodies are. */
+/* Carom: two bodies of a world, and their interfering faces at the given poses. */
 
 #include "compare.hpp"
 #include "expect.hpp"
@@ -9,7 +9,9 @@ namespace
 
 using namespace compare;
 
-/* Room for all: in the worst pose a face or two of the head cross each face of the ground. */
+/*
+ * Room for all faces: in the worst pose one or two faces of the head cross each face of the ground.
+ */
 #define CAPS 2, 1, 64, 8192, 1, 1024
 constexpr uint32_t PAIRS = 65535;
 

@@ -19,7 +19,8 @@ ASLEEP = 32  # boxes of Carom's heap that sleeps
 SHORT = 32  # boxes: the heap of seed 1 that CI counts
 WASM = 100  # boxes
 WASM_SEEDS = 4
-# Carom's instructions over ODE's, for the heap that CI counts: set by hand when the engine gets better.
+# Carom's instructions over ODE's, for the heap that CI counts. They are set by hand when the engine
+# gets better.
 BOUNDS = {"falling": 4.0, "resting": 0.9}
 NOISE = 1.03  # times the committed instructions: libraries differ a little from machine to machine
 TIMEOUT = 600  # seconds a run

@@ -8,11 +8,12 @@ namespace
 
 using namespace compare;
 
-/* ODE tests every pair of faces, whatever room there is for points. */
+/* ODE tests every pair of faces, however many points there is room for. */
 constexpr int POINTS = 64;
 
 struct Trimesh {
-    std::vector<float> vertices; /* ODE converts to float anyway: 5 % faster than with doubles */
+    std::vector<float> vertices; /* ODE converts to float anyway; floats are 5 % faster than
+                                  * doubles */
     std::vector<dTriIndex> indices;
     dTriMeshDataID data;
     dGeomID geom;

@@ -14,7 +14,8 @@ FIGURES, DOCS, README = [os.path.join(ROOT, path)
 COLUMNS = ["what", "size", "phase", "contender", "value", "unit"]
 CONTENDERS = {"carom": "Carom", "ode": "ODE", "bullet": "Bullet", "fcl": "FCL", "rapier": "Rapier",
               "jolt": "Jolt"}
-BESIDE = ["ode", "rapier"]  # Carom's figure is divided by that of the first of these that has one
+BESIDE = ["ode", "rapier"]  # Carom's figure is divided by the figure of the first of these that has
+                            # one
 TITLES = {"query": "query, %s", "step": "step, %s", "heap": "step, %s boxes",
           "wasm": "step, %s boxes, WebAssembly"}
 # the part that README.md shows

@@ -3,9 +3,10 @@
  * A plugin of QEMU (qemu-mips -plugin count.so PROGRAM) that counts the instructions of a program and lets the program read
  * the count while it runs.
  *
- * QEMU translates a program in blocks, which always run from their first instruction on. A block adds its length to the count
- * when it begins, so two readings by the same instruction differ by exactly the instructions in between. The parts of the
- * interface that are used are declared here, as in QEMU's documentation of its TCG plugins (version 1).
+ * QEMU translates a program in blocks, which always run from their first instruction on. A block
+ * adds its length to the count when it begins, so two readings by the same instruction differ by
+ * exactly the instructions in between. The used parts of the interface are declared here, as in
+ * QEMU's documentation of its TCG plugins (version 1).
  */
 #define _GNU_SOURCE
 #include <stddef.h>

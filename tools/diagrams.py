@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draw the diagrams of DESIGN.md: tools/diagrams.py [--check]
 
-Writes docs/diagram-*.svg. --check writes nothing and names those that are not what this program draws;
-tools/check_diagrams asks.
+It writes docs/diagram-*.svg. With --check it writes nothing, and names the files that differ from
+what this program draws; tools/check_diagrams does that.
 """
 import os
 import sys
@@ -65,7 +65,7 @@ def leaf():
 # ------------------------------------------------------------------------ gaps
 
 def gaps():
-    """What lies how far from a surface, in skins."""
+    """Distances from a surface and their meanings, in skins."""
     p = Picture(820, 460, "Gaps above a surface, in skins")
     zero, skin, left, right = 310, 48, 60, 760
     p.text(60, 24, "The gap between two surfaces. One skin is 1/2048 of the radius; of a pair it is the larger one.", bold=True)
@@ -85,7 +85,7 @@ def gaps():
         p.text(right - 8, at(skins) + (17 if 0 <= skins < 1 else -6), name, "end", INK if colour == GREY else colour)
         p.text(left - 8, at(skins) + 5, "%g" % skins, "end")
     p.text(left - 8, at(5) - 14, "skins", "end")
-    # who is where
+    # examples of bodies
     p.path([(130, 78), (160, at(0.5)), (190, 82)], INK, "#ffffff", 1.5)
     p.path([(160, at(4.2)), (160, at(1.9))], PINK, arrow=True)
     p.text(160, 64, "a hit", "middle")
@@ -111,7 +111,7 @@ def state(p, x, y, width, name, words, fill):
 
 
 def body():
-    """States of a moving body, and what leads from one to the other."""
+    """States of a moving body, and the events that lead from one to another."""
     p = Picture(900, 650, "What a body is when")
     p.rect(10, 36, 236, 604, "#f4f4f4")
     p.rect(256, 36, 634, 604, "#eef5fb")
@@ -187,7 +187,7 @@ def clocks():
     bar("B", 0, hit, "#cfe2f0", "one path, ends at the hit")
     bar("B", hit, 1, "#f6cfe0", "new path")
     bar("C", 0, 1, "#cfe2f0", "its path goes on: the hit does not change a bit of it")
-    # what the cut paths would have been
+    # the rest of the paths that were cut
     for name, to_t in (("A", 0.76), ("B", 1)):
         y = rows[name] - 12
         p.path([(at(hit), y), (at(to_t), y)], GREY, dash="4 3")

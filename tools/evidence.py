@@ -1,8 +1,8 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Figures of the tests that look for what is lost: tests/evidence.csv keeps them, docs/evidence.md shows them.
+"""Figures of the tests that search for faults: tests/evidence.csv keeps them, docs/evidence.md shows them.
 
-A command of such a test calls record() in its long form, and ratchet() in the short form that CI runs. A figure is one of
+The command of a test calls record() in its long form, and ratchet() in the short form that CI runs. A figure is one of
 four kinds:
     more    more is better: a short form may not find less
     less    less is better: a short form may not find more
@@ -24,7 +24,7 @@ KINDS = "more", "less", "sum", "fact"
 
 
 def commit():
-    """The commit that was measured, with a + if files differ from it."""
+    """The commit that was measured, with a + if files differ from that commit."""
     said = [subprocess.run(["git", "-C", ROOT, *command.split()], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
             for command in ("rev-parse --short=7 HEAD", "status --porcelain --untracked-files=no")]
     return said[0] + ("+" if said[1] else "")
@@ -68,7 +68,8 @@ def record(test, figures):
 
 
 def ratchet(test, found):
-    """Compare figures {name: value} with those kept: a line for each, and True if none is worse."""
+    """Compare figures {name: value} with the kept ones: prints a line for each, and returns True if none is
+    worse."""
     held = True
     for row in results.read(KEPT):
         if row["test"] == test and row["figure"] in found and row["kind"] in ("more", "less"):
@@ -80,7 +81,7 @@ def ratchet(test, found):
 
 
 def stale():
-    """True if the page shows other figures than those kept."""
+    """True if the page and the kept figures differ."""
     with open(PAGE) as file:
         text = file.read()
     return page(text, results.read(KEPT)) != text

@@ -8,7 +8,7 @@
 
 #include "carom.h"
 
-/* Returns the result. For an error, prints whose and which, and exits with 1. */
+/* Returns the result. For an error, prints the library and the error, and exits with 1. */
 inline int expect(int result, const char *whose = "carom")
 {
     if (result < 0) {

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """The paper's figures 6, 7 and 8, measured, beside the paper's numbers: tools/figures.py PROGRAM
 
-6: a picture of examples/figures.c with the interfering faces coloured just before the impact, and their counts.
-7: the cost of a frame in contact over the number of polygons. 8: the paper's other two scenes. Costs come from
-out/bench.csv. Everything goes to out/figures; the page and its small pictures also go to docs/.
+Figure 6 is a picture of examples/figures.c with the interfering faces coloured just before the impact, and
+their counts. Figure 7 is the cost of a frame in contact over the number of polygons. Figure 8 is the paper's
+other two scenes. Costs come from out/bench.csv. Everything goes to out/figures; the page and its small
+pictures also go to docs/.
 """
 import os
 import subprocess
@@ -61,7 +62,7 @@ class Page:
 
 
 def save(image, name):
-    """A picture of 256 colours, rare ones included, for the page in either place."""
+    """A picture of 256 colours, including rare ones, for the page in either place."""
     few = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     for folder in (OUT, DOCS):
         few.save(os.path.join(folder, name), optimize=True)
@@ -133,7 +134,7 @@ def figure7(page, figures):
     costs = {HEAD + field: parts_of(figures, "growth-%d" % field) for field in FIELDS}
     blocks, plots = [], []
     series = [(part, colour, "lw 2 ps 1.2 pt 7") for part, (_, colour) in PARTS.items()]
-    # above the line of the display, which is nearly all of it
+    # above the line of the display, which is nearly all of the cost
     for part, colour, style in series + [("all of it", "#000000", "lw 2 ps 1.6 pt 6 dt 2")]:
         rows = ["%d %f" % (polygons, cost.get(part, sum(cost.values())) / 1e6) for polygons, cost in costs.items()]
         blocks.append("$p%d << EOD\n%s\nEOD\n" % (len(blocks), "\n".join(rows)))

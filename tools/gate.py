@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the gates tools/check_* share: the files, the layer order, the compilers, the verdict."""
+"""The common parts of the gates tools/check_*: the files, the layer order, the compilers, the verdict."""
 import concurrent.futures
 import glob
 import os
@@ -12,7 +12,8 @@ os.chdir(ROOT)
 
 # The folders of src/, a stage each; each may use only those before it.
 STAGES = "num mesh body pairs interfere boyse contact solve world step query replay draw".split()
-# A library of its own: of folders other than these it uses only what the public headers declare.
+# draw is a library of its own: of other folders than these it uses only what the public headers
+# declare.
 ALONE = {"draw": ["num", "mesh"]}
 
 PUBLIC = ["include/carom.h", "include/carom_mesh.h", "include/carom_memory.h",

@@ -44,7 +44,7 @@ def capsule(start, end, first, last):
 
 
 def blend(a, b, width):
-    """The smaller one, with a fillet of that width."""
+    """The smaller distance, with a fillet of that width."""
     h = width - (a - b if a > b else b - a)
     least = a if a < b else b
     return least - h * h / (4 * width) if h > 0 else least
@@ -64,10 +64,10 @@ EAR_OUT = unit(0.92, -0.39, 0.0)
 EAR_UP = unit(0.0, 0.22, 0.975)
 EAR_TURN = EAR_OUT, unit(*cross(EAR_UP, EAR_OUT)), unit(*cross(EAR_OUT, cross(EAR_UP, EAR_OUT)))
 
-# The parts. First where a part matters: the middle and the radius of a ball; None: everywhere. Then the distance to the part,
-# how it is joined ('+' put on, '-' cut out), and the width of the fillet.
+# The parts of a head. First the region in which a part matters: the middle and the radius of a ball, or None for everywhere.
+# Then the distance to the part, how it is joined ('+' added, '-' cut out), and the width of the fillet.
 PARTS = [
-    # skull, forehead, face, neck, jaw, chin, cheekbone, what is behind the lips
+    # skull, forehead, face, neck, jaw, chin, cheekbone, the part behind the lips
     (None, ellipsoid((0, 0.12, 0.24), (0.68, 0.84, 0.77)), "+", 0.1),
     (None, ellipsoid((0, -0.33, 0.32), (0.55, 0.49, 0.52)), "+", 0.2),
     (None, ellipsoid((0, -0.38, -0.32), (0.50, 0.40, 0.64)), "+", 0.2),
@@ -80,11 +80,11 @@ PARTS = [
     # brow, eye socket
     (((0.25, -0.75, 0.15), 0.5), capsule((0.07, -0.80, 0.13), (0.40, -0.66, 0.18), 0.07, 0.06), "+", 0.12),
     (((0.28, -0.84, 0.0), 0.45), ellipsoid((0.27, -0.88, -0.02), (0.20, 0.17, 0.13)), "-", 0.10),
-    # the nose: bridge, tip, side
+    # nose: bridge, tip, side
     (((0, -0.92, -0.12), 0.5), capsule((0, -0.81, 0.10), (0, -0.95, -0.29), 0.065, 0.105), "+", 0.12),
     (((0, -1.0, -0.32), 0.35), ellipsoid((0, -0.99, -0.32), (0.11, 0.115, 0.09)), "+", 0.06),
     (((0.11, -0.9, -0.36), 0.3), ellipsoid((0.115, -0.88, -0.345), (0.085, 0.12, 0.075)), "+", 0.06),
-    # eyelids, the slit between them, the ball
+    # eyelids, the slit between them, the eyeball
     (((0.27, -0.7, 0), 0.35), ellipsoid(EYE, (0.178, 0.17, 0.155)), "+", 0.03),
     (((0.27, -0.7, 0), 0.35), ellipsoid((0.275, -0.83, -0.015), (0.145, 0.17, 0.075)), "-", 0.015),
     (((0.27, -0.7, 0), 0.35), ellipsoid(EYE, (0.14, 0.14, 0.14)), "+", 0.01),
@@ -137,7 +137,7 @@ def on_surface(x, y, z):
 
 
 def settled(x, y, z, middle):
-    """The place of the surface next to a point near it; middle: it stays in the plane x = 0."""
+    """The place of the surface nearest to a point close to it; with middle, it stays in the plane x = 0."""
     step = 0.004
     for _ in range(2):
         d = field(x, y, z)
@@ -184,7 +184,7 @@ def surface():
 
 
 def relaxed(points, faces):
-    """Move each point half way to the middle of its neighbours, then back onto the surface."""
+    """Move each point halfway to the middle of its neighbours, then back onto the surface."""
     sums = [[0.0, 0.0, 0.0, 0] for _ in points]
     for face in faces:
         for p, q in zip(face, face[1:] + face[:1]):
@@ -205,7 +205,7 @@ def split(face, index, points):
     a, b, c = face
     while (a, b) not in index and (b, c) in index or (c, a) in index and (a, b) not in index:
         a, b, c = b, c, a
-    # turned so that a-b has a point, if any edge has one
+    # rotate the corners so that the edge a-b has a point, if any edge has one
     ab, bc, ca = index.get((a, b)), index.get((b, c)), index.get((c, a))
     if ab is None:
         return [(a, b, c)]
@@ -226,7 +226,7 @@ def split(face, index, points):
     return first + rest
 
 
-# How much places matter to the eye: the middle and the radius of a ball, and a weight.
+# The importance of places for the eye: the middle and the radius of a ball, and a weight.
 MATTER = [
     ((0.28, -0.76, -0.01), 0.2, 30.0),  # eye
     ((0.10, -0.85, -0.62), 0.2, 30.0),  # lips

@@ -6,10 +6,11 @@
  *        carom-heaps CONTENDER head
  *        carom-heaps layout BOXES SEED
  *
- * `head` runs whole steps of the scene of that name. `layout` prints the places where boxes begin, a box a line. Under callgrind
- * with --instr-atstart=no --collect-atstart=no, instructions are counted in phases of 60 steps, labelled PHASE,STEPS: falling,
- * settling, resting; or asleep, of a heap of Carom's that sleeps. To the console: the mean height of the bodies, how many lie under
- * z = 0, and how many steps went wrong by the library's own report.
+ * `head` runs whole steps of the scene of that name. `layout` prints the places where boxes begin,
+ * a box a line. Under callgrind with --instr-atstart=no --collect-atstart=no, instructions are
+ * counted in phases of 60 steps, labelled PHASE,STEPS: falling, settling, resting; or asleep, for
+ * a sleeping heap of Carom. The program prints the mean height of the bodies, the number of bodies
+ * below z = 0, and the number of steps that went wrong by the library's own report.
  */
 #include <cmath>
 #include <cstdio>
@@ -104,7 +105,7 @@ void print_layout(const std::vector<heaps::Start> &boxes)
     }
 }
 
-/* Instrument only what is measured: the rest runs many times faster. */
+/* Instrument only the measured steps: the rest runs many times faster. */
 void measure(heaps::Heap &heap, const char *label, int steps)
 {
     char text[64];

@@ -2,9 +2,9 @@
 /*
  * heaps - many boxes that fall on each other, through Carom and others.
  *
- * Unit boxes of mass 1 in layers over a plane at z = 0, slightly turned and displaced; gravity 9.81 m/s^2, 60 steps a second,
- * friction 0.5, no restitution, nobody sleeps. Each library has its default settings. And the scene `head` of Carom's examples,
- * without sleep either.
+ * Unit boxes of mass 1 in layers over a plane at z = 0, slightly turned and displaced; gravity
+ * 9.81 m/s^2, 60 steps a second, friction 0.5, no restitution, no sleep. Each library has its
+ * default settings. Also the scene `head` of Carom's examples, without sleep.
  */
 #ifndef CAROM_TOOLS_HEAPS_HPP
 #define CAROM_TOOLS_HEAPS_HPP
@@ -24,7 +24,10 @@ struct Start {
     double quaternion[4]; /* w, x, y, z; of length 1 */
 };
 
-/* Where the boxes of a heap begin: the same for every library; each seed gives another heap. */
+/*
+ * The places where the boxes of a heap begin, the same for every library; each seed gives another
+ * heap.
+ */
 std::vector<Start> layout(int boxes, unsigned seed);
 
 class Heap
@@ -35,7 +38,7 @@ class Heap
     virtual void step() = 0;
     /* The height of a box's centre. */
     virtual double height(int box) const = 0;
-    /* Steps that went wrong, by the library's own report. */
+    /* The number of steps that went wrong, by the library's own report. */
     virtual int troubled() const
     {
         return 0;
@@ -45,7 +48,7 @@ class Heap
 using Made = std::unique_ptr<Heap>;
 
 Made make_carom(const std::vector<Start> &boxes);
-/* Carom's heap with sleep, when all boxes sleep; null if they do not after a while. */
+/* A heap of Carom in which all boxes sleep; null if they do not sleep after a while. */
 Made make_asleep(const std::vector<Start> &boxes);
 Made make_ode(const std::vector<Start> &boxes);
 Made make_bullet(const std::vector<Start> &boxes);

@@ -69,7 +69,7 @@ class Bullet : public Heap
                                                       inertia);
 
         info.m_startWorldTransform = start;
-        info.m_friction = static_cast<btScalar>(0.70710678); /* Bullet multiplies the two */
+        info.m_friction = static_cast<btScalar>(0.70710678); /* Bullet multiplies both */
         bodies_.push_back(std::make_unique<btRigidBody>(info));
         bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
         world_.addRigidBody(bodies_.back().get());

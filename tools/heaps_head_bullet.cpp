@@ -47,7 +47,7 @@ class Bullet : public Heap
         world_.setGravity(btVector3(0, 0, static_cast<btScalar>(GRAVITY)));
         for (btRigidBody *body : {&ground_, &body_}) {
             body->setFriction(
-                static_cast<btScalar>(std::sqrt(scene_.friction))); /* Bullet multiplies the two */
+                static_cast<btScalar>(std::sqrt(scene_.friction))); /* Bullet multiplies both */
             body->setRestitution(static_cast<btScalar>(std::sqrt(scene_.restitution)));
             body->setActivationState(DISABLE_DEACTIVATION);
         }

@@ -11,7 +11,7 @@ BACKLASH = 0.006  # units along the rolling circle, for each tooth
 
 
 def circle(x, y, radius, sides, turn=0.0):
-    """A hole: clockwise."""
+    """A circular hole, clockwise."""
     return [(x + radius * cos(turn - 2 * pi * k / sides), y + radius * sin(turn - 2 * pi * k / sides))
             for k in range(sides)]
 
@@ -47,21 +47,22 @@ def gear(teeth, turn=0.0, holes=0, half=0.15):
     return pierced(loops, -half, half)
 
 
-# Teeth of wheels that turn each other in order, and their axles: x, z (examples/scene_gears.c).
+# Wheels that turn each other in order: number of teeth, and the axle's x, z
+# (examples/scene_gears.c).
 TRAIN = ((10, -1.5, 0.95), (24, 0, 1.75), (16, 1.6, 2.95), (12, 2.44, 1.83))
 
 
 def train():
-    """Meshes by name, each turned so that its teeth lie between those of the wheel before."""
+    """Meshes by name. Each wheel is turned so that its teeth lie between those of the wheel before."""
     wheels, turn = {}, 0.0
     for i, (teeth, x, z) in enumerate(TRAIN):
         if i > 0:
             before, from_x, from_z = TRAIN[i - 1]
             way = atan2(z - from_z, x - from_x)
-            # in teeth: the phase of the wheel before at this place, less half a tooth
+            # the phase of the wheel before at this place, minus half a tooth, in teeth
             part = 0.5 - (way - turn) * before / (2 * pi)
             turn = way + pi - part * 2 * pi / teeth
-        half = 0.15 if i % 2 else 0.12  # edges that lie on each other would cost more tests
+        half = 0.15 if i % 2 else 0.12  # edges that lie on each other would need more tests
         wheels["gear%d" % teeth] = partial(gear, teeth, turn, {16: 4, 24: 5}.get(teeth, 0), half)
     return wheels
 
@@ -91,7 +92,8 @@ class Thread:
         return m + 4 if i == SEGMENTS else m if i == 0 else self.count + 4 + (i - 1) * self.count + m
 
     def faces(self):
-        """Faces seen from outside. The diagonals run the same way in bolt and nut, because these lie on each other."""
+        """Faces seen from outside. The diagonals have the same direction in bolt and nut, because these lie
+        on each other."""
         for i in range(SEGMENTS):
             for m in range(self.count - 1):
                 a, b, c, d = self.at(i, m), self.at(i + 1, m), self.at(i + 1, m + 1), self.at(i, m + 1)

@@ -4,7 +4,7 @@ import sys
 
 
 def split(text, name):
-    """The page up to the lines, the lines, and the page behind them; both comments stay outside."""
+    """The text before the lines, the lines, and the text behind them; both comments stay outside."""
     begin, end = "<!-- %s -->\n" % name, "<!-- end of %s -->\n" % name
     before, found, rest = text.partition(begin)
     inside, closed, after = rest.partition(end)
@@ -14,7 +14,7 @@ def split(text, name):
 
 
 def put(text, name, lines):
-    """The page with other lines."""
+    """The page with other lines in place of the present ones."""
     before, _, after = split(text, name)
     return before + "".join(line + "\n" for line in lines) + after
 

@@ -3,9 +3,9 @@
 """One answer from every instruction set, compiler and option: tests/matrix.c, built in many ways.
 
 Every build plays the scenes of tests/lib/plays.c and must print the same hash for each. A build that cannot be made or run
-fails, and so does one with a different hash; then the first frame that differs is searched, and in it the stage that left a
-different result. Another build, of the other byte order or word length, continues from snapshots that a build takes on the
-way, for as many frames. out/matrix.csv has a row a build and scene.
+fails, and so does one with a different hash. The tool then searches the first frame that differs, and in that frame the
+first stage with a different result. Builds of the other byte order or word length continue from snapshots of a build, for
+as many frames. out/matrix.csv has a row a build and scene.
 """
 import argparse
 import concurrent.futures
@@ -30,7 +30,7 @@ OUT = "out/matrix.csv"
 DOCS = "docs/matrix.md"
 WORK = "build/matrix"
 TIMEOUT = 900  # seconds a command
-FRAMES = 2000, 1000  # of a scene; of a scene in the short form
+FRAMES = 2000, 1000  # frames of a scene; of a scene in the short form
 AT = 500  # the frame whose snapshot is handed on
 CROSSED = ["pile", "sheet", "door", "walker"]  # scenes that another build continues
 
@@ -75,14 +75,16 @@ LINUX = {
     "alpha": ("alpha-linux-gnu", "alpha", 64, "little", False),
     "sh4": ("sh4-linux-gnu", "sh4", 32, "little", False),
 }
-# For MIPS32 clang before 15 makes msub of (int64_t)a * b - c, which is c - a * b: LLVM issue 50458. MIPS II has no msub.
+# For MIPS32 clang before 15 compiles (int64_t)a * b - c to msub, which is c - a * b: LLVM issue 50458. MIPS II has no
+# msub.
 CLANG_ARCH = {"mips": ["-march=mips2"], "mipsel": ["-march=mips2"]}
-SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # instruction sets that no other target has
+SHORT_BOARDS = ["microbit", "mps2-an385", "riscv32"]  # boards whose instruction set no other target
+                                                      # has
 ELF = {bytes([size, order]): (32 * size, {1: "little", 2: "big"}[order])
        for size in (1, 2) for order in (1, 2)}  # bits and byte order, by two bytes of an ELF header
 DYNAMIC = ["alpha"]  # its static programs do not start in QEMU 7.2
-# GCC 12.2 for SuperH loses comparisons before a branch when it optimises (int f(const int *p) that calls something p[2] times
-# lacks the first). The C library that it compiled hangs.
+# GCC 12.2 for SuperH loses comparisons before a branch when it optimises: int f(const int *p) that calls a function p[2]
+# times loses the first one. The C library that it compiled hangs.
 ONLY = {"sh4": ["-O0", "-O0 -fwrapv", "-O0 -funsigned-char"]}
 NO_LIBRARY = {"sh4": "port/sh4/sh4.c"}
 NO_LIBRARY_PORT = ["port/nolibc/string.c"]
@@ -114,7 +116,7 @@ class Failure(Exception):
 
 
 def call(command, what, folder=ROOT):
-    """Run a command; returns its output, or raises a Failure that ends with its last lines."""
+    """Run a command; returns its output, or raises a Failure that ends with the output's last lines."""
     try:
         done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -199,7 +201,8 @@ class Linux(Build):
         static = [] if target in DYNAMIC else ["-static"]
         self.command = gcc if compiler == "gcc" else \
             ["clang"] + (["--target=" + triple] if triple else []) + CLANG_ARCH.get(target, [])
-        # Debian's clang does not find every cross linker: there gcc links what clang compiled
+        # Debian's clang does not find every cross linker: for those targets gcc links what clang
+        # compiled
         self.linker = [*self.command, *options.split()] if compiler == "gcc" or not triple else gcc
         self.linker = self.linker + static if triple else self.linker
         self.runner = ["qemu-" + emulator] if triple else []
@@ -359,7 +362,7 @@ def attempt(action, build, *arguments):
 
 
 def do(build, number, play):
-    """Make and run a build; memory holds zeros or rubbish before, in turn."""
+    """Make and run a build; memory first holds zeros or other bytes, in turn."""
     start = time.monotonic()
 
     def all_of_it():
@@ -463,7 +466,7 @@ def docs_rows(builds):
 
 
 def write_docs(builds, crossings):
-    """A summary for people: the targets, the options and the hashes, each once."""
+    """A summary: the targets, the options and the hashes, each once."""
     scenes = builds[0].scenes
     with open(DOCS, "w") as file:
         file.write(DOCS_HEAD % (len(builds), len(scenes), sum(crossings.values())))

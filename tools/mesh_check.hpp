@@ -180,8 +180,8 @@ inline double volume_of(const Soup &soup)
 }
 
 /*
- * A warning if quanta change the volume by more than a hundredth; otherwise empty. A file with double or turned faces, holes or
- * parts within parts has no volume to compare with.
+ * A warning if quanta change the volume by more than a hundredth; otherwise empty. A file with
+ * double or inverted faces, holes or parts within parts has no volume to compare with.
  */
 inline std::string doubt_about_volume(const Soup &soup, const Mesh &mesh)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_close - fills the flat holes of a mesh: loops of open edges that lie in one plane. A loop within another that runs the
- * other way round bounds a ring with it.
+ * mesh_close - fills the flat holes of a mesh: loops of open edges that lie in one plane. A loop
+ * inside another one that runs in the opposite direction bounds a ring together with it.
  */
 #ifndef CAROM_TOOLS_MESH_CLOSE_HPP
 #define CAROM_TOOLS_MESH_CLOSE_HPP
@@ -17,8 +17,8 @@ constexpr size_t loop_max = 10000; /* edges; the time to fill grows with their s
 struct Hole {
     std::vector<uint32_t> vertices;
     Normal normal; /* twice the area along the plane's normal */
-    double offset; /* of the plane from the origin along the normal, quanta */
-    Loop flat;     /* seen from the side where it runs counter-clockwise */
+    double offset; /* distance of the plane from the origin along the normal, quanta */
+    Loop flat;     /* seen from the side from which it runs counter-clockwise */
 };
 
 /* The open edges from each vertex, against the windings of their faces. */
@@ -100,7 +100,7 @@ inline double find_plane(const Mesh &mesh, Hole &hole)
     return (high - low) / 2;
 }
 
-/* Project along the axis that is nearest to the plane's normal. */
+/* Project along the axis that is closest to the plane's normal. */
 inline void flatten(const Mesh &mesh, Hole &hole)
 {
     size_t axis = 0;
@@ -140,7 +140,10 @@ inline bool can_fill(const Mesh &mesh, Hole &hole, std::vector<std::string> &lef
     return false;
 }
 
-/* True if a hole lies in the plane of another, within its loop, and runs the other way round. */
+/*
+ * True if a hole lies in the plane of another one, within its loop, and runs in the opposite
+ * direction.
+ */
 inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
 {
     double along = 0, length[2] = {0, 0};
@@ -153,7 +156,7 @@ inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
     if (along > -0.99 * std::sqrt(length[0] * length[1])) {
         return false;
     }
-    Hole seen; /* the inner loop, projected as the outer one */
+    Hole seen; /* the inner loop, projected like the outer one */
     double off = 0;
 
     seen.vertices = inner.vertices;
@@ -171,7 +174,7 @@ inline bool is_in_ring(const Mesh &mesh, const Hole &outer, const Hole &inner)
                                    [&](const Corner &c) { return is_within(outer.flat, c); });
 }
 
-/* For each hole the smallest one that it forms a ring with; its own number: none. */
+/* For each hole the smallest hole with which it forms a ring; its own number: none. */
 inline std::vector<size_t> rings(const Mesh &mesh, const std::vector<Hole> &found)
 {
     std::vector<size_t> outer(found.size());
@@ -200,7 +203,7 @@ inline bool is_filled(const std::vector<size_t> &outer, size_t number)
     return filled;
 }
 
-/* Fill one hole and those that form rings with it; false if that is impossible. */
+/* Fill one hole and the holes that form rings with it; false if that is impossible. */
 inline bool close_hole(Mesh &mesh, const std::vector<Hole> &found, const std::vector<size_t> &outer,
                        size_t number)
 {

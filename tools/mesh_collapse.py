@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Half of a symmetric mesh with fewer faces: the edge whose loss changes the surface least goes first.
+"""Reduces half of a symmetric mesh to fewer faces: the edge whose loss changes the surface least is removed first.
 
 The error of a vertex's place is the sum of squares of its distances to the planes of the faces that were merged into it,
 weighted by area and by how much the place matters (Garland and Heckbert, "Surface simplification using quadric error
@@ -44,7 +44,7 @@ def error(quadric, p):
 
 
 def best(quadric, middle):
-    """The place of the least error, drawn a little to `middle`; in the plane x = 0 if `middle` is."""
+    """The place of the smallest error, moved a little towards `middle`; in the plane x = 0 if `middle` is."""
     xx, xy, xz, yy, yz, zz, x, y, z, _ = quadric
     pull = 0.002 * (xx + yy + zz) + 1e-12
     mx, my, mz = middle
@@ -108,12 +108,13 @@ class Half:
         middle = (0.0 if rim else (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2)
         place = best(quadric, middle)
         cost = error(quadric, place)
-        # of edges that cost about nothing the shortest goes first, which makes even triangles
+        # of edges that cost about nothing, the shortest is removed first, which makes even
+        # triangles
         cost += 1e-5 * (quadric[0] + quadric[3] + quadric[5]) * square(p, q)
         heapq.heappush(self.heap, (cost, v, w, self.stamp[v], self.stamp[w], place))
 
     def allowed(self, v, w, place, worst, fold):
-        """True if the surface stays one, without folds and slivers."""
+        """True if the surface stays simple, without folds and slivers."""
         points, faces = self.points, self.faces
         shared = self.around[v] & self.around[w]
         on_rim = points[v][0] == 0, points[w][0] == 0
@@ -163,7 +164,7 @@ class Half:
             self.offer(min(u, v), max(u, v))
 
     def reduce(self, count):
-        """Collapse edges until so many faces are left."""
+        """Collapse edges until only so many faces are left."""
         refused, worst, fold = [], 0.35, 0.3
         while self.count > count:
             if not self.heap:

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * carom-mesh - turns a mesh file of any format that assimp reads, a grid of heights or a shape's name into a mesh for Carom.
+ * carom-mesh - turns a mesh file of any format that assimp reads, a grid of heights or a shape's name
+ * into a mesh for Carom.
  *
  *   read     every mesh of the file with its node's transform, polygons cut into triangles; or a grid, or a shape
  *   soup     corners snapped to whole quanta of 2^-N units, equal corners united into one vertex
  *   mend     faces without area, double faces, windings; open holes and too many faces, if asked to
  *   check    reports what carom_mesh_check would refuse, with places and a remedy
- *   write    a C source, a binary blob, a picture; nothing unless all went well
+ *   write    a C source, a binary blob, a picture; nothing unless all steps succeeded
  *
  * It runs on the host, so it may use floating point.
  */
@@ -37,7 +38,7 @@ void turn_up(std::vector<Point> &points)
     }
 }
 
-/* Few falling things are 30 m long, and many files count millimetres. */
+/* Few falling bodies are 30 m long, and many files count millimetres. */
 std::string doubt_about_unit(const std::vector<Point> &points)
 {
     const double largest = largest_coordinate(points);
@@ -185,7 +186,7 @@ void print_report(const Options &options, const Product &part)
         "%s: %s%s, quantum 2^-%d units\n", options.in.c_str(),
         options.objects ? ("object '" + soup.objects[0] + "' as " + part.name + ": ").c_str() : "",
         mesh.surface ? "SURFACE" : "SOLID", mesh.bits);
-    if (mesh.polygons) { /* they are not counted for a single object */
+    if (mesh.polygons) { /* polygons are not counted for a single object */
         std::printf("  file      %zu polygons, %zu triangles\n", mesh.polygons, mesh.triangles);
     }
     std::printf("  mesh      %zu faces, %zu edges, %zu vertices\n", mesh.faces.size(), mesh.edges,

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_cross - decides exactly if two closed sets of faces cross, and if one lies within the other.
+ * mesh_cross - decides exactly whether two closed sets of faces cross, and whether one lies within
+ * the other.
  *
- * Coordinates are below 2^15: a normal is below 2^34, the product of a corner's distance from a plane and that normal below 2^52.
- * Fractions of those are compared in 128 bits.
+ * Coordinates are below 2^15: a normal is below 2^34, the product of a corner's distance from a
+ * plane and that normal below 2^52. Fractions of these numbers are compared in 128 bits.
  */
 #ifndef CAROM_TOOLS_MESH_CROSS_HPP
 #define CAROM_TOOLS_MESH_CROSS_HPP
@@ -54,7 +55,7 @@ inline bool on_both_sides(const std::array<int64_t, 3> &d)
     return *low < 0 && *high > 0;
 }
 
-/* Where a face meets a plane with corners on both sides: two places along an axis. */
+/* A face with corners on both sides of a plane meets the plane between two places along an axis. */
 inline std::pair<Fraction, Fraction> cut_along(const Mesh &mesh, const Face &face,
                                                const std::array<int64_t, 3> &d, size_t axis)
 {
@@ -175,8 +176,8 @@ inline bool parts_cross(const Mesh &mesh, const Part &a, const Part &b)
 enum class Place { outside, on, inside };
 
 /*
- * The side of an edge on which a point lies, seen from above; 0 only for an edge seen end on. A point on the edge counts as moved by a
- * little along x and by much less along y.
+ * The side of an edge on which a point lies, seen from above; 0 only for an edge seen end on. A
+ * point on the edge counts as if it were moved a little along x and much less along y.
  */
 inline int64_t side_of_edge(const Vertex &a, const Vertex &b, const Vertex &p3)
 {
@@ -187,8 +188,8 @@ inline int64_t side_of_edge(const Vertex &a, const Vertex &b, const Vertex &p3)
 }
 
 /*
- * The place of a point in thirds with respect to a part: a ray upwards from it counts the faces. Thirds make the middle of a face a
- * whole number.
+ * The place of a point, given in thirds, relative to a part: a ray upwards from the point counts
+ * the faces. In thirds the middle of a face has whole numbers.
  */
 inline Place place_of(const Mesh &mesh, const Part &part, const Vertex &p3)
 {
@@ -204,7 +205,7 @@ inline Place place_of(const Mesh &mesh, const Part &part, const Vertex &p3)
         size_t axis = 0;
         int left = 0, right = 0;
 
-        if (height == 0) { /* on the plane: test if it is on the face, seen along its normal */
+        if (height == 0) { /* on the plane: test whether it is on the face, seen along its normal */
             for (size_t k = 1; k < 3; k++) {
                 axis = std::abs(n[k]) > std::abs(n[axis]) ? k : axis;
             }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_edges - exact measures of the faces of a welded mesh, and its edges: the faces of each, and the edges that bound nothing.
+ * mesh_edges - exact measures of the faces of a welded mesh, and its edges: the faces of each edge,
+ * and the edges that bound nothing.
  *
- * Coordinates are below 2^15, so a cross product of two edges is below 2^34 and a determinant of three corners below 2^51.
+ * Coordinates are below 2^15, so a cross product of two edges is below 2^34 and a determinant of
+ * three corners below 2^51.
  */
 #ifndef CAROM_TOOLS_MESH_EDGES_HPP
 #define CAROM_TOOLS_MESH_EDGES_HPP

@@ -49,7 +49,7 @@ inline bool is_between(const Corner &a, const Corner &b, const Corner &p)
            std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
 }
 
-/* True if two segments have a point in common; a shared corner does not count. */
+/* True if two segments have a common point; a shared corner does not count. */
 inline bool lines_meet(const Corner &a, const Corner &b, const Corner &c, const Corner &d)
 {
     if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x)) {
@@ -75,7 +75,7 @@ inline bool meets_loop(const Corner &a, const Corner &b, const Loop &loop)
     return false;
 }
 
-/* True if the edges of a loop meet only at its corners, and no corner is in it twice. */
+/* True if the edges of a loop meet only at its corners, and no corner comes twice. */
 inline bool is_simple(const Loop &loop)
 {
     std::set<std::pair<int64_t, int64_t>> places;
@@ -121,7 +121,9 @@ inline bool enters(const Loop &loop, size_t i, const Corner &p)
                                           : side_of(before, at, p) > 0 || side_of(at, after, p) > 0;
 }
 
-/* Join a clockwise hole to the loop around it by a cut, there and back. False if no cut is free. */
+/*
+ * Join a clockwise hole to the loop around it by a cut in both directions. False if no cut is free.
+ */
 inline bool join_hole(Loop &loop, const Loop &hole, const std::vector<Loop> &others)
 {
     const auto first = std::max_element(hole.begin(), hole.end(),
@@ -192,7 +194,7 @@ inline std::vector<Face> fill(Loop loop, std::vector<Loop> inner)
         faces.push_back({loop[(i + loop.size() - 1) % loop.size()].vertex, loop[i].vertex,
                          loop[(i + 1) % loop.size()].vertex});
         loop.erase(loop.begin() + std::ptrdiff_t(i));
-        i++; /* not twice at one corner: fans would be long and thin */
+        i++; /* not twice in a row at one corner, because fans would be long and thin */
         passed = 0;
     }
     return loop.size() == 2 ? faces : std::vector<Face>();

@@ -210,7 +210,7 @@ inline std::string told(const Grid &grid, const Heights &how)
                      format("; --every left out the last %zu columns and %zu rows", right, below);
 }
 
-/* scale: of all three axes, after --cell and --height. */
+/* scale: the factor of all three axes, after --cell and --height. */
 inline Soup read_heights(const std::string &path, const Heights &how, double scale)
 {
     const Grid grid = read_grid(path);

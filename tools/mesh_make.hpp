@@ -11,7 +11,7 @@
 namespace mend
 {
 
-/* Faces one by one. */
+/* Mend single faces. */
 inline void mend_faces(Mesh &mesh)
 {
     drop_collapsed_faces(mesh);

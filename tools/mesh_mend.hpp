@@ -25,7 +25,7 @@ inline void drop_collapsed_faces(Mesh &mesh)
     }
 }
 
-/* The same three corners have two windings; this distinguishes them. */
+/* Three corners can have two windings; this tells them apart. */
 inline bool winding(Face f)
 {
     std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
@@ -33,8 +33,8 @@ inline bool winding(Face f)
 }
 
 /*
- * Faces with the same corners: two of one winding are a face given twice. Two of opposite windings are a plate that the weld made
- * flat; it bounds nothing, and both go.
+ * Faces with the same corners. Two with one winding are a face given twice. Two with opposite
+ * windings are a plate that the weld made flat; it bounds nothing, so both are removed.
  */
 inline void drop_double_faces(Mesh &mesh)
 {
@@ -72,9 +72,10 @@ inline void drop_double_faces(Mesh &mesh)
 }
 
 /*
- * Mend one face whose corners lie on a line. Its middle corner lies on the edge of the other two, so the neighbour over that edge is
- * cut in two there, and the second half takes the face's place. At a border there is no neighbour, and the face goes: its other two
- * edges are the border.
+ * Mend one face whose corners lie on a line. Its middle corner lies on the edge of the other two.
+ * So the neighbour across that edge is cut in two there, and the second half takes the face's
+ * place. At a border there is no neighbour, and the face is removed: its other two edges are the
+ * border.
  */
 inline bool mend_sliver(Mesh &mesh, uint32_t sliver, const EdgeUses &uses, std::vector<bool> &gone,
                         std::vector<bool> &touched)

@@ -28,7 +28,7 @@ struct Options {
     bool grid = false, objects = false;
     Heights heights;
     bool heights_said = false; /* an option was given that needs --heights */
-    int bits = 0;              /* 0: choose */
+    int bits = 0;              /* 0: chosen by the converter */
     double scale = 1;
     Repairs repairs;
     bool y_up = false, unit_said = false, millimetres = false;

@@ -25,12 +25,13 @@ inline double volume6(const Mesh &mesh, const Face &face)
     return double(n[0] * a[0] + n[1] * a[1] + n[2] * a[2]);
 }
 
-/* Collect the part of a face and give its faces one winding, that of most of them. */
+/* Collect the part of a face and give its faces one winding, the one that most of them have. */
 inline Part orient_part(Mesh &mesh, const EdgeUses &uses, uint32_t seed, std::vector<bool> &seen,
                         size_t &turned)
 {
     Part part;
-    std::map<uint32_t, bool> against; /* against the winding of the seed, as the file has it */
+    std::map<uint32_t, bool> against; /* whether a face is against the winding of the seed, in the
+                                       * file */
     size_t count = 0;
 
     part.faces.push_back(seed);
@@ -89,7 +90,7 @@ inline void measure(const Mesh &mesh, Part &part)
     }
 }
 
-/* All parts of a mesh, each of one winding. */
+/* All parts of a mesh, each with one winding. */
 inline std::vector<Part> parts_of(Mesh &mesh, const EdgeUses &uses)
 {
     std::vector<bool> seen(mesh.faces.size());
@@ -192,9 +193,9 @@ inline void drop_parts(Mesh &mesh, const std::vector<Part> &parts, const std::ve
 }
 
 /*
- * Turn parts outwards and drop those that add nothing. Outermost parts come first: `full` counts how often a place is solid before a part
- * is looked at. A part of negative volume in a place that is solid once is a cavity and stays; a full part in a solid place adds
- * nothing.
+ * Turn parts outwards and drop those that add nothing. Outermost parts come first: `full` counts
+ * how often a place is solid before a part is considered. A part of negative volume in a place that
+ * is solid once is a cavity and stays; a full part in a solid place adds nothing.
  */
 inline void arrange_solid(Mesh &mesh, std::vector<Part> &parts, bool allow_overlaps)
 {

@@ -105,7 +105,7 @@ inline void check_head(const Reader &reader)
     }
 }
 
-/* The numbers as the file has them, without gamma. */
+/* The numbers of the file, without gamma correction. */
 inline Grid read_grey(const std::string &path)
 {
     Reader reader(path);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_preview - a picture of a mesh by Carom's own renderer: from the front, above; and beside it from the back, below (a SURFACE, which
- * is visible from above only, from the back, above). Each view fits the mesh, whatever its size.
+ * mesh_preview - a picture of a mesh by Carom's own renderer: on the left from the front and above,
+ * on the right from the back and below (for a SURFACE, which is visible from above only, from the
+ * back and above). Each view fits the mesh, whatever its size.
  */
 #ifndef CAROM_TOOLS_MESH_PREVIEW_HPP
 #define CAROM_TOOLS_MESH_PREVIEW_HPP
@@ -19,7 +20,7 @@ namespace picture
 constexpr int32_t side = 600,
                   fineness = 2; /* pixels of a view; drawn at so many times the resolution */
 constexpr int32_t drawn = side * fineness;
-constexpr double focal = 2; /* picture heights: a long lens bends little */
+constexpr double focal = 2; /* in picture heights: a long lens distorts little */
 constexpr double margin =
     0.42;                /* part of a picture's side, from its middle, that a mesh may fill */
 constexpr int bits = 11; /* quanta of the enlarged mesh, which is about 32 units long */
@@ -57,7 +58,10 @@ template <typename Vector> Vector fixed(const Point &p, int fraction)
     return v;
 }
 
-/* The mesh around the origin, as large as whole quanta allow, because the renderer draws nothing that is very near. */
+/*
+ * The mesh around the origin, as large as whole quanta allow, because the renderer draws nothing
+ * that is very close.
+ */
 inline Mesh enlarged(const Mesh &mesh)
 {
     Mesh large = mesh;
@@ -101,7 +105,10 @@ struct View {
     }
 };
 
-/* Move the eye as near as the mesh fits, and the target to the middle of the picture, in a few steps of both. */
+/*
+ * Move the eye as close as the mesh fits, and the target to the middle of the picture, in a few
+ * steps of both.
+ */
 inline void fit(View &view, const Mesh &mesh)
 {
     for (int step = 0; step < 12; step++) {
@@ -131,7 +138,7 @@ inline void fit(View &view, const Mesh &mesh)
     view.distance *= 1.01; /* the last step moved the target */
 }
 
-/* The mean direction of a surface: one that slopes away from the eye would show no face. */
+/* The mean direction of a surface: a surface that slopes away from the eye would show no face. */
 inline Point mean_normal(const Mesh &mesh)
 {
     Point total = {0, 0, 0};
@@ -161,7 +168,7 @@ inline Point sides_of(const Mesh &mesh)
     return sides;
 }
 
-/* A mesh as thin as a pixel shows nothing but its edges, and black ones would not be seen. */
+/* A mesh as thin as a pixel shows nothing but its edges, and black edges would not be visible. */
 inline bool is_needle(const Mesh &mesh)
 {
     Point sides = sides_of(mesh);
@@ -170,7 +177,7 @@ inline bool is_needle(const Mesh &mesh)
     return sides[1] * 150 < sides[2];
 }
 
-/* The edges to draw: all, or of a mesh with too many edges the sharp and open ones. */
+/* The edges to draw: all of them, or only the sharp and open ones of a mesh with too many. */
 inline std::vector<carom_paint_line> lines_of(const Mesh &mesh)
 {
     std::vector<carom_paint_line> lines;
@@ -280,7 +287,10 @@ class Scene
     carom_world *world_ = nullptr;
 };
 
-/* Put a view into its half of the picture; each pixel is the mean of those that were drawn for it. */
+/*
+ * Put a view into its half of the picture; each pixel is the mean of the pixels that were drawn for
+ * it.
+ */
 inline void put_half(std::vector<uint8_t> &rgb, const std::vector<uint32_t> &pixels, int32_t half)
 {
     for (int32_t y = 0; y < side; y++) {

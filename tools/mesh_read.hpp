@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_read - reads a mesh file of any format through assimp and joins all its meshes, each with the transform of its node. It first
- * detects incomplete files that assimp takes for whole.
+ * mesh_read - reads a mesh file of any format through assimp and joins all its meshes, each with
+ * the transform of its node. First it detects incomplete files that assimp accepts as complete.
  */
 #ifndef CAROM_TOOLS_MESH_READ_HPP
 #define CAROM_TOOLS_MESH_READ_HPP
@@ -46,7 +46,7 @@ inline std::string extension(const std::string &path)
 
 constexpr char truncated[] = "the file is truncated: export the mesh again";
 
-/* assimp takes a text STL that stops early for whole. */
+/* assimp accepts a text STL that stops early. */
 inline void check_stl_is_whole(const std::string &path)
 {
     std::ifstream file(path);
@@ -181,7 +181,7 @@ inline void check_ply_is_whole(const std::string &path)
     }
 }
 
-/* The end of an OBJ cannot be missing, but its last line should have a line end. */
+/* An OBJ has no mark of its end, but its last line should have a line end. */
 inline std::string doubt_about_obj(const std::string &path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -265,7 +265,7 @@ inline void part_nodes(std::vector<Soup> &parts, const Soup &file, const aiScene
     }
 }
 
-/* Polygons of the whole node tree: a mesh counts as often as it is placed. */
+/* Polygons of the whole node tree: a mesh counts once for each placement. */
 inline size_t count_polygons(const aiScene &scene, const aiNode &node)
 {
     size_t count = 0;
@@ -282,7 +282,10 @@ inline size_t count_polygons(const aiScene &scene, const aiNode &node)
     return count;
 }
 
-/* assimp gives an OBJ's corners in the order of the faces; its `v` lines have the file's own order. */
+/*
+ * assimp returns an OBJ's corners in the order of the faces; its `v` lines have the file's own
+ * order.
+ */
 inline std::vector<Point> obj_vertex_order(const std::string &path, double scale)
 {
     std::ifstream file(path);
@@ -305,7 +308,7 @@ inline std::vector<Point> obj_vertex_order(const std::string &path, double scale
 
 /* ------------------------------------------------------------------- reading */
 
-/* Keeps assimp's complaints, for a refusal. */
+/* Keeps assimp's complaints for the text of a refusal. */
 class Complaints : public Assimp::LogStream
 {
   public:
@@ -331,7 +334,7 @@ struct LoggerEnd {
     }
 };
 
-/* Read a file before assimp does: its doubts, and its vertices in its own order. */
+/* Read a file before assimp does: what looks odd about it, and its vertices in its own order. */
 inline Soup examine(const std::string &path, double scale)
 {
     const std::string kind = extension(path);
@@ -354,7 +357,8 @@ inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &
                                  size_t &polygons)
 {
     std::string complaints;
-    const LoggerEnd end; /* before the text that the logger writes to is gone */
+    const LoggerEnd end; /* declared first, so that it ends before the text that the logger writes
+                          * to is gone */
 
     Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(new Complaints(complaints),
@@ -384,7 +388,7 @@ inline const aiScene &read_scene(Assimp::Importer &importer, const std::string &
     return *scene;
 }
 
-/* Every object of a file, or the one of a name with all below it. */
+/* Every object of a file, or the one of a name with all objects below it. */
 inline Soup read_file(const std::string &path, double scale, const std::string &object)
 {
     Assimp::Importer importer;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * mesh_rom - an indexed mesh as C: constant arrays and the struct carom_mesh that refers to them, for a board that has no memory to
- * index meshes in. carom_mesh_build makes the index on the host.
+ * mesh_rom - an indexed mesh as C: constant arrays and the struct carom_mesh that refers to them,
+ * for a board without memory for indexing meshes. carom_mesh_build makes the index on the host.
  */
 #ifndef CAROM_TOOLS_MESH_ROM_HPP
 #define CAROM_TOOLS_MESH_ROM_HPP
@@ -14,7 +14,7 @@
 namespace rom
 {
 
-/* Index a raw mesh in `memory`; returns what carom_mesh_build did. */
+/* Index a raw mesh in `memory`; returns the result of carom_mesh_build. */
 int index(carom_mesh &mesh, const carom_mesh_raw &raw, std::vector<uint64_t> &memory);
 
 /*

@@ -59,7 +59,7 @@ inline std::vector<double> shape_numbers(const ShapeKind &kind, const std::strin
     return numbers;
 }
 
-/* Half of each length, as carom_shapes.h takes it; a radius as it is. */
+/* Half of each length, as carom_shapes.h expects it; a radius stays as it is. */
 inline std::vector<double> halves(const ShapeKind &kind, std::vector<double> numbers, double scale)
 {
     numbers.resize(kind.lengths);
@@ -79,7 +79,10 @@ inline int call_shape(carom_mesh_raw &raw, const carom_shape_room &room, const s
                                 : carom_shape_cone(&raw, &room, half[0], half[1], sides);
 }
 
-/* A box has the quanta of its own grid, if it has one; a round shape the finest that fit. */
+/*
+ * A box has the quanta of its own grid, if it has one; a round shape has the finest quanta that
+ * fit.
+ */
 inline int shape_bits(const ShapeKind &kind, const std::vector<double> &half, int asked)
 {
     const bool capsule = std::string(kind.name) == "capsule";
@@ -94,7 +97,10 @@ inline int shape_bits(const ShapeKind &kind, const std::vector<double> &half, in
     return bits;
 }
 
-/* Make the shape that a text names; `bits` is the quantum asked for, or 0, and becomes the quantum used. */
+/*
+ * Make the shape that a text names. `bits` is the requested quantum, or 0, and becomes the used
+ * one.
+ */
 inline Soup read_shape(const std::string &text, double scale, int &bits)
 {
     const size_t colon = std::min(text.find(':'), text.size());

@@ -68,8 +68,8 @@ inline std::vector<uint32_t> sheets_of(const Mesh &mesh, const EdgeUses &uses)
 }
 
 /*
- * The library may pinch off a small bubble, which then hangs at one edge of four faces: of the sheets that meet at an edge of more than
- * two faces only the largest stays.
+ * The library may pinch off a small bubble, which then hangs at one edge with four faces. Of the
+ * sheets that meet at an edge with more than two faces, only the largest stays.
  */
 inline void drop_bubbles(Mesh &mesh)
 {
@@ -102,7 +102,7 @@ inline void drop_bubbles(Mesh &mesh)
     mesh.faces = kept;
 }
 
-/* Vertices less edges plus faces: 2 for each ball, 0 for each torus. */
+/* Vertices minus edges plus faces: 2 for each ball, 0 for each torus. */
 inline int64_t euler_number(const Mesh &mesh, const EdgeUses &uses)
 {
     return int64_t(mesh.vertices.size()) - int64_t(uses.size()) + int64_t(mesh.faces.size());
@@ -165,9 +165,10 @@ inline bool try_simplify(Mesh &less, const Mesh &mesh, size_t parts, size_t targ
 }
 
 /*
- * Reduce a mesh to at most so many faces. If the result is not sound (two sheets that came to share an edge), try fewer faces: the library
- * then removes other vertices.
- *   parts  those of the mesh as it is
+ * Reduce a mesh to at most so many faces. If the result is not sound (two sheets share an edge), try
+ * fewer faces: the library then removes other vertices.
+ *
+ * parts  the parts of the mesh before that
  */
 inline void simplify(Mesh &mesh, const std::vector<Part> &parts, size_t most)
 {

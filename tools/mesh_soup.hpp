@@ -46,7 +46,7 @@ struct Soup {
     size_t polygons = 0;
     std::vector<std::string> objects; /* names of the nodes that are joined */
     size_t materials = 0;
-    std::string doubt; /* what looked odd about the file; empty: nothing */
+    std::string doubt; /* a remark on an odd file; empty: none */
 };
 
 struct Mesh {
@@ -54,17 +54,17 @@ struct Mesh {
     std::vector<Face> faces;
     bool surface = false;
     int bits = 0;
-    size_t polygons = 0, triangles = 0; /* of the file */
+    size_t polygons = 0, triangles = 0; /* numbers in the file */
     size_t edges = 0;
-    std::vector<std::string> mended; /* what was done, in words */
-    std::vector<std::string> notes;  /* what may not be as intended */
+    std::vector<std::string> mended; /* a description of each change */
+    std::vector<std::string> notes;  /* remarks on things that may not be intended */
 };
 
 /* Changes that are made only on request. */
 struct Repairs {
     bool close = false;    /* fill flat holes */
     bool overlaps = false; /* allow parts that overlap */
-    size_t most_faces = 0; /* reduce the mesh to so many; 0: leave it */
+    size_t most_faces = 0; /* reduce the mesh to so many faces; 0: no limit */
 };
 
 /* --------------------------------------------------------------------- texts */
@@ -113,7 +113,7 @@ inline std::string describe(const Mesh &mesh, const Face &face)
            place(in_units(mesh, face[2]));
 }
 
-/* One line a thing, at most as many as anyone would read. */
+/* One line for each place, at most listed_max of them. */
 inline std::string listed(const std::vector<std::string> &lines)
 {
     std::string text;
@@ -146,7 +146,7 @@ inline bool fits(double largest, int bits)
     return std::round(std::ldexp(largest, bits)) <= coordinate_max;
 }
 
-/* True if every coordinate is a whole number of quanta, apart from the rounding of a file's text. */
+/* True if every coordinate is a whole number of quanta, up to the rounding of a file's text. */
 inline bool exact_on(const std::vector<Point> &points, double largest, int bits)
 {
     const double tolerance = std::ldexp(largest, bits - 20);
@@ -160,7 +160,7 @@ inline bool exact_on(const std::vector<Point> &points, double largest, int bits)
     });
 }
 
-/* The quantum: the one asked for, otherwise the file's own grid, otherwise the finest that fits. */
+/* The quantum: the requested one, otherwise the file's own grid, otherwise the finest that fits. */
 inline int choose_bits(const std::vector<Point> &points, int asked)
 {
     const double largest = largest_coordinate(points);

@@ -29,7 +29,7 @@ inline std::string c_head(const std::string &from)
            ": do not edit. */\n#include \"carom.h\"\n\n";
 }
 
-/* prefix: of the names of its arrays. */
+/* prefix: the prefix of the names of its arrays. */
 inline std::string c_source(const Mesh &mesh, const std::string &name, const std::string &prefix)
 {
     std::ostringstream out;
@@ -51,7 +51,7 @@ inline std::string c_source(const Mesh &mesh, const std::string &name, const std
     return out.str();
 }
 
-/* A mesh as the engine indexes it, with the memory that it refers to. */
+/* A mesh as the engine indexes it, with the memory to which it refers. */
 struct Indexed {
     std::vector<std::array<int16_t, 3>> vertices;
     std::vector<std::array<uint16_t, 3>> faces;
@@ -96,7 +96,7 @@ inline void put(std::string &blob, uint64_t number, int bytes)
     }
 }
 
-/* The layout that carom_mesh_read reads; see src/mesh/blob.c. */
+/* The layout that carom_mesh_read reads (src/mesh/blob.c). */
 inline std::string binary_blob(const Mesh &mesh)
 {
     std::string blob = "CRM1";

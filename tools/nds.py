@@ -2,25 +2,27 @@
 # SPDX-License-Identifier: MIT
 """Make a file that a Nintendo DS starts from a program: tools/nds.py IMAGE.bin
 
-IMAGE.nds is a header of 512 bytes, the program for the first processor (ARM9) and one for the second (ARM7), which sleeps.
-The program begins before 0x4000, where a cartridge has encrypted parts, so there are none: emulators and flash cards start
-such a file. The places of the maker's logo and of its check sum are empty, because we may not hand it out.
+IMAGE.nds is a header of 512 bytes, the program for the first processor (ARM9) and one for the second (ARM7), which
+sleeps. The program begins before 0x4000, where a cartridge has encrypted parts, so the file has no encrypted parts;
+emulators and flash cards start it. The maker's logo and its check sum are left empty, because we may not distribute the
+logo.
 """
 import struct
 import sys
 
-HEADER, PAGE, MOST = 0x200, 512, 0x3bfe00  # bytes: the most that a loader brings to main memory
+HEADER, PAGE, MOST = 0x200, 512, 0x3bfe00  # bytes; MOST: the most that a loader brings to main
+                                           # memory
 ARM9, ARM7 = 0x02000000, 0x03800000  # load addresses and entry points
 SLEEP = struct.pack("<4I",
                     0xe3a00301,  # mov r0, #0x04000000
                     0xe5800208,  # str r0, [r0, #0x208]: interrupts off
                     0xef060000,  # swi 0x060000: the BIOS waits for one
-                    0xeafffffd)  # again, if one was left over
+                    0xeafffffd)  # again, if an interrupt was pending
 
 
 
 def crc16(data):
-    """CRC-16 with the polynomial 0x8005 from the low end, all ones before."""
+    """CRC-16 with the polynomial 0x8005 from the low end, starting with all ones."""
     crc = 0xffff
     for byte in data:
         crc ^= byte

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* ode - what all tools with ODE share: the library, initialised once; a world that steps with contact joints. */
+/*
+ * ode - the common part of all tools with ODE: the library, initialised once; a world that steps
+ * with contact joints.
+ */
 #ifndef CAROM_TOOLS_ODE_HPP
 #define CAROM_TOOLS_ODE_HPP
 
@@ -20,7 +23,7 @@ struct Library {
     }
 };
 
-/* A world whose bodies touch by contact joints: so many points a pair, all with one surface. */
+/* A world whose bodies touch by contact joints: so many points a pair, with one surface for all. */
 class World : private Library
 {
   public:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make the page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html; its size, into README.md: --readme
+"""Make the page of `make web`, one file: tools/page.py MODULE.wasm PAGE.html; --readme writes its size into README.md
 
 The module, the boards' states of tests/bench_scenes.csv, style and scripts go into examples/web/page.html, so that it works
 from a folder, without a server.

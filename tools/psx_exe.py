@@ -1,9 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make a program that a PlayStation's loader takes from an image: tools/psx_exe.py IMAGE.bin
+"""Make a program for a PlayStation's loader from an image: tools/psx_exe.py IMAGE.bin
 
-IMAGE.exe has a head of one sector, 2048 bytes, with the load address and the entry point, and the image in whole sectors.
-The image starts with its first instruction, at the lowest address above the BIOS's.
+IMAGE.exe has a head of one sector, 2048 bytes, with the load address and the entry point, and then the image
+in whole sectors. The image starts with its first instruction, at the lowest address above the BIOS's memory.
 """
 import struct
 import sys

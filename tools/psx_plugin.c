@@ -3,8 +3,9 @@
  * Plugins of tools/psx_run.py for the PlayStation emulator pcsxr: a display without a window, and a pad that a script plays. Built as
  * build/tools/psx_plugin.so.
  *
- * The graphics processor is that of pcsxr's own plugin DFXVideo, which this is linked to and which defines the rest. Its memory holds
- * exactly what the program sent. Two variables of the environment ask for more:
+ * The graphics processor is the one of pcsxr's own plugin DFXVideo. This file is linked to it, and
+ * it defines the rest. Its memory holds exactly the data that the program sent. Two variables of
+ * the environment ask for more:
  *
  *   PSX_PICTURES=DIRECTORY  write the shown part of that memory as DIRECTORY/frame-0001.ppm each time the program shows another part
  *   PSX_PRESS=N:KEYS,...    hold KEYS (a sum of port.h's bits) from the N-th such picture on
@@ -30,7 +31,7 @@ struct frozen {
 
 struct pad_state {
     uint8_t type;
-    uint16_t released; /* a bit a key */
+    uint16_t released; /* one bit for each key */
     uint8_t others[97];
 };
 
@@ -70,7 +71,7 @@ long GPUclose(void)
     return 0;
 }
 
-/* The end of a frame: there is no window, and no wait for the clock on the wall. */
+/* The end of a frame: there is no window, and no waiting for the real clock. */
 void GPUupdateLace(void)
 {
 }
@@ -158,7 +159,7 @@ long PADquery(void)
     return 1;
 }
 
-/* The keys held: those of the last entry of the script whose picture has come. */
+/* The held keys: those of the last entry of the script whose picture has arrived. */
 static unsigned held(void)
 {
     unsigned keys = 0, from;

@@ -6,14 +6,14 @@
 
 int XTestQueryExtension(void *display, int *event_base, int *error_base, int *major, int *minor);
 
-/* Write out each complete line; end with the program that started this. */
+/* Write out each complete line; end together with the parent process. */
 __attribute__((constructor)) static void start(void)
 {
     setvbuf(stdout, NULL, _IOLBF, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
-/* pcsxr calls it with the first frame, against a screen saver: there is no screen. */
+/* pcsxr calls this with the first frame, to stop a screen saver: there is no screen. */
 int XTestQueryExtension(void *display, int *event_base, int *error_base, int *major, int *minor)
 {
     (void)display;

@@ -19,7 +19,8 @@ SOUND, DISC, SERIAL = "libDFSound.so", "libDFCdrom.so", "libBladeSio1.so"
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLUGIN, PRELOAD = os.path.join(HERE, "psx_plugin.so"), os.path.join(HERE, "psx_preload.so")
 HEAD, ARGUMENTS_AT, ARGUMENTS_BYTES = 2048, 16, 256
-LINE, STATUS = " * \x02", " * \x03"  # pcsxr's output for the bytes that begin a line of port/psx/psx.c
+LINE, STATUS = " * \x02", " * \x03"  # pcsxr's output for the bytes that begin a line of
+                                     # port/psx/psx.c
 SILENT_SECONDS, NEVER_ENDED = 120, 124
 
 INTERPRETER = 1

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Play a recording on the host and on boards: tools/replay.py FILE [--board BOARD]... [--against FILE]
 
-It names the first frame and stage that differ, and the first body if two machines differ. With --against, it compares two
-recordings of one game, as of two players in lockstep, frame by frame on the host. The exit status is 0 if all is the same, 1
-for a difference, 2 for a file that cannot be played.
+It names the first frame and stage that differ, and the first body if two machines differ. With --against it compares two
+recordings of one game, for example of two players in lockstep, frame by frame on the host. The exit status is 0 if all is
+the same, 1 for a difference, 2 for a file that cannot be played.
 """
 import argparse
 import itertools
@@ -42,7 +42,7 @@ def name_machines(file, board, frame):
 
 
 def compare(file, other):
-    """Play two recordings on the host: where do their states or their calls part?"""
+    """Play two recordings on the host, and report where their states or their calls differ."""
     found = first_difference(play("host", file, "each=1")[1], play("host", other, "each=1")[1])
     if not found:
         print("both recordings are the same")

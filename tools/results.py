@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of results in out/, with a row or more for each board."""
+"""Files of results in out/, with one or more rows for each board."""
 import csv
 import os
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Game Boy Advance in mGBA. The program's lines come by mGBA's debug port, cut in pieces: each piece but the last of a line is a
- * warning, the exit status an error.
+ * Game Boy Advance in mGBA. The program's lines come through mGBA's debug port in pieces: each
+ * piece of a line except the last is a warning, and the exit status is an error.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static void take_log(int level, const char *text)
     }
 }
 
-/* Waiting loops must take their time. */
+/* Waiting loops must take their real time. */
 static const struct option options[] = {{"mgba_idle_optimization", "Don't Remove"}, {0}};
 
 const struct machine retro_gba = {.suffix = ".gba",

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Nintendo DS in DeSmuME, which logs no output of a program and exposes no memory. The console is in the pixels of the lower screen:
- * port/nds/channel.h has its format. Its first row was shown before the others, so all characters that it counts are there.
+ * Nintendo DS in DeSmuME, which logs no output of a program and exposes no memory. The console is
+ * in the pixels of the lower screen; port/nds/channel.h has its format. The screen showed its first
+ * row before the others, so all characters that the row counts are there.
  */
 #include "../port/nds/channel.h"
 #include "retro_run.h"
 
 enum { UPPER_ROWS = 192 };
 
-/* The 15 bits of a pixel of the lower screen, red in the lowest, out of RGB565. */
+/* The 15 bits of a pixel of the lower screen, red in the lowest, from RGB565. */
 static unsigned shown(const struct frame *frame, unsigned x, unsigned y)
 {
     unsigned pixel = retro_pixel(frame, x, UPPER_ROWS + y);
@@ -34,7 +35,7 @@ static void look(const struct frame *frame)
     }
 }
 
-/* Options whose defaults differ. */
+/* Options that differ from the defaults. */
 static const struct option options[] = {
     {"desmume_cpu_mode", "interpreter"}, {"desmume_load_to_memory", "enable"}, {0}};
 

@@ -2,9 +2,10 @@
 /*
  * Run an image for a games machine in an emulator, without a window: retro_run IMAGE.elf [ARGUMENT...]
  *
- * The emulator is a libretro core, which this loads. The image is the file beside the .elf with the suffix of a machine; the
- * arguments are written into the room that the image has for them. The program's output goes to stdout, and its exit status is passed
- * on. Two arguments are also this program's own:
+ * The emulator is a libretro core, which this program loads. The image is the file beside the .elf
+ * with the suffix of a machine; the arguments are written into the room that the image has for
+ * them. The program's output goes to stdout, and its exit status is passed on. Two arguments are
+ * also this program's own:
  *
  *   pictures=DIRECTORY  write the screen as DIRECTORY/frame-0001.ppm when the program asks for it
  *   press=N:KEYS,...    hold KEYS (a sum of the pad's bits) from the N-th such picture on
@@ -52,7 +53,7 @@ static struct {
     struct frame frame; /* the frame shown last */
     const char *directory, *presses;
     FILE *out;              /* the real stdout; cores that print do not get it */
-    unsigned pictures, age; /* frames since a picture was asked for */
+    unsigned pictures, age; /* frames since the program asked for a picture */
     bool wants_picture, ended;
     int status, silent_frames;
 } run;
@@ -170,7 +171,7 @@ static void poll_pad(void)
 {
 }
 
-/* The keys held: those of the last entry of `press` whose picture has come. */
+/* The held keys: those of the last entry of `press` whose picture has arrived. */
 static unsigned held(void)
 {
     unsigned keys = 0, from;
@@ -283,8 +284,8 @@ static void remove_folder(void)
 }
 
 /*
- * For cores that read a file: the image with its arguments, in a folder that lives as long as the run. A core may write a cartridge's
- * saved data to it.
+ * For cores that read a file: write the image with its arguments to a folder that exists during the
+ * run. A core may write a cartridge's saved data to it.
  */
 static void write_rom(size_t bytes)
 {
@@ -302,7 +303,7 @@ static void write_rom(size_t bytes)
     }
 }
 
-/* Some cores print. */
+/* Some cores print to stdout; keep the real one. */
 static void keep_stdout(void)
 {
     run.out = fdopen(dup(STDOUT_FILENO), "w");
@@ -311,7 +312,9 @@ static void keep_stdout(void)
     }
 }
 
-/* A function of the core; through memcpy, because C has no cast from an object to a function. */
+/*
+ * Load a function of the core; through memcpy, because C has no cast from an object to a function.
+ */
 static void load(void *core, const char *name, void *function)
 {
     void *symbol = dlsym(core, name);

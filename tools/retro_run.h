@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * retro_run.h - a machine that an emulator plays as a libretro core: what retro_run.c must know of it, and what the machine's own
- * file gets. Of libretro's interface only the used parts are declared.
+ * retro_run.h - a machine that an emulator plays as a libretro core: the description that
+ * retro_run.c needs, and the functions for the machine's own file. Only the used parts of
+ * libretro's interface are declared.
  */
 #ifndef CAROM_TOOLS_RETRO_RUN_H
 #define CAROM_TOOLS_RETRO_RUN_H
@@ -22,13 +23,14 @@ struct option {
 };
 
 struct machine {
-    const char *suffix; /* of the image, which stands beside the program */
+    const char *suffix; /* suffix of the image, which stands beside the program */
     const char *core;
-    size_t arguments_at;          /* in the image: 256 bytes that port/bare/arguments.c reads */
-    unsigned width, height;       /* of the picture, at the top of a frame */
+    size_t arguments_at;          /* offset in the image of the 256 bytes that port/bare/arguments.c
+                                   * reads */
+    unsigned width, height;       /* size of the picture, at the top of a frame */
     unsigned late;                /* frames from the request until a picture is complete */
-    const struct option *options; /* of the core; ended by one without a key */
-    /* Takes the core's log, or the console that a frame shows. NULL: nothing comes that way. */
+    const struct option *options; /* options of the core, ended by one without a key */
+    /* Takes the core's log, or the console that a frame shows. NULL: that way is not used. */
     void (*log)(int level, const char *text);
     void (*look)(const struct frame *frame);
 };

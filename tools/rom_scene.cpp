@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * rom_scene NAME: the meshes of a scene of examples/scene.h, indexed, as a C source that defines struct scene_rom rom_NAME. Other
- * characters than letters and digits of the name become underscores.
+ * rom_scene NAME: the meshes of a scene of examples/scene.h, indexed, as a C source that defines
+ * struct scene_rom rom_NAME. Characters of the name that are neither letters nor digits become
+ * underscores.
  */
 #include <cstdio>
 #include <cstdlib>

@@ -19,7 +19,7 @@ def board_of(image):
 
 
 def variables(path):
-    """A variable of a Makefile that is set with := and computes nothing."""
+    """The variables of a Makefile that are set with := and compute nothing."""
     with open(os.path.join(ROOT, "port", path)) as file:
         return dict(re.findall(r"^(\w+) *:= *(.*?) *$", file.read(), re.M))
 
@@ -57,7 +57,8 @@ def budget(board, scene):
 
 
 class Result:
-    """The output of a program that ran a scene: its exit status, a row a frame, and the rest by its first word."""
+    """The output of a program that ran a scene: its exit status, a row a frame, and the rest by its first
+    word."""
 
     def __init__(self, done):
         words = [line.partition(" ") for line in done.stdout.splitlines()]
@@ -69,7 +70,7 @@ class Result:
 
 
 def number(text):
-    """A number of a row, or a word: a state hash has 16 digits, and is no number."""
+    """A number of a row, or a word; a state hash has 16 digits and is no number."""
     return int(text) if text.isdecimal() and len(text) < 16 else text
 
 

@@ -43,7 +43,7 @@ class Camera:
         else:
             sys.exit("the emulator's monitor does not answer")
         self.stream = self.socket.makefile("r")
-        self.stream.readline()  # the greeting
+        self.stream.readline()  # skip the greeting
         self.ask("qmp_capabilities")
 
     def ask(self, command, **arguments):
@@ -67,7 +67,7 @@ class Run:
     def __init__(self):
         self.columns, self.rows, self.usage = [], [], []
         self.hash = self.unit = None
-        self.bytes = {}  # of the world, and of the stack
+        self.bytes = {}  # bytes of the world, and of the stack
 
 
 def png_name(out, frame):
@@ -139,7 +139,7 @@ def follow(process, camera, album, frames):
             run.columns = rest.split(",")
         elif word == "frame":
             run.rows.append(rest.split(","))
-            if pictures == 0:  # a board that writes its own
+            if pictures == 0:  # the board writes its own pictures
                 album.take(len(run.rows))
             progress.show(len(run.rows))
         elif word == "usage":
@@ -182,7 +182,7 @@ def stages(run):
 
 
 def write_csv(run, out, budget):
-    """Write a row a frame; with a budget, if the frame held it."""
+    """Write a row a frame; with a budget, whether the frame kept it."""
     columns, rows = list(run.columns), run.rows
     if budget:
         rows = [row + [int(cost <= budget)] for row, cost in zip(rows, costs(run))]

@@ -6,8 +6,8 @@ run_board.py runs a .elf file on the board that it was built for. The last line 
 M > 0 or N = 0. With --select, the runner of the suites (tests.elf) runs the tests whose names contain PART; other files run only
 if their own names match it.
 
-With --boards, every scene of those boards (or with --first the first one) runs there and on the
-host, and after so many frames both must be in the same state.
+With --boards, every scene of those boards (with --first, the first one) runs on the board and on the host, and after some
+frames both must have the same state.
 
 Two workers share the files. Scripts and scenes on boards call make in this tree, so one worker runs them, one after
 another; the other one begins with the programs, and both end there. The lines of a file are printed together, and
@@ -24,7 +24,7 @@ import time
 
 import run_board
 
-SECONDS = 480  # a program that takes longer hangs; it shares the machine with another one
+SECONDS = 480  # a program that takes longer hangs; it shares the machine with another program
 
 
 def stem(path):
@@ -51,7 +51,8 @@ def command(path, select):
 
 
 class Counts:
-    """Tests that passed, that failed, and cases that are left out since they are known to fail (tests/lib/open_cases.c)."""
+    """Counts the tests that passed and failed, and the cases that are left out because they are known to fail
+    (tests/lib/open_cases.c)."""
 
     def __init__(self):
         self.lock = threading.Lock()

@@ -1,9 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What README.md shows of `make run` is what it prints: tools/sample.py [--write] LOG
+"""The part of README.md about `make run` shows what the command prints: tools/sample.py [--write] LOG
 
-LOG is the output of `make run`, all of its frames. README.md shows the table between <!-- run --> and its end, and the last
-lines at its top. Without --write they are compared. The line about pictures is left alone: a run without pictures has none.
+LOG is the output of `make run`, all of its frames. README.md shows the table between <!-- run --> and its
+end, and the last lines at its top. Without --write they are compared. The line about pictures stays as it is,
+because a run without pictures has none.
 """
 import os
 import sys
@@ -16,7 +17,7 @@ FIRST, LAST = "instructions ", "hash "
 
 
 def shown(log):
-    """The lines from the table's head to the hash, and of these the ones about all frames."""
+    """The lines from the table's head to the hash, and the lines of these that are about all frames."""
     lines = [line.rstrip() for line in log if not line.startswith(("pictures:", "a row a frame:"))]
     first = next(i for i, line in enumerate(lines) if line.startswith(FIRST))
     last = next(i for i, line in enumerate(lines) if line.startswith(LAST))

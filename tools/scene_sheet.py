@@ -1,6 +1,6 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""List the scenes, with a thumbnail of each that the host shows, at a frame that is typical of it.
+"""List the scenes. Each scene that the host shows has a thumbnail of a typical frame.
 
 A terminal with colours shows the thumbnails in characters. The folder gets NAME.png of each, index.html with all of them, and
 scenes.png, one small picture with all of them.
@@ -20,13 +20,13 @@ from PIL import Image, ImageDraw, ImageFont
 import run_board
 import terminal
 
-FRAME = 90  # of a scene without an entry here
+FRAME = 90  # frame of a scene without an entry here
 FRAMES = {"head": 16, "pile": 120, "sheet": 150, "box": 40, "car": 170, "walker": 150, "door": 60, "chain": 60,
           "crusher": 108, "conveyor": 60, "gears": 100, "screw": 240, "pour": 310, "espresso": 60, "espresso-fine": 100, "newton": 60, "dominoes": 120,
           "cards": 285, "arch": 290, "bowl": 60, "lockstep": 120}
 THUMBNAIL, LABEL, GAP, ACROSS = 160, 46, 8, 5  # pixels, and thumbnails in a row of scenes.png
-COLOURS = 128  # of scenes.png
-CHARACTERS = 26  # across a thumbnail in a terminal
+COLOURS = 128  # colours of scenes.png
+CHARACTERS = 26  # characters across a thumbnail in a terminal
 
 PAGE = """<!DOCTYPE html>
 <html lang="en">

@@ -1,10 +1,10 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Code, data and stack of the program that `make run` runs, board by board.
+"""Code, data and stack of the program of `make run`, board by board.
 
 out/size.csv has a row a board: the program's sections, and the deepest stack of the board's first scene, by painting.
-out/size_parts.csv has: the engine's archive alone, the scene's world, and the ROM and RAM of the whole program, with as much of the
-stack as was used.
+out/size_parts.csv has: the engine's archive alone, the scene's world, and the ROM and RAM of the whole program, including the used
+part of the stack.
 """
 import argparse
 import os

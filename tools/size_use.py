@@ -1,16 +1,18 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""What a program pays for each use of the engine: Thumb-2 at -Os, linked and collected.
+"""The cost in code of each use of the engine: Thumb-2 at -Os, linked, without unused sections.
 
-Programs of growing use, each with the calls of the one before. The engine is compiled for a Cortex-M3, a function a section, and
-linked to calls alone; the linker drops what none of them reaches. The bytes are code and constants, with what the compiler's
-library adds for the engine (64-bit division), without memcpy and its like, which are the program's own.
+The programs use more and more of the engine; each has the calls of the one before. The engine is compiled for a Cortex-M3, one
+section a function, and linked to the calls alone; the linker drops everything that no call reaches. The bytes are code and
+constants, including the functions of the compiler's library for the engine (64-bit division), without memcpy and the like, which
+belong to the program.
 
-Behind them come the blocks of memory that a program gives to the engine, where a pointer has 32 bits: worlds of the head scene and
-of heaps, as large as these need, and built meshes.
+Then come the blocks of memory that a program gives to the engine, with pointers of 32 bits: worlds of the head scene and of heaps,
+with the capacities that these need, and built meshes.
 
-out/size_of_use.csv and out/blocks.csv have the tables; tests/size_of_use.csv and tests/blocks.csv have the committed ones. No row of
-the code may be larger than there by more than 1 %, because releases of a compiler differ by as much; no block may be larger at all.
+out/size_of_use.csv and out/blocks.csv have the tables; tests/size_of_use.csv and tests/blocks.csv have the committed ones. No row
+of code may exceed the committed one by more than 1 %, because releases of a compiler differ that much; no block may be larger at
+all.
 """
 import argparse
 import csv
@@ -28,7 +30,8 @@ TARGET = ["arm-none-eabi-gcc", "-std=c11", "-mcpu=cortex-m3", "-mthumb", "-Os", 
 SECTIONS = ["-ffunction-sections", "-fdata-sections"]
 LIBRARY = ["memcpy", "memmove", "memset", "memcmp"]
 
-# The uses: what a program does besides the one before it, and the functions that it calls for that.
+# The uses: what a program does in addition to the one before it, and the functions that it calls
+# for that.
 USES = [
     ("a world and its step with meshes in ROM", "carom_world_bytes carom_world_init carom_body_add "
      "carom_world_step carom_body_get"),
@@ -94,7 +97,7 @@ MEMORY = [
 
 
 def program(calls):
-    """A program that needs the functions of these names, and does nothing else."""
+    """A program that refers to the functions of these names, and does nothing else."""
     path = "%s/calls.c" % FOLDER
     with open(path, "w") as file:
         file.write('#include "carom.h"\n#include "carom_body.h"\n#include "carom_joint.h"\n'

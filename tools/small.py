@@ -10,7 +10,7 @@ def polygon(sides, radius, z):
 
 
 def ring():
-    """Six-sided, of square section: the two outlines at one height and the two at the other."""
+    """Six-sided, with a square section: the two outlines at one height, then the two at the other."""
     outlines = [polygon(6, radius, z) for radius, z in ((0.2, -0.05), (0.2, 0.05), (0.11, 0.05), (0.11, -0.05))]
     points, faces = [p for outline in outlines for p in outline], []
     for k in range(6):
@@ -36,7 +36,7 @@ def beaker():
 
 
 def box(x, y, z, wall):
-    """A box open above; x, y and z are those of the inside, from the middle and up from 0."""
+    """A box that is open above; x, y and z are inside measures, from the middle and up from 0."""
     def outline(more, height):
         return [(i * (x + more), j * (y + more), height) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Run random worlds by number and summarise them: tools/soak.py PROGRAM.
 
-PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, called 12, m12 and w12: bodies alone, machines, and wild
-machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and machines
-each between two comments. A world that ends the program, or takes too long, is a row of its own, and the others are run without it.
-For each failing world a line says how to run it alone, frame by frame. The exit status is 1 if anything is wrong.
+PROGRAM is build/host/host_soak.elf. It makes worlds of three kinds, with names like 12, m12 and w12: bodies alone, machines, and
+wild machines. Every world is a row of out/soak.csv. The summary is printed and, with --docs, written into docs/soak.md, bodies and
+machines each between two comments. A world that ends the program, or takes too long, gets a row of its own, and the others run
+without it. For each failing world a line says how to run it alone, frame by frame. The exit status is 1 if there is any fault.
 """
 import argparse
 import concurrent.futures
@@ -22,16 +22,16 @@ import marked
 OUT, DOCS = "out/soak.csv", "docs/soak.md"
 CHUNK = 20  # worlds a process
 SECONDS = 150  # for a world; its steps may take 60
-CUT_ALLOWED = 0.01  # of all frames
+CUT_ALLOWED = 0.01  # as a part of all frames
 FAULTS = ["crosses", "error", "stands still", "cut short", "energy", "momentum", "slow step",
           "much work", "joint", "sensor", "other hash"]
 KINDS = {"": "bodies", "m": "machines", "w": "wild machines"}
-SHARES = {"": 1, "m": 0.2, "w": 0.02}  # of the worlds asked for
+SHARES = {"": 1, "m": 0.2, "w": 0.02}  # as a part of the number of worlds that was asked for
 LOST = "lost"  # the program ended early, or did not end
 
 
 def lines_of(command):
-    """The complete lines of a program until it ends, or takes too long for one; and how it ended."""
+    """The complete lines of a program until it ends, or takes too long for one line; and how it ended."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     lines, late = [], False
 
@@ -142,7 +142,7 @@ def joints(kind, rows):
 
 
 def lines_of_table(tables):
-    """A table of one row for each list of columns and cells."""
+    """A table with one row for each list of columns and cells."""
     lines = ["| " + " | ".join(cell[0] for cell in tables[0]) + " |", "|---" * len(tables[0]) + "|"]
     return lines + ["| " + " | ".join(cell[1] for cell in table) + " |" for table in tables]
 
@@ -206,7 +206,7 @@ def main():
     write_csv(rows)
     if arguments.docs:
         document(by_kind)
-    # frames cut short are counted over all worlds: one alone is no failure
+    # frames cut short are counted over all worlds: one world alone is no failure
     failing = [row for row in rows if set(row["faults"].split("; ")) - {"", "cut short"}]
     for row in failing:
         print("%s %s: %s" % (arguments.program, row["seed"], row["faults"] +

@@ -34,7 +34,8 @@ def ears(outline):
 
 
 def rings(outlines):
-    """Outlines of as many corners each, joined from one to the next; the first and last closed as quads or fans."""
+    """Outlines with the same number of corners, joined from one to the next. Quads or fans close the first
+    and the last."""
     n = len(outlines[0])
     points = [p for outline in outlines for p in outline]
     faces = [(0, k + 1, k) for k in range(1, n - 1)]
@@ -69,7 +70,8 @@ def joined(loops):
 
 
 def pierced(loops, low, high):
-    """A prism along y over an outline in x, z with clockwise holes. Its sides come first, in the order of the corners."""
+    """A prism along y over an outline in x, z with clockwise holes. Its sides come first, in the order of the
+    corners."""
     corners = [p for loop in loops for p in loop]
     whole = joined(loops)
     n, first, faces = len(corners), 0, []

@@ -25,7 +25,7 @@ class Picture:
         self.lines.append("<%s %s%s" % (name, " ".join(words), end))
 
     def text(self, x, y, text, anchor="start", colour=INK, size=None, bold=False):
-        """Lines of text, the first one's foot at y."""
+        """Lines of text; the foot of the first one is at y."""
         for i, line in enumerate(text.split("\n")):
             self.add("text", html.escape(line), x=float(x), y=float(y + 16 * i), fill=colour,
                      text_anchor=None if anchor == "start" else anchor, font_size=size,
@@ -40,7 +40,7 @@ class Picture:
         self.curve(said, stroke, fill, thick, dash, opacity, arrow)
 
     def curve(self, said, stroke=INK, fill="none", thick=1.5, dash=None, opacity=None, arrow=False):
-        """A path in SVG's own words."""
+        """A path in SVG's own notation."""
         if arrow:
             self.head(stroke)
         self.add("path", d=said, fill=fill, stroke=stroke, stroke_width=thick, stroke_dasharray=dash,
@@ -61,7 +61,7 @@ class Picture:
         return "head" + colour.lstrip("#")
 
     def head(self, colour):
-        """An arrow's head in this colour, once."""
+        """An arrow's head in this colour, defined once."""
         if colour not in self.heads:
             self.heads.add(colour)
             self.add("marker", '<path d="M0 0 L8 4 L0 8 Z" fill="%s"/>' % colour, id=self.head_name(colour),

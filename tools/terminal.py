@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""For a person at a terminal: the progress of a run, the time left, and a picture in characters."""
+"""For a user at a terminal: the progress of a run, the time left, and a picture in characters."""
 import os
 import sys
 import time
 
 COLUMNS_MOST = 72  # characters of a picture
-LINES_BELOW = 5  # that stay visible below it
-LINES_LEAST = 10  # of a picture, however low the terminal
+LINES_BELOW = 5  # lines that stay visible below a picture
+LINES_LEAST = 10  # least lines of a picture, however low the terminal is
 UPPER_HALF = "\u2580"  # the upper half has the text's colour, the lower half the background's
 SURE_AFTER = 0.5  # seconds until a guess of the time left is worth reading
 
@@ -47,7 +47,8 @@ def colours(environment):
 
 
 def colour(rgb, count):
-    """The end of an escape sequence for a colour; of 256 the nearest in their cube of 6 x 6 x 6."""
+    """The end of an escape sequence for a colour; with 256 colours, the nearest one in their cube of 6 x 6 x
+    6."""
     if count > 256:
         return "2;%d;%d;%d" % rgb
     red, green, blue = (min(range(6), key=lambda i: abs(part - (i and 55 + 40 * i))) for part in rgb)

@@ -1,15 +1,15 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: MIT
-"""Make a file that a Raspberry Pi Pico's boot ROM takes from a flash image: tools/uf2.py IMAGE.bin
+"""Make a file for a Raspberry Pi Pico's boot ROM from a flash image: tools/uf2.py IMAGE.bin
 
-IMAGE.uf2 has a block of 512 bytes for each 256 of the image. The ROM runs the first 256 only if the last four of them are the check
-sum of the others; an image without it is refused, and nothing is written.
+IMAGE.uf2 has a block of 512 bytes for each 256 of the image. The ROM runs the first 256 bytes only if the last four of them are
+the check sum of the others. The tool refuses an image without that check sum, and writes nothing.
 """
 import struct
 import sys
 
 FLASH = 0x10000000
-PAYLOAD, ROOM = 256, 476  # bytes of a block that are used, and its room
+PAYLOAD, ROOM = 256, 476  # used bytes of a block, and its room
 MAGIC = 0x0a324655, 0x9e5d5157, 0x0ab16f30  # two before the data, one behind
 HAS_FAMILY, RP2040 = 0x2000, 0xe48bff56
 LOADER = 252
@@ -26,7 +26,7 @@ def crc32(data):
 
 
 def blocks(image):
-    """The blocks of an image, from the start of the flash on."""
+    """The blocks of an image, from the start of the flash."""
     count = -(-len(image) // PAYLOAD)
     for number in range(count):
         payload = image[number * PAYLOAD:(number + 1) * PAYLOAD].ljust(ROOM, b"\0")

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Draw the z-lists of a step: tools/zlists.py PROGRAM [--check]
 
-PROGRAM is that of tests/zlists.c, which says what a row of cells holds and what one leaf asks it. Writes
-docs/zlists-row.svg, docs/zlists-leaf.svg, docs/zlists-view.png and the tables of docs/z-lists.md. --check writes nothing
-and says whether the drawings and tables in docs/ are those of this program.
+PROGRAM is built from tests/zlists.c; it prints the content of a row of cells, and the gather of one leaf. This tool
+writes docs/zlists-row.svg, docs/zlists-leaf.svg, docs/zlists-view.png and the tables of docs/z-lists.md. With --check
+it writes nothing, and compares the drawings and tables in docs/ with what it would write.
 """
 import os
 import subprocess
@@ -18,18 +18,19 @@ from svg import BLUE, GREEN, GREY, INK, ORANGE, PALE, PINK, Picture
 OUT, DOCS = "out/zlists", "docs"
 PAGE = os.path.join(DOCS, "z-lists.md")
 WIDTH, LEFT, TOP = 960, 20, 44
-NARROW = 600  # of a picture that is higher than wide
-# fate of an entry under the leaf: colour, words
+NARROW = 600  # width of a picture that is higher than wide
+# fate of an entry below the leaf: colour, words
 FATES = {"candidate": (PINK, "its features become candidates"),
          "near": (ORANGE, "the leaf reaches its plane; no features can touch"),
          "parted": (BLUE, "parted by box, slab or plane"),
          "above": (GREEN, "above the box: passed over"),
          "below": (GREY, "below the box: the walk has ended")}
-CROP = (0, 150, 440, 430)  # of a picture of the viewer
+CROP = (0, 150, 440, 430)  # the part of a picture of the viewer
 
 
 class Row:
-    """A row of cells: where it lies, and its entries (column, z0, z1, face, fate, corners) in the order of the lists."""
+    """A row of cells: its place, and its entries (column, z0, z1, face, fate, corners) in the order of the
+    lists."""
 
     def __init__(self, words):
         self.entries = []
@@ -48,7 +49,7 @@ class Row:
 
 
 class Said:
-    """What the program printed."""
+    """The output of the program."""
 
     def __init__(self, text):
         self.rows, self.leaf_faces, self.leaf = {}, [], {}
@@ -70,7 +71,7 @@ class Said:
 
 
 def cut(corners, y):
-    """Where a face meets the plane of this y: two points (x, z), or none."""
+    """The line in which a face meets the plane of this y: two points (x, z), or none."""
     points = []
     for i in range(3):
         p, q = corners[i], corners[(i + 1) % 3]
@@ -84,7 +85,7 @@ class Section:
     """A picture of some columns of a row: quanta to pixels."""
 
     def __init__(self, row, columns, z_range, width, height, title):
-        """height: of z_range in pixels; None: as x is."""
+        """height: pixels of z_range; None: the scale of x."""
         self.row, self.columns = row, columns
         self.x0 = row.x0 + columns[0] * row.side
         self.scale = (width - 2 * LEFT) / (len(columns) * row.side)
@@ -141,7 +142,7 @@ def draw_row(said):
 
 
 def draw_leaf(said):
-    """The leaf over the cells that it asks."""
+    """The leaf over the cells that it visits."""
     row, box = said.rows["b"], said.leaf["box"]
     columns = range((box[0] - row.x0) // row.side, (box[3] - row.x0) // row.side + 1)
     columns = range(max(columns[0] - 1, 0), min(columns[-1] + 2, row.columns))
@@ -177,7 +178,7 @@ def draw_leaf(said):
 # ------------------------------------------------------------------ the page
 
 def table_cell(said):
-    """The list of the cell in which most becomes of entries."""
+    """The list of the cell whose entries have the most fates."""
     row = said.rows["b"]
     asked = [column for column in range(row.columns) if any(e[4] in FATES for e in row.cell(column))]
     column = max(asked, key=lambda c: (len({e[4] for e in row.cell(c)}), len(row.cell(c))))

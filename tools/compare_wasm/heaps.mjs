@@ -43,7 +43,7 @@ function makeCarom(boxes) {
 function makeRapier(boxes) {
     const world = new rapier.World({ x: 0, y: 0, z: GRAVITY });
     world.timestep = STEP;
-    // a half-space of z <= 0
+    // the half-space z <= 0
     world.createCollider(new rapier.ColliderDesc(new rapier.HalfSpace({ x: 0, y: 0, z: 1 }))
         .setFriction(FRICTION));
     const bodies = boxes.map(([x, y, z, qw, qx, qy, qz]) => {
@@ -81,7 +81,7 @@ function joltSystem() {
 function makeJolt(boxes) {
     const made = joltSystem();
     const bodies = made.GetPhysicsSystem().GetBodyInterface();
-    // it has no infinite plane: a slab of 64 x 64 x 2
+    // this engine has no infinite plane, so the ground is a slab of 64 x 64 x 2
     const add = (shape, at, turn, type, layer) => {
         const settings = new jolt.BodyCreationSettings(shape, new jolt.RVec3(...at),
             new jolt.Quat(...turn), type, layer);
@@ -139,7 +139,7 @@ function play(boxes, keep) {
 
 const heaps = layouts.map((path) => readFileSync(path, "utf8").trim().split("\n")
     .map((line) => line.split(",").map(Number)));
-play(heaps[0], false); // warm up: a machine compiles code only once it runs often
+play(heaps[0], false); // warm up: the machine compiles code only after it has run often
 heaps.forEach((boxes) => play(boxes, true));
 for (const [phase, by] of Object.entries(times)) {
     for (const [name, all] of Object.entries(by)) {

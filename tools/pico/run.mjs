@@ -24,7 +24,7 @@ const BLOCK = 512, PAYLOAD_AT = 32, FLASH = 0x10000000;
 const LOADER = 252, LOADER_RUNS_AT = 0x20041f00;
 const ARGUMENTS_AT = 0x140, ARGUMENTS_ROOM = 256;
 const PIN_DATA = 8, PIN_SELECT = 9, PIN_RESET = 12;
-const KEY_PINS = [15, 17, 19, 21, 20, 16, 2, 18]; // by the pad's bits
+const KEY_PINS = [15, 17, 19, 21, 20, 16, 2, 18]; // by bit of the pad
 const DISPLAY_HZ_MAX = 62.5e6;
 const EOT = 4, NEVER_ENDED = 124;
 
@@ -54,7 +54,7 @@ function checkSum(bytes) {
     return crc >>> 0;
 }
 
-// The work of the boot ROM with a flash.
+// What the boot ROM does with the flash.
 function boot(mcu) {
     const loader = mcu.flash.subarray(0, LOADER);
     if (checkSum(loader) !== mcu.flashView.getUint32(LOADER, true)) {
@@ -75,7 +75,7 @@ function writeArguments(flash, words) {
 
 // ------------------------------------------------------------------ what is connected
 
-// The display: words of the serial bus, each under way for as long as its bits take.
+// The display: words of the serial bus, each on its way for as long as its bits take.
 function connectDisplay(mcu) {
     const spi = mcu.spi[1], display = new Display(() => mcu.clock.nanos);
     const arrived = mcu.clock.createAlarm(() => spi.completeTransmit(0));
@@ -94,7 +94,7 @@ function connectDisplay(mcu) {
     return display;
 }
 
-// The keys held: those of the last entry whose picture has come.
+// The held keys: those of the last entry whose picture has arrived.
 function hold(mcu, presses, pictures) {
     let keys = 0;
     for (const entry of presses ? presses.split(",") : []) {
@@ -104,7 +104,7 @@ function hold(mcu, presses, pictures) {
     KEY_PINS.forEach((pin, i) => mcu.gpio[pin].setInputValue(!(keys >> i & 1)));
 }
 
-// The console: acts at the end of a line, and at the end of all.
+// The console: acts at the end of a line, and at the end of the program.
 function connectConsole(mcu, takeLine, end) {
     let line = "", ended = false;
     mcu.uart[0].onByte = byte => {

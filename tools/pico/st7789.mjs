@@ -6,7 +6,7 @@
 // first row is the upper one.
 
 const SIDE = 240;
-const LINES = 320; // of the controller's memory
+const LINES = 320; // lines of the controller's memory
 const WAKE_NS = 5e6; // after a reset, and after the command that ends sleep
 
 const SLEEP_OUT = 0x11, NORMAL = 0x13, INVERT = 0x21, DISPLAY_ON = 0x29, COLUMNS = 0x2a, ROWS = 0x2b;
